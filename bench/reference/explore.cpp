@@ -90,6 +90,7 @@ class Explorer {
   }
 
   void wait(Settings settings, const std::string& path, const std::string& value) {
+    if (given_.find(path + " = ") != std::string::npos) return;  // TOML has no key twice
     settings[path] = value;
     waiting_.push_back(std::move(settings));
   }
@@ -101,14 +102,22 @@ class Explorer {
       return one.table == key.table && one.shown == key.shown;
     };
     const auto alike = [&](const DescribedKey& one) {
-      return same(one) && one.type == key.type && one.range == key.range && one.fallback == key.fallback;
+      return same(one) && one.type == key.type && one.range == key.range &&
+             (one.type == "one of" || one.fallback == key.fallback);
     };
     const auto any = std::ranges::find_if(found_, same);
     const auto found = std::ranges::find_if(found_, alike);
     // That it has been asked for more closely, as it is there, says no more than what was known.
-    if (is_there && any != found_.end()) return static_cast<std::size_t>(any - found_.begin());
+    if (is_there && any != found_.end()) {
+      if (any->meaning.empty() && !key.meaning.empty()) {
+        *any = key;
+        any->required = false;
+      }
+      return static_cast<std::size_t>(any - found_.begin());
+    }
     if (found != found_.end()) {
       if (found->meaning.empty()) found->meaning = key.meaning;
+      found->required = found->required && key.required;
       return static_cast<std::size_t>(found - found_.begin());
     }
     if (key.meaning.empty() && any != found_.end()) return std::nullopt;
@@ -129,12 +138,19 @@ class Explorer {
     return all;
   }
 
+  /// A key whose words are worth telling: neither one, nor a long list of names.
   [[nodiscard]] const DescribedKey* word_key(const std::string& path) const {
-    const auto found = std::ranges::find_if(
-        found_, [&](const DescribedKey& key) { return path_of(key) == path && key.type == "one of"; });
+    constexpr std::size_t most_words = 12;
+    const auto found = std::ranges::find_if(found_, [&](const DescribedKey& key) {
+      return path_of(key) == path && key.type == "one of" && key.words.size() > 1 &&
+             key.words.size() <= most_words;
+    });
     return found == found_.end() ? nullptr : &*found;
   }
 
+  static void add(std::vector<std::string>& all, const std::string& one) {
+    if (one != any_value && std::ranges::find(all, one) == all.end()) all.push_back(one);
+  }
   static std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
   static std::string quoted(std::string_view toml) {
     const bool text = toml.size() >= 2 && toml.front() == '"';
@@ -157,14 +173,14 @@ class Explorer {
       if (one.size() != 1) continue;
       const auto& [path, value] = *one.begin();
       if (word_key(path) != nullptr)
-        words[path].push_back(value);
-      else if (std::ranges::find(keys, path) == keys.end())
-        keys.push_back(path);
+        add(words[path], value);
+      else
+        add(keys, path);
     }
     std::vector<std::string> conditions;
     for (const auto& [path, some] : words) {
       if (some.size() == word_key(path)->words.size()) return "";
-      conditions.push_back(words_of(path, some));
+      if (!some.empty()) conditions.push_back(words_of(path, some));
     }
     for (const std::string& path : keys) {
       if (found_[place].table != path) conditions.push_back(fmt::format("`{}`", last_part(path)));
@@ -176,21 +192,22 @@ class Explorer {
   [[nodiscard]] std::string not_with(std::size_t place) const {
     std::map<std::string, std::vector<std::string>> words;
     for (const Tried& tried : tried_) {
-      if (tried.asked.contains(place) || tried.settings.size() != 1) continue;
+      if (tried.asked.empty() || tried.asked.contains(place) || tried.settings.size() != 1) continue;
       const auto& [path, value] = *tried.settings.begin();
-      if (word_key(path) != nullptr) words[path].push_back(value);
+      if (word_key(path) != nullptr) add(words[path], value);
     }
     std::string text;
     for (const auto& [path, some] : words)
-      text += fmt::format("{}Not with {}.", text.empty() ? "" : " ", words_of(path, some));
+      if (some.size() < word_key(path)->words.size())
+        text += fmt::format("{}Not with {}.", text.empty() ? "" : " ", words_of(path, some));
     return text;
   }
 
   [[nodiscard]] std::vector<std::string> in_place(std::size_t place) const {
     std::vector<std::string> keys;
-    if (!found_[place].required) return keys;
+    if (!found_[place].required || !tried_.front().asked.contains(place)) return keys;
     for (const Tried& tried : tried_) {
-      if (tried.asked.contains(place) || tried.settings.size() != 1) continue;
+      if (tried.asked.empty() || tried.asked.contains(place) || tried.settings.size() != 1) continue;
       const std::string& path = tried.settings.begin()->first;
       const auto key = std::ranges::find(found_, path, path_of);
       const bool beside = key != found_.end() && key->table == found_[place].table;

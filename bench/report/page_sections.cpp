@@ -39,12 +39,26 @@ void add_incidents(Rows& rows, const Json& object, std::string_view of) {
   }
 }
 
+// The object of a list is known by what it was, or by its bus.
+const char* item_key(const Json& item) { return item.contains("role") ? "role" : "bus"; }
+std::string item_name(const Json& item) { return item.value(item_key(item), "?"); }
+Json without_name(Json item) {
+  item.erase(item_key(item));
+  return item;
+}
+
 // Nested objects as rows "a: b".
 void add_rows(Rows& rows, const std::string& name, const Json& value) {
   if (value.is_object()) {
     for (const auto& [key, inner] : value.items())
       add_rows(rows, name.empty() ? key : fmt::format("{}: {}", name, key), inner);
   } else if (value.is_array()) {
+    // Files and adapters are rows of their own, by what they were.
+    if (!value.empty() && value.front().is_object()) {
+      for (const Json& item : value)
+        add_rows(rows, fmt::format("{}: {}", name, item_name(item)), without_name(item));
+      return;
+    }
     std::string list;
     for (const Json& item : value) list += (list.empty() ? "" : ", ") + text_in(item);
     rows.push_back({escaped(name), list.empty() ? "none" : list});
@@ -120,6 +134,34 @@ std::string split_table(const Json& report) {
              text_in(slowest.at("message")), slowest.at("t_s").get<double>(),
              slowest.at("latency_s").get<double>() * 1e3, reported("queue_max_us"),
              reported("compute_max_us"));
+}
+
+// How far each latency may be off, and why: half-widths of what makes it so.
+std::string uncertainty_table(const Json& report) {
+  if (!report.contains("uncertainty")) return "";
+  const Json& uncertainty = report.at("uncertainty");
+  const auto us = [](const Json& seconds) { return fmt::format("{:.2f}", seconds.get<double>() * 1e6); };
+  std::vector<std::string> head{"latency of", "ms", "U ms"};
+  Rows rows;
+  for (const auto& [message, figures] : uncertainty.at("latency_s").items()) {
+    for (const auto& [name, one] : figures.items()) {
+      std::vector<std::string>& row = rows.emplace_back();
+      row = {escaped(fmt::format("{}, {}", message, name)), ms(one, "value"),
+             "&plusmn; " + ms(one, "expanded")};
+      for (const auto& [influence, half_width] : one.at("half_widths").items()) {
+        if (rows.size() == 1) head.push_back(escaped(influence) + " &micro;s");
+        row.push_back(us(half_width));
+      }
+    }
+  }
+  std::string out = fmt::format(
+      "<h3>Uncertainty of the latencies</h3>\n{}<p class=\"note\">U = k u with k = {}; the columns behind it "
+      "are "
+      "half-widths. {}.</p>\n",
+      table(head, rows, "figures"), text_in(uncertainty.at("k")), text_in(uncertainty.at("method")));
+  for (const Json& what : uncertainty.at("left_out"))
+    out += fmt::format("<p class=\"unknown\">? Not in it: {}.</p>\n", text_in(what));
+  return out;
 }
 
 // Each message's longest bus response time with its bound.
@@ -207,7 +249,7 @@ std::string timing_section(const Json& report) {
   if (!rows.empty()) out += table(head, rows, "figures");
   if (!others.empty())
     out += folded("Latency of the frames before the last of each answer", head, others) + "\n";
-  out += split_table(report) + figures;
+  out += uncertainty_table(report) + split_table(report) + figures;
   rows.clear();
   for (const auto& [message, jitter] : jitters.items()) rows.push_back(percentiles(escaped(message), jitter));
   out += folded("Deviation from the period, by message", percentile_head("deviation of"), rows) + "\n";

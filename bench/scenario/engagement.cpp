@@ -27,11 +27,10 @@ Manoeuvre read_manoeuvre(Section& section) {
     return manoeuvre;
   }
   manoeuvre.acceleration =
-      section.number({"manoeuvre_g", "Acceleration of the manoeuvre. Refused with `manoeuvre` `none`."},
-                     Limits::between(0, 20), 4);
+      section.number({"manoeuvre_g", "Acceleration of the manoeuvre."}, Limits::between(0, 20), 4);
   if (manoeuvre.kind == Manoeuvre::Kind::weave)
-    manoeuvre.period = section.number({"manoeuvre_period_s", "Period of a weave. Refused without one."},
-                                      Limits::above(0), manoeuvre.period);
+    manoeuvre.period =
+        section.number({"manoeuvre_period_s", "Period of a weave."}, Limits::above(0), manoeuvre.period);
   const bool at_time = section.has("manoeuvre_from_s");
   if (at_time && section.has("manoeuvre_at_to_go_s"))
     section.reject("manoeuvre_at_to_go_s", "is given beside manoeuvre_from_s", "one of the two");

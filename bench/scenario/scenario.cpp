@@ -236,6 +236,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
   scenario.recordings_hash = root.files_hash();
+  for (const std::string& path : root.files()) scenario.inputs.push_back({"recording", path});
   if (scenario.recordings_hash != 0)
     scenario.hash = world::fnv1a_64(fmt::format("{:016x}", scenario.recordings_hash), scenario.hash);
   return scenario;
@@ -250,6 +251,7 @@ Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_v
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
   scenario.hash = world::fnv1a_64(text, scenario.hash);
+  scenario.inputs.push_back({"faults", std::string(name)});
   return {};
 }
 

@@ -247,6 +247,7 @@ std::string Section::beside(std::string_view path) const {
 }
 
 std::uint64_t& Section::files_hash() { return state_->file->files_hash; }
+std::vector<std::string>& Section::files() { return state_->file->files; }
 
 std::vector<std::string> Section::some_of(const Key& key, std::span<const std::string> names) {
   state_->describe(key, {.type = "array of names",

@@ -71,6 +71,8 @@ class Section {
   std::optional<std::string> read_beside(const Key& key, std::string_view kind, std::size_t most_bytes);
   /// FNV-1a of all files read this way; 0: none.
   [[nodiscard]] std::uint64_t& files_hash();
+  /// Their paths, in the order in which they were read.
+  [[nodiscard]] std::vector<std::string>& files();
 
   /// An array of some of these names; absent: empty.
   std::vector<std::string> some_of(const Key& key, std::span<const std::string> names);

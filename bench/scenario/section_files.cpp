@@ -14,6 +14,7 @@ std::optional<std::string> Section::read_beside(const Key& key, std::string_view
     reject(key.name, content.error());
     return std::nullopt;
   }
+  files().push_back(beside(named));
   std::uint64_t& hash = files_hash();
   hash = world::fnv1a_64(*content, hash == 0 ? world::fnv1a_64("") : hash);
   return std::move(*content);

@@ -50,7 +50,7 @@ class Folder {
 // Peers 0 to 2; their connections come and go.
 class Peers {
  public:
-  explicit Peers(bool fd) : place_(fd ? local::Place::fd : local::Place::classic) {}
+  explicit Peers(bool fd) : place_(fd ? local::Format::fd : local::Format::classic) {}
 
   void send(std::size_t peer, const void* bytes, std::size_t count) {
     Descriptor& socket = sockets_[peer];
@@ -70,7 +70,7 @@ class Peers {
   void leave(std::size_t peer) { sockets_[peer] = Descriptor(); }
 
  private:
-  local::Place place_;
+  local::Format place_;
   std::array<Descriptor, 3> sockets_;
 };
 

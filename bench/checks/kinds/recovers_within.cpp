@@ -27,8 +27,7 @@ RecoversWithin RecoversWithin::read(scenario::Section& section, const scenario::
       return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
     });
     std::tie(rule.below, rule.unit) =
-        read_bar(section, "below", "From then on |estimated - true| is below. Only with `quantity`.",
-                 *rule.error->quantity);
+        read_bar(section, "below", "From then on |estimated - true| is below.", *rule.error->quantity);
   }
   for (const estimators::Estimator* one : running(context)) {
     const std::vector<Subject> reported = always_reported(*one);

@@ -1,4 +1,4 @@
-/* Made by dbcgen --c from canhil.dbc: change that, not this. */
+/* Made by dbcgen --c from canhil.dbc: edit canhil.dbc instead. */
 #ifndef CANHIL_MESSAGES_H
 #define CANHIL_MESSAGES_H
 
@@ -175,7 +175,7 @@ enum { /* Parameter */
   CANHIL_PARAMETER_COEFFICIENT_SIGMA_PERCENT = 149
 };
 
-/* Sample groups; a message of no group is a group of its own. */
+/* Sample groups; a message without a group forms a group by itself. */
 enum {
   CANHIL_GROUP_SEEKER,
   CANHIL_GROUP_LOS_RATE,
@@ -203,7 +203,7 @@ enum {
   CANHIL_GROUPS
 };
 
-/* The values of each group, by their place in its array of doubles. */
+/* The values of each group, by their index in its array of doubles. */
 enum {
   CANHIL_SEEKER_ANTENNA_INCREMENT_ROLL_RAD, /* [rad] */
   CANHIL_SEEKER_ANTENNA_INCREMENT_PITCH_RAD, /* [rad] */
@@ -825,7 +825,7 @@ static const canhil_signal canhil_signals[] = {
   {32, 32, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 4294967295.0}, /* TargetInitVelocityD.time_of_validity_us */
 };
 
-/* In the order of groups, within a group in that of transmission. first_value: of its signals in the group's. */
+/* Ordered by group, then by transmission. first_value: index of its first value in the group. */
 typedef struct { unsigned short id, data_id; unsigned char size, group; unsigned short first_signal; unsigned char signals, first_value; } canhil_message;
 static const canhil_message canhil_messages[] = {
   {0x70, 0x4070, 8, CANHIL_GROUP_SEEKER, 0, 4, 0}, /* SeekerAntenna */
@@ -911,7 +911,7 @@ static const canhil_message canhil_messages[] = {
   {0x615, 0x4615, 8, CANHIL_GROUP_TARGET_INIT, 268, 2, 12}, /* TargetInitVelocityD */
 };
 
-/* time, cause_time, cause_counter: their place among the values; -1: the group has none. */
+/* time, cause_time, cause_counter: indices among the values; -1: the group has none. */
 typedef struct { unsigned char first_message, messages, values, from_target; signed char time, cause_time, cause_counter; } canhil_group;
 static const canhil_group canhil_groups[] = {
   {0, 4, 16, 0, 14, -1, -1}, /* Seeker */

@@ -1,4 +1,4 @@
-"""Made by dbcgen --python from canhil.dbc: change that, not this."""
+"""Made by dbcgen --python from canhil.dbc: edit canhil.dbc instead."""
 
 DBC_HASH24 = 0x152DE9
 
@@ -19,7 +19,7 @@ VALUE_TABLES = {
     "Parameter": {0: "accel_bias_sigma_ug", 1: "gyro_bias_sigma_degph", 2: "accel_noise_ugprthz", 3: "gyro_noise_degprth", 4: "velocity_noise_m2ps", 5: "h2_case", 6: "h2_alpha_rule", 7: "h2_alpha_mps2", 8: "fading_per_s", 9: "mechanization", 10: "closed_loop", 11: "output_interval_ms", 12: "aiding", 13: "attitude_error_frame", 14: "ukf_root", 15: "ukf_covariance", 16: "fix_noise_horizontal_m", 17: "fix_noise_vertical_m", 18: "fix_bias_sigma_m", 19: "fix_bias_walk_mprts", 20: "initial_height_sigma_m", 21: "handover_sigma_deg", 22: "gate_nis", 23: "gate_recovery", 24: "late_fixes", 64: "jerk_density_m2ps5", 65: "thermal_noise_pitch_radpm2", 66: "thermal_noise_yaw_radpm2", 67: "glint_noise_pitch_m", 68: "glint_noise_yaw_m", 69: "constant_noise_pitch_rad", 70: "constant_noise_yaw_rad", 71: "sample_period_ms", 72: "los_rate_sigma_radps", 73: "target_acceleration_sigma_mps2", 74: "start_up_s", 75: "gap_limit_ms", 76: "low_pass_bandwidth_radps", 77: "low_pass_damping", 78: "range_max_m", 79: "closing_speed_max_mps", 80: "blind_range_m", 81: "range_sigma_m", 82: "range_gate_m", 83: "closing_speed_gate_mps", 84: "relock_samples", 85: "range_unchanged_limit_ms", 86: "field_of_view_rad", 87: "antenna_rate_sigma_radps", 88: "missile_acceleration_sigma_mps2", 128: "process_noise", 129: "air_velocity_noise_mpsprts", 130: "body_rate_noise_degpsprts", 131: "attitude_noise_degprts", 132: "wind_noise_mpsprts", 133: "glider_velocity_sigma_mps", 134: "glider_rate_sigma_degps", 135: "glider_attitude_sigma_deg", 136: "theta_per_s", 137: "theta_cap_per_s", 138: "theta_rate_weight", 139: "adaptation_time_s", 140: "adaptation_limit", 141: "initial_air_velocity_sigma_mps", 142: "initial_rate_sigma_degps", 143: "initial_wind_sigma_mps", 144: "fins_late_ms", 145: "fins_missing_ms", 146: "glider_nav_coast_s", 147: "glider_nav_stale_ms", 148: "glider_nav_gate_mps", 149: "coefficient_sigma_percent", },
 }
 
-# Sample groups; a message of no group is a group of its own. Messages in the order of transmission: (name, id, data id, size,
+# Sample groups; a message without a group forms a group by itself. Messages in the order of transmission: (name, id, data id, size,
 # signals), a signal: (name, start bit, length, kind, scale, offset, lowest raw value, highest, value table or None).
 GROUPS = {
     "Seeker": (
@@ -532,7 +532,7 @@ CYCLE_MS = {
     "FixFilter": 1000,
 }
 
-# What a target sends.
+# The groups that a target sends.
 FROM_TARGET = {
     "LosRate",
     "AlignNav",

@@ -276,7 +276,7 @@ TEST_F(TimedBus, WhoComesAndGoesKeepsNobodyWaiting) {
   const std::string name = bus_.substr(std::string_view("local:").size());
   const std::int64_t end_ns = in_seconds(3);
   std::jthread crowd([&] {
-    while (clock_ns(CLOCK_MONOTONIC) < end_ns) local::connect_to(directory, name, local::Place::classic);
+    while (clock_ns(CLOCK_MONOTONIC) < end_ns) local::connect_to(directory, name, local::Format::classic);
   });
   hub->receive();
   ASSERT_TRUE(wait(*hub, WaitFor::frame, end_ns));
