@@ -15,6 +15,7 @@
 #include "bench/papers/names.hpp"
 #include "bench/papers/paper.hpp"
 #include "dbc/command_line/command_line.hpp"
+#include "dbc/version/version.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -60,7 +61,8 @@ ExitCode reproduce(const Arguments& arguments) {
 
 int run(int argc, char** argv) {
   Arguments arguments;
-  command_line::Program program{"Flies what a paper claims and writes one page on it."};
+  command_line::Program program{"Flies what a paper claims and writes one page on it.",
+                                version_line("hil-bench-paper")};
   program.add_option("PAPER", arguments.paper, papers::names()).required();
   program.add_option("--out", arguments.folder,
                      "folder of the page and the results (default: paper-NAME here)");

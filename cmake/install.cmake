@@ -35,6 +35,12 @@ foreach(program hil-bench hil-target)
   install(FILES ${CMAKE_SOURCE_DIR}/packaging/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
 endforeach()
 
+# The unit names the program where it is installed, which only the installation knows.
+install(CODE "
+  set(bindir \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\")
+  configure_file(\"${CMAKE_SOURCE_DIR}/packaging/hil-target@.service\" \"${CMAKE_BINARY_DIR}/hil-target@.service\" @ONLY)")
+install(FILES ${CMAKE_BINARY_DIR}/hil-target@.service DESTINATION lib/systemd/system)
+
 # Manual pages from the output of --help: one for each program and each subcommand of hil-bench.
 find_program(HELP2MAN help2man)
 if(HELP2MAN)
@@ -43,6 +49,13 @@ if(HELP2MAN)
     DEPENDS hil-target hil-bench hil-bench-campaign dbcgen ${CMAKE_SOURCE_DIR}/packaging/manual.sh
     COMMENT "Manual pages" VERBATIM)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+endif()
+
+# All that is installed, without the tests: cmake --build build/default --target canhil_installed.
+add_custom_target(canhil_installed)
+add_dependencies(canhil_installed ${targets} dbcgen hil-target hil-bench hil-bench-campaign hil-bench-paper)
+if(HELP2MAN)
+  add_dependencies(canhil_installed canhil_manual)
 endif()
 
 set(CPACK_PACKAGE_NAME canhil)

@@ -10,8 +10,8 @@
 
 #include "dbc/command_line/command_line.hpp"
 #include "dbc/realtime/command_line.hpp"
+#include "dbc/version/version.hpp"
 #include "messages/canhil.hpp"
-#include "target/device/version.hpp"
 #include "target/process/event_loop.hpp"
 #include "target/process/replay.hpp"
 
@@ -30,8 +30,8 @@ int complain(const canhil::Error& error) {
 int run(int argc, char** argv) {
   canhil::command_line::Program program{
       "The device under test: navigation and guidance estimators behind a CAN interface.",
-      fmt::format("hil-target {}.{} · DBC {:016x}, on the bus {:06x}", canhil::target::version_major,
-                  canhil::target::version_minor, canhil::messages::dbc_hash, canhil::messages::dbc_hash24)};
+      fmt::format("{} · DBC {:016x}, on the bus {:06x}", canhil::version_line("hil-target"),
+                  canhil::messages::dbc_hash, canhil::messages::dbc_hash24)};
   std::vector<std::string> buses;
   std::string log;
   std::string dbc{canhil::name_of(canhil::BusFormat::classic)};

@@ -170,7 +170,7 @@ address_sanitizer() {
 }
 
 thread_sanitizer() {
-  echo "thread sanitizer on: code with threads (hil-target and hil-bench run have one thread each)"
+  echo "thread sanitizer on: code with threads (hil-target and hil-bench run have one thread each, with --live a second, whose queue is tested here)"
   build tsan tests_threads && run_ctest tsan -L "$(labelled threads)"
 }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/observe/observer.hpp"
+#include "bench/drive/onlooker.hpp"
 #include "dbc/wire/message_info.hpp"
 
 namespace canhil::accept {
@@ -27,7 +27,7 @@ struct Series {
 };
 
 /// Records the answers of a flight. Frames about the host and signals that identify the program are ignored.
-class Answers final : public observe::Observer {
+class Answers final : public drive::Onlooker {
  public:
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;

@@ -39,11 +39,11 @@ void refuse_seed(Section& section, const std::vector<Setting>& settings) {
 }
 
 Given read_given(Section& section) {
-  Given given{.name = section.text("name"),
-              .scenario = section.text("scenario"),
+  Given given{.name = section.text({"name", "Unique name."}),
+              .scenario = section.text({"scenario", "Scenario file, relative to the campaign's."}),
               .settings = {},
               .line = section.line()};
-  if (auto set = section.optional_table("set")) {
+  if (auto set = section.optional_table({"set", "Keys of the scenario and their values."})) {
     given.settings = set->settings();
     refuse_seed(*set, given.settings);
   }
@@ -75,7 +75,9 @@ std::vector<Point> expand(const std::vector<Setting>& sweep) {
 }
 
 std::vector<Setting> read_sweep(Section& root, const std::vector<Given>& given) {
-  auto section = root.optional_table("sweep");
+  auto section = root.optional_table(
+      {"sweep",
+       "Keys of the scenario, each with an array of values: every variant flies with every combination."});
   if (!section) return {};
   std::vector<Setting> sweep = section->settings();
   if (sweep.empty()) root.reject("sweep", "is empty", "keys of the scenario, each with an array of values");
@@ -217,12 +219,14 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
   Section root = Section::parse(text, file);
   Campaign campaign;
   campaign.sources = {.file = std::string(file), .text = std::string(text), .scenarios = {}};
-  campaign.title = root.text("title");
-  campaign.runs = static_cast<std::uint64_t>(root.integer("runs", 1));
+  campaign.title = root.text({"title", "One line, shown in every report."});
+  campaign.runs = static_cast<std::uint64_t>(root.integer(
+      {"runs", fmt::format("Runs of each variant, at most {}. `--runs` overrides it.", most_runs)}, 1));
   if (campaign.runs > most_runs)
     root.reject("runs", fmt::format("{} is out of range", campaign.runs),
                 fmt::format("at most {}", most_runs));
-  campaign.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
+  campaign.seed = static_cast<std::uint64_t>(
+      root.integer({"seed", "Seed of all random numbers, in place of the scenarios'."}, 0));
   const std::vector<Given> given = read_variants(root);
   const std::vector<Setting> sweep = read_sweep(root, given);
   if (const auto error = root.error()) return tl::unexpected(*error);

@@ -126,6 +126,7 @@ Result<void> write_all(Store& store, Finishing& finishing, Progress& progress, c
       }
     }
     progress.done += runs->size();
+    options.committed(*runs);
     options.progress(progress);
   }
   return {};

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 
 #include "bench/campaign/campaign.hpp"
 #include "bench/campaign/store.hpp"
@@ -39,6 +40,8 @@ struct Options {
   bool resume = false;   ///< continue an existing file
   std::string
       target{};  ///< a program to fly against, over a bus in lockstep; empty: a Device in this process
+  /// Called with what was committed, then with where the campaign stands; from one thread.
+  std::function<void(std::span<const Finished>)> committed = [](std::span<const Finished>) {};
   std::function<void(const Progress&)> progress = [](const Progress&) {};
 };
 

@@ -21,12 +21,15 @@ namespace canhil::campaign {
 /// RMS over runs against time: for reports, without a bar.
 struct RmsCurve {
   static constexpr std::string_view kind = "rms_curve";
+  static constexpr std::string_view meaning = "RMS over runs against time. It has no bars.";
   const Quantity* quantity = &quantities::attitude_heading;
 };
 
 /// The time from which the RMS over runs stays within a limit.
 struct TimeWithin {
   static constexpr std::string_view kind = "time_within";
+  static constexpr std::string_view meaning =
+      "The first update from which the RMS stays within the bound to the end, or never.";
   const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;                            ///< [SI]
   std::optional<std::int64_t> at_most_us;       ///< 'never' fails
@@ -36,6 +39,7 @@ struct TimeWithin {
 /// How much earlier than `other` the RMS of a variant stays within a limit.
 struct Lead {
   static constexpr std::string_view kind = "lead";
+  static constexpr std::string_view meaning = "How much earlier than `other` that is.";
   const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;  ///< [SI]
   std::string other;
@@ -45,6 +49,7 @@ struct Lead {
 /// RMS over runs at the last update at or before a time.
 struct ValueAt {
   static constexpr std::string_view kind = "value_at";
+  static constexpr std::string_view meaning = "RMS at the last update up to a time.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   std::optional<double> at_most, at_least;  ///< [SI]
@@ -53,6 +58,9 @@ struct ValueAt {
 /// The distribution of |quantity| over runs at a time: for each run its last update at or before it.
 struct Distribution {
   static constexpr std::string_view kind = "distribution";
+  static constexpr std::string_view meaning =
+      "RMS with its 5 % to 95 % range, median, p90, mean, and the fraction of runs below a bound, at each "
+      "run's last update up to a time.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   quantities::Unit unit;        ///< mrad or deg for angles
@@ -65,6 +73,7 @@ struct Distribution {
 /// Mean and standard deviation over all runs and updates in a time window.
 struct WindowMoments {
   static constexpr std::string_view kind = "window";
+  static constexpr std::string_view meaning = "Mean and standard deviation over runs and a time window.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> mean_at_most;  ///< of |mean| [SI]
@@ -74,6 +83,8 @@ struct WindowMoments {
 /// The mean of |quantity| over a time window of each run; mean and standard deviation of these means.
 struct RunMean {
   static constexpr std::string_view kind = "run_mean";
+  static constexpr std::string_view meaning =
+      "Mean of the absolute value over a window of each run; mean and standard deviation of it over runs.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> at_most, at_least;              ///< of the mean over runs [SI]
@@ -84,6 +95,7 @@ struct RunMean {
 /// RMS and mean over runs in a window of the time to go, and their ratio to another variant's.
 struct ToGo {
   static constexpr std::string_view kind = "to_go";
+  static constexpr std::string_view meaning = "RMS and mean over runs and a window of the time to go.";
   const Quantity* quantity = nullptr;  ///< of samples by time to go
   double least = 0, most = 0;          ///< [s]
   std::string other;                   ///< may be empty
@@ -95,6 +107,7 @@ struct ToGo {
 /// RMS over runs at their ends, divided by that of `other`.
 struct RmsRatio {
   static constexpr std::string_view kind = "rms_ratio";
+  static constexpr std::string_view meaning = "RMS over runs at their ends over that of `other`.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::string other;
   std::optional<double> at_most;
@@ -103,6 +116,9 @@ struct RmsRatio {
 /// Fraction of runs in which |quantity| is smaller than in the run of `other` with the same random numbers.
 struct Paired {
   static constexpr std::string_view kind = "paired";
+  static constexpr std::string_view meaning =
+      "Fraction of runs in which the absolute error is smaller than that of `other`, with its "
+      "Clopper-Pearson interval.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::string other;
   std::int64_t at_us = 0;
@@ -113,6 +129,9 @@ struct Paired {
 /// Mean NEES or NIS with chi-square bounds.
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
+  static constexpr std::string_view meaning =
+      "Mean NEES or NIS, and the fraction of updates whose mean over runs lies in the central chi-square "
+      "interval.";
   const Quantity* quantity = &quantities::innovation_nis;
   std::int64_t from_us = 0, to_us = 0;
   double probability = 0.95;
@@ -124,6 +143,8 @@ struct Consistency {
 /// Diverged runs: beyond a limit at their end, or at any time from a given one on.
 struct Diverged {
   static constexpr std::string_view kind = "divergence";
+  static constexpr std::string_view meaning =
+      "Runs that ended early, or whose error is beyond a bound or no number.";
   const Quantity* quantity = &quantities::attitude_heading;
   double beyond = 0;                              ///< [SI]
   std::optional<std::int64_t> from_us;            ///< none: at the end
@@ -143,6 +164,12 @@ std::string_view kind(const Metric& metric);
 const Quantity& quantity_of(const Metric& metric);
 /// The variant that a metric compares with, as named in the file; empty: none.
 std::string other_of(const Metric& metric);
+
+/// A kind of metric, and what it asks for.
+struct MetricKind {
+  std::string_view name, meaning;
+};
+std::vector<MetricKind> metric_kinds();
 
 /// `variants`: the names that the metric may use; `duration_us`: the shortest duration of these variants.
 Metric read_metric(scenario::Section& section, const std::vector<std::string>& variants,

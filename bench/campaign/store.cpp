@@ -8,6 +8,7 @@
 
 #include "bench/campaign/database.hpp"
 #include "bench/drive/target_command.hpp"
+#include "dbc/version/version.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::campaign {
@@ -28,8 +29,8 @@ std::string schema() {
 }
 
 std::string with_hash(std::string_view name, const std::string& program) {
-  const auto file = drive::look_at_program(program);
-  return fmt::format("{}+{:016x}", name, file ? file->hash : 0);
+  const auto file = drive::identify_file(program);
+  return fmt::format("{}+{}", name, file ? file->sha256.substr(0, 16) : "unknown");
 }
 
 // The target's command with each file in it as name and hash: independent of the file's folder.
@@ -40,7 +41,7 @@ std::string with_hashes(const std::string& target) {
     const std::string& word = (*words)[i];
     const std::string path = i == 0 ? drive::program_path(word) : word;
     text += text.empty() ? "" : " ";
-    text += i == 0 || drive::look_at_program(path)
+    text += i == 0 || drive::identify_file(path)
                 ? with_hash(std::filesystem::path(path).filename().string(), path)
                 : word;
   }
@@ -101,7 +102,7 @@ Sources read_sources(const SQLite::Database& database) {
 }  // namespace
 
 Identity identity_of(const Campaign& campaign, const std::string& target) {
-  static const std::string program = with_hash(CANHIL_VERSION, "/proc/self/exe");
+  static const std::string program = with_hash(version_text(), "/proc/self/exe");
   return {.campaign_hash = campaign.hash,
           .dbc_hash = messages::dbc_hash,
           .rounding = campaign.rounding,

@@ -6,13 +6,29 @@
 
 namespace canhil::checks {
 
-std::span<const wire::BitLength> whole_seconds(const Observations& seen) {
-  const std::span<const wire::BitLength> seconds = seen.length_by_second;
+std::span<const wire::BitLength> whole_seconds(std::span<const wire::BitLength> seconds) {
   return seconds.size() > 1 ? seconds.first(seconds.size() - 1) : seconds;
 }
 
-Load bus_load(const Observations& seen, wire::BitRates rates) {
-  const std::span<const wire::BitLength> seconds = whole_seconds(seen);
+std::span<const wire::BitLength> whole_seconds(const Observations& seen) {
+  return whole_seconds(seen.length_by_second);
+}
+
+LoadLine load_line(std::span<const wire::BitLength> seconds, wire::BitRates rates) {
+  constexpr std::size_t most = 400;
+  LoadLine line{.stretch_s = (seconds.size() + most - 1) / most};
+  for (std::size_t from = 0; from < seconds.size(); from += line.stretch_s) {
+    double busiest = 0;
+    for (std::size_t i = from; i < std::min(seconds.size(), from + line.stretch_s); ++i)
+      busiest = std::max(busiest, wire::bus_load(seconds[i], 1.0, rates));
+    line.busiest.push_back(busiest);
+  }
+  return line;
+}
+
+Load bus_load(const Observations& seen, wire::BitRates rates) { return bus_load(whole_seconds(seen), rates); }
+
+Load bus_load(std::span<const wire::BitLength> seconds, wire::BitRates rates) {
   Load load;
   for (const wire::BitLength& second : seconds) {
     const double share = wire::bus_load(second, 1.0, rates);

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <typeindex>
 #include <vector>
@@ -68,6 +69,7 @@ struct Observations {
   bool transmit_stamps_echoed = false;  ///< stamps of stimuli come from the bus, not from the bench
 
   std::optional<messages::TargetCounters> counters;  ///< the last one
+  std::string target_version{};                      ///< "0.2" by its heartbeats; empty: none came
   Complaints complaints;                             ///< of the target, beside its answers
   ExpectedCounts expected_counts{};                  ///< for `counters`
   std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus; see observe::LoadMeter

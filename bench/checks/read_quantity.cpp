@@ -34,7 +34,7 @@ const Quantity* read_quantity(scenario::Section& section, std::span<const Quanti
       section.reject(key, fmt::format("'{}' is a former name", word), fmt::format("'{}'", (*once)->name));
     }
   }
-  const std::string word = section.one_of(key, words);
+  const std::string word = section.one_of({key, "A quantity (quantities.md)."}, words);
   const auto found = std::ranges::find(known, std::string_view(word), &Quantity::name);
   return found == known.end() ? known.front() : *found;
 }

@@ -1,6 +1,6 @@
 // A rule of a scenario: the parts of a kind of check.
 //
-// A kind is a struct with a constant `kind`, its fields, and
+// A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), its fields, and
 //   static Kind read(scenario::Section&, const scenario::CheckContext&)
 //   Finding judge(const Evidence&) const         an absent answer is a failure of the target, never a pass
 // and, where they apply,
@@ -112,6 +112,7 @@ scenario::RuleRead read_rule(scenario::Section& section, const scenario::CheckCo
 
 /// The entry of a registry.
 template <class Kind>
-inline constexpr scenario::CheckKind check_kind{.name = Kind::kind, .read = read_rule<Kind>};
+inline constexpr scenario::CheckKind check_kind{
+    .name = Kind::kind, .meaning = Kind::meaning, .read = read_rule<Kind>};
 
 }  // namespace canhil::checks

@@ -13,8 +13,10 @@
 #include "bench/campaign/export.hpp"
 #include "bench/campaign/merge.hpp"
 #include "bench/campaign/report.hpp"
+#include "bench/commands/campaign_course.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
+#include "bench/commands/live.hpp"
 #include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/drive/session.hpp"
@@ -40,6 +42,7 @@ struct Arguments {
   bool unrounded = false;
   std::string target;
   std::string json;
+  Live live;
 };
 struct MergeArguments {
   std::string out;
@@ -151,12 +154,19 @@ ExitCode execute(const Arguments& arguments) {
   }
   if (auto made = make_folder(arguments); !made) return complain(made.error());
 
+  auto view = OpenView::open(
+      arguments.live,
+      {.batch = Course::begun(campaign->sources.file, campaign->runs * campaign->variants.size())});
+  if (!view) return complain(view.error());
+  std::optional<Course> course;
+  if (view->get() != nullptr) course.emplace(*campaign, *view->get());
   catch_interrupts();
   const auto execution = [&] {
     const ProgressLine line;
     const auto start = std::chrono::steady_clock::now();
     const auto show = [&](const campaign::Progress& progress) {
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+      if (course) course->progress(progress, elapsed.count());
       if (progress.total > 0) line.show([&] { return progress_text(progress, elapsed.count()); });
     };
     return campaign::execute(*campaign,
@@ -165,16 +175,26 @@ ExitCode execute(const Arguments& arguments) {
                               .threads = static_cast<unsigned>(arguments.threads.value_or(0)),
                               .resume = arguments.resume,
                               .target = arguments.target,
+                              .committed =
+                                  [&](std::span<const campaign::Finished> runs) {
+                                    if (course) course->committed(runs);
+                                  },
                               .progress = show},
                              interrupted);
   }();
-  if (!execution) return complain(execution.error());
+  if (!execution) {
+    if (view->get() != nullptr) view->get()->show_ended(execution.error().message);
+    return complain(execution.error());
+  }
   if (*execution == campaign::Execution::interrupted) {
+    if (course) course->end(checks::Outcome::not_measured, "interrupted");
     fmt::print(stderr, "hil-bench: interrupted; --resume goes on with {}\n", file->string());
     return ExitCode::not_measured;
   }
-  if (shard->count > 1) return ExitCode::pass;
-  return print_report(*campaign, *file, arguments.json);
+  const ExitCode code = shard->count > 1 ? ExitCode::pass : print_report(*campaign, *file, arguments.json);
+  if (course) course->end(outcome_of(code), shard->count > 1 ? "the shard is flown" : "");
+  view->hold();
+  return code;
 }
 
 ExitCode merge(const MergeArguments& arguments) {
@@ -321,6 +341,7 @@ void add_campaign(command_line::Command app, int& code) {
                        "frames that round nothing: the difference is what the bus's resolution costs");
   const auto json = command.add_option(
       "--json", arguments->json, "write the report as JSON to a file; -: to stdout, in place of the text");
+  const auto live = add_live(command, arguments->live);
   auto paper = std::make_shared<PaperArguments>();
   const auto name =
       command.add_option("--paper", paper->paper,
@@ -328,7 +349,7 @@ void add_campaign(command_line::Command app, int& code) {
   command.add_option("--exact", paper->exact, "with --paper: results without the bus's rounding, to compare")
       .needs(name);
   name.excludes(file);
-  for (const auto& option : {shard, resume, threads, json, target}) name.excludes(option);
+  for (const auto& option : {shard, resume, threads, json, target, live}) name.excludes(option);
   target.excludes(unrounded);
   command.require_subcommands(0, 1);
   add_merge(command, code);

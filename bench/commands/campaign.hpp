@@ -16,6 +16,13 @@ inline constexpr std::string_view faults_name = "faults";
 inline constexpr std::string_view faults_summary =
     "what a target does when something goes wrong, fault by fault";
 
+inline constexpr std::string_view reference_name = "reference";
+inline constexpr std::string_view reference_summary =
+    "every key of scenario and campaign files: unit, range, default, meaning";
+
+/// `hil-bench reference`: the page docs/scenario-reference.md.
+void add_reference(command_line::Command app, int& code);
+
 /// `hil-bench faults` and its subcommand merge: one flight for each fault, and the target's response. Exit
 /// code 1 if the target violates what no fault excuses.
 void add_faults(command_line::Command app, int& code);

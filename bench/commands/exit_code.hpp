@@ -17,6 +17,13 @@ constexpr ExitCode exit_code(checks::Outcome outcome) {
                                             : ExitCode::not_measured;
 }
 
+/// The same the other way round; a command that could not be done has not measured anything.
+constexpr checks::Outcome outcome_of(ExitCode code) {
+  return code == ExitCode::pass   ? checks::Outcome::pass
+         : code == ExitCode::fail ? checks::Outcome::fail
+                                  : checks::Outcome::not_measured;
+}
+
 /// Reports an error on stderr in one line.
 inline ExitCode complain(const Error& error) {
   std::fprintf(stderr, "hil-bench: %s\n", command_line::one_line(error.message).c_str());

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -11,6 +12,7 @@
 #include "bench/commands/campaign.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
+#include "bench/commands/live.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/fault_matrix/execute.hpp"
@@ -36,6 +38,7 @@ struct Arguments {
   std::string out, shard, target;
   bool resume = false;
   Shown shown;
+  Live live;
 };
 struct MergeArguments {
   std::vector<std::string> files;
@@ -108,6 +111,11 @@ ExitCode execute(const Arguments& arguments) {
   if (auto fine = check_outputs(arguments.shown, std::move(files), folder); !fine)
     return complain(fine.error());
 
+  live::Batch batch{.title = fmt::format("Faults: {}", fmt::join(arguments.scenarios, ", ")),
+                    .of = "flights",
+                    .failed_means = "violations"};
+  auto view = OpenView::open(arguments.live, {.batch = batch});
+  if (!view) return complain(view.error());
   catch_interrupts();  // from here on a file is written
   const auto identity = fault_matrix::identity_of(*plan, arguments.target);
   auto opened = fault_matrix::Writer::open(file, identity, arguments.resume);
@@ -119,6 +127,29 @@ ExitCode execute(const Arguments& arguments) {
     if (!results.cells.contains(cell)) cells.insert(cell);
   }
   std::size_t done = 0;
+  batch.total = cells.size();
+  const auto start = std::chrono::steady_clock::now();
+  const auto show_live = [&](const fault_matrix::Finished& finished) {
+    if (view->get() == nullptr) return;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    const bool violated = finished.response.kind == fault_matrix::Response::Kind::violated;
+    batch.done = done;
+    batch.failed += violated ? 1 : 0;
+    batch.rate_per_s = static_cast<double>(done) / elapsed.count();
+    batch.add({.name = fmt::format("{} · {}", plan->rows[finished.row].name(),
+                                   plan->columns[finished.column].scenario.title),
+               .result = fault_matrix::to_text(finished.response),
+               .failed = violated});
+    view->get()->show(batch);
+  };
+  const auto end_live = [&](ExitCode code, std::string reason) {
+    if (view->get() == nullptr) return code;
+    batch.outcome = outcome_of(code);
+    batch.reason = std::move(reason);
+    view->get()->show(batch);
+    view->hold();
+    return code;
+  };
   const auto flown = [&] {
     const ProgressLine line;
     return fault_matrix::execute(*plan, cells,
@@ -128,6 +159,7 @@ ExitCode execute(const Arguments& arguments) {
                                   .finished = [&](fault_matrix::Finished finished) -> Result<void> {
                                     if (auto added = writer.add(finished); !added) return added;
                                     ++done;
+                                    show_live(finished);
                                     line.show([&] {
                                       const auto of = static_cast<double>(cells.size());
                                       return fmt::format("{} {} / {} flights",
@@ -139,16 +171,19 @@ ExitCode execute(const Arguments& arguments) {
                                   }},
                                  interrupted);
   }();
-  if (!flown) return complain(flown.error());
+  if (!flown) {
+    if (view->get() != nullptr) view->get()->show_ended(flown.error().message);
+    return complain(flown.error());
+  }
   if (done < cells.size()) {
     fmt::print(stderr, "hil-bench: interrupted; --resume goes on with {}\n", file.string());
-    return ExitCode::not_measured;
+    return end_live(ExitCode::not_measured, "interrupted");
   }
-  if (shard->count == 1) return show(results, arguments.shown, folder.string());
+  if (shard->count == 1) return end_live(show(results, arguments.shown, folder.string()), "");
   const bool violated = std::ranges::any_of(results.cells, [](const auto& cell) {
     return cell.second.response.kind == fault_matrix::Response::Kind::violated;
   });
-  return violated ? ExitCode::fail : ExitCode::pass;
+  return end_live(violated ? ExitCode::fail : ExitCode::pass, "the shard is flown");
 }
 
 ExitCode merge(const MergeArguments& arguments) {
@@ -182,6 +217,7 @@ void add_faults(command_line::Command app, int& code) {
                      "program to fly against, with its arguments, as one word; in lockstep (default: the "
                      "target's own code in process)");
   add_shown(command, arguments->shown);
+  add_live(command, arguments->live);
   command.require_subcommands(0, 1);
   auto merging = std::make_shared<MergeArguments>();
   const auto merge_command = command.add_subcommand("merge", "the matrix of shards put together");

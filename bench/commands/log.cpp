@@ -164,12 +164,13 @@ ExitCode check(const CheckArguments& arguments) {
 
 void add_convert(command_line::Command app, int& code) {
   auto names = std::make_shared<std::pair<std::string, std::string>>();
-  const auto log = app.add_subcommand("log", "recorded frames: in another format");
+  const auto log = app.add_subcommand("log", "recorded frames: in another format, beside another recording");
   const auto command = log.add_subcommand(
       "convert",
       "write a log in another format: *.pcap (Wireshark), *.asc (Vector), any other name: candump's");
   command.add_option("FROM", names->first, "log of any of these formats").required();
   command.add_option("TO", names->second, "the new file").required();
+  add_log_compare(log, code);
   log.require_subcommands(1, 1);
   command.on_given([&code, names] { code = static_cast<int>(convert(names->first, names->second)); });
 }

@@ -16,6 +16,7 @@
 
 #include "bench/commands/exit_code.hpp"
 #include "bench/scenario/nearest.hpp"
+#include "dbc/version/version.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::commands {
@@ -23,6 +24,11 @@ namespace {
 
 using command_line::Command;
 using command_line::Program;
+
+std::filesystem::path own_file() {
+  std::error_code unknown;
+  return std::filesystem::read_symlink("/proc/self/exe", unknown);
+}
 
 /// For an unknown subcommand CLI11's own message lists neither the choices nor the likely intent.
 std::string unknown_subcommand(const Command& program, std::string_view word) {
@@ -67,8 +73,8 @@ int run(int argc, char** argv, std::span<const AddCommand> add_commands) {
   Program program{
       "A hardware-in-the-loop bench over CAN for navigation and guidance estimators.\n"
       "Exit codes: 0 pass, 1 fail, 2 usage or configuration, 3 not measured.",
-      fmt::format("hil-bench {} · DBC {:016x}, on the bus {:06x}", CANHIL_VERSION, messages::dbc_hash,
-                  messages::dbc_hash24)};
+      fmt::format("{} · DBC {:016x}, on the bus {:06x}", version_line(own_file().filename().string()),
+                  messages::dbc_hash, messages::dbc_hash24)};
   program.require_subcommands(1, 1);
   int code = 0;
   for (const AddCommand add : add_commands) add(program, code);
@@ -98,10 +104,7 @@ int run_program(int argc, char** argv, std::span<const AddCommand> add_commands)
   return guarded([&] { return run(argc, argv, add_commands); });
 }
 
-std::string own_folder() {
-  std::error_code unknown;
-  return std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path().string();
-}
+std::string own_folder() { return own_file().parent_path().string(); }
 
 std::string data_folder(const std::string& name) {
   std::error_code unknown;

@@ -14,12 +14,14 @@
 
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
+#include "bench/commands/live.hpp"
 #include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/commands/reports.hpp"
 #include "bench/doctor/interface.hpp"
 #include "bench/drive/contract.hpp"
 #include "bench/drive/session.hpp"
+#include "bench/live/terminal.hpp"
 #include "bench/report/file.hpp"
 #include "bench/scenario/nearest.hpp"
 #include "dbc/ports/local_bus.hpp"
@@ -44,8 +46,11 @@ struct Arguments {
   realtime::Options realtime;
   std::optional<int> target_cpu;
   std::optional<int> spin_us;
+  std::string operator_name;
   Reports reports;
   std::string log;
+  Live live;
+  bool terminal = false;
 };
 
 // gps, GPS and Gps name the same node, and so do master_ins and MasterIns.
@@ -110,6 +115,7 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
       if (!external) options.target_arguments.push_back(word);
   }
   options.target_cpu = arguments.target_cpu;
+  options.operator_name = arguments.operator_name;
   options.spin_ns = std::int64_t{arguments.spin_us.value_or(0)} * 1000;
   return options;
 }
@@ -219,7 +225,16 @@ Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& s
   return {};
 }
 
+// It stands on one line of the text, and in XML.
+Result<void> check_operator(const std::string& name) {
+  const bool plain =
+      std::ranges::none_of(name, [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; });
+  return plain ? Result<void>()
+               : failure("--operator: holds a control character, expected a name on one line");
+}
+
 ExitCode execute(const Arguments& arguments) {
+  if (auto fine = check_operator(arguments.operator_name); !fine) return complain(fine.error());
   const drive::BusName bus(arguments.bus);
   if (auto fine = check_bus(arguments, bus); !fine) return complain(fine.error());
   auto scenario = drive::read_scenario(arguments.scenario);
@@ -232,15 +247,33 @@ ExitCode execute(const Arguments& arguments) {
   if (!format) return complain(format.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
   if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
+  drive::Options options = options_of(arguments, bus, *format);
+  std::vector<std::unique_ptr<live::Display>> displays;
+  if (arguments.terminal) {
+    auto terminal = live::open_terminal();
+    if (!terminal) return complain(terminal.error());
+    displays.push_back(std::move(*terminal));
+  }
+  auto view =
+      OpenView::open(arguments.live, {.flight = live::flight_of(*scenario, options)}, std::move(displays));
+  if (!view) return complain(view.error());
+  if (view->get() != nullptr) options.onlooker = &view->get()->onlooker();
   catch_interrupts();
   Result<drive::Run> finished = [&] {
     const ProgressLine line;
     bool begun = false;
-    return drive::run(*scenario, options_of(arguments, bus, *format), interrupted, [&](std::int64_t t_us) {
+    return drive::run(*scenario, options, interrupted, [&](std::int64_t t_us) {
       if (!std::exchange(begun, true)) remove_earlier(arguments);
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });
   }();
+  if (view->get() != nullptr) {
+    if (finished)
+      view->get()->show(live::flight_of(*scenario, *finished));
+    else
+      view->get()->show_ended(finished.error().message);
+    if (arguments.terminal) view->get()->close();  // the report comes to the terminal as it was
+  }
   if (!finished) return complain(with_controller(finished.error(), arguments.bus));
   if (arguments.realtime.wanted) {
     const std::string warning = realtime::frequency_warning(*finished->host);
@@ -248,6 +281,7 @@ ExitCode execute(const Arguments& arguments) {
   }
   if (auto written = write_reports(arguments.reports, *scenario, *finished); !written)
     return complain(written.error());
+  view->hold();
   return exit_code(finished->verdict.outcome);
 }
 
@@ -289,9 +323,13 @@ void add_run(command_line::Command app, int& code) {
       .excludes(lockstep);
   command.add_number("--seed", arguments->seed, "another seed than the scenario's");
   add_reports(command, arguments->reports);
+  command.add_option("--operator", arguments->operator_name,
+                     "who runs it, for the reports: 'Ada Lovelace' (default: not said)");
   command.add_option(
       "--log", arguments->log,
       "record every frame: *.pcap (Wireshark), *.asc (Vector), any other name: candump's format");
+  command.add_flag("--tui", arguments->terminal, "show it on one screen of this terminal while it goes on")
+      .excludes(add_live(command, arguments->live));
   command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }
 

@@ -35,6 +35,8 @@ void add_schedulability(command_line::Command app, int& code);
 
 /// `hil-bench log|decode|replay|check`: commands for recorded frames.
 void add_log(command_line::Command app, int& code);
+/// `hil-bench log compare A B`: how far the stamps of two recordings of one bus are apart.
+void add_log_compare(command_line::Command log, int& code);
 
 /// `hil-bench dbc lint|show|rules`: commands for DBC files of any project. Exit code 1 if lint rejects one.
 void add_dbc(command_line::Command app, int& code);

@@ -21,8 +21,9 @@ class ContractDialect final : public Dialect {
         new Schedule(make_schedule(of_.scenario, of_.truth, of_.flight.per_run_truth, of_.run_index,
                                    of_.virtual_time, of_.rounding, std::move(faults))));
   }
-  std::unique_ptr<observe::Watcher> watcher() override {
-    if (!of_.for_verdict) return std::make_unique<observe::Monitor>();
+  [[nodiscard]] bool watches_frames_alone() const override { return true; }
+  std::unique_ptr<observe::Watcher> watcher(bool with_times) override {
+    if (!with_times) return std::make_unique<observe::Monitor>();
     WireFacts wire = of_.wire;
     wire.fd = of_.format == BusFormat::fd;
     return std::make_unique<observe::Monitor>(

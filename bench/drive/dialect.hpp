@@ -27,7 +27,6 @@ struct Setting {
   std::uint64_t run_index = 0;
   bool in_process = false;    ///< the target is the device in this process
   bool virtual_time = false;  ///< time advances in steps that the target completes
-  bool for_verdict = true;    ///< times are measured
   Rounding rounding = Rounding::as_on_the_bus;
   BusFormat format = BusFormat::classic;
   WireFacts wire{};
@@ -44,7 +43,9 @@ class Dialect {
   [[nodiscard]] virtual std::span<const MessageInfo> messages() const = 0;
   /// `faults`: the faults of the run.
   virtual std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) = 0;
-  virtual std::unique_ptr<observe::Watcher> watcher() = 0;
+  virtual std::unique_ptr<observe::Watcher> watcher(bool with_times) = 0;
+  /// Whether watchers may be in other threads: they look at nothing but frames.
+  [[nodiscard]] virtual bool watches_frames_alone() const = 0;
   /// `alone`: nobody else can be on the bus.
   virtual std::unique_ptr<observe::TargetWatch> target_watch(bool alone) = 0;
   /// Configures the target. `gone`: why waiting is pointless, if it is. Error: one line.

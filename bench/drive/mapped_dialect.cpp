@@ -139,7 +139,9 @@ class MappedDialect final : public Dialect {
     return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
                                       Rounding::as_on_the_bus, std::move(faults));
   }
-  std::unique_ptr<observe::Watcher> watcher() override {
+  // What was played is looked up in the conversation, which the player changes.
+  [[nodiscard]] bool watches_frames_alone() const override { return false; }
+  std::unique_ptr<observe::Watcher> watcher(bool /*with_times*/) override {
     WireFacts wire = of_.wire;
     wire.fd = !messages().empty() && messages().front().fd;
     return std::make_unique<mapping::Listener>(

@@ -131,7 +131,7 @@ class Recording {
                                                        .mapped = scenario_.foreign != nullptr,
                                                        .fd = format_of(scenario_) != BusFormat::classic},
                                          &hands_));
-    watcher_ = dialect_->watcher();
+    watcher_ = dialect_->watcher(true);
     target_ = dialect_->target_watch(true);
     observers_ = {watcher_.get(), target_.get(), &load_};
     auto ending = replay();
@@ -257,6 +257,8 @@ Result<Run> judge_recording(const scenario::Scenario& scenario, const std::strin
   options.bus = BusName("log:" + log);
   options.lockstep = manner->lockstep;
   options.format = manner->format;
+  std::vector<RunFile> files = files_of(scenario, options, true);
+  if (auto identity = identify_file(log)) files.push_back({"log", log, std::move(*identity)});
   return Run{.verdict = verdict_of(scenario, *truth, *flown, timing_unfit),
              .ending = std::move(flown->ending),
              .seen = std::move(flown->seen),
@@ -266,6 +268,7 @@ Result<Run> judge_recording(const scenario::Scenario& scenario, const std::strin
              .options = std::move(options),
              .clock = manner->lockstep ? ClockKind::lockstep : ClockKind::real_time,
              .timing_unfit = std::move(timing_unfit),
+             .files = std::move(files),
              .wall_s = recording.wall_s(),
              .started_s = recording.started_s()};
 }

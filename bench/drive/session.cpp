@@ -86,7 +86,6 @@ class Session {
                                  .run_index = options_.run_index,
                                  .in_process = bus_.in_process,
                                  .virtual_time = clock_ == ClockKind::lockstep,
-                                 .for_verdict = options_.for_verdict,
                                  .rounding = bus_.rounding,
                                  .format = options_.format,
                                  .wire = bus_.wire});
@@ -96,7 +95,7 @@ class Session {
     if (auto work = faults::check(scenario_.faults, where); !work) return work;
     schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(scenario_, options_.run_index,
                                                                     dialect_->messages(), where, &hands_));
-    watcher_ = dialect_->watcher();
+    watcher_ = dialect_->watcher(options_.for_verdict);
     if (!options_.for_verdict) return {};
     link_.attach(bus_watch_);
     link_.attach(intruders_.emplace(dialect_->messages()));
@@ -119,7 +118,10 @@ class Session {
       host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
     }
     std::optional<Attached> looking_on;
-    if (options_.onlooker != nullptr) looking_on.emplace(link_, *options_.onlooker);
+    if (options_.onlooker != nullptr) {
+      options_.onlooker->departs(departure());
+      looking_on.emplace(link_, *options_.onlooker);
+    }
     std::optional<Attached> listening;
     if (schedule_->listens()) listening.emplace(link_, *schedule_);
     if (options_.realtime && target_)
@@ -136,6 +138,7 @@ class Session {
     schedule_->end();
     if (ending_.kind == Ending::Kind::target_silent) ending_.detail += why_silent();
     if (options_.for_verdict) dialect_->stop(link_, schedule_->outbox());
+    if (options_.onlooker != nullptr) options_.onlooker->landed();
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
     if (options_.for_verdict) add_watched(seen);
@@ -149,7 +152,6 @@ class Session {
 
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
-  [[nodiscard]] const auto& target_files() const { return target_files_; }
   // The error, plus what flooded the bus or was turned away from it, which may be the cause.
   [[nodiscard]] std::string explained(const std::string& what) const {
     if (link_.flood()) return fmt::format("{}; {}", what, to_text(*link_.flood()));
@@ -176,6 +178,19 @@ class Session {
     if (stop) return "interrupted";
     const auto why = target_ ? target_->ended() : std::nullopt;
     return why ? std::optional("target: " + *why) : std::nullopt;
+  }
+
+  [[nodiscard]] Departure departure() {
+    Departure departure{.scenario = scenario_,
+                        .truth = truth_,
+                        .per_run_truth = flight_.per_run_truth,
+                        .real_time = clock_ == ClockKind::real_time,
+                        .format = options_.format,
+                        .wire = bus_.wire,
+                        .load_by = load_by(bus_, clock_, scenario_.foreign == nullptr)};
+    if (dialect_->watches_frames_alone())
+      departure.watcher = [this](bool with_times) { return dialect_->watcher(with_times); };
+    return departure;
   }
 
   // The properties of the run that faults depend on.
@@ -207,7 +222,6 @@ class Session {
   Result<void> start_target(const std::vector<int>& cpus) {
     if (!options_.target || bus_.in_process) return {};
     target_cpus_ = cpus;
-    target_files_ = look_at_target(*options_.target);
     std::vector<std::string> arguments = options_.target_arguments;
     // Every target gets this option, so that it uses the same DBC.
     if (options_.format == BusFormat::fd)
@@ -271,7 +285,6 @@ class Session {
   observe::LoadMeter load_;
   std::optional<observe::HostWatch> host_;  // watches from its construction on
   std::unique_ptr<observe::Recorder> log_;
-  std::vector<std::pair<std::string, ProgramFile>> target_files_;
   std::optional<TargetProcess> target_;
   std::vector<int> target_cpus_;
   std::string restart_error_;
@@ -320,6 +333,15 @@ Options in_lockstep_against(std::string command) {
   return options;
 }
 
+std::vector<Adapter> adapters_of(const Options& options) {
+  std::vector<Adapter> adapters{adapter_of(options.bus.text)};
+  for (const auto& [node, bus] : options.bus_of) {
+    if (std::ranges::find(adapters, bus, &Adapter::bus) == adapters.end())
+      adapters.push_back(adapter_of(bus));
+  }
+  return adapters;
+}
+
 Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
                 const Progress& progress) {
   const auto in_file = [&](const Error& error) {
@@ -329,6 +351,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
   if (!truth) return in_file(truth.error());
   auto flight = make_flight(scenario, *truth, options.run_index);
   if (!flight) return in_file(flight.error());
+  std::vector<RunFile> files = files_of(scenario, options, options.bus.in_process);
   const auto opened = Session::open(scenario, *truth, std::move(*flight), options);
   if (!opened) return tl::unexpected(opened.error());
   Session& session = **opened;
@@ -355,7 +378,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
              .in_process = session.bus().in_process,
              .timing_unfit = std::move(timing_unfit),
              .host = clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
-             .target_files = session.target_files(),
+             .files = std::move(files),
+             .adapters = adapters_of(options),
              .wall_s = wall_s,
              .started_s = started_s,
              .log_error = std::move(flown.log_error)};

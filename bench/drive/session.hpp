@@ -9,10 +9,13 @@
 #include <vector>
 
 #include "bench/checks/judge.hpp"
+#include "bench/drive/adapter.hpp"
 #include "bench/drive/buses.hpp"
 #include "bench/drive/ending.hpp"
 #include "bench/drive/flight.hpp"
+#include "bench/drive/onlooker.hpp"
 #include "bench/drive/real_time.hpp"
+#include "bench/drive/run_files.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "dbc/realtime/process.hpp"
@@ -37,9 +40,10 @@ struct Options {
   std::optional<realtime::Request> realtime;  ///< for the bench; the target has its own arguments
   std::vector<std::string> target_arguments;  ///< besides --bus, and --dbc, which follows from the format
   std::optional<int> target_cpu;              ///< none: the bench's CPUs before it was pinned
-  std::int64_t spin_ns = 0;     ///< time before each deadline in which the bench polls instead of sleeping
-  std::uint64_t run_index = 0;  ///< in a campaign: selects the random numbers together with the seed
-  observe::Observer* onlooker = nullptr;  ///< also receives every frame of the flight; null: none
+  std::string operator_name{};                ///< who runs it, for the report; empty: not given
+  std::int64_t spin_ns = 0;      ///< time before each deadline in which the bench polls instead of sleeping
+  std::uint64_t run_index = 0;   ///< in a campaign: selects the random numbers together with the seed
+  Onlooker* onlooker = nullptr;  ///< also receives every frame of the flight; null: none
   bool for_verdict = true;  ///< false: only the target's frames are observed, not times, load, bus and host
 };
 
@@ -71,12 +75,15 @@ struct Run {
   bool in_process = false;                   ///< the target was the bench's own device
   std::string timing_unfit{};                ///< why no timing of the run is judged; empty: timing is judged
   std::optional<realtime::Standing> host{};  ///< of the bench, in real time
-  /// The files of Options::target when it was started, its program first; empty: it was not started.
-  std::vector<std::pair<std::string, ProgramFile>> target_files{};
+  std::vector<RunFile> files{};      ///< the files that the run depended on, as they were at its start
+  std::vector<Adapter> adapters{};   ///< of its bus, then of the buses of nodes
   double wall_s = 0;                 ///< from the start of the estimator to the end
   std::int64_t started_s = 0;        ///< since 1970, UTC; 0: unknown
   std::optional<Error> log_error{};  ///< see Collected
 };
+
+/// The adapters of the buses, without duplicates.
+std::vector<Adapter> adapters_of(const Options& options);
 
 /// Runs a scenario. Error: the run was not possible (usage or configuration); a failing target is a verdict,
 /// not an error.

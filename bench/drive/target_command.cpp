@@ -87,19 +87,11 @@ std::vector<std::string> files_of_target(const std::string& command) {
   return files;
 }
 
-std::vector<std::pair<std::string, ProgramFile>> look_at_target(const std::string& command) {
-  std::vector<std::pair<std::string, ProgramFile>> looked;
-  for (const std::string& file : files_of_target(command)) {
-    if (const auto found = look_at_program(file)) looked.emplace_back(file, *found);
-  }
-  return looked;
-}
-
 Result<void> check_target(const std::string& command) {
   const auto words = target_words(command);
   if (!words) return tl::unexpected(words.error());
   const std::string path = program_path(words->front());
-  if (look_at_program(path) && access(path.c_str(), X_OK) == 0) return {};
+  if (identify_file(path) && access(path.c_str(), X_OK) == 0) return {};
   return failure(
       fmt::format("target '{}': is not a program, expected the path of an executable file", words->front()));
 }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/drive/program_file.hpp"
+#include "bench/drive/file_identity.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::drive {
@@ -25,9 +25,6 @@ std::string program_path(const std::string& word);
 /// The regular files in a command, the program first, without duplicates: the program and all arguments that
 /// are files.
 std::vector<std::string> files_of_target(const std::string& command);
-
-/// The state of these files on disk, the program first. Empty if the program cannot be read.
-std::vector<std::pair<std::string, ProgramFile>> look_at_target(const std::string& command);
 
 /// Error, one line: the command cannot be split, or its first word is not an executable file.
 Result<void> check_target(const std::string& command);

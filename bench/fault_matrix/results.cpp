@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/drive/program_file.hpp"
+#include "bench/drive/file_identity.hpp"
 #include "bench/drive/target_command.hpp"
-#include "bench/report/provenance.hpp"
 #include "dbc/files/text_file.hpp"
+#include "dbc/version/version.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::fault_matrix {
@@ -89,10 +89,12 @@ Identity identity_of(const Plan& plan, const std::string& target) {
   for (const Row& row : plan.rows) rows.push_back({{"fault", row.fault}, {"node", row.node}});
   Json files = Json::array();
   if (!target.empty()) {
-    for (const auto& [path, file] : drive::look_at_target(target)) files.push_back(file.hash);
+    for (const std::string& path : drive::files_of_target(target)) {
+      if (const auto file = drive::identify_file(path)) files.push_back(file->sha256);
+    }
   }
   return identity_of_line(line_of({{"format", format},
-                                   {"program", report::revision()},
+                                   {"program", revision()},
                                    {"dbc", fmt::format("{:016x}", messages::dbc_hash)},
                                    {"target", {{"command", target}, {"files", files}}},
                                    {"seed", plan.seed},

@@ -56,7 +56,8 @@ std::vector<const MessageInfo*> messages_by_name(Section& section, const FaultCo
     if (context.contract.foreign != nullptr || is_sample_of_a_node(message, context))
       sent.emplace_back(message.name);
   }
-  for (const std::string& name : section.some_of("messages", sent))
+  for (const std::string& name :
+       section.some_of({"messages", "The messages that it strikes, by name."}, sent))
     all.push_back(&*std::ranges::find(messages_of(context), std::string_view(name), &MessageInfo::name));
   return all;
 }
@@ -77,7 +78,9 @@ std::span<const MessageInfo> messages_of(const FaultContext& context) {
 const scenario::NodeTable* read_node(Section& section, const FaultContext& context) {
   std::vector<std::string> names;
   for (const scenario::NodeSettings& node : context.nodes) names.emplace_back(node.table().key);
-  const std::string name = section.one_of("node", names);
+  const std::string name = section.one_of(
+      {"node", "The node that it strikes; of faults on the bus all its messages, in place of `messages`."},
+      names);
   const auto found = std::ranges::find(context.nodes, name,
                                        [](const scenario::NodeSettings& node) { return node.table().key; });
   return found == context.nodes.end() ? nullptr : &found->table();
@@ -118,7 +121,10 @@ const mapping::Stimulus* read_quantity(Section& section, const FaultContext& con
   for (const mapping::Stimulus& one : mapping::stimuli()) {
     if (on_the_bus(context, one.node)) names.push_back(one.name);
   }
-  return mapping::find_stimulus(section.one_of(key, names));
+  return mapping::find_stimulus(section.one_of(
+      {key, key == "quantity" ? "The quantity that it changes: what a node measures (faults.md)."
+                              : "The other quantity, of the same node and unit."},
+      names));
 }
 
 OfValues read_values(Section& section, const FaultContext& context) {
@@ -135,7 +141,8 @@ OfValues read_values(Section& section, const FaultContext& context) {
   section.optional("quantity");
   const auto messages = messages_by_name(section, context);
   if (messages.empty()) section.missing("quantity", "a quantity, or messages and signal");
-  const std::string name = section.text("signal");
+  const std::string name =
+      section.text({"signal", "Signal of the `messages` that it changes, in place of `quantity`."});
   of.text = words_of(messages);
   for (const MessageInfo* message : messages) {
     if (context.contract.foreign != nullptr) {
@@ -167,9 +174,15 @@ double read_size(Section& section, std::string_view stem, const OfValues& of, sc
   if (given.empty()) {
     section.missing(keys.front(),
                     keys.size() == 1 ? "a number" : fmt::format("one of: {}", fmt::join(keys, ", ")));
-    return 0;
+    given = keys.front();  // for the reference
   }
-  return si.empty() ? section.plain_number(given, limits) : section.number(given, limits);
+  const std::string shown = fmt::format("{}_UNIT", stem);
+  const scenario::Key key{
+      given,
+      "The value, with the ending of the quantity's unit (`by_degps`). Of a signal the key has "
+      "no ending, and the signal's unit.",
+      shown};
+  return si.empty() ? section.plain_number(key, limits) : section.number(key, limits);
 }
 
 }  // namespace canhil::faults

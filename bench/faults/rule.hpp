@@ -1,6 +1,7 @@
 // A rule of a scenario: the parts of a kind of fault.
 //
-// A kind is a struct with a constant `kind`, a constant `stage`, its fields, among them `When when`, and
+// A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), a constant `stage`,
+// its fields, among them `When when`, and
 //   static Kind read(scenario::Section&, const scenario::FaultContext&)
 //   std::string subject() const                  what it affects: distinguishes faults of one kind
 // for faults of a sensor or a node
@@ -92,6 +93,7 @@ struct Listed {
   Stage stage;
 };
 template <class Kind>
-inline constexpr Listed listed{.kind = {.name = Kind::kind, .read = read_rule<Kind>}, .stage = Kind::stage};
+inline constexpr Listed listed{
+    .kind = {.name = Kind::kind, .meaning = Kind::meaning, .read = read_rule<Kind>}, .stage = Kind::stage};
 
 }  // namespace canhil::faults

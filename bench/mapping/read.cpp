@@ -49,6 +49,7 @@ class Reader {
     auto database = dbc::parse_leniently(*text, file);
     if (!database) return tl::unexpected(database.error());
     mapping_->database = std::move(*database);
+    mapping_->dbc_file = file;
     mapping_->dbc_hash = mapping_->database.hash;
     mapping_->hash = world::fnv1a_64(fmt::format("{:x} {:x}", mapping_->hash, mapping_->database.hash));
     mapping_->name = root_.text("name", fs::path(mapping_->file).stem().stem().string());

@@ -12,7 +12,9 @@ using world::units::deg;
 NodeSettings read(const NodeTable& table, Section& section) {
   FinsSettings node;
   node.schedule = read_glide_schedule(section);
-  node.stamp_error_us = section.time_us("time_stamp_error_ms", Limits::between(-200, 200), 0);
+  node.stamp_error_us =
+      section.time_us({"time_stamp_error_ms", "Error of the time of validity that the frames carry."},
+                      Limits::between(-200, 200), 0);
   node.loss = read_sample_loss(section);
   return {table, node};
 }

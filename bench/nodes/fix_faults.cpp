@@ -13,18 +13,23 @@ constexpr double largest_outlier_m = 50'000;
 
 FixFaults read_fix_faults(scenario::Section& section) {
   const Limits share = Limits::between(0, 100);
-  FixFaults faults{.loss_probability = section.number("loss_percent", share, 0),
-                   .invalid_probability = section.number("invalid_percent", share, 0),
-                   .outlier_probability = section.number("outlier_percent", share, 0),
-                   .outlier = section.number("outlier_m", Limits::between(0, largest_outlier_m), 0),
-                   .silence_us = {}};
+  FixFaults faults{
+      .loss_probability = section.number({"loss_percent", "Share of the fixes that are not sent."}, share, 0),
+      .invalid_probability =
+          section.number({"invalid_percent", "Share of the fixes that are sent as invalid."}, share, 0),
+      .outlier_probability = section.number(
+          {"outlier_percent", "Share of the fixes that jump by `outlier_m`. Both keys or none."}, share, 0),
+      .outlier = section.number({"outlier_m", "Size of a jump, in a random horizontal direction."},
+                                Limits::between(0, largest_outlier_m), 0),
+      .silence_us = {}};
   // An explicit 0 % is allowed as the first value of a sweep.
   const bool size_alone = faults.outlier > 0 && !section.has("outlier_percent");
   if (size_alone || (faults.outlier_probability > 0 && faults.outlier <= 0)) {
     section.reject(faults.outlier > 0 ? "outlier_m" : "outlier_percent", "is given alone",
                    "outlier_percent and outlier_m, both above 0");
   }
-  faults.silence_us = section.optional_interval_us("silence_s", Limits::at_least(0));
+  faults.silence_us = section.optional_interval_us({"silence_s", "Time of validity in which no fix is sent."},
+                                                   Limits::at_least(0));
   return faults;
 }
 

@@ -13,12 +13,18 @@ NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   MasterInsSettings node;
   node.schedule = read_schedule(section);
-  node.errors = {.position = {.value = section.three("position_bias_m"),
-                              .sigma = section.three("position_noise_m", sigma)},
-                 .velocity = {.value = section.three("velocity_bias_mps"),
-                              .sigma = section.three("velocity_noise_mps", sigma)},
-                 .attitude = {.value = section.three("attitude_bias_deg", Limits::between(-180, 180)),
-                              .sigma = section.three("attitude_noise_deg", Limits::between(0, 180))}};
+  node.errors = {
+      .position = {.value = section.three({"position_bias_m", "Constant error of the position."}),
+                   .sigma = section.three(
+                       {"position_noise_m", "White noise of the position, 1-sigma a sample."}, sigma)},
+      .velocity = {.value = section.three({"velocity_bias_mps", "Constant error of the velocity."}),
+                   .sigma = section.three(
+                       {"velocity_noise_mps", "White noise of the velocity, 1-sigma a sample."}, sigma)},
+      .attitude = {
+          .value = section.three({"attitude_bias_deg", "Constant error of the attitude."},
+                                 Limits::between(-180, 180)),
+          .sigma = section.three({"attitude_noise_deg", "White noise of the attitude, 1-sigma a sample."},
+                                 Limits::between(0, 180))}};
   node.loss = read_sample_loss(section);
   return {table, node};
 }

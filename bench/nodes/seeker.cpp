@@ -34,40 +34,65 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
 
 // KEY, and KEY with _sigma before the unit: a constant, and the sigma of the part drawn for each run.
 world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
-                                 double sigma) {
-  return {.value = section.number(key, Limits{}, 0),
-          .sigma = section.number(sigma_key, Limits::at_least(0), sigma)};
+                                 std::string_view of, double sigma) {
+  return {
+      .value = section.number({key, fmt::format("Constant error of {}.", of)}, Limits{}, 0),
+      .sigma = section.number({sigma_key, fmt::format("1-sigma of the error of {}, drawn for each run.", of)},
+                              Limits::at_least(0), sigma)};
 }
 
 world::SeekerErrorModel read_errors(Section& section) {
   const Limits sigma = Limits::at_least(0);
-  return {.thermal = section.number("thermal_noise_radpm2", sigma, 1e-10),
-          .glint = section.number("glint_noise_m", sigma, 0.5),
-          .glint_correlation = section.number("glint_correlation_ms", sigma, 0),
-          .constant = section.number("constant_noise_mrad", sigma, 0),
-          .gyro_noise = section.number("gyro_noise_mradps", sigma, 1),
-          .gyro_bias = read_constant(section, "gyro_bias_mradps", "gyro_bias_sigma_mradps", 0.5),
-          .accel_noise = section.number("accel_noise_mps2", sigma, 0.3),
-          .accel_bias = read_constant(section, "accel_bias_mps2", "accel_bias_sigma_mps2", 0.2),
-          .range_noise = section.number("range_noise_m", sigma, 5),
-          .range_bias = read_constant(section, "range_bias_m", "range_bias_sigma_m", 15),
-          .full_errors_beyond = section.number("range_errors_full_beyond_m", Limits::above(0), 1000),
-          .closing_speed_noise = section.number("closing_speed_noise_mps", sigma, 3),
-          .closing_speed_bias =
-              read_constant(section, "closing_speed_bias_mps", "closing_speed_bias_sigma_mps", 5),
-          .field_of_view = section.number("field_of_view_deg", Limits::above(0, 37), 8)};
+  return {
+      .thermal =
+          section.number({"thermal_noise_radpm2",
+                          "Thermal noise of an error angle, 1-sigma a sample, over the square of the range."},
+                         sigma, 1e-10),
+      .glint = section.number(
+          {"glint_noise_m", "Glint noise of an error angle, 1-sigma a sample, times the range."}, sigma, 0.5),
+      .glint_correlation =
+          section.number({"glint_correlation_ms", "Correlation time of the glint; 0: white."}, sigma, 0),
+      .constant =
+          section.number({"constant_noise_mrad",
+                          "Noise of an error angle that does not depend on the range, 1-sigma a sample."},
+                         sigma, 0),
+      .gyro_noise =
+          section.number({"gyro_noise_mradps", "Noise of the antenna rates, 1-sigma a sample."}, sigma, 1),
+      .gyro_bias =
+          read_constant(section, "gyro_bias_mradps", "gyro_bias_sigma_mradps", "the antenna rates", 0.5),
+      .accel_noise = section.number(
+          {"accel_noise_mps2", "Noise of the missile's acceleration, 1-sigma a sample."}, sigma, 0.3),
+      .accel_bias = read_constant(section, "accel_bias_mps2", "accel_bias_sigma_mps2",
+                                  "the missile's acceleration", 0.2),
+      .range_noise = section.number({"range_noise_m", "Noise of the range, 1-sigma a sample."}, sigma, 5),
+      .range_bias = read_constant(section, "range_bias_m", "range_bias_sigma_m", "the range", 15),
+      .full_errors_beyond =
+          section.number({"range_errors_full_beyond_m", "Range below which the errors of the range shrink."},
+                         Limits::above(0), 1000),
+      .closing_speed_noise = section.number(
+          {"closing_speed_noise_mps", "Noise of the closing speed, 1-sigma a sample."}, sigma, 3),
+      .closing_speed_bias = read_constant(section, "closing_speed_bias_mps", "closing_speed_bias_sigma_mps",
+                                          "the closing speed", 5),
+      .field_of_view = section.number(
+          {"field_of_view_deg", "Angle from the antenna's axis up to which the target is seen."},
+          Limits::above(0, 37), 8)};
 }
 
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits share = Limits::between(0, 100);
   SeekerSettings node;
   node.schedule = read_schedule(section);
-  node.jitter_us = section.time_us("jitter_ms", Limits::between(0, 1000), 0);
+  node.jitter_us = section.time_us({"jitter_ms", "Each sample is late by a random time from 0 to this."},
+                                   Limits::between(0, 1000), 0);
   node.errors = read_errors(section);
-  node.loss_probability = section.number("loss_percent", share, 0);
-  node.invalid_probability = section.number("invalid_percent", share, 0);
-  node.invalid_range_probability = section.number("invalid_range_percent", share, 0);
-  node.blackout_us = section.optional_interval_us("blackout_s", Limits::at_least(0));
+  node.loss_probability =
+      section.number({"loss_percent", "Share of the samples that are not sent."}, share, 0);
+  node.invalid_probability =
+      section.number({"invalid_percent", "Share of the samples whose angles are invalid."}, share, 0);
+  node.invalid_range_probability =
+      section.number({"invalid_range_percent", "Share of the samples whose range is invalid."}, share, 0);
+  node.blackout_us =
+      section.optional_interval_us({"blackout_s", "Time in which nothing is seen."}, Limits::at_least(0));
   return {table, node};
 }
 

@@ -34,19 +34,41 @@ NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   SlaveImuSettings node;
   node.schedule = read_schedule(section);
-  node.errors.gyro = {.bias = {.value = section.three("gyro_bias_degph"),
-                               .sigma = section.three("gyro_bias_sigma_degph", sigma)},
-                      .noise = section.three("gyro_noise_degprth", sigma),
-                      .scale_factor = {.value = section.three("gyro_scale_factor_ppm"),
-                                       .sigma = section.three("gyro_scale_factor_sigma_ppm", sigma)},
-                      .misalignment_sigma = section.number("gyro_misalignment_sigma_mrad", sigma, 0)};
+  node.errors.gyro = {
+      .bias = {.value = section.three({"gyro_bias_degph", "Constant bias of the gyros, [x, y, z]."}),
+               .sigma = section.three(
+                   {"gyro_bias_sigma_degph", "1-sigma of the bias of the gyros, drawn for each run."},
+                   sigma)},
+      .noise = section.three({"gyro_noise_degprth", "Density of the white noise of the gyros."}, sigma),
+      .scale_factor = {.value = section.three(
+                           {"gyro_scale_factor_ppm", "Constant scale factor error of the gyros."}),
+                       .sigma = section.three(
+                           {"gyro_scale_factor_sigma_ppm",
+                            "1-sigma of the scale factor error of the gyros, drawn for each run."},
+                           sigma)},
+      .misalignment_sigma = section.number(
+          {"gyro_misalignment_sigma_mrad", "1-sigma of each misalignment of the gyros, drawn for each run."},
+          sigma, 0)};
   node.errors.accel = {
-      .bias = {.value = section.three("accel_bias_ug"), .sigma = section.three("accel_bias_sigma_ug", sigma)},
-      .noise = section.three("accel_noise_ugprthz", sigma),
-      .scale_factor = {.value = section.three("accel_scale_factor_ppm"),
-                       .sigma = section.three("accel_scale_factor_sigma_ppm", sigma)},
-      .misalignment_sigma = section.number("accel_misalignment_sigma_mrad", sigma, 0)};
-  node.loss_probability = section.number("loss_percent", Limits::between(0, 100), 0);
+      .bias = {.value = section.three({"accel_bias_ug", "Constant bias of the accelerometers, [x, y, z]."}),
+               .sigma = section.three(
+                   {"accel_bias_sigma_ug", "1-sigma of the bias of the accelerometers, drawn for each run."},
+                   sigma)},
+      .noise =
+          section.three({"accel_noise_ugprthz", "Density of the white noise of the accelerometers."}, sigma),
+      .scale_factor = {.value = section.three(
+                           {"accel_scale_factor_ppm", "Constant scale factor error of the accelerometers."}),
+                       .sigma = section.three(
+                           {"accel_scale_factor_sigma_ppm",
+                            "1-sigma of the scale factor error of the accelerometers, drawn for each run."},
+                           sigma)},
+      .misalignment_sigma =
+          section.number({"accel_misalignment_sigma_mrad",
+                          "1-sigma of each misalignment of the accelerometers, drawn for each run."},
+                         sigma, 0)};
+  node.loss_probability = section.number(
+      {"loss_percent", "Share of the sample groups that are not sent. Their increments are gone."},
+      Limits::between(0, 100), 0);
   return {table, node};
 }
 

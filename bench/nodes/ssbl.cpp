@@ -15,13 +15,22 @@ NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   SsblSettings node;
   node.schedule = read_schedule(section);
-  node.ship_offset = section.three("ship_offset_m", Limits::between(-5'000, 5'000));
-  node.ship_velocity = section.three("ship_velocity_mps", Limits::between(-50, 50));
-  node.ship_error = {.value = section.three("ship_error_m"),
-                     .sigma = section.three("ship_error_sigma_m", sigma)};
-  node.bias = {.value = section.three("bias_m"), .sigma = section.three("bias_sigma_m", sigma)};
-  node.noise = section.three("noise_m", sigma);
-  node.range_noise = section.number("range_noise_percent", Limits::between(0, 100), 0);
+  node.ship_offset = section.three(
+      {"ship_offset_m", "Position of the ship relative to the vehicle at the start, [N, E, D]."},
+      Limits::between(-5'000, 5'000));
+  node.ship_velocity =
+      section.three({"ship_velocity_mps", "Velocity of the ship, [N, E, D]."}, Limits::between(-50, 50));
+  node.ship_error = {
+      .value = section.three({"ship_error_m", "Constant error of the position that the ship reports."}),
+      .sigma = section.three({"ship_error_sigma_m", "1-sigma of that error, drawn for each run."}, sigma)};
+  node.bias = {
+      .value = section.three({"bias_m", "Constant error of the vehicle's position relative to the ship."}),
+      .sigma = section.three({"bias_sigma_m", "1-sigma of that error, drawn for each run."}, sigma)};
+  node.noise = section.three(
+      {"noise_m", "White noise of the vehicle's position relative to the ship, 1-sigma a fix."}, sigma);
+  node.range_noise =
+      section.number({"range_noise_percent", "White noise in proportion to the slant range, 1-sigma a fix."},
+                     Limits::between(0, 100), 0);
   node.faults = read_fix_faults(section);
   return {table, node};
 }

@@ -29,7 +29,7 @@ std::string content(const char* path) {
 CpuAccount cpu_account_now() {
   CpuAccount account = cpu_account(content("/proc/self/schedstat"), content("/proc/stat"));
   rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  getrusage(RUSAGE_THREAD, &usage);
   account.preempted = static_cast<std::uint64_t>(usage.ru_nivcsw);
   return account;
 }

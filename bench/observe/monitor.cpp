@@ -1,5 +1,7 @@
 #include "bench/observe/monitor.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -153,7 +155,10 @@ void Monitor::decode(const Frame& frame, std::size_t index) {
     seen_.complaints.hear(*seen_.counters, now_us_);
     if (model_) seen_.expected_counts = model_->expected();
   } else if (frame.id == TargetHeartbeat::info.id) {
-    seen_.complaints.hear(from_frame<TargetHeartbeat>(frame), now_us_);
+    const auto heartbeat = from_frame<TargetHeartbeat>(frame);
+    seen_.complaints.hear(heartbeat, now_us_);
+    if (seen_.target_version.empty())
+      seen_.target_version = fmt::format("{}.{}", heartbeat.version_major, heartbeat.version_minor);
   } else if (frame.id == TargetTiming::info.id) {
     const auto timing = from_frame<TargetTiming>(frame);
     seen_.target_timing_seen = true;

@@ -36,9 +36,7 @@ class Monitor final : public Watcher {
   void received(const Received& received) override;
   void target_restarted() override;
 
-  /// The observations so far.
-  [[nodiscard]] const checks::Observations& observations() const { return seen_; }
-  /// The run is over: all observations.
+  [[nodiscard]] const checks::Observations& observations() const override { return seen_; }
   checks::Observations finish() override {
     if (stopwatch_) stopwatch_->finish();
     seen_.complaints.end(now_us_);

@@ -10,6 +10,8 @@ class Watcher : public Observer {
  public:
   /// The target was restarted: its counters begin again.
   virtual void target_restarted() {}
+  /// The observations so far.
+  [[nodiscard]] virtual const checks::Observations& observations() const = 0;
   /// The run is over: all observations.
   virtual checks::Observations finish() = 0;
 };

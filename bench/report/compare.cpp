@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bench/report/differences.hpp"
 #include "bench/report/latency_tests.hpp"
 #include "bench/report/side_checks.hpp"
 
@@ -42,49 +43,6 @@ struct Named {
 constexpr std::array<Named, 3> same{{{"/provenance/scenario_hash", "scenario"},
                                      {"/provenance/contract", "contract"},
                                      {"/provenance/clock", "clock"}}};
-// Possible causes of a difference; they do not prevent a comparison.
-constexpr std::array<Named, 13> reasons{{{"/provenance/seed", "seed"},
-                                         {"/provenance/run", "run"},
-                                         {"/provenance/dbc_hash", "DBC"},
-                                         {"/provenance/revision", "revision"},
-                                         {"/provenance/bus", "bus"},
-                                         {"/provenance/bus_of", "buses of nodes"},
-                                         {"/wire/bitrate_bitps", "bit rate of the wire"},
-                                         {"/wire/data_bitrate_bitps", "data bit rate of the wire"},
-                                         {"/provenance/latency_stamps", "latency stamps"},
-                                         {"/provenance/bench_process/policy", "scheduling"},
-                                         {"/provenance/host", "host"},
-                                         {"/provenance/cpu_model", "CPU"},
-                                         {"/provenance/kernel", "kernel"}}};
-
-Json value_at(const Json& report, const char* path) {
-  const Json::json_pointer pointer(path);
-  return report.contains(pointer) ? report.at(pointer) : Json();
-}
-
-// A private bus of a bench has its process id in the name, so it differs from run to run.
-bool is_own_bus(const Json& value) {
-  constexpr std::string_view own = "local:canhil-";
-  if (!value.is_string()) return false;
-  const std::string& name = value.get_ref<const std::string&>();
-  return name.starts_with(own) && name.size() > own.size() &&
-         name.find_first_not_of("0123456789", own.size()) == std::string::npos;
-}
-
-// The distinct values of a side, in the order of its runs.
-std::vector<std::string> values_of(const Reports& side, const char* path) {
-  std::vector<std::string> values;
-  for (const Json& report : side) {
-    const Json value = value_at(report, path);
-    std::string text = value.is_null()     ? "not known"
-                       : is_own_bus(value) ? "local:"
-                       : value.is_string() ? value.get<std::string>()
-                                           : value.dump(-1, ' ', false, Json::error_handler_t::replace);
-    if (std::ranges::find(values, text) == values.end()) values.push_back(std::move(text));
-  }
-  return values;
-}
-
 class Comparer {
  public:
   Comparer(const Reports& before, const Reports& after) : before_(before), after_(after) {}
@@ -95,7 +53,7 @@ class Comparer {
       result_.text = "not comparable: " + *why + "\n";
       return result_;
     }
-    differences();
+    result_.text += differences(before_, after_);
     const bool virtual_time = before_[0].at("provenance").at("clock") == "lockstep";
     const ChecksCompared checks = compare_checks(before_, after_, virtual_time);
     result_.text += checks.text;
@@ -127,17 +85,6 @@ class Comparer {
       }
     }
     return std::nullopt;
-  }
-
-  void differences() {
-    std::string text;
-    for (const Named& key : reasons) {
-      const auto before = values_of(before_, key.path), after = values_of(after_, key.path);
-      if (before == after) continue;
-      text += fmt::format("{}{} {} -> {}", text.empty() ? "" : ", ", key.name, fmt::join(before, " and "),
-                          fmt::join(after, " and "));
-    }
-    if (!text.empty()) say("differs  {}", text);
   }
 
   // False: one of the runs has no latencies to compare.

@@ -10,20 +10,15 @@
 #include "bench/checks/bus_load.hpp"
 #include "bench/report/json_timing.hpp"
 #include "bench/report/provenance.hpp"
+#include "bench/report/rounded.hpp"
 #include "bench/report/series.hpp"
 #include "bench/report/summary.hpp"
 #include "bench/scenario/foreign.hpp"
 #include "dbc/realtime/host.hpp"
+#include "dbc/version/version.hpp"
 
 namespace canhil::report {
 namespace {
-
-// With the number of digits that a picture can show.
-double rounded(double value, int digits = 5) {
-  if (value == 0 || !std::isfinite(value)) return value;
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - (digits - 1));
-  return std::round(value / unit) * unit;
-}
 
 Json object(const std::vector<estimators::ResultLine>& lines) {
   Json json = Json::object();
@@ -124,42 +119,43 @@ Json object(const Series& series) {
 
 // By second; for a long run the maximum of each stretch of seconds.
 Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
-  constexpr std::size_t most = 400;
-  const std::span<const wire::BitLength> seconds = checks::whole_seconds(seen);
-  const std::size_t size = seconds.size();
-  const std::size_t stretch_s = (size + most - 1) / most;
+  const checks::LoadLine line = checks::load_line(checks::whole_seconds(seen), rates);
   Json json{{"bitrate_bitps", rates.nominal},
             {"data_bitrate_bitps", rates.data},
-            {"stretch_s", stretch_s},
+            {"stretch_s", line.stretch_s},
             {"busiest", Json::array()}};
-  for (std::size_t from = 0; from < size; from += stretch_s) {
-    double busiest = 0;
-    for (std::size_t i = from; i < std::min(size, from + stretch_s); ++i)
-      busiest = std::max(busiest, wire::bus_load(seconds[i], 1.0, rates));
-    json["busiest"].push_back(rounded(busiest));
+  for (const double busiest : line.busiest) json["busiest"].push_back(rounded(busiest));
+  return json;
+}
+
+// The tested program and its version, as far as the bench knows it; its files are among those of the run.
+Json target(const drive::Run& run) {
+  Json json{{"program", target_program(run)}};
+  if (!run.seen.target_version.empty()) json["version"] = run.seen.target_version;
+  return json;
+}
+
+Json object(const drive::RunFile& file) {
+  Json json{{"role", file.role}, {"name", file.name}, {"sha256", file.identity.sha256}};
+  if (file.identity.modified_s != 0) {
+    json["bytes"] = file.identity.bytes;
+    json["date"] = date_utc(file.identity.modified_s);
   }
   return json;
 }
 
-// The tested program and its version, as far as the bench knows it.
-Json target(const drive::Run& run) {
-  if (run.in_process) return {{"program", "in hil-bench itself"}};
-  if (!run.options.target) return {{"program", "runs elsewhere"}};
-  Json json{{"program", *run.options.target}};
-  const auto add = [](Json& to, const drive::ProgramFile& file) {
-    to["file_hash"] = fmt::format("{:016x}", file.hash);
-    to["file_bytes"] = file.bytes;
-    to["file_date"] = date_utc(file.modified_s);
+Json object(const drive::Adapter& adapter) {
+  Json json{{"bus", adapter.bus}, {"kind", adapter.kind}};
+  const auto add = [&](const char* key, const std::string& value) {
+    if (!value.empty()) json[key] = value;
   };
-  for (const auto& [name, file] : run.target_files) {
-    if (!json.contains("file_hash")) {  // of the program itself
-      add(json, file);
-      continue;
-    }
-    Json further{{"file", name}};
-    add(further, file);
-    json["arguments"].push_back(std::move(further));
-  }
+  add("driver", adapter.driver);
+  add("address", adapter.address);
+  add("vendor_id", adapter.vendor_id);
+  add("product_id", adapter.product_id);
+  add("product", adapter.product);
+  add("serial", adapter.serial);
+  if (adapter.usb_mbitps > 0) json["usb_mbitps"] = adapter.usb_mbitps;
   return json;
 }
 
@@ -176,13 +172,17 @@ Json provenance(const scenario::Scenario& scenario, const drive::Run& run) {
             {"latency_stamps", stamp_source(run)},
             {"period_overrides", period_overrides(scenario)},
             {"date", date_utc(run.started_s)},
+            {"version", version_text()},
             {"revision", revision()},
             {"host", host_name()},
             {"kernel", kernel()},
             {"preemption", realtime::preemption()},
             {"cpu_model", cpu_model()},
             {"target", target(run)}};
+  if (!run.options.operator_name.empty()) json["operator"] = run.options.operator_name;
   for (const auto& [node, bus] : run.options.bus_of) json["bus_of"][node] = bus;
+  for (const drive::Adapter& adapter : run.adapters) json["adapters"].push_back(object(adapter));
+  for (const drive::RunFile& file : run.files) json["files"].push_back(object(file));
   if (run.host) json["bench_process"] = object(*run.host, run.options.spin_ns);
   return json;
 }

@@ -8,6 +8,7 @@
 #include "bench/checks/wire_bounds.hpp"
 #include "bench/report/latency_breakdown.hpp"
 #include "bench/report/summary.hpp"
+#include "bench/report/uncertainty.hpp"
 
 namespace canhil::report {
 namespace {
@@ -81,6 +82,24 @@ Json wire_of(const checks::Observations& seen) {
   return json;
 }
 
+// The budget of each latency figure, influence by influence.
+Json uncertainty_of(const std::vector<UncertainLatency>& latencies, const StampConditions& conditions) {
+  Json json{{"method", "GUM type B, rectangular: u = a / sqrt(3), of two stamps u = a sqrt(2 / 3); U = k u"},
+            {"k", coverage_factor},
+            {"left_out", left_out(conditions)},
+            {"latency_s", Json::object()}};
+  for (const UncertainLatency& one : latencies) {
+    Json& message = json["latency_s"][one.message];
+    for (const UncertainFigure& figure : one.figures) {
+      Json& of = message[std::string(figure.name)];
+      of = {{"value", figure.value_s}, {"expanded", figure.expanded_s}};
+      for (std::size_t i = 0; i < influence_names.size(); ++i)
+        of["half_widths"][std::string(influence_names[i])] = figure.half_width_s[i];
+    }
+  }
+  return json;
+}
+
 }  // namespace
 
 void add_timing(Json& page, const scenario::Scenario& scenario, const drive::Run& run) {
@@ -108,6 +127,8 @@ void add_timing(Json& page, const scenario::Scenario& scenario, const drive::Run
     if (transmit.echoed.count() > 0) lateness["echoed"] = object(transmit.echoed);
     lateness["not_echoed"] = transmit.handed_over.count() - transmit.echoed.count();
   }
+  if (const auto latencies = uncertainties(scenario, run); !latencies.empty())
+    page["uncertainty"] = uncertainty_of(latencies, stamp_conditions(run));
   if (timing.breakdown.stimuli > 0) page["split"] = split_of(timing);
   if (timing.wire.rates.nominal > 0) page["wire"] = wire_of(run.seen);
   page["bench_lateness_s"] = object(timing.lateness);

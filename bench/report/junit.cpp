@@ -5,6 +5,8 @@
 
 #include "bench/report/markup.hpp"
 #include "bench/report/provenance.hpp"
+#include "bench/report/summary.hpp"
+#include "dbc/version/version.hpp"
 
 namespace canhil::report {
 namespace {
@@ -19,7 +21,7 @@ std::string property(std::string_view name, std::string_view value) {
 }  // namespace
 
 std::string junit_suite(std::string_view name, const std::vector<CheckResult>& cases, double wall_s,
-                        std::int64_t started_s) {
+                        std::int64_t started_s, const Properties& properties) {
   const auto count = [&](Outcome outcome) {
     return std::ranges::count(cases, outcome, &CheckResult::outcome);
   };
@@ -27,6 +29,11 @@ std::string junit_suite(std::string_view name, const std::vector<CheckResult>& c
       fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\"{}>\n",
                   escaped(name), cases.size(), count(Outcome::fail), count(Outcome::not_measured), wall_s,
                   started_s == 0 ? "" : fmt::format(" timestamp=\"{}\"", date_utc(started_s)));
+  if (!properties.empty()) {
+    page += "    <properties>\n";
+    for (const auto& [key, value] : properties) page += "      " + property(key, value) + "\n";
+    page += "    </properties>\n";
+  }
   for (const CheckResult& check : cases) {
     page += fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", escaped(check.kind),
                         escaped(check.name));
@@ -43,6 +50,26 @@ std::string junit_suite(std::string_view name, const std::vector<CheckResult>& c
   }
   return page + "  </testsuite>\n";
 }
+
+namespace {
+
+// Who ran what, where: as in the JSON's provenance.
+Properties properties_of(const drive::Run& run) {
+  Properties properties{{"version", std::string(version_text())}, {"revision", std::string(revision())}};
+  if (!run.options.operator_name.empty()) properties.emplace_back("operator", run.options.operator_name);
+  properties.emplace_back("host", host_name());
+  properties.emplace_back("kernel", kernel());
+  properties.emplace_back("cpu_model", cpu_model());
+  properties.emplace_back("bus", run.options.bus.text);
+  for (const drive::Adapter& adapter : run.adapters) properties.emplace_back("adapter", to_text(adapter));
+  properties.emplace_back("target", target_program(run));
+  if (!run.seen.target_version.empty()) properties.emplace_back("target_version", run.seen.target_version);
+  for (const drive::RunFile& file : run.files)
+    properties.emplace_back("sha256 of " + file.role, file.identity.sha256 + "  " + file.name);
+  return properties;
+}
+
+}  // namespace
 
 std::string junit_whole(std::string_view suites) {
   return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n{}</testsuites>\n", suites);
@@ -61,7 +88,7 @@ std::string junit(const scenario::Scenario& scenario, const drive::Run& run) {
                                                                  : Outcome::pass,
                                           .measured = early ? run.ending.detail : "completed",
                                           .expected = "completed"});
-  return junit_whole(junit_suite(scenario.title, cases, run.wall_s, run.started_s));
+  return junit_whole(junit_suite(scenario.title, cases, run.wall_s, run.started_s, properties_of(run)));
 }
 
 }  // namespace canhil::report

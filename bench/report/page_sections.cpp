@@ -39,12 +39,26 @@ void add_incidents(Rows& rows, const Json& object, std::string_view of) {
   }
 }
 
+// The object of a list is known by what it was, or by its bus.
+const char* item_key(const Json& item) { return item.contains("role") ? "role" : "bus"; }
+std::string item_name(const Json& item) { return item.value(item_key(item), "?"); }
+Json without_name(Json item) {
+  item.erase(item_key(item));
+  return item;
+}
+
 // Nested objects as rows "a: b".
 void add_rows(Rows& rows, const std::string& name, const Json& value) {
   if (value.is_object()) {
     for (const auto& [key, inner] : value.items())
       add_rows(rows, name.empty() ? key : fmt::format("{}: {}", name, key), inner);
   } else if (value.is_array()) {
+    // Files and adapters are rows of their own, by what they were.
+    if (!value.empty() && value.front().is_object()) {
+      for (const Json& item : value)
+        add_rows(rows, fmt::format("{}: {}", name, item_name(item)), without_name(item));
+      return;
+    }
     std::string list;
     for (const Json& item : value) list += (list.empty() ? "" : ", ") + text_in(item);
     rows.push_back({escaped(name), list.empty() ? "none" : list});
@@ -60,18 +74,18 @@ std::string ms_or_none(const Json& seconds) {
 // "&ge; " or "&le; " if the part is known only as a bound.
 const char* bound_of(const Json& breakdown, const std::string& part) {
   const auto listed = [&](const char* key) {
-    return split.contains(key) &&
-           std::ranges::any_of(split.at(key), [&](const Json& one) { return one == part; });
+    return breakdown.contains(key) &&
+           std::ranges::any_of(breakdown.at(key), [&](const Json& one) { return one == part; });
   };
   return listed("at_least") ? "&ge; " : listed("at_most") ? "&le; " : "";
 }
 
 // The same by group of stimuli, because the mean over all hides groups that are answered rarely.
 std::string group_table(const Json& breakdown) {
-  if (!split.contains("groups") || split.at("groups").size() < 2) return "";
+  if (!breakdown.contains("groups") || breakdown.at("groups").size() < 2) return "";
   std::vector<std::string> head{"part, by stimulus"};
   Rows rows;
-  for (const auto& [group, one] : split.at("groups").items()) {
+  for (const auto& [group, one] : breakdown.at("groups").items()) {
     head.push_back(fmt::format("{} ms ({})", escaped(group), one.at("stimuli").dump()));
     std::size_t row = 0;
     const auto add = [&](const std::string& what, const std::string& value) {
@@ -90,25 +104,25 @@ std::string group_table(const Json& breakdown) {
 std::string split_table(const Json& report) {
   if (!report.contains("split")) return "";
   const Json& breakdown = report.at("split");
-  const double total_s = split.at("total_s").get<double>();
+  const double total_s = breakdown.at("total_s").get<double>();
   Rows rows;
-  for (const auto& [key, mean] : split.at("parts_s").items()) {
+  for (const auto& [key, mean] : breakdown.at("parts_s").items()) {
     const std::string share =
         mean.is_null() || total_s <= 0 ? "" : fmt::format("{:.1f} %", mean.get<double>() / total_s * 100);
     rows.push_back({escaped(std::string(what_of(key))), bound_of(breakdown, key) + ms_or_none(mean), share});
   }
   rows.push_back({"<b>from the hand-over of the stimulus to the last frame of its answer</b>",
                   fmt::format("<b>{:.3f}</b>", total_s * 1e3), ""});
-  std::string out =
-      fmt::format("<h3>Where the time went: mean of {} answered stimuli</h3>\n", split.at("stimuli").dump());
+  std::string out = fmt::format("<h3>Where the time went: mean of {} answered stimuli</h3>\n",
+                                breakdown.at("stimuli").dump());
   out += table({"part", "ms", "share"}, rows, "figures");
-  if (split.contains("at_least"))
+  if (breakdown.contains("at_least"))
     out +=
         fmt::format("<p class=\"unknown\">? The target reports no times beyond {} us: it took longer.</p>\n",
                     checks::most_reported_us);
   out += group_table(breakdown);
-  if (!split.contains("slowest")) return out;
-  const Json& slowest = split.at("slowest");
+  if (!breakdown.contains("slowest")) return out;
+  const Json& slowest = breakdown.at("slowest");
   const auto reported = [&](const char* key) {
     const auto us = slowest.at(key).get<std::int64_t>();
     return fmt::format("{} us{}", us, us < checks::most_reported_us ? "" : " or more");
@@ -120,6 +134,34 @@ std::string split_table(const Json& report) {
              text_in(slowest.at("message")), slowest.at("t_s").get<double>(),
              slowest.at("latency_s").get<double>() * 1e3, reported("queue_max_us"),
              reported("compute_max_us"));
+}
+
+// How far each latency may be off, and why: half-widths of what makes it so.
+std::string uncertainty_table(const Json& report) {
+  if (!report.contains("uncertainty")) return "";
+  const Json& uncertainty = report.at("uncertainty");
+  const auto us = [](const Json& seconds) { return fmt::format("{:.2f}", seconds.get<double>() * 1e6); };
+  std::vector<std::string> head{"latency of", "ms", "U ms"};
+  Rows rows;
+  for (const auto& [message, figures] : uncertainty.at("latency_s").items()) {
+    for (const auto& [name, one] : figures.items()) {
+      std::vector<std::string>& row = rows.emplace_back();
+      row = {escaped(fmt::format("{}, {}", message, name)), ms(one, "value"),
+             "&plusmn; " + ms(one, "expanded")};
+      for (const auto& [influence, half_width] : one.at("half_widths").items()) {
+        if (rows.size() == 1) head.push_back(escaped(influence) + " &micro;s");
+        row.push_back(us(half_width));
+      }
+    }
+  }
+  std::string out = fmt::format(
+      "<h3>Uncertainty of the latencies</h3>\n{}<p class=\"note\">U = k u with k = {}; the columns behind it "
+      "are "
+      "half-widths. {}.</p>\n",
+      table(head, rows, "figures"), text_in(uncertainty.at("k")), text_in(uncertainty.at("method")));
+  for (const Json& what : uncertainty.at("left_out"))
+    out += fmt::format("<p class=\"unknown\">? Not in it: {}.</p>\n", text_in(what));
+  return out;
 }
 
 // Each message's longest bus response time with its bound.
@@ -207,7 +249,7 @@ std::string timing_section(const Json& report) {
   if (!rows.empty()) out += table(head, rows, "figures");
   if (!others.empty())
     out += folded("Latency of the frames before the last of each answer", head, others) + "\n";
-  out += split_table(report) + figures;
+  out += uncertainty_table(report) + split_table(report) + figures;
   rows.clear();
   for (const auto& [message, jitter] : jitters.items()) rows.push_back(percentiles(escaped(message), jitter));
   out += folded("Deviation from the period, by message", percentile_head("deviation of"), rows) + "\n";

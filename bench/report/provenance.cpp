@@ -7,11 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "bench/report/revision.hpp"
-
 namespace canhil::report {
-
-std::string_view revision() { return CANHIL_REVISION; }
 
 std::string host_name() {
   utsname name{};

@@ -7,9 +7,6 @@
 
 namespace canhil::report {
 
-/// The git revision of the build, with "-dirty" if files were modified; "unknown" outside of a checkout.
-std::string_view revision();
-
 /// The name of this machine; "unknown" if it has none.
 std::string host_name();
 

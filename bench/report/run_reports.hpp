@@ -4,6 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "bench/drive/session.hpp"
 #include "bench/report/file.hpp"
@@ -21,10 +23,12 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run);
 /// measured and expected values and requirement ids are properties. The time stamp of the suite is the start
 /// of the run (UTC).
 std::string junit(const scenario::Scenario& scenario, const drive::Run& run);
+/// Properties of a whole suite: name and value.
+using Properties = std::vector<std::pair<std::string, std::string>>;
 /// A test suite of such a file with a test case for each check, and the file around suites. `started_s`: 0:
 /// unknown.
 std::string junit_suite(std::string_view name, const std::vector<checks::CheckResult>& cases, double wall_s,
-                        std::int64_t started_s);
+                        std::int64_t started_s, const Properties& properties = {});
 std::string junit_whole(std::string_view suites);
 
 /// A CSV table with a line for each answer and quantity: t_s (time of validity), estimator, quantity, unit,

@@ -26,45 +26,6 @@ Series::Kind kind_of(const Track& track) {
                                                 : Series::Kind::error;
 }
 
-// The points of a track combined into stretches of equal length, with a gap where answers are missing for too
-// long.
-template <class PointOf>
-std::vector<Series::Point> thinned(const Track& track, std::int64_t duration_us, PointOf point_of) {
-  const std::int64_t stretch_us =
-      std::max<std::int64_t>(1, duration_us / static_cast<std::int64_t>(Series::max_points));
-  std::vector<Series::Point> points;
-  std::int64_t last_us = 0;
-  const auto silent_until = [&](std::int64_t t_us) {
-    return !points.empty() && static_cast<double>(t_us - last_us) > track.longest_wait_us;
-  };
-  const auto add_silence = [&points](std::int64_t from_us) {
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    points.push_back({.t_s = seconds(from_us), .low = none, .high = none});
-  };
-  for (const TrackPoint& answer : track.points) {
-    if (answer.t_us > track.drawn_until_us) continue;
-    const Series::Point point = point_of(answer);
-    if (!std::isfinite(point.low)) continue;
-    if (silent_until(answer.t_us)) add_silence(last_us + 1);
-    const bool follows = !points.empty() && answer.t_us / stretch_us == last_us / stretch_us &&
-                         std::isfinite(points.back().low);
-    last_us = answer.t_us;
-    if (!follows) {
-      points.push_back(point);
-      continue;
-    }
-    Series::Point& all = points.back();
-    all.low = std::min(all.low, point.low);
-    all.high = std::max(all.high, point.high);
-    if (point.sigma) all.sigma = std::max(all.sigma.value_or(0), *point.sigma);
-  }
-  if (silent_until(track.answers_end_us)) {
-    add_silence(last_us + 1);
-    add_silence(track.answers_end_us);
-  }
-  return points;
-}
-
 // A stretch as times of the run; none: the flight has no samples there.
 std::optional<scenario::Window> window_of(const checks::Stretch& stretch, const Track& track) {
   if (!stretch.to_go_s) return stretch.window;
@@ -102,27 +63,75 @@ std::vector<Series::Bar> bars_of(std::string_view estimator, const Track& track,
 // The values of a track, or its estimates together with the truth.
 Series series_of(std::string_view estimator, const Track& track, bool estimates,
                  const scenario::Scenario& scenario) {
-  const quantities::Unit& unit = estimates ? track.estimate_unit : track.unit;
-  Series series{.estimator = std::string(estimator),
-                .about = track.quantity,
-                .quantity = estimates ? track.estimate_title : track.title,
-                .unit = std::string(unit.name),
-                .kind = estimates ? Series::Kind::estimate : kind_of(track)};
-  series.points = thinned(track, scenario.duration_us, [&](const TrackPoint& answer) {
-    const double value = (estimates ? answer.estimate.value() : answer.value) / unit.factor;
-    Series::Point point{.t_s = seconds(answer.t_us), .low = value, .high = value};
-    (estimates ? point.truth : point.sigma) = in(unit, estimates ? answer.truth : answer.sigma);
-    return point;
-  });
-  if (!estimates) series.bars = bars_of(estimator, track, scenario);
-  if (series.kind == Series::Kind::statistic) {
-    for (const double probability : {0.025, 0.975})
-      series.between.push_back(checks::chi_squared_quantile(track.quantity->degrees_of_freedom, probability));
-  }
-  return series;
+  GrowingSeries series(estimator, track, estimates, scenario);
+  series.take(track);
+  series.end(track);
+  return series.series();
 }
 
 }  // namespace
+
+GrowingSeries::GrowingSeries(std::string_view estimator, const Track& track, bool estimates,
+                             const scenario::Scenario& scenario)
+    : scenario_(scenario),
+      unit_(estimates ? track.estimate_unit : track.unit),
+      series_{.estimator = std::string(estimator),
+              .about = track.quantity,
+              .quantity = estimates ? track.estimate_title : track.title,
+              .unit = std::string(unit_.name),
+              .kind = estimates ? Series::Kind::estimate : kind_of(track)} {
+  if (series_.kind != Series::Kind::statistic) return;
+  for (const double probability : {0.025, 0.975})
+    series_.between.push_back(checks::chi_squared_quantile(track.quantity->degrees_of_freedom, probability));
+}
+
+Series::Point GrowingSeries::point_of(const TrackPoint& answer) const {
+  const bool estimates = series_.kind == Series::Kind::estimate;
+  const double value = (estimates ? answer.estimate.value() : answer.value) / unit_.factor;
+  Series::Point point{.t_s = seconds(answer.t_us), .low = value, .high = value};
+  (estimates ? point.truth : point.sigma) = in(unit_, estimates ? answer.truth : answer.sigma);
+  return point;
+}
+
+bool GrowingSeries::silent_until(std::int64_t t_us, const Track& track) const {
+  return !series_.points.empty() && static_cast<double>(t_us - last_us_) > track.longest_wait_us;
+}
+
+void GrowingSeries::add_silence(std::int64_t from_us) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  series_.points.push_back({.t_s = seconds(from_us), .low = none, .high = none});
+}
+
+void GrowingSeries::take(const Track& track) {
+  std::vector<Series::Point>& points = series_.points;
+  const std::int64_t stretch_us =
+      std::max<std::int64_t>(1, scenario_.duration_us / static_cast<std::int64_t>(Series::max_points));
+  const std::int64_t taken_us = last_us_;
+  for (const TrackPoint& answer : track.points) {
+    if (answer.t_us <= taken_us || answer.t_us > track.drawn_until_us) continue;
+    const Series::Point point = point_of(answer);
+    if (!std::isfinite(point.low)) continue;
+    if (silent_until(answer.t_us, track)) add_silence(last_us_ + 1);
+    const bool follows = !points.empty() && answer.t_us / stretch_us == last_us_ / stretch_us &&
+                         std::isfinite(points.back().low);
+    last_us_ = answer.t_us;
+    if (!follows) {
+      points.push_back(point);
+      continue;
+    }
+    Series::Point& all = points.back();
+    all.low = std::min(all.low, point.low);
+    all.high = std::max(all.high, point.high);
+    if (point.sigma) all.sigma = std::max(all.sigma.value_or(0), *point.sigma);
+  }
+  if (series_.kind == Series::Kind::error) series_.bars = bars_of(series_.estimator, track, scenario_);
+}
+
+void GrowingSeries::end(const Track& track) {
+  if (!silent_until(track.answers_end_us, track)) return;
+  add_silence(last_us_ + 1);
+  add_silence(track.answers_end_us);
+}
 
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give) {
   const estimators::Truth truth = drive::truth_of(run.truth, run.per_run_truth, scenario.duration_us);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,7 +40,31 @@ struct Series {
   std::vector<Bar> bars{};
 };
 
-/// Receives a track of the estimator of this name.
+/// A series that is put together while its track grows: into stretches of equal length, with a gap where
+/// nothing came for too long.
+class GrowingSeries {
+ public:
+  /// `estimates`: the estimates beside the truth, rather than the values. `scenario` must outlive it.
+  GrowingSeries(std::string_view estimator, const quantities::Track& track, bool estimates,
+                const scenario::Scenario& scenario);
+  /// Takes what the track says of later times than that of its last value that was taken.
+  void take(const quantities::Track& track);
+  /// The run is over: if answers are missing at its end that is a gap too.
+  void end(const quantities::Track& track);
+  [[nodiscard]] const Series& series() const { return series_; }
+
+ private:
+  [[nodiscard]] Series::Point point_of(const quantities::TrackPoint& answer) const;
+  [[nodiscard]] bool silent_until(std::int64_t t_us, const quantities::Track& track) const;
+  void add_silence(std::int64_t from_us);
+
+  const scenario::Scenario& scenario_;
+  const quantities::Unit unit_;
+  Series series_;
+  std::int64_t last_us_ = std::numeric_limits<std::int64_t>::min();  // of the last value
+};
+
+/// Takes a track of the estimator of this name.
 using TrackOf = std::function<void(std::string_view estimator, const quantities::Track& track)>;
 /// Passes on the tracks of the scenario's estimators, one estimator after another.
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give);

@@ -51,6 +51,11 @@ std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const 
   return all;
 }
 
+std::string target_program(const drive::Run& run) {
+  if (run.in_process) return "in hil-bench itself";
+  return run.options.target.value_or("runs elsewhere");
+}
+
 std::string_view clock_name(const drive::Run& run) {
   switch (run.clock) {
     case drive::ClockKind::real_time:
@@ -73,8 +78,11 @@ std::string_view stamp_source(const drive::Run& run) {
 }
 
 std::vector<wire::BitRates> load_rates(const drive::Run& run) {
-  const bool fd = run.options.format != BusFormat::classic;
-  wire::BitRates known = run.seen.bit_rates;
+  return load_rates(run.seen.bit_rates, run.options.format);
+}
+
+std::vector<wire::BitRates> load_rates(wire::BitRates known, BusFormat format) {
+  const bool fd = format != BusFormat::classic;
   if (known.nominal > 0) {
     if (!fd) known.data = 0;
     return {known};

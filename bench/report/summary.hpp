@@ -19,6 +19,9 @@ struct EstimatorResults {
 /// For each estimator of the scenario.
 std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run);
 
+/// The tested program: the command that started it, or where it runs.
+std::string target_program(const drive::Run& run);
+
 /// The name of the clock of the run.
 std::string_view clock_name(const drive::Run& run);
 
@@ -33,6 +36,7 @@ bool is_due(const scenario::Scenario& scenario, const MessageInfo& message);
 
 /// The bit rates at which reports show the bus load: that of the bus or, if it has none, 500 kbit/s and 1
 /// Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.
+std::vector<wire::BitRates> load_rates(wire::BitRates known, BusFormat format);
 std::vector<wire::BitRates> load_rates(const drive::Run& run);
 
 /// Periods in the scenario that override the DBC's cycle times: "SlaveImu every 5 ms (DBC: 10 ms)".

@@ -10,7 +10,9 @@
 #include "bench/checks/wire_bounds.hpp"
 #include "bench/report/latency_breakdown.hpp"
 #include "bench/report/summary.hpp"
+#include "bench/report/uncertainty.hpp"
 #include "bench/scenario/foreign.hpp"
+#include "dbc/version/version.hpp"
 
 namespace canhil::report {
 
@@ -59,7 +61,7 @@ std::string milliseconds(const checks::Distribution& d) {
                      d.p90 * 1e3, d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
 }
 
-std::string told_us(std::uint16_t us) {
+std::string limited_us(std::uint16_t us) {
   return us < checks::most_reported_us ? fmt::format("{} us", us) : fmt::format("{} us or more", us);
 }
 
@@ -121,7 +123,7 @@ std::string split_words(const checks::TimingRecord& timing) {
       "    slowest: {} after {:.3f} ms at t={:.3f} s; in that 0.1 s the target's longest wait was "
       "{}, its longest computing {}\n",
       slowest.message, ms(slowest.latency_ns), static_cast<double>(slowest.t_ns) * 1e-9,
-      told_us(slowest.queue_max_us), told_us(slowest.compute_max_us));
+      limited_us(slowest.queue_max_us), limited_us(slowest.compute_max_us));
   return lines;
 }
 
@@ -164,6 +166,12 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
                   clock_name(run), static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
   if (scenario.foreign != nullptr) page += fmt::format("  by {}\n", scenario.foreign->file);
+  page += fmt::format("  canhil {} (revision {}){}{}\n", version_text(), revision(),
+                      run.seen.target_version.empty() ? "" : " · target " + run.seen.target_version,
+                      run.options.operator_name.empty() ? "" : " · operator " + run.options.operator_name);
+  for (const drive::Adapter& adapter : run.adapters) {
+    if (adapter.kind != "virtual") page += fmt::format("  adapter {}\n", to_text(adapter));
+  }
   for (const auto& [node, bus] : run.options.bus_of) page += fmt::format("  {} on bus {}\n", node, bus);
   if (run.host) {
     page +=
@@ -196,10 +204,11 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
     const checks::Distribution lateness_s = checks::distribution_s(run.seen.timing.lateness);
     page += fmt::format("  bench's own lateness          {}  of {} frames  (latency by {})\n",
                         milliseconds(lateness_s), lateness_s.count, stamp_source(run));
+    page += uncertainty_text(scenario, run);
     page += split_words(run.seen.timing) + wire_words(run.seen);
     if (run.seen.target_timing_seen) {
       page += fmt::format("  target's own account          queue max {}  compute max {}\n",
-                          told_us(run.seen.queue_max_us), told_us(run.seen.compute_max_us));
+                          limited_us(run.seen.queue_max_us), limited_us(run.seen.compute_max_us));
     }
   }
   page += load_words(run);

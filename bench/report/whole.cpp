@@ -118,6 +118,16 @@ void timing(const At& report) {
   if (report.has("split") && report["split"].has("slowest")) {
     for (const char* key : {"queue_max_us", "compute_max_us"}) count(report["split"]["slowest"][key]);
   }
+  if (report.has("uncertainty")) {
+    report["uncertainty"]["latency_s"].each_key([](const At& message) {
+      message.each_key([](const At& figure) {
+        number(figure["value"]);
+        number(figure["expanded"]);
+        figure["half_widths"].each_key([](const At& half_width) { number(half_width); });
+      });
+    });
+    report["uncertainty"]["left_out"].each([](const At& what) { text(what); });
+  }
   if (report.has("wire")) {
     const At wire = report["wire"];
     count(wire["bitrate_bitps"]);

@@ -17,19 +17,20 @@ Check read_check(Section& section, const CheckContext& context) {
   Check check;
   check.line = section.line();
   if (section.has("kind")) {
-    const std::string given = section.text("kind");
+    const std::string given = section.text({"kind", "Kind of the check."});
     const auto& former = context.contract.former_check_kinds;
     const auto found = std::ranges::find(former, std::string_view(given), &FormerCheckKind::name);
     if (found != former.end())
       section.reject("kind", fmt::format("'{}' is a former kind", given), found->now);
   }
-  check.kind = section.one_of("kind", names);
-  check.requirement = section.text("requirement", "");
+  check.kind = section.one_of({"kind", "Kind of the check."}, names);
+  check.requirement = section.text({"requirement", "Id that reports carry."}, "");
   const auto kind = std::ranges::find(kinds, std::string_view(check.kind), &CheckKind::name);
   RuleRead read;
   if (kind != kinds.end()) read = kind->read(section, context);
   check.rule = std::move(read.rule);
-  check.name = section.text("name", check.kind + (read.subject.empty() ? "" : " " + read.subject));
+  check.name = section.text({"name", "Unique name, by default kind and subject."},
+                            check.kind + (read.subject.empty() ? "" : " " + read.subject));
   section.finish();
   return check;
 }

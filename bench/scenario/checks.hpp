@@ -54,6 +54,7 @@ struct RuleRead {
 
 struct CheckKind {
   std::string_view name;
+  std::string_view meaning;  ///< one sentence
   RuleRead (*read)(Section& section, const CheckContext& context) = nullptr;
 };
 

@@ -15,7 +15,9 @@ using world::Manoeuvre;
 Manoeuvre read_manoeuvre(Section& section) {
   static constexpr std::array<std::string_view, 3> kinds{"none", "step", "weave"};
   Manoeuvre manoeuvre;
-  manoeuvre.kind = read_enum<Manoeuvre::Kind>(section, "manoeuvre", kinds, Manoeuvre::Kind::step);
+  manoeuvre.kind = read_enum<Manoeuvre::Kind>(
+      section, {"manoeuvre", "What the target does in each plane, to either side at random."}, kinds,
+      Manoeuvre::Kind::step);
   if (manoeuvre.kind != Manoeuvre::Kind::weave)
     section.refuse("manoeuvre_period_s", "has no effect here", "manoeuvre = \"weave\"");
   if (manoeuvre.kind == Manoeuvre::Kind::none) {
@@ -24,15 +26,20 @@ Manoeuvre read_manoeuvre(Section& section) {
     manoeuvre.acceleration = 0;
     return manoeuvre;
   }
-  manoeuvre.acceleration = section.number("manoeuvre_g", Limits::between(0, 20), 4);
+  manoeuvre.acceleration =
+      section.number({"manoeuvre_g", "Acceleration of the manoeuvre."}, Limits::between(0, 20), 4);
   if (manoeuvre.kind == Manoeuvre::Kind::weave)
-    manoeuvre.period = section.number("manoeuvre_period_s", Limits::above(0), manoeuvre.period);
+    manoeuvre.period =
+        section.number({"manoeuvre_period_s", "Period of a weave."}, Limits::above(0), manoeuvre.period);
   const bool at_time = section.has("manoeuvre_from_s");
   if (at_time && section.has("manoeuvre_at_to_go_s"))
     section.reject("manoeuvre_at_to_go_s", "is given beside manoeuvre_from_s", "one of the two");
   if (at_time) manoeuvre.at_time_to_go.reset();
-  manoeuvre.from_s = section.number("manoeuvre_from_s", Limits::at_least(0), 0);
-  const double to_go = section.number("manoeuvre_at_to_go_s", Limits::above(0), 1);
+  manoeuvre.from_s = section.number(
+      {"manoeuvre_from_s", "Time at which the manoeuvre begins, in place of `manoeuvre_at_to_go_s`."},
+      Limits::at_least(0), 0);
+  const double to_go = section.number({"manoeuvre_at_to_go_s", "Time to go at which the manoeuvre begins."},
+                                      Limits::above(0), 1);
   if (!at_time) manoeuvre.at_time_to_go = to_go;
   return manoeuvre;
 }
@@ -44,24 +51,51 @@ world::EngagementPlan read_engagement(Section& section) {
   static constexpr std::array<std::string_view, 3> planes{"both", "pitch", "yaw"};
   const Limits sigma = Limits::at_least(0);
   world::EngagementPlan plan;
-  plan.range = section.number("range_m", Limits::between(100, 26'000), 5000);
-  plan.missile_speed = section.number("missile_speed_mps", Limits::above(0, 3000), 600);
-  plan.target_speed = section.number("target_speed_mps", Limits::above(0, 1000), 300);
-  plan.heading_error = section.number("heading_error_deg", Limits::between(-45, 45), 0);
-  plan.heading_error_sigma = section.number("heading_error_sigma_deg", Limits::between(0, 15), 3);
-  plan.pointing_error_sigma = section.number("pointing_error_sigma_mrad", Limits::between(0, 100), 5);
-  plan.planes = read_enum<world::ActivePlanes>(section, "planes", planes, world::ActivePlanes::both);
+  plan.range =
+      section.number({"range_m", "Distance between missile and target at the start. They fly head-on."},
+                     Limits::between(100, 26'000), 5000);
+  plan.missile_speed =
+      section.number({"missile_speed_mps", "Speed of the missile, constant."}, Limits::above(0, 3000), 600);
+  plan.target_speed =
+      section.number({"target_speed_mps", "Speed of the target, constant."}, Limits::above(0, 1000), 300);
+  plan.heading_error = section.number({"heading_error_deg", "Error of the missile's heading at the start."},
+                                      Limits::between(-45, 45), 0);
+  plan.heading_error_sigma = section.number(
+      {"heading_error_sigma_deg", "1-sigma of a heading error that is drawn for each run and added."},
+      Limits::between(0, 15), 3);
+  plan.pointing_error_sigma =
+      section.number({"pointing_error_sigma_mrad", "1-sigma of the antenna's pointing error at the start."},
+                     Limits::between(0, 100), 5);
+  plan.planes = read_enum<world::ActivePlanes>(
+      section, {"planes", "The planes that have errors and a manoeuvre."}, planes, world::ActivePlanes::both);
   plan.manoeuvre = read_manoeuvre(section);
-  plan.navigation_constant = section.number("navigation_constant", sigma, 4);
-  plan.autopilot_lag = section.number("autopilot_lag_s", Limits::between(0.01, 10), 0.15);
-  plan.acceleration_limit = section.number("acceleration_limit_g", Limits::above(0, 100), 35);
-  plan.servo_gain = section.number("antenna_servo_per_s", Limits::between(0, 200), 12);
-  plan.roll_rate = section.number("roll_rate_radps", Limits::between(-20, 20), 0);
-  plan.guidance = read_enum<world::Guidance>(section, "guidance", guidances);
-  plan.guidance_delay_us = section.time_us("guidance_delay_ms", Limits::between(0, 1000), 10);
+  plan.navigation_constant =
+      section.number({"navigation_constant", "Navigation constant of the guidance law."}, sigma, 4);
+  plan.autopilot_lag = section.number({"autopilot_lag_s", "Time constant of the missile's autopilot."},
+                                      Limits::between(0.01, 10), 0.15);
+  plan.acceleration_limit = section.number({"acceleration_limit_g", "Largest acceleration of the missile."},
+                                           Limits::above(0, 100), 35);
+  plan.servo_gain =
+      section.number({"antenna_servo_per_s", "Gain of the antenna's servo."}, Limits::between(0, 200), 12);
+  plan.roll_rate =
+      section.number({"roll_rate_radps", "Roll rate of the missile."}, Limits::between(-20, 20), 0);
+  plan.guidance = read_enum<world::Guidance>(
+      section,
+      {"guidance",
+       "`truth`: proportional navigation on the true LOS rate; `target`: on the LOS rate that the target "
+       "answers, so the miss distance depends on the bus."},
+      guidances);
+  plan.guidance_delay_us =
+      section.time_us({"guidance_delay_ms",
+                       "Time from the transmission of a sample to the command that follows from its answer. "
+                       "With guidance `target` at least the cycle of Sync, 10."},
+                      Limits::between(0, 1000), 10);
   if (plan.guidance == world::Guidance::truth)
     section.refuse("guidance_predicts", "has no effect here", "guidance = \"target\"");
-  plan.guidance_predicts = section.flag("guidance_predicts");
+  plan.guidance_predicts =
+      section.flag({"guidance_predicts",
+                    "The command uses the answered rate as it will be in the middle of the time for which "
+                    "the command is held. Only with guidance `target`."});
   section.finish();
   return plan;
 }

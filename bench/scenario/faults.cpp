@@ -23,7 +23,7 @@ Fault read_fault(Section& section, const FaultContext& context, const std::vecto
   std::vector<std::string> names;
   for (const FaultKind& one : kinds) names.emplace_back(one.name);
   Fault fault;
-  fault.kind = section.one_of("kind", names);
+  fault.kind = section.one_of({"kind", "Kind of the fault."}, names);
   fault.where = fmt::format("{}: key '{}'", section.where("kind"), section.path("kind"));
   const auto kind = std::ranges::find(kinds, std::string_view(fault.kind), &FaultKind::name);
   FaultRead read;
@@ -31,8 +31,9 @@ Fault read_fault(Section& section, const FaultContext& context, const std::vecto
   fault.rule = std::move(read.rule);
   fault.from_us = read.from_us;
   fault.to_us = read.to_us;
-  fault.name = section.text(
-      "name", name_by_default(fault.kind + (read.subject.empty() ? "" : " " + read.subject), before));
+  fault.name =
+      section.text({"name", "Unique name, by default kind and what the fault strikes."},
+                   name_by_default(fault.kind + (read.subject.empty() ? "" : " " + read.subject), before));
   if (const auto same = std::ranges::find(before, fault.name, &Fault::name); same != before.end())
     section.reject("name",
                    fmt::format("'{}' is the name of fault[{}] too", fault.name, same - before.begin() + 1),

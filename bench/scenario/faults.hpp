@@ -44,6 +44,7 @@ struct FaultRead {
 
 struct FaultKind {
   std::string_view name;
+  std::string_view meaning;  ///< one sentence
   FaultRead (*read)(Section& section, const FaultContext& context) = nullptr;
 };
 

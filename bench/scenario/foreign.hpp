@@ -24,6 +24,7 @@ struct Foreign {
   std::vector<MessageInfo> messages;
   std::string file;            ///< the mapping file, as named by the user
   std::uint64_t hash = 0;      ///< of all texts that it was read from
+  std::string dbc_file;        ///< its DBC
   std::uint64_t dbc_hash = 0;  ///< of its DBC
   /// Its answers name their causes, so virtual time can wait for them.
   bool answers_by_name = false;

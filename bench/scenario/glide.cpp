@@ -15,45 +15,71 @@ glide::WindProfile read_profile(Section& section) {
   if (section.has("season") || !section.has("steady_mps")) {
     if (section.has("steady_mps")) section.reject("steady_mps", "is given beside season", "one of the two");
     section.optional("steady_mps");
-    return glide::WindProfile(read_enum<glide::Season>(section, "season", glide::season_names));
+    return glide::WindProfile(read_enum<glide::Season>(
+        section, {"season", "Mean wind of a month, by height."}, glide::season_names));
   }
   section.optional("season");
-  return glide::WindProfile(section.three("steady_mps", Limits::between(-150, 150)));
+  return glide::WindProfile(section.three({"steady_mps", "Constant wind [N, E, D], in place of `season`."},
+                                          Limits::between(-150, 150)));
 }
 
 void read_wind(Section section, world::GlidePlan& plan) {
   plan.wind = read_profile(section);
-  plan.gusts.sigma = section.number("gust_sigma_mps", Limits::between(0, 20), 0);
+  plan.gusts.sigma =
+      section.number({"gust_sigma_mps", "1-sigma of Dryden gusts."}, Limits::between(0, 20), 0);
   if (!section.has("gust_sigma_mps"))
     section.refuse("gust_time_s", "has no effect alone", "gust_sigma_mps beside it");
-  plan.gusts.time = section.number("gust_time_s", Limits::above(0), plan.gusts.time);
+  plan.gusts.time =
+      section.number({"gust_time_s", "Correlation time of the gusts. Only beside `gust_sigma_mps`."},
+                     Limits::above(0), plan.gusts.time);
   section.finish();
 }
 
 void read_airframe(Section section, world::GlidePlan& plan) {
   using glide::ErrorKind;
   glide::CoefficientErrorModel& errors = plan.coefficients;
-  errors.level = section.number("coefficient_error_percent", Limits::between(0, 100), 0);
-  errors.kind = read_enum<ErrorKind>(section, "coefficient_error", glide::error_kind_names, ErrorKind::held);
-  const std::int64_t hold_us = section.time_us("hold_ms", Limits::between(10, 1e6), 50);
+  errors.level = section.number({"coefficient_error_percent",
+                                 "1-sigma of the errors of the aerodynamic coefficients, by which the truth "
+                                 "differs from the filter's model."},
+                                Limits::between(0, 100), 0);
+  errors.kind = read_enum<ErrorKind>(
+      section,
+      {"coefficient_error", "How the errors change with time: `held` draws new ones every `hold_ms`."},
+      glide::error_kind_names, ErrorKind::held);
+  const std::int64_t hold_us =
+      section.time_us({"hold_ms", "Time for which `held` errors stay."}, Limits::between(10, 1e6), 50);
   if (errors.kind != ErrorKind::markov)
     section.refuse("markov_time_s", "has no effect here", "coefficient_error = \"markov\" beside it");
-  const std::int64_t markov_us = section.time_us("markov_time_s", Limits::between(0.01, 1e4), 1);
+  const std::int64_t markov_us =
+      section.time_us({"markov_time_s", "Correlation time of `markov` errors. Refused with other kinds."},
+                      Limits::between(0.01, 1e4), 1);
   errors.time_us = errors.kind == ErrorKind::markov ? markov_us : hold_us;
   const std::vector<std::string> scopes{"term", "total"};
-  errors.per_part = section.one_of("per", scopes, "term") == "term";
+  errors.per_part =
+      section.one_of({"per", "An error for each term of a coefficient, or one for the coefficient in total."},
+                     scopes, "term") == "term";
   const std::vector<std::string> reaches{"forces_and_moments", "forces"};
-  errors.moments = section.one_of("of", reaches, reaches[0]) == reaches[0];
-  plan.density_error = section.number("density_error_percent", Limits::between(-50, 50), 0);
+  errors.moments = section.one_of({"of", "What the errors apply to."}, reaches, reaches[0]) == reaches[0];
+  plan.density_error =
+      section.number({"density_error_percent", "Error of the air density."}, Limits::between(-50, 50), 0);
   section.finish();
 }
 
 ReleaseError read_release(Section section) {
   const ReleaseError error{
-      .air_velocity = section.number("air_velocity_sigma_mps", Limits::between(0, 50), 0),
-      .velocity = section.number("velocity_sigma_mps", Limits::between(0, 50), 0),
-      .attitude = section.number("attitude_sigma_deg", Limits::between(0, 30), 0),
-      .rate = section.number("rate_sigma_degps", Limits::between(0, 30), 0)};
+      .air_velocity =
+          section.number({"air_velocity_sigma_mps",
+                          "1-sigma of the error of the initial air velocity that the target receives."},
+                         Limits::between(0, 50), 0),
+      .velocity = section.number(
+          {"velocity_sigma_mps", "1-sigma of the error of the initial velocity that the target receives."},
+          Limits::between(0, 50), 0),
+      .attitude = section.number(
+          {"attitude_sigma_deg", "1-sigma of the error of the initial attitude that the target receives."},
+          Limits::between(0, 30), 0),
+      .rate = section.number(
+          {"rate_sigma_degps", "1-sigma of the error of the initial body rates that the target receives."},
+          Limits::between(0, 30), 0)};
   section.finish();
   return error;
 }
@@ -62,9 +88,9 @@ ReleaseError read_release(Section section) {
 
 Glide read_glide(Section& root, Section& section) {
   Glide glide;
-  glide.plan.heading = section.number("heading_deg", Limits::between(-180, 360));
-  glide.plan.speed = section.number("speed_mps", Limits::between(80, 300));
-  glide.plan.height = section.number("height_m", Limits::between(100, 15'000));
+  glide.plan.heading = section.number({"heading_deg", "Heading at the release."}, Limits::between(-180, 360));
+  glide.plan.speed = section.number({"speed_mps", "Speed at the release."}, Limits::between(80, 300));
+  glide.plan.height = section.number({"height_m", "Height at the release."}, Limits::between(100, 15'000));
   if (auto release = section.optional_table("initial_error")) glide.release = read_release(*release);
   section.finish();
   read_wind(root.table("wind"), glide.plan);

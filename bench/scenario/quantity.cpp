@@ -14,29 +14,57 @@ namespace {
 struct Unit {
   std::string_view ending;
   double factor;
+  std::string_view name;
 };
+
+namespace units = world::units;
+// The first one that fits.
+constexpr std::array table{Unit{"_deg", units::deg, "deg"},
+                           Unit{"_mrad", units::mrad, "mrad"},
+                           Unit{"_mradps", units::mrad, "mrad/s"},
+                           Unit{"_kmph", units::kmph, "km/h"},
+                           Unit{"_degph", units::degph, "deg/h"},
+                           Unit{"_degps", units::deg, "deg/s"},
+                           Unit{"_degprth", units::degprth, "deg/sqrt(h)"},
+                           Unit{"_ug", units::ug, "ug"},
+                           Unit{"_ugprthz", units::ugprthz, "ug/sqrt(Hz)"},
+                           Unit{"_g", units::standard_gravity, "g"},
+                           Unit{"_ppm", units::ppm, "ppm"},
+                           Unit{"_percent", 0.01, "%"},
+                           Unit{"_ms", 1e-3, "ms"},
+                           Unit{"_us", 1e-6, "us"},
+                           Unit{"_per_s", 1, "1/s"},
+                           Unit{"_s", 1, "s"},
+                           Unit{"_m", 1, "m"},
+                           Unit{"_mps", 1, "m/s"},
+                           Unit{"_mps2", 1, "m/s^2"},
+                           Unit{"_rad", 1, "rad"},
+                           Unit{"_radps", 1, "rad/s"},
+                           Unit{"_radpm2", 1, "rad/m^2"},
+                           Unit{"_kbitps", 1, "kbit/s"},
+                           Unit{"_m2ps", 1, "m^2/s"},
+                           Unit{"_m2ps5", 1, "m^2/s^5"},
+                           Unit{"_mprts", 1, "m/sqrt(s)"},
+                           Unit{"_mpsprts", 1, "m/s/sqrt(s)"},
+                           Unit{"_degprts", 1, "deg/sqrt(s)"},
+                           Unit{"_degpsprts", 1, "deg/s/sqrt(s)"}};
+
+const Unit* find_unit(std::string_view key) {
+  const auto* const unit =
+      std::ranges::find_if(table, [&](const Unit& candidate) { return key.ends_with(candidate.ending); });
+  return unit == table.end() ? nullptr : unit;
+}
 
 }  // namespace
 
 double factor_of(std::string_view key) {
-  namespace units = world::units;
-  static constexpr std::array table{Unit{"_deg", units::deg},
-                                    Unit{"_mrad", units::mrad},
-                                    Unit{"_mradps", units::mrad},
-                                    Unit{"_kmph", units::kmph},
-                                    Unit{"_degph", units::degph},
-                                    Unit{"_degps", units::deg},
-                                    Unit{"_degprth", units::degprth},
-                                    Unit{"_ug", units::ug},
-                                    Unit{"_ugprthz", units::ugprthz},
-                                    Unit{"_g", units::standard_gravity},
-                                    Unit{"_ppm", units::ppm},
-                                    Unit{"_percent", 0.01},
-                                    Unit{"_ms", 1e-3},
-                                    Unit{"_us", 1e-6}};
-  const auto* const unit =
-      std::ranges::find_if(table, [&](const Unit& candidate) { return key.ends_with(candidate.ending); });
-  return unit == table.end() ? 1.0 : unit->factor;
+  const Unit* unit = find_unit(key);
+  return unit == nullptr ? 1.0 : unit->factor;
+}
+
+std::string_view unit_of(std::string_view key) {
+  const Unit* unit = find_unit(key);
+  return unit == nullptr ? "" : unit->name;
 }
 
 std::string description(const Limits& limits, std::string_view noun) {

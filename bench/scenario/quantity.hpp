@@ -11,6 +11,9 @@ namespace canhil::scenario {
 /// numbers.
 double factor_of(std::string_view key);
 
+/// The unit that a key's name ends in, as people write it; empty: a plain number.
+std::string_view unit_of(std::string_view key);
+
 /// The limits of a number, in the unit of its key.
 struct Limits {
   double least = -std::numeric_limits<double>::infinity();

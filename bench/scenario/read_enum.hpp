@@ -15,7 +15,7 @@ namespace canhil::scenario {
 /// The value that the key names; `names` are in the order of the enumeration. Error: an unknown word, or a
 /// missing one without a fallback.
 template <class Enum>
-Enum read_enum(Section& section, std::string_view key, std::span<const std::string_view> names,
+Enum read_enum(Section& section, const Key& key, std::span<const std::string_view> names,
                std::optional<Enum> fallback = {}) {
   const std::vector<std::string> words(names.begin(), names.end());
   std::optional<std::string> usual;

@@ -162,26 +162,41 @@ constexpr std::array<std::string_view, 3> start_keys{"latitude_deg", "longitude_
 }  // namespace
 
 std::int64_t read_from_us(Section& section) {
-  return std::llround(1e6 * section.number("from_s", Limits::between(-1e11, 1e11), 0));
+  return std::llround(1e6 * section.number({"from_s", "Time of the file at which the run begins."},
+                                           Limits::between(-1e11, 1e11), 0));
 }
 
 world::Position read_position(Section& section) {
   // NED axes have no north at a pole, hence 89 degrees.
-  return {.latitude = section.number("latitude_deg", Limits::between(-89, 89)),
-          .longitude = section.number("longitude_deg", Limits::between(-180, 180)),
-          .height = section.number("height_m", Limits::between(-1000, 50'000))};
+  return {.latitude = section.number(
+              {"latitude_deg", "Latitude of the start. Of `recorded` only for a file without positions."},
+              Limits::between(-89, 89)),
+          .longitude = section.number(
+              {"longitude_deg", "Longitude of the start. Of `recorded` only for a file without positions."},
+              Limits::between(-180, 180)),
+          .height = section.number(
+              {"height_m",
+               "Height of the start above the ellipsoid. Of `recorded` only for a file without positions."},
+              Limits::between(-1000, 50'000))};
 }
 
 world::Flight read_recorded_flight(Section& section, std::int64_t duration_us) {
-  Wanted wanted{.from_us = read_from_us(section),
-                .gap_us = section.time_us("gap_s", Limits::above(0), usual_gap_s),
-                .duration_us = duration_us,
-                .agree_within = section.number("agree_within_m", Limits::above(0), usual_agreement_m)};
+  Wanted wanted{
+      .from_us = read_from_us(section),
+      .gap_us = section.time_us({"gap_s", "Longest time from a row of the file to the next."},
+                                Limits::above(0), usual_gap_s),
+      .duration_us = duration_us,
+      .agree_within = section.number(
+          {"agree_within_m", "Largest contradiction between the positions and the velocities of the file."},
+          Limits::above(0), usual_agreement_m)};
   std::vector<std::string> names;
   for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
-  const auto text = section.read_beside("file", "a CSV file", most_recorded_bytes);
+  const auto text = section.read_beside({"file", "CSV file of the flight, relative to the scenario file."},
+                                        "a CSV file", most_recorded_bytes);
   if (!text) return {};
-  const auto table = read_table(*text, section.beside(section.text("file")), names);
+  const auto table = read_table(
+      *text, section.beside(section.text({"file", "CSV file of the flight, relative to the scenario file."})),
+      names);
   if (table && has_position(*table)) {
     for (const std::string_view key : start_keys)
       section.refuse(key, "is given, and the file has positions", "it only for a file without them");
@@ -198,10 +213,16 @@ world::Flight read_recorded_flight(Section& section, std::int64_t duration_us) {
 world::Flight read_unknown_flight(Section& section) {
   return {.start = read_position(section),
           .motion = world::Unknown{
-              .v_eb_n = section.three("velocity_mps", Limits::between(-10'000, 10'000)),
-              .angles = {.roll = section.number("roll_deg", Limits::between(-180, 180), 0),
-                         .pitch = section.number("pitch_deg", Limits::between(-90, 90), 0),
-                         .heading = section.number("heading_deg", Limits::between(-180, 360))}}};
+              .v_eb_n = section.three(
+                  {"velocity_mps", "Velocity at the start that the target receives, [N, E, D]."},
+                  Limits::between(-10'000, 10'000)),
+              .angles = {
+                  .roll = section.number({"roll_deg", "Roll at the start that the target receives."},
+                                         Limits::between(-180, 180), 0),
+                  .pitch = section.number({"pitch_deg", "Pitch at the start that the target receives."},
+                                          Limits::between(-90, 90), 0),
+                  .heading = section.number({"heading_deg", "Heading at the start that the target receives."},
+                                            Limits::between(-180, 360))}}};
 }
 
 }  // namespace canhil::scenario

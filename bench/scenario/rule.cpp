@@ -15,15 +15,20 @@ void expect_within_run(Section& section, std::string_view key, std::int64_t t_us
                  fmt::format("at most duration_s = {}", seconds(duration_us)));
 }
 
-std::int64_t read_time(Section& section, std::string_view key, Limits limits, std::int64_t duration_us) {
+std::int64_t read_time(Section& section, const Key& key, Limits limits, std::int64_t duration_us) {
   const std::int64_t t_us = section.time_us(key, limits);
-  expect_within_run(section, key, t_us, duration_us);
+  expect_within_run(section, key.name, t_us, duration_us);
   return t_us;
 }
 
 Window read_window(Section& section, std::int64_t duration_us) {
-  const Window window{.from_us = section.time_us("from_s", Limits::at_least(0), 0),
-                      .to_us = section.optional_time_us("to_s", Limits::at_least(0)).value_or(duration_us)};
+  const Window window{
+      .from_us = section.time_us({"from_s", "Begin of the window, by time of validity of the cause."},
+                                 Limits::at_least(0), 0),
+      .to_us = section
+                   .optional_time_us({"to_s", "End of the window, by default that of the run."},
+                                     Limits::at_least(0))
+                   .value_or(duration_us)};
   expect_within_run(section, "to_s", window.to_us, duration_us);
   if (window.from_us >= window.to_us) {
     section.reject("from_s", "is not before the end of the window",

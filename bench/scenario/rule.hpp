@@ -51,7 +51,7 @@ Rule read_rule(std::string_view kind, Read&& read) {
 void expect_within_run(Section& section, std::string_view key, std::int64_t t_us, std::int64_t duration_us);
 
 /// A time up to the end of the run.
-std::int64_t read_time(Section& section, std::string_view key, Limits limits, std::int64_t duration_us);
+std::int64_t read_time(Section& section, const Key& key, Limits limits, std::int64_t duration_us);
 
 /// `from_s` and `to_s`; default: the whole run.
 Window read_window(Section& section, std::int64_t duration_us);

@@ -73,7 +73,10 @@ std::optional<bool> read_fd(Section& root) {
   root.optional("dbc");
   if (!root.has("dbc")) return std::nullopt;
   static const std::vector<std::string> names{"canhil", "canhil-fd"};
-  return root.one_of("dbc", names) == "canhil-fd";
+  return root.one_of({"dbc",
+                      "Contract of the bus: classic CAN or CAN FD. Must agree with `--dbc`; without either "
+                      "it is `canhil`."},
+                     names) == "canhil-fd";
 }
 
 std::vector<std::string> estimators_of(const Scenario& scenario) {
@@ -203,10 +206,12 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   Scenario scenario;
   scenario.file = name;
   scenario.hash = hash_of(text, settings);
-  scenario.title = root.text("title");
-  scenario.duration_us = root.time_us("duration_s", Limits::above(0, 86'400));
+  scenario.title = root.text({"title", "One line, shown in every report."});
+  scenario.duration_us = root.time_us({"duration_s", "Length of the run."}, Limits::above(0, 86'400));
   scenario.fd = read_fd(root);
-  scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
+  scenario.seed = static_cast<std::uint64_t>(root.integer(
+      {"seed", "Seed of all random numbers: the same seed gives the same frames. `--seed` overrides it."},
+      0));
   scenario.foreign = contract.foreign;
   scenario.targets = read_targets(root, contract);
   if (auto engagement = root.optional_table("engagement")) {
@@ -231,6 +236,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
   scenario.recordings_hash = root.files_hash();
+  for (const std::string& path : root.files()) scenario.inputs.push_back({"recording", path});
   if (scenario.recordings_hash != 0)
     scenario.hash = world::fnv1a_64(fmt::format("{:016x}", scenario.recordings_hash), scenario.hash);
   return scenario;
@@ -245,6 +251,7 @@ Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_v
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
   scenario.hash = world::fnv1a_64(text, scenario.hash);
+  scenario.inputs.push_back({"faults", std::string(name)});
   return {};
 }
 

@@ -31,8 +31,15 @@
 
 namespace canhil::scenario {
 
+/// A file that a scenario was made of, beside its own.
+struct InputFile {
+  std::string role;  ///< "recording", "faults"
+  std::string path;
+};
+
 struct Scenario {
-  std::string file;        ///< as named by the user
+  std::string file;  ///< as named by the user
+  std::vector<InputFile> inputs{};
   std::uint64_t hash = 0;  ///< FNV-1a of text, settings and recordings: provenance in reports and campaigns
   std::uint64_t recordings_hash = 0;  ///< of the recordings alone; 0: it uses none
   std::string title;

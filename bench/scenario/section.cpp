@@ -11,81 +11,10 @@
 
 #include "bench/scenario/key_depth.hpp"
 #include "bench/scenario/nearest.hpp"
+#include "bench/scenario/section_file.hpp"
 #include "bench/scenario/toml_settings.hpp"
 
 namespace canhil::scenario {
-
-namespace {
-
-std::optional<double> as_number(const toml::node& node) {
-  if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
-  if (const auto* real = node.as_floating_point()) return real->get();
-  return std::nullopt;
-}
-
-std::string type_of(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "is a table";
-    case toml::node_type::array:
-      return "is an array";
-    case toml::node_type::string:
-      return "is a string";
-    case toml::node_type::integer:
-    case toml::node_type::floating_point:
-      return "is a number";
-    case toml::node_type::boolean:
-      return "is a boolean";
-    default:
-      return "is a date or time";
-  }
-}
-
-std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
-
-}  // namespace
-
-struct Section::File {
-  std::string name;
-  std::string folder;            // folder of the files that it names
-  std::uint64_t files_hash = 0;  // of the files that were read
-  toml::table root;
-  std::optional<Error> error;
-
-  /// A value from a setting has no line in the file.
-  [[nodiscard]] std::string where(std::size_t line) const {
-    return line == 0 ? name : fmt::format("{}:{}", name, line);
-  }
-
-  void fail(std::size_t line, std::string_view what) {
-    if (error) return;
-    std::string message = fmt::format("{}: {}", where(line), what);
-    for (char& c : message) {
-      if (static_cast<unsigned char>(c) < ' ' || c == 0x7F)
-        c = '?';  // a quoted key may contain any character
-    }
-    error = Error{std::move(message)};
-  }
-
-  /// Sets a value by its key, creating the tables on the way.
-  void set(const Setting& setting) {
-    if (std::ranges::count(setting.key, '.') >= most_key_parts) return fail(0, deep_key);
-    toml::table* table = &root;
-    std::string_view rest = setting.key;
-    for (auto dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
-      toml::node& next = table->insert(rest.substr(0, dot), toml::table{}).first->second;
-      table = next.as_table();
-      if (table == nullptr) {
-        fail(0, fmt::format("key '{}': '{}' {}, expected a table", setting.key, rest.substr(0, dot),
-                            type_of(next)));
-        return;
-      }
-      rest.remove_prefix(dot + 1);
-    }
-    const toml::table value = toml::parse(fmt::format("value = {}", setting.value));
-    table->insert_or_assign(rest, *value.get("value"));
-  }
-};
 
 struct Section::State {
   std::shared_ptr<File> file;
@@ -95,6 +24,15 @@ struct Section::State {
   std::vector<std::string> asked;
   std::vector<std::pair<std::string, std::string>> missing;  // key, expected value
 
+  /// For the reference: how a key is asked for.
+  void describe(const Key& key, DescribedKey as) const {
+    if (file->description == nullptr) return;
+    as.table = path;
+    as.name = key.name;
+    as.shown = key.shown.empty() ? key.name : key.shown;
+    as.meaning = key.meaning;
+    file->description->keys.push_back(std::move(as));
+  }
   const toml::node* ask(std::string_view key) {
     if (std::ranges::find(asked, key) == asked.end()) asked.emplace_back(key);
     return table == nullptr ? nullptr : table->get(key);
@@ -191,6 +129,7 @@ Section Section::parse(std::string_view text, std::string_view file_name, std::s
 void Section::look_in(std::string folder) { state_->file->folder = std::move(folder); }
 
 bool Section::has(std::string_view key) const {
+  if (state_->file->description != nullptr) state_->file->description->looked_for.insert(path(key));
   return state_->table != nullptr && state_->table->contains(key);
 }
 
@@ -204,81 +143,102 @@ std::string Section::where(std::string_view key) const {
 
 void Section::optional(std::string_view key) { state_->ask(key); }
 
-double Section::number(std::string_view key, Limits limits, std::optional<double> fallback) {
-  return plain_number(key, limits, fallback) * factor_of(key);
+double Section::number(const Key& key, Limits limits, std::optional<double> fallback) {
+  return plain_number(key, limits, fallback) * factor_of(key.name);
 }
 
-double Section::plain_number(std::string_view key, Limits limits, std::optional<double> fallback) {
+double Section::plain_number(const Key& key, Limits limits, std::optional<double> fallback) {
+  state_->describe(key, described_number("number", limits, fallback));
   const std::string expected = description(limits, "a number");
-  const toml::node* node = state_->ask(key, expected, fallback.has_value());
+  const toml::node* node = state_->ask(key.name, expected, fallback.has_value());
   if (node == nullptr) return fallback.value_or(0.0);
   const std::optional<double> value = as_number(*node);
   if (value && holds(limits, *value)) return *value;
-  reject(key, value ? fmt::format("{} is out of range", *value) : type_of(*node), expected);
+  reject(key.name, value ? fmt::format("{} is out of range", *value) : type_of(*node), expected);
   return 0.0;
 }
 
-world::Vector3 Section::three(std::string_view key, Limits limits) {
-  if (!has(key)) {
-    state_->ask(key);
+world::Vector3 Section::three(const Key& key, Limits limits) {
+  state_->describe(key, described_number("one number or three", limits, 0.0));
+  if (!has(key.name)) {
+    state_->ask(key.name);
     return world::Vector3::Zero();
   }
-  if (!state_->table->get(key)->is_array()) return world::Vector3::Constant(number(key, limits));
+  if (!state_->table->get(key.name)->is_array()) return world::Vector3::Constant(number(key.name, limits));
   const auto values =
-      state_->numbers<3>(key, limits, description(limits, "a number, or an array of three, each"));
-  return factor_of(key) * world::Vector3(values[0], values[1], values[2]);
+      state_->numbers<3>(key.name, limits, description(limits, "a number, or an array of three, each"));
+  return factor_of(key.name) * world::Vector3(values[0], values[1], values[2]);
 }
 
-std::pair<double, double> Section::interval(std::string_view key, Limits limits) {
+std::pair<double, double> Section::interval(const Key& key, Limits limits) {
+  DescribedKey as = described_number(interval_type, limits, {});
+  as.sample = fmt::format("[{0}, {0}]", as.sample);
+  state_->describe(key, std::move(as));
   const std::string expected = description(limits, "an array [low, high], each");
-  if (!has(key)) state_->missing.emplace_back(key, expected);
-  const auto values = state_->numbers<2>(key, limits, expected);
-  if (values[0] > values[1]) reject(key, "is descending", expected);
-  return {values[0] * factor_of(key), values[1] * factor_of(key)};
+  if (!has(key.name)) state_->missing.emplace_back(key.name, expected);
+  const auto values = state_->numbers<2>(key.name, limits, expected);
+  if (values[0] > values[1]) reject(key.name, "is descending", expected);
+  return {values[0] * factor_of(key.name), values[1] * factor_of(key.name)};
 }
 
-std::int64_t Section::integer(std::string_view key, std::int64_t least) {
-  const std::optional<std::int64_t> value = optional_integer(key, least);
-  if (!value) state_->missing.emplace_back(key, fmt::format("a whole number of at least {}", least));
+std::int64_t Section::integer(const Key& key, std::int64_t least) {
+  const std::optional<std::int64_t> value = whole_number(key, least, true);
+  if (!value) state_->missing.emplace_back(key.name, fmt::format("a whole number of at least {}", least));
   return value.value_or(0);
 }
 
-std::optional<std::int64_t> Section::optional_integer(std::string_view key, std::int64_t least) {
-  const toml::node* node = state_->ask(key);
+std::optional<std::int64_t> Section::optional_integer(const Key& key, std::int64_t least) {
+  return whole_number(key, least, false);
+}
+
+std::optional<std::int64_t> Section::whole_number(const Key& key, std::int64_t least, bool required) {
+  state_->describe(key, {.type = "whole number",
+                         .range = fmt::format("at least {}", least),
+                         .required = required,
+                         .sample = fmt::format("{}", least)});
+  const toml::node* node = state_->ask(key.name);
   if (node == nullptr) return std::nullopt;
   const std::string expected = fmt::format("a whole number of at least {}", least);
   const auto* value = node->as_integer();
   if (value == nullptr) {
-    reject(key, node->is_floating_point() ? "is not whole" : type_of(*node), expected);
+    reject(key.name, node->is_floating_point() ? "is not whole" : type_of(*node), expected);
     return 0;
   }
-  if (value->get() < least) reject(key, fmt::format("{} is out of range", value->get()), expected);
+  if (value->get() < least) reject(key.name, fmt::format("{} is out of range", value->get()), expected);
   return value->get();
 }
 
-bool Section::flag(std::string_view key) {
-  const toml::node* node = state_->ask(key);
+bool Section::flag(const Key& key) {
+  state_->describe(key, {.type = "true or false", .fallback = "false", .sample = "true"});
+  const toml::node* node = state_->ask(key.name);
   if (node == nullptr) return false;
-  if (!node->is_boolean()) reject(key, type_of(*node), "true or false");
+  if (!node->is_boolean()) reject(key.name, type_of(*node), "true or false");
   return node->value_or(false);
 }
 
-std::string Section::text(std::string_view key, const std::optional<std::string>& fallback) {
+std::string Section::text(const Key& key, const std::optional<std::string>& fallback) {
+  state_->describe(
+      key, {.type = "text", .fallback = fallback.value_or(""), .required = !fallback, .sample = "\"x\""});
   constexpr std::string_view expected = "text on one line";
-  const std::string* value = state_->text(key, expected, fallback.has_value());
+  const std::string* value = state_->text(key.name, expected, fallback.has_value());
   if (value == nullptr) return fallback.value_or("");
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' '; };
-  if (value->empty()) reject(key, "is empty", expected);
-  if (std::ranges::any_of(*value, is_control)) reject(key, "has a line break or tab", expected);
+  if (value->empty()) reject(key.name, "is empty", expected);
+  if (std::ranges::any_of(*value, is_control)) reject(key.name, "has a line break or tab", expected);
   return *value;
 }
 
-std::string Section::one_of(std::string_view key, std::span<const std::string> names,
+std::string Section::one_of(const Key& key, std::span<const std::string> names,
                             const std::optional<std::string>& fallback) {
-  const std::string* value = state_->text(key, expected_instead("", names), fallback.has_value());
+  state_->describe(key, {.type = "one of",
+                         .fallback = fallback.value_or(""),
+                         .required = !fallback,
+                         .words = {names.begin(), names.end()},
+                         .sample = names.empty() ? "\"x\"" : fmt::format("\"{}\"", names.front())});
+  const std::string* value = state_->text(key.name, expected_instead("", names), fallback.has_value());
   if (value == nullptr) return fallback.value_or("");
   if (std::ranges::find(names, *value) != names.end()) return *value;
-  reject(key, fmt::format("'{}' is unknown", *value), expected_instead(*value, names));
+  reject(key.name, fmt::format("'{}' is unknown", *value), expected_instead(*value, names));
   return {};
 }
 
@@ -287,16 +247,20 @@ std::string Section::beside(std::string_view path) const {
 }
 
 std::uint64_t& Section::files_hash() { return state_->file->files_hash; }
+std::vector<std::string>& Section::files() { return state_->file->files; }
 
-std::vector<std::string> Section::some_of(std::string_view key, std::span<const std::string> names) {
+std::vector<std::string> Section::some_of(const Key& key, std::span<const std::string> names) {
+  state_->describe(key, {.type = "array of names",
+                         .words = {names.begin(), names.end()},
+                         .sample = names.empty() ? "[]" : fmt::format("[\"{}\"]", names.front())});
   constexpr std::string_view expected = "an array of names";
   std::vector<std::string> chosen;
-  for (const toml::node& element : state_->elements(key, state_->ask(key), expected)) {
+  for (const toml::node& element : state_->elements(key.name, state_->ask(key.name), expected)) {
     const auto* name = element.as_string();
     if (name == nullptr) {
-      reject(key, "contains a value that is not a name", expected);
+      reject(key.name, "contains a value that is not a name", expected);
     } else if (std::ranges::find(names, name->get()) == names.end()) {
-      reject(key, fmt::format("'{}' is unknown", name->get()), expected_instead(name->get(), names));
+      reject(key.name, fmt::format("'{}' is unknown", name->get()), expected_instead(name->get(), names));
     } else {
       chosen.push_back(name->get());
     }
@@ -304,26 +268,30 @@ std::vector<std::string> Section::some_of(std::string_view key, std::span<const 
   return chosen;
 }
 
-std::vector<std::string> Section::texts(std::string_view key) {
+std::vector<std::string> Section::texts(const Key& key) {
+  state_->describe(key, {.type = "array of texts", .sample = "[\"x\"]"});
   constexpr std::string_view expected = "an array of texts";
   std::vector<std::string> all;
-  for (const toml::node& element : state_->elements(key, state_->ask(key), expected)) {
+  for (const toml::node& element : state_->elements(key.name, state_->ask(key.name), expected)) {
     if (const auto* text = element.as_string(); text != nullptr && !text->get().empty())
       all.push_back(text->get());
     else
-      reject(key, "contains a value that is not text", expected);
+      reject(key.name, "contains a value that is not text", expected);
   }
   return all;
 }
 
-std::vector<std::int64_t> Section::integers(std::string_view key, std::int64_t least) {
+std::vector<std::int64_t> Section::integers(const Key& key, std::int64_t least) {
+  state_->describe(key, {.type = "array of whole numbers",
+                         .range = fmt::format("at least {}", least),
+                         .sample = fmt::format("[{}]", least)});
   const std::string expected = fmt::format("an array of whole numbers of at least {}", least);
   std::vector<std::int64_t> all;
-  for (const toml::node& element : state_->elements(key, state_->ask(key), expected)) {
+  for (const toml::node& element : state_->elements(key.name, state_->ask(key.name), expected)) {
     if (const auto* number = element.as_integer(); number != nullptr && number->get() >= least)
       all.push_back(number->get());
     else
-      reject(key, "contains a value that is not one", expected);
+      reject(key.name, "contains a value that is not one", expected);
   }
   return all;
 }
@@ -349,8 +317,9 @@ std::vector<Setting> Section::settings() {
   return all;
 }
 
-Section Section::table(std::string_view key) {
-  return state_->inside(key, state_->ask(key, "a table"), state_->path_of(key));
+Section Section::table(const Key& key) {
+  state_->describe(key, {.type = "table", .sample = "{}"});
+  return state_->inside(key.name, state_->ask(key.name, "a table"), state_->path_of(key.name));
 }
 
 std::vector<Section> Section::tables(std::string_view key) {
@@ -368,6 +337,13 @@ std::vector<Section> Section::table_or_tables(std::string_view key) {
   return several ? tables(key) : std::vector{table(key)};
 }
 
+void Section::describe_optional(const Key& key, std::string_view type, const Limits& limits) {
+  DescribedKey as = described_number(type, limits, {});
+  as.required = false;
+  if (type == interval_type) as.sample = fmt::format("[{0}, {0}]", as.sample);
+  state_->describe(key, std::move(as));
+}
+
 void Section::reject(std::string_view key, std::string_view what, std::string_view expected) {
   state_->fail(key, state_->line_of_key(key), what, expected);
 }
@@ -378,6 +354,10 @@ void Section::reject(std::string_view key, const Error& error) {
 
 void Section::missing(std::string_view key, std::string_view expected) {
   state_->missing.emplace_back(key, expected);
+  if (state_->file->description == nullptr) return;
+  for (DescribedKey& one : state_->file->description->keys) {
+    if (one.table == state_->path && one.name == key) one.required = true;
+  }
 }
 
 void Section::finish(std::string_view unasked) {

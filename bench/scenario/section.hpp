@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/scenario/described.hpp"
 #include "bench/scenario/quantity.hpp"
 #include "bench/scenario/setting.hpp"
 #include "bench/world/attitude.hpp"
@@ -44,39 +45,40 @@ class Section {
   // Each of these requests a key. Without a fallback (in the key's unit) a missing key is an error.
 
   /// A number in SI.
-  double number(std::string_view key, Limits limits, std::optional<double> fallback = {});
+  double number(const Key& key, Limits limits, std::optional<double> fallback = {});
   /// A number in the unit of its key.
-  double plain_number(std::string_view key, Limits limits, std::optional<double> fallback = {});
+  double plain_number(const Key& key, Limits limits, std::optional<double> fallback = {});
   /// One number for three axes, or an array of three, in SI; 0 if absent.
-  world::Vector3 three(std::string_view key, Limits limits = {});
+  world::Vector3 three(const Key& key, Limits limits = {});
   /// Lower and upper end of an interval, in SI.
-  std::pair<double, double> interval(std::string_view key, Limits limits);
-  std::int64_t integer(std::string_view key, std::int64_t least);
-  std::optional<std::int64_t> optional_integer(std::string_view key, std::int64_t least);
+  std::pair<double, double> interval(const Key& key, Limits limits);
+  std::int64_t integer(const Key& key, std::int64_t least);
+  std::optional<std::int64_t> optional_integer(const Key& key, std::int64_t least);
   /// true or false; absent: false.
-  bool flag(std::string_view key);
+  bool flag(const Key& key);
   /// A time (key ending in _s or _ms): a whole number of microseconds.
-  std::int64_t time_us(std::string_view key, Limits limits, std::optional<double> fallback = {});
-  std::optional<std::int64_t> optional_time_us(std::string_view key, Limits limits);
-  std::optional<std::pair<std::int64_t, std::int64_t>> optional_interval_us(std::string_view key,
-                                                                            Limits limits);
+  std::int64_t time_us(const Key& key, Limits limits, std::optional<double> fallback = {});
+  std::optional<std::int64_t> optional_time_us(const Key& key, Limits limits);
+  std::optional<std::pair<std::int64_t, std::int64_t>> optional_interval_us(const Key& key, Limits limits);
   /// Text on one line, not empty.
-  std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
-  std::string one_of(std::string_view key, std::span<const std::string> names,
+  std::string text(const Key& key, const std::optional<std::string>& fallback = {});
+  std::string one_of(const Key& key, std::span<const std::string> names,
                      const std::optional<std::string>& fallback = {});
 
   /// A path in the file, resolved against the file's folder.
   [[nodiscard]] std::string beside(std::string_view path) const;
   /// The content of the file that a key names; none: it cannot be read, and the error is reported.
-  std::optional<std::string> read_beside(std::string_view key, std::string_view kind, std::size_t most_bytes);
+  std::optional<std::string> read_beside(const Key& key, std::string_view kind, std::size_t most_bytes);
   /// FNV-1a of all files read this way; 0: none.
   [[nodiscard]] std::uint64_t& files_hash();
+  /// Their paths, in the order in which they were read.
+  [[nodiscard]] std::vector<std::string>& files();
 
   /// An array of some of these names; absent: empty.
-  std::vector<std::string> some_of(std::string_view key, std::span<const std::string> names);
+  std::vector<std::string> some_of(const Key& key, std::span<const std::string> names);
   /// Arrays; absent: empty.
-  std::vector<std::string> texts(std::string_view key);
-  std::vector<std::int64_t> integers(std::string_view key, std::int64_t least);
+  std::vector<std::string> texts(const Key& key);
+  std::vector<std::int64_t> integers(const Key& key, std::int64_t least);
   /// The keys of the table, in their order.
   [[nodiscard]] std::vector<std::string> keys() const;
   [[nodiscard]] bool holds_text(std::string_view key) const;
@@ -85,8 +87,8 @@ class Section {
   std::vector<Setting> settings();
 
   /// A table; if it is missing, one in which all keys are absent without an error.
-  Section table(std::string_view key);
-  std::optional<Section> optional_table(std::string_view key);
+  Section table(const Key& key);
+  std::optional<Section> optional_table(const Key& key);
   /// An array of tables, at least one; its paths count from 1: check[1].
   std::vector<Section> tables(std::string_view key);
 
@@ -111,6 +113,9 @@ class Section {
  private:
   struct State;
   struct File;
+  std::optional<std::int64_t> whole_number(const Key& key, std::int64_t least, bool required);
+  /// For the reference: a key that may be missing, and is then not asked for.
+  void describe_optional(const Key& key, std::string_view type, const Limits& limits);
   explicit Section(std::shared_ptr<State> state) : state_(std::move(state)) {}
 
   std::shared_ptr<State> state_;

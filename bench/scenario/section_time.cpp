@@ -12,35 +12,37 @@ constexpr double longest_us = 1e11;  // more than a day
 
 }  // namespace
 
-std::int64_t Section::time_us(std::string_view key, Limits limits, std::optional<double> fallback) {
+std::int64_t Section::time_us(const Key& key, Limits limits, std::optional<double> fallback) {
   const double us = 1e6 * number(key, limits, fallback);
   if (std::abs(us) > longest_us) {
-    reject(key, "is too long a time", fmt::format("at most {} s", 1e-6 * longest_us));
+    reject(key.name, "is too long a time", fmt::format("at most {} s", 1e-6 * longest_us));
     return 0;
   }
   const double whole = std::round(us);
   // A decimal fraction is not exact in binary: the error is 1e-16 of the time, 1e-5 us in a day.
-  if (std::abs(us - whole) > 1e-3) reject(key, "is not whole in microseconds", "a multiple of 1 us");
+  if (std::abs(us - whole) > 1e-3) reject(key.name, "is not whole in microseconds", "a multiple of 1 us");
   return static_cast<std::int64_t>(whole);
 }
 
-std::optional<std::pair<std::int64_t, std::int64_t>> Section::optional_interval_us(std::string_view key,
+std::optional<std::pair<std::int64_t, std::int64_t>> Section::optional_interval_us(const Key& key,
                                                                                    Limits limits) {
-  optional(key);
-  if (!has(key)) return std::nullopt;
+  describe_optional(key, interval_type, limits);
+  optional(key.name);
+  if (!has(key.name)) return std::nullopt;
   const auto [from, to] = interval(key, limits);
   return std::pair{std::llround(from * 1e6), std::llround(to * 1e6)};
 }
 
-std::optional<std::int64_t> Section::optional_time_us(std::string_view key, Limits limits) {
-  if (has(key)) return time_us(key, limits);
-  optional(key);
+std::optional<std::int64_t> Section::optional_time_us(const Key& key, Limits limits) {
+  describe_optional(key, "number", limits);
+  if (has(key.name)) return time_us(key, limits);
+  optional(key.name);
   return std::nullopt;
 }
 
-std::optional<Section> Section::optional_table(std::string_view key) {
-  if (has(key)) return table(key);
-  optional(key);
+std::optional<Section> Section::optional_table(const Key& key) {
+  if (has(key.name)) return table(key);
+  optional(key.name);
   return std::nullopt;
 }
 

@@ -13,10 +13,16 @@ namespace canhil::scenario {
 namespace {
 
 InitialSigma read_initial_sigma(Section section, const TargetSetup& target) {
-  const InitialSigma sigma{.velocity = section.number("velocity_mps", Limits::above(0)),
-                           .tilt = section.number("tilt_deg", Limits::above(0, 90)),
-                           .heading = section.number("heading_deg", Limits::above(0, 600)),
-                           .position = section.number("position_m", Limits::above(0))};
+  const InitialSigma sigma{
+      .velocity = section.number({"velocity_mps", "1-sigma of each component of the initial velocity."},
+                                 Limits::above(0)),
+      .tilt = section.number({"tilt_deg", "1-sigma of the misalignments about north and east."},
+                             Limits::above(0, 90)),
+      .heading = section.number(
+          {"heading_deg", "1-sigma of the heading. At most 180, or 600 for `sin_cos`: an unknown heading."},
+          Limits::above(0, 600)),
+      .position = section.number({"position_m", "1-sigma of each component of the initial position."},
+                                 Limits::above(0))};
   constexpr double half_turn = 180 * world::units::deg;
   if (sigma.heading > half_turn && target.algorithm != "sin_cos")
     section.reject("heading_deg", "is more than a heading can be wrong by",
@@ -50,14 +56,22 @@ std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& con
 /// Without a handshake the target receives nothing, so nothing can be set.
 TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
   static const std::vector<std::string> none{"none"};
-  section.one_of("handshake", none, none.front());
-  section.text("mapping");  // already read to choose the vocabulary
+  section.one_of({"handshake", "With `mapping`: the target gets no commands."}, none, none.front());
+  section.text(
+      {"mapping", "Mapping of a target that has a DBC of its own (mapping.md)."});  // already read to choose
+                                                                                    // the vocabulary
   TargetSetup target;
   target.estimator = contract.estimators.front();
-  target.own_start = {.settle_us = section.time_us("settle_s", Limits::between(0, 3600), 0.5),
-                      .silence_us = section.time_us("silence_s", Limits::above(0, 3600), 1.0),
-                      .before = section.text("before", ""),
-                      .after = section.text("after", "")};
+  target.own_start = {
+      .settle_us = section.time_us(
+          {"settle_s",
+           "With `mapping`: time from the start of the target, or of the bench, to the first sample."},
+          Limits::between(0, 3600), 0.5),
+      .silence_us =
+          section.time_us({"silence_s", "With `mapping`: silence after which the target counts as gone."},
+                          Limits::above(0, 3600), 1.0),
+      .before = section.text({"before", "With `mapping`: shell command before the run."}, ""),
+      .after = section.text({"after", "With `mapping`: shell command after the run."}, "")};
   section.finish();
   return target;
 }
@@ -67,8 +81,10 @@ TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
   for (const std::string_view key : {"handshake", "settle_s", "silence_s", "before", "after"})
     section.refuse(key, "is for a target with a mapping", "the key 'mapping' beside it");
   TargetSetup target;
-  target.estimator = section.one_of("estimator", contract.estimators);
-  target.algorithm = section.one_of("algorithm", contract.algorithms);
+  target.estimator =
+      section.one_of({"estimator", "Estimator of the DBC's value table Estimator."}, contract.estimators);
+  target.algorithm = section.one_of(
+      {"algorithm", "Algorithm of that estimator, of the DBC's value table Algorithm."}, contract.algorithms);
   target.algorithm_where = fmt::format("{}: key '{}'", section.where("algorithm"), section.path("algorithm"));
   // Every target receives an initial state at the start; an estimator that does not navigate ignores it.
   const EstimatorFacts facts = facts_of(contract, target.estimator);

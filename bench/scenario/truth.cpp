@@ -14,39 +14,63 @@
 namespace canhil::scenario {
 namespace {
 
-double read_heading(Section& section) { return section.number("heading_deg", Limits::between(-180, 360)); }
+double read_heading(Section& section) {
+  return section.number({"heading_deg",
+                         "Heading: of `rest` and `level_acceleration` constant, of `weave` and `s_path` the "
+                         "mean, of the others at the start."},
+                        Limits::between(-180, 360));
+}
 
 world::Motion read_rest(Section& section) {
-  return world::Rest{.angles = {.roll = section.number("roll_deg", Limits::between(-180, 180), 0),
-                                .pitch = section.number("pitch_deg", Limits::between(-90, 90), 0),
-                                .heading = read_heading(section)}};
+  return world::Rest{
+      .angles = {.roll = section.number({"roll_deg", "Roll angle; of `racetrack` in the turns."},
+                                        Limits::between(-180, 180), 0),
+                 .pitch = section.number({"pitch_deg", "Pitch angle."}, Limits::between(-90, 90), 0),
+                 .heading = read_heading(section)}};
 }
 
 world::Motion read_level_acceleration(Section& section) {
-  return world::LevelAcceleration{.heading = read_heading(section),
-                                  .speed = section.number("speed_kmph", Limits::at_least(0)),
-                                  .cruise_us = section.time_us("cruise_s", Limits::at_least(0)),
-                                  .acceleration = section.number("acceleration_g", Limits::between(-10, 10))};
+  return world::LevelAcceleration{
+      .heading = read_heading(section),
+      .speed =
+          section.number({"speed_kmph", "Speed, of `level_acceleration` at the start."}, Limits::at_least(0)),
+      .cruise_us = section.time_us({"cruise_s", "Time at constant velocity before the acceleration."},
+                                   Limits::at_least(0)),
+      .acceleration = section.number({"acceleration_g", "Acceleration along the heading after that."},
+                                     Limits::between(-10, 10))};
 }
 
 world::Motion read_weave(Section& section) {
   // Without a motion its period has no effect, but it must not be zero.
   return world::Weave{
       .heading = read_heading(section),
-      .speed = section.number("speed_kmph", Limits::at_least(0)),
-      .heading_amplitude = section.number("heading_amplitude_deg", Limits::between(0, 90)),
-      .turn_period = section.number("turn_period_s", Limits::above(0)),
-      .pitch_amplitude = section.number("pitch_amplitude_deg", Limits::between(0, 45), 0),
-      .pitch_period = section.number("pitch_period_s", Limits::above(0), 1),
-      .coning_amplitude = section.number("coning_amplitude_deg", Limits::between(0, 5), 0),
-      .coning_period = section.number("coning_period_ms", Limits::above(0), 1000),
+      .speed =
+          section.number({"speed_kmph", "Speed, of `level_acceleration` at the start."}, Limits::at_least(0)),
+      .heading_amplitude = section.number(
+          {"heading_amplitude_deg", "Amplitude of the heading; of `s_path` 0 is a straight path."},
+          Limits::between(0, 90)),
+      .turn_period =
+          section.number({"turn_period_s", "Period of the turns; of `spiral` of a full turn to the right."},
+                         Limits::above(0)),
+      .pitch_amplitude =
+          section.number({"pitch_amplitude_deg", "Amplitude of the pitch."}, Limits::between(0, 45), 0),
+      .pitch_period = section.number({"pitch_period_s", "Period of the pitch."}, Limits::above(0), 1),
+      .coning_amplitude =
+          section.number({"coning_amplitude_deg", "Amplitude of a coning motion."}, Limits::between(0, 5), 0),
+      .coning_period =
+          section.number({"coning_period_ms", "Period of the coning motion."}, Limits::above(0), 1000),
   };
 }
 
 // Dives and surfaces repeatedly; without a depth its period has no effect.
 world::DepthProfile read_depth(Section& section, double speed) {
-  const world::DepthProfile profile{.depth = section.number("dive_depth_m", Limits::at_least(0), 0),
-                                    .period = section.number("dive_period_s", Limits::above(0), 1)};
+  const world::DepthProfile profile{
+      .depth = section.number({"dive_depth_m",
+                               "Depth below the start to which the vehicle dives in each period. The dive "
+                               "must not be steeper than 45 degrees."},
+                              Limits::at_least(0), 0),
+      .period = section.number({"dive_period_s", "Period of the dives. Only beside `dive_depth_m`."},
+                               Limits::above(0), 1)};
   for (const auto& [key, other] :
        {std::pair{"dive_depth_m", "dive_period_s"}, std::pair{"dive_period_s", "dive_depth_m"}}) {
     if (section.has(key) && !section.has(other))
@@ -61,51 +85,61 @@ world::DepthProfile read_depth(Section& section, double speed) {
   return profile;
 }
 
-double read_roll(Section& section, std::string_view key) {
+double read_roll(Section& section, const Key& key) {
   return section.number(key, Limits::between(-45, 45), 0);
 }
 
 world::Motion read_s_path(Section& section) {
   world::SPath path;
-  path.speed = section.number("speed_mps", Limits::above(0));
+  path.speed = section.number({"speed_mps", "Speed along the nose; of `rest_then_go` after the start."},
+                              Limits::above(0));
   path.heading = read_heading(section);
-  path.heading_amplitude = section.number("heading_amplitude_deg", Limits::between(0, 180));
-  path.heading_period = section.number("turn_period_s", Limits::above(0));
-  path.pitch_amplitude = section.number("pitch_amplitude_deg", Limits::between(0, 40), 0);
-  path.pitch_period = section.number("pitch_period_s", Limits::above(0), 1);
-  path.roll_amplitude = read_roll(section, "roll_amplitude_deg");
-  path.roll_period = section.number("roll_period_s", Limits::above(0), path.heading_period);
+  path.heading_amplitude =
+      section.number({"heading_amplitude_deg", "Amplitude of the heading; of `s_path` 0 is a straight path."},
+                     Limits::between(0, 180));
+  path.heading_period = section.number(
+      {"turn_period_s", "Period of the turns; of `spiral` of a full turn to the right."}, Limits::above(0));
+  path.pitch_amplitude =
+      section.number({"pitch_amplitude_deg", "Amplitude of the pitch."}, Limits::between(0, 40), 0);
+  path.pitch_period = section.number({"pitch_period_s", "Period of the pitch."}, Limits::above(0), 1);
+  path.roll_amplitude = read_roll(section, {"roll_amplitude_deg", "Amplitude of the roll."});
+  path.roll_period = section.number({"roll_period_s", "Period of the roll, by default that of the turns."},
+                                    Limits::above(0), path.heading_period);
   path.depth = read_depth(section, path.speed);
   return path;
 }
 
 world::Motion read_racetrack(Section& section) {
   world::Racetrack track;
-  track.speed = section.number("speed_mps", Limits::above(0));
+  track.speed = section.number({"speed_mps", "Speed along the nose; of `rest_then_go` after the start."},
+                               Limits::above(0));
   track.heading = read_heading(section);
-  track.leg = section.number("leg_s", Limits::above(0));
-  track.turn = section.number("turn_s", Limits::above(0));
-  track.roll = read_roll(section, "roll_deg");
+  track.leg = section.number({"leg_s", "Duration of a straight leg."}, Limits::above(0));
+  track.turn = section.number({"turn_s", "Duration of a half turn to the right."}, Limits::above(0));
+  track.roll = read_roll(section, {"roll_deg", "Roll angle; of `racetrack` in the turns."});
   track.depth = read_depth(section, track.speed);
   return track;
 }
 
 world::Motion read_spiral(Section& section) {
   world::Spiral spiral;
-  spiral.speed = section.number("speed_mps", Limits::above(0));
+  spiral.speed = section.number({"speed_mps", "Speed along the nose; of `rest_then_go` after the start."},
+                                Limits::above(0));
   spiral.heading = read_heading(section);
-  spiral.period = section.number("turn_period_s", Limits::above(0));
-  spiral.roll = read_roll(section, "roll_deg");
+  spiral.period = section.number(
+      {"turn_period_s", "Period of the turns; of `spiral` of a full turn to the right."}, Limits::above(0));
+  spiral.roll = read_roll(section, {"roll_deg", "Roll angle; of `racetrack` in the turns."});
   spiral.depth = read_depth(section, spiral.speed);
   return spiral;
 }
 
 world::Motion read_rest_then_go(Section& section) {
   world::RestThenGo motion;
-  motion.speed = section.number("speed_mps", Limits::above(0));
+  motion.speed = section.number({"speed_mps", "Speed along the nose; of `rest_then_go` after the start."},
+                                Limits::above(0));
   motion.heading = read_heading(section);
-  motion.rest = section.number("rest_s", Limits::at_least(0));
-  motion.start = section.number("start_s", Limits::above(0));
+  motion.rest = section.number({"rest_s", "Time at rest."}, Limits::at_least(0));
+  motion.start = section.number({"start_s", "Time from rest to full speed."}, Limits::above(0));
   motion.depth = read_depth(section, motion.speed);
   return motion;
 }
@@ -128,7 +162,7 @@ world::Flight read_truth(Section& section, std::int64_t duration_us) {
   std::vector<std::string> names;
   for (const MotionReader& reader : motion_readers) names.emplace_back(reader.name);
   names.insert(names.end(), {"recorded", "unknown"});
-  const std::string name = section.one_of("trajectory", names);
+  const std::string name = section.one_of({"trajectory", "How the carrier moves."}, names);
   world::Flight flight;
   if (name == "recorded") {
     flight = read_recorded_flight(section, duration_us);

@@ -20,6 +20,7 @@
 #include "dbc/codegen/rules.hpp"
 #include "dbc/command_line/command_line.hpp"
 #include "dbc/parser/parse.hpp"
+#include "dbc/version/version.hpp"
 
 namespace {
 
@@ -115,7 +116,8 @@ std::string refused(const Options& options) {
 
 int run(int argc, char** argv) {
   Options options;
-  canhil::command_line::Program program{"Turns a DBC file into a C++ header of constexpr codecs."};
+  canhil::command_line::Program program{"Turns a DBC file into a C++ header of constexpr codecs.",
+                                        canhil::version_line("dbcgen")};
   program.add_option("dbc", options.dbc, "the DBC file").required();
   program.add_option("-o,--output", options.output, "the file to write; standard output if not given");
   program.add_option("-n,--namespace", options.name_space, "namespace of the header");

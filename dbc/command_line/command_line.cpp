@@ -13,17 +13,22 @@ namespace canhil::command_line {
 namespace {
 
 template <class Number>
+Number read_number(const std::string& name, const std::string& text, Number least, Number most) {
+  Number result = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  if (!whole || result < least || result > most) {
+    throw CLI::ValidationError(name, "'" + text + "' is not a whole number from " + std::to_string(least) +
+                                         " to " + std::to_string(most));
+  }
+  return result;
+}
+
+template <class Number>
 CLI::Option* number(CLI::App& command, const std::string& name, std::optional<Number>& value,
                     const std::string& help, Number least, Number most) {
   const auto read = [&value, name, least, most](const std::string& text) {
-    Number result = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
-    const bool whole = error == std::errc{} && end == text.data() + text.size();
-    if (!whole || result < least || result > most) {
-      throw CLI::ValidationError(name, "'" + text + "' is not a whole number from " + std::to_string(least) +
-                                           " to " + std::to_string(most));
-    }
-    value = result;
+    value = read_number(name, text, least, most);
   };
   return command.add_option_function<std::string>(name, read, help)->type_name("UINT");
 }
@@ -74,6 +79,17 @@ Option Command::add_number(const std::string& name, std::optional<int>& value, c
 Option Command::add_number(const std::string& name, std::optional<std::uint64_t>& value,
                            const std::string& help, std::uint64_t least, std::uint64_t most) const {
   return Option(number(*command_, name, value, help, least, most));
+}
+
+Option Command::add_flag_or_number(const std::string& name, std::optional<int>& value,
+                                   const std::string& help, int usual, int least, int most) const {
+  // CLI11 gives what it gives a flag where the word is missing.
+  constexpr std::string_view missing = "true";
+  const auto read = [&value, name, usual, least, most, missing](const std::string& text) {
+    value = text.empty() || text == missing ? usual : read_number<int>(name, text, least, most);
+  };
+  return Option(
+      command_->add_option_function<std::string>(name, read, help)->expected(0, 1)->type_name("[UINT]"));
 }
 
 Option Command::add_number(const std::string& name, double& value, const std::string& help, double least,

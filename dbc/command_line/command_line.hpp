@@ -57,6 +57,9 @@ class Command {
   Option add_number(const std::string& name, std::optional<std::uint64_t>& value, const std::string& help,
                     std::uint64_t least = 0,
                     std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
+  /// A flag that may have such a number: `usual` where it has none.
+  Option add_flag_or_number(const std::string& name, std::optional<int>& value, const std::string& help,
+                            int usual, int least, int most) const;
   /// A decimal number from `least` to `most`; "nan" is rejected.
   Option add_number(const std::string& name, double& value, const std::string& help, double least,
                     double most) const;

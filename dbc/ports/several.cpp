@@ -35,7 +35,7 @@ class Several final : public Port {
     for (std::size_t i = 0; i < ports_.size(); ++i) {
       if (!waiting_[i]) {
         waiting_[i] = ports_[i]->receive();
-        if (waiting_[i]) waiting_[i]->bus = static_cast<std::uint8_t>(i);
+        if (waiting_[i]) admit(*waiting_[i], i);
       }
       watch(i);
       if (waiting_[i] && (oldest == nullptr || waiting_[i]->t_ns < (*oldest)->t_ns)) oldest = &waiting_[i];
@@ -78,6 +78,14 @@ class Several final : public Port {
   }
 
  private:
+  // Each controller stamps by its own clock, and a stimulus may have passed another bus than its answer:
+  // frames of several buses are stamped by the kernel's clock, which all of them share.
+  static void admit(Received& received, std::size_t bus) {
+    received.bus = static_cast<std::uint8_t>(bus);
+    received.hardware_ns = 0;
+    if (received.source == StampSource::hardware) received.source = StampSource::kernel;
+  }
+
   // An interface that returns has a new socket, and the epoll set has dropped the old one.
   void watch(std::size_t i) {
     const bool up = ports_[i]->up();

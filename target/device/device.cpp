@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "dbc/version/version.hpp"
 #include "dbc/wire/routes.hpp"
 #include "target/device/adapters.hpp"
-#include "target/device/version.hpp"
 
 namespace canhil::target {
 namespace {
@@ -332,8 +332,8 @@ void Device::send_heartbeat(const Estimation& estimation) {
       .estimator = estimation.adapter == nullptr ? Estimator::none : estimation.adapter->estimator(),
       .algorithm = estimation.algorithm,
       .dbc_hash = dbc_hash24,
-      .version_major = version_major,
-      .version_minor = version_minor,
+      .version_major = version().major,
+      .version_minor = version().minor,
       .error_dbc_mismatch = bit(errors.dbc_mismatch),
       .error_not_initialised = bit(errors.not_initialised),
       .error_input_lost = bit(errors.input_lost),

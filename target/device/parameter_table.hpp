@@ -6,16 +6,20 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "messages/canhil.hpp"
 
 namespace canhil::target {
 
-/// The permitted values of a parameter, in the unit of its name.
+/// What a parameter may be, in the unit of its name, and what it does.
 struct ParameterRange {
   double minimum = 0;
   double maximum = 0;
   bool whole = false;  ///< an integer
+  double initial = 0;
+  bool while_running = false;
+  std::string_view meaning{};  ///< one sentence
 };
 
 /// Values of the parameters in the unit of their name, applied to an estimator's own `Tuning`.
@@ -29,6 +33,7 @@ class ParameterTable {
     double maximum;
     bool whole;  ///< an integer
     bool while_running;
+    std::string_view meaning;  ///< for the reference (hil-bench reference)
     void (*apply)(Tuning&, double);
   };
 
@@ -60,7 +65,12 @@ class ParameterTable {
     const auto index = find(parameter);
     if (!index) return std::nullopt;
     const Row& row = rows_[*index];
-    return ParameterRange{.minimum = row.minimum, .maximum = row.maximum, .whole = row.whole};
+    return ParameterRange{.minimum = row.minimum,
+                          .maximum = row.maximum,
+                          .whole = row.whole,
+                          .initial = row.initial,
+                          .while_running = row.while_running,
+                          .meaning = row.meaning};
   }
 
  private:

@@ -28,8 +28,9 @@ BLOCK = re.compile(
 
 
 def of_any_host(line):
-    """The line without what differs from host to host: the seconds that a run took, the fingerprint of a new key."""
+    """The line without what differs from host to host: the seconds that a run took, the revision, the fingerprint of a new key."""
     line = re.sub(r"\bin \d+(\.\d+)? s\b", "in T s", line.rstrip())
+    line = re.sub(r"revision [0-9a-f]+(-dirty)?", "revision REVISION", line)
     return re.sub(r"SHA256:\S+", "SHA256:KEY", line)
 
 
@@ -58,7 +59,8 @@ def check(page, build, write):
     """The complaints about a page; with write the page is brought up to date and none is left but of commands that failed."""
     text = page.read_text()
     complaints, pieces, end = [], [], 0
-    with tempfile.TemporaryDirectory(prefix="canhil-docs-") as name:
+    # Not in /tmp: tests/vcan/run.sh may run a command in a guest, which has a /tmp of its own.
+    with tempfile.TemporaryDirectory(prefix="canhil-docs-", dir="/var/tmp") as name:
         folder = Path(name)
         scratch_tree(folder, build)
         env = dict(os.environ, PATH=f"{build.resolve()}:{os.environ['PATH']}", LC_ALL="C.UTF-8", TERM="dumb")
@@ -74,6 +76,7 @@ def check(page, build, write):
                 continue
             if done.returncode in (126, 127):
                 complaints.append(f"{place}: {done.stdout.strip()}")
+                continue
             if not block["text"]:
                 continue
             is_lines = selected([line.rstrip() for line in done.stdout.replace(str(folder) + "/", "").splitlines()],

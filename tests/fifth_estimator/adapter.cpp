@@ -19,12 +19,14 @@ constexpr double ug = 1e-6 * 9.80665;
 using Row = ParameterTable<baro_inertial::Settings>::Row;
 constexpr std::array rows{
     Row{Parameter::accel_bias_sigma_ug, 300, 0, 1e6, false, false,
+        "1-sigma of the accelerometer bias at the start.",
         [](baro_inertial::Settings& s, double v) { s.accel_bias_sigma_0 = v * ug; }},
-    Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, false, true,
+    Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, false, true, "White noise assumed of the accelerometer.",
         [](baro_inertial::Settings& s, double v) { s.accel_noise_density = v * ug; }},
-    Row{Parameter::fix_noise_vertical_m, 1, 1e-3, 1e4, false, true,
+    Row{Parameter::fix_noise_vertical_m, 1, 1e-3, 1e4, false, true, "White noise assumed of a fix, 1-sigma.",
         [](baro_inertial::Settings& s, double v) { s.barometer_sigma = v; }},
     Row{Parameter::gate_nis, 0, 0, 1e6, false, true,
+        "Fixes whose normalised innovation squared is beyond are rejected; 0: none.",
         [](baro_inertial::Settings& s, double v) { s.gate = v; }},
 };
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # debian.sh BUILD: makes the Debian package of a finished build, installs it with its dependencies in a fresh Debian 12 that has
-# nothing else (debootstrap), and flies the demo there: program and target over the embedded bus. Needs root and the network.
+# nothing else (debootstrap), by the lines of the last stage of packaging/Containerfile, and flies the demo there as its user: program
+# and target over the embedded bus. Needs root and the network.
 set -euo pipefail
 build=$(realpath "$1")
 for tool in debootstrap dpkg-shlibdeps; do
@@ -25,12 +26,19 @@ cp /etc/apt/apt.conf.d/* "$work/root/etc/apt/apt.conf.d/" 2>/dev/null || true # 
 cp "$package" "$work/root/canhil.deb"
 mount -t proc proc "$work/root/proc"
 in_chroot() { chroot "$work/root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"; }
-in_chroot apt-get -q -y install --no-install-recommends /canhil.deb >"$work/apt.log" 2>&1 || { tail "$work/apt.log" >&2; exit 1; }
+source=$(dirname "${BASH_SOURCE[0]}")/../..
+last_stage=$(tac "$source/packaging/Containerfile" | sed '/^FROM/q' | tac)
+[[ $(grep -c '^RUN ' <<<"$last_stage") == 2 ]] || { echo "debian.sh: packaging/Containerfile: expected two RUN lines in its last stage" >&2; exit 1; }
+sed -n 's/^RUN //p' <<<"$last_stage" | while read -r line; do
+  in_chroot bash -ec "$line" </dev/null >>"$work/apt.log" 2>&1 || { tail "$work/apt.log" >&2; exit 1; }
+done
+user=$(sed -n 's/^USER //p' <<<"$last_stage")
+as_user() { chroot --userspec="$user" "$work/root" env -i PATH=/usr/bin:/bin HOME="/home/$user" bash -c 'cd && exec "$@"' bash "$@"; }
 
 # Outputs are judged, timing is not measured in virtual time: exit code 3.
 code=0
-in_chroot hil-bench run /usr/share/canhil/flights/transfer_alignment.toml --lockstep --log /run.pcap >"$work/run.txt" || code=$?
+as_user hil-bench run /usr/share/canhil/flights/transfer_alignment.toml --lockstep --log run.pcap >"$work/run.txt" || code=$?
 cat "$work/run.txt"
 if ((code != 3)) || grep -q FAIL "$work/run.txt"; then echo "debian.sh: the demo ended with $code" >&2; exit 1; fi
-in_chroot hil-bench conformance
+as_user hil-bench conformance
 echo "debian.sh: installed and flown"

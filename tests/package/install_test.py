@@ -68,6 +68,32 @@ class Installed(unittest.TestCase):
             self.assertIn(".SH NAME", page)
             self.assertNotIn(BUILD, page)
 
+    def unit(self):
+        path = f"{self.prefix}/lib/systemd/system/hil-target@.service"
+        with open(path) as file:
+            return path, file.read()
+
+    def test_the_unit_starts_the_program_that_was_installed(self):
+        start = re.search(r"^ExecStart=(\S+) (.*)$", self.unit()[1], re.MULTILINE)
+        self.assertEqual(start[1], self.program("hil-target"))
+        options = re.findall(r"--[a-z-]+", start[2])
+        self.assertEqual(options, ["--bus", "--realtime"])
+        known = run(start[1], "--help")
+        for option in options:
+            self.assertIn(f" {option} ", known)
+
+    def test_systemd_takes_the_unit(self):
+        def verify(path):
+            ended = subprocess.run(["systemd-analyze", "verify", "--man=no", path], capture_output=True, text=True)
+            return ended.returncode, ended.stdout + ended.stderr
+
+        path, text = self.unit()
+        self.assertEqual(verify(path), (0, ""))
+        wrong = f"{self.folder.name}/wrong@.service"
+        with open(wrong, "w") as file:
+            file.write(text.replace("ProtectHome=", "ProtectHouse="))
+        self.assertIn("ProtectHouse", verify(wrong)[1])
+
     def completed(self, *words):
         script = (f"source {self.prefix}/share/bash-completion/completions/hil-bench; "
                   'COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _canhil; printf "%s\\n" "${COMPREPLY[@]}"')

@@ -61,6 +61,7 @@ as_text turnaround_all_cpus "${real_time[@]}" "$build/tests/perf/run/run_turnaro
 as_text turnaround_vcan tests/vcan/run.sh "${real_time[@]}" "$build/tests/perf/run/run_turnaround" --bus vcan0 vcan1
 as_text jitter /usr/bin/python3 tests/perf/run/jitter.py "$build/hil-bench"
 as_text jitter_vcan tests/vcan/run.sh /usr/bin/python3 tests/perf/run/jitter.py "$build/hil-bench" 5 vcan0
+as_text live /usr/bin/python3 tests/perf/run/live.py "$build/hil-bench"
 as_text codec_instructions sh tests/perf/codec/count_instructions.sh "$build/tests/perf/codec/codec_instructions"
 as_text estimators_instructions sh tests/perf/estimators/count_instructions.sh "$build"
 as_text run_stages python3 tests/perf/run/stages.py "$build"

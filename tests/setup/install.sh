@@ -14,12 +14,14 @@ source "$(dirname "${BASH_SOURCE[0]}")/progress.sh"
 build_packages=(
   g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libboost1.81-dev libgeographiclib-dev libfmt-dev libexpected-dev
-  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev libsqlitecpp-dev libkainjow-mustache-dev libpcap-dev
+  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev libsqlitecpp-dev libkainjow-mustache-dev libpcap-dev libssl-dev
+  libjs-chart.js libncurses-dev # the live view: charts of its page, built in; its terminal
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev # CMake configures the tests too
 )
 test_packages=(
   clang-format
   python3 python3-can python3-canmatrix tshark # an independent CAN node, DBC reader and reader of captures
+  python3-yaml # pipelines in docs/examples
   can-utils iproute2 kmod busybox user-mode-linux # vcan where the kernel has none
 )
 paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper, which refuses to run without it
@@ -30,7 +32,8 @@ package_packages=(dpkg-dev file debootstrap help2man) # builds a Debian package 
 full_packages=(
   rt-tests valgrind libclang-rt-14-dev
   qemu-system-x86 make gcc-12 libelf1 # two CAN controllers with the kernel's driver, in an emulated PC; its kernel is not installed
-  help2man # manual pages, for a package
+  chromium chromium-driver python3-selenium # looks at the live view's page
+  help2man systemd # manual pages, for a package; systemd-analyze reads its unit, nothing is started
   slurm-wlm munge # a cluster of one machine, for campaigns as job arrays; started by the test itself, never as a service
 )
 

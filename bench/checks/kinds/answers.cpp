@@ -23,13 +23,16 @@ Answers Answers::read(scenario::Section& section, const scenario::CheckContext& 
   if (estimator == nullptr) return rule;
   for (const estimators::Mark& mark : estimator->marks(Observations{})) {
     const auto key = [&](std::string_view ending) { return fmt::format("{}_{}", mark.name, ending); };
-    Count count{.mark = std::string(mark.name),
-                .at_least = section.optional_integer(key("at_least"), 0),
-                .at_most = section.optional_integer(key("at_most"), 0),
-                .before_us = section.optional_time_us(key("before_s"), Limits::above(0))};
-    scenario::expect_ordered(section, key("at_least"), count.at_least, key("at_most"), count.at_most);
-    if (count.before_us)
-      scenario::expect_within_run(section, key("before_s"), *count.before_us, context.duration_us);
+    const std::string at_least = key("at_least"), at_most = key("at_most"), before = key("before_s");
+    Count count{
+        .mark = std::string(mark.name),
+        .at_least =
+            section.optional_integer({at_least, "So many answers have the mark.", "MARK_at_least"}, 0),
+        .at_most = section.optional_integer({at_most, "No more answers have the mark.", "MARK_at_most"}, 0),
+        .before_us = section.optional_time_us(
+            {before, "The first answer that has the mark comes before.", "MARK_before_s"}, Limits::above(0))};
+    scenario::expect_ordered(section, at_least, count.at_least, at_most, count.at_most);
+    if (count.before_us) scenario::expect_within_run(section, before, *count.before_us, context.duration_us);
     if (count.at_least || count.at_most || count.before_us) rule.counts.push_back(std::move(count));
   }
   if (rule.counts.empty())

@@ -9,12 +9,20 @@
 namespace canhil::checks {
 
 BusErrorLimits BusErrorLimits::read(scenario::Section& section, const scenario::CheckContext& /*context*/) {
-  return {.bus_off_at_most = section.optional_integer("bus_off_at_most", 0).value_or(0),
-          .down_at_most = section.optional_integer("down_at_most", 0).value_or(0),
-          .passive_at_most = section.optional_integer("passive_at_most", 0),
-          .warning_at_most = section.optional_integer("warning_at_most", 0),
-          .error_frames_at_most = section.optional_integer("error_frames_at_most", 0),
-          .late_in_queue_at_most = section.optional_integer("late_in_queue_at_most", 0)};
+  return {
+      .bus_off_at_most =
+          section.optional_integer({"bus_off_at_most", "Number of bus-offs; 0 if not given."}, 0).value_or(0),
+      .down_at_most =
+          section.optional_integer({"down_at_most", "Number of outages of the interface; 0 if not given."}, 0)
+              .value_or(0),
+      .passive_at_most =
+          section.optional_integer({"passive_at_most", "Times that the controller became error passive."}, 0),
+      .warning_at_most =
+          section.optional_integer({"warning_at_most", "Times that the controller reported a warning."}, 0),
+      .error_frames_at_most =
+          section.optional_integer({"error_frames_at_most", "Number of error frames."}, 0),
+      .late_in_queue_at_most = section.optional_integer(
+          {"late_in_queue_at_most", "Frames that waited in the queue too long."}, 0)};
 }
 
 Finding BusErrorLimits::judge(const Evidence& evidence) const {

@@ -26,16 +26,28 @@ BusLoad BusLoad::read(scenario::Section& section, const scenario::CheckContext& 
   BusLoad rule;
   constexpr std::int64_t kilo = 1000;
   constexpr std::int64_t fastest = 1000, fastest_data = 8000;  // ISO 11898-2
-  rule.bitrate = section.integer("bitrate_kbitps", 1) * kilo;
+  rule.bitrate =
+      section.integer({"bitrate_kbitps", fmt::format("Bit rate of the load, at most {}.", fastest)}, 1) *
+      kilo;
   if (rule.bitrate > fastest * kilo)
     section.reject("bitrate_kbitps", "is faster than CAN", fmt::format("kbit/s, at most {}", fastest));
-  rule.data_bitrate = section.optional_integer("data_bitrate_kbitps", 1).value_or(0) * kilo;
+  rule.data_bitrate =
+      section
+          .optional_integer(
+              {"data_bitrate_kbitps",
+               fmt::format("Bit rate of the data phase of FD frames, from `bitrate_kbitps` to {}.",
+                           fastest_data)},
+              1)
+          .value_or(0) *
+      kilo;
   if (rule.data_bitrate != 0 &&
       (rule.data_bitrate < rule.bitrate || rule.data_bitrate > fastest_data * kilo)) {
     section.reject("data_bitrate_kbitps", fmt::format("is {}", rule.data_bitrate / kilo),
                    fmt::format("from bitrate_kbitps to {}", fastest_data));
   }
-  rule.below = section.plain_number("below_percent", Limits::above(0, 100)) / 100;
+  rule.below = section.plain_number({"below_percent", "The load of each whole second is below."},
+                                    Limits::above(0, 100)) /
+               100;
   return rule;
 }
 

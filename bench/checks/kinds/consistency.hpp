@@ -20,6 +20,8 @@ struct Probability {
 
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
+  static constexpr std::string_view meaning =
+      "Passes when the mean of a NEES or NIS over the window lies between the bounds.";
   Subject judged;
   scenario::Window window;
   std::variant<MeanBetween, Probability> bound;

@@ -8,6 +8,8 @@ namespace canhil::checks {
 
 struct Convergence {
   static constexpr std::string_view kind = "convergence";
+  static constexpr std::string_view meaning =
+      "Passes when |estimated - true| stays within the bound for good before that time.";
   Subject judged;
   double within = 0;  ///< [SI]
   quantities::Unit unit{};

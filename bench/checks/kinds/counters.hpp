@@ -10,6 +10,8 @@ namespace canhil::checks {
 /// Limits; an absent one is not judged.
 struct Counters {
   static constexpr std::string_view kind = "counters";
+  static constexpr std::string_view meaning =
+      "Passes when the target's own counters stay within their bounds.";
   std::optional<std::int64_t> frames_lost_at_most{}, bad_crc_at_most{}, bad_group_at_most{}, late_at_most{};
 
   static Counters read(scenario::Section& section, const scenario::CheckContext& context);

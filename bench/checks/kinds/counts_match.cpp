@@ -36,7 +36,10 @@ Count count(std::string_view what, std::uint64_t reported, std::uint64_t least, 
 }  // namespace
 
 CountsMatch CountsMatch::read(scenario::Section& section, const scenario::CheckContext& /*context*/) {
-  const auto slack = [&](std::string_view key) { return section.optional_integer(key, 0).value_or(0); };
+  const auto slack = [&](std::string_view key) {
+    return section.optional_integer({key, "So many more or fewer may be counted; 0 if not given."}, 0)
+        .value_or(0);
+  };
   return {.frames_lost_slack = slack("frames_lost_slack"),
           .bad_crc_slack = slack("bad_crc_slack"),
           .bad_group_slack = slack("bad_group_slack"),

@@ -8,6 +8,8 @@ namespace canhil::checks {
 /// Each count lies between the limits of ExpectedCounts, widened by a slack.
 struct CountsMatch {
   static constexpr std::string_view kind = "counts_match";
+  static constexpr std::string_view meaning =
+      "Passes when the target's own counters are what nodes withheld and faults damaged (report.md).";
   std::int64_t frames_lost_slack = 0, bad_crc_slack = 0, bad_group_slack = 0, late_slack = 0;
 
   static CountsMatch read(scenario::Section& section, const scenario::CheckContext& context);

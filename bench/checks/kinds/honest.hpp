@@ -8,6 +8,7 @@ namespace canhil::checks {
 
 struct Honest {
   static constexpr std::string_view kind = "honest";
+  static constexpr std::string_view meaning = "Passes when no answer is sure and wrong (honesty.md).";
   std::vector<const estimators::Estimator*> estimators;
   std::string named;      ///< the estimator of the check; empty: all that run
   double over_sigma = 5;  ///< upper limit of the quantity trusted.over_sigma

@@ -8,6 +8,8 @@ namespace canhil::checks {
 /// The median latency of the window's last third divided by that of its first.
 struct LatencyGrowth {
   static constexpr std::string_view kind = "latency_growth";
+  static constexpr std::string_view meaning =
+      "Timing. Passes when the latencies do not grow from the first third of the window to the last.";
   std::string message;
   scenario::Window first, last;
   double ratio_below = 0;

@@ -25,7 +25,8 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
     section.reject("fault", "names a fault, but the scenario has none", "a [[fault]] beside it, or times");
     return Disturbance{};
   }
-  const std::string name = section.one_of("fault", names);
+  const std::string name =
+      section.one_of({"fault", "Name of a `[[fault]]` of the scenario, in place of times."}, names);
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
   if (found->window.from_us >= context.duration_us)
@@ -42,13 +43,15 @@ Disturbance read_disturbance(scenario::Section& section, const scenario::CheckCo
     return *fault;
   }
   const std::int64_t t_us =
-      scenario::read_time(section, "from_s", scenario::Limits::at_least(0), context.duration_us);
+      scenario::read_time(section, {"from_s", "Time at which something goes wrong, in place of `fault`."},
+                          scenario::Limits::at_least(0), context.duration_us);
   return {.fault = {}, .window = {.from_us = t_us, .to_us = t_us}, .valid_from_us = t_us};
 }
 
 std::int64_t read_within(scenario::Section& section, const scenario::CheckContext& context,
                          std::int64_t after_us) {
-  const std::int64_t within_us = section.time_us("within_s", scenario::Limits::above(0));
+  const std::int64_t within_us =
+      section.time_us({"within_s", "Longest time until then."}, scenario::Limits::above(0));
   if (after_us + within_us > context.duration_us)
     section.reject(
         "within_s", fmt::format("after {:g} s ends after the run", static_cast<double>(after_us) * 1e-6),
@@ -60,7 +63,8 @@ std::int64_t read_within(scenario::Section& section, const scenario::CheckContex
 std::vector<std::string> read_signs(scenario::Section& section, const scenario::CheckContext& context) {
   section.optional("by");
   if (!section.has("by")) return {};
-  return section.some_of("by", sign_names(running(context)));
+  return section.some_of({"by", "Signs that count; by default any that did not come in the 5 s before."},
+                         sign_names(running(context)));
 }
 
 std::vector<Sign> signs_of(const Evidence& evidence, const Disturbance& of,

@@ -45,11 +45,15 @@ quantities::Unit read_unit(scenario::Section& section, std::string_view stem, co
 }  // namespace
 
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates) {
-  if (candidates.size() == 1) return section.one_of("estimator", candidates, candidates.front());
+  if (candidates.size() == 1)
+    return section.one_of(
+        {"estimator", "The estimator that is meant, where several that run send the quantity."}, candidates,
+        candidates.front());
   // Reported before the keys that depend on the estimator.
   if (!section.has("estimator"))
     section.reject("estimator", "is missing", fmt::format("one of: {}", fmt::join(candidates, ", ")));
-  return section.one_of("estimator", candidates);
+  return section.one_of(
+      {"estimator", "The estimator that is meant, where several that run send the quantity."}, candidates);
 }
 
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
@@ -86,20 +90,27 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
   for (const std::string_view key : {"from_s", "to_s"})
     section.refuse(key, "has no effect beside time_to_go_s", "one of the two");
   return {.window = {.from_us = 0, .to_us = context.duration_us},
-          .to_go_s = section.interval("time_to_go_s", scenario::Limits::at_least(0))};
+          .to_go_s = section.interval(
+              {"time_to_go_s", "Part of an engagement by its time to go, in place of `from_s` and `to_s`."},
+              scenario::Limits::at_least(0))};
 }
 
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
-                                             const Quantity& quantity) {
+                                             std::string_view meaning, const Quantity& quantity) {
   const quantities::Unit unit = read_unit(section, stem, quantity);
-  return {section.number(key_of(stem, unit), scenario::Limits::above(0)), unit};
+  return {
+      section.number({key_of(stem, unit), meaning, fmt::format("{}_UNIT", stem)}, scenario::Limits::above(0)),
+      unit};
 }
 
 std::pair<std::pair<double, double>, quantities::Unit> read_range(scenario::Section& section,
                                                                   std::string_view stem,
+                                                                  std::string_view meaning,
                                                                   const Quantity& quantity) {
   const quantities::Unit unit = read_unit(section, stem, quantity);
-  return {section.interval(key_of(stem, unit), scenario::Limits::at_least(0)), unit};
+  return {section.interval({key_of(stem, unit), meaning, fmt::format("{}_UNIT", stem)},
+                           scenario::Limits::at_least(0)),
+          unit};
 }
 
 std::vector<const Quantity*> parts_of(const Quantity& quantity) {

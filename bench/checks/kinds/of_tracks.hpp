@@ -25,11 +25,12 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
 
 /// The value of a key STEM_UNIT, in SI, and its unit; angles in mrad or deg.
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
-                                             const quantities::Quantity& quantity);
+                                             std::string_view meaning, const quantities::Quantity& quantity);
 
 /// The same for a pair of values, [low, high].
 std::pair<std::pair<double, double>, quantities::Unit> read_range(scenario::Section& section,
                                                                   std::string_view stem,
+                                                                  std::string_view meaning,
                                                                   const quantities::Quantity& quantity);
 
 /// The parts of a quantity, or the quantity itself if it has none.

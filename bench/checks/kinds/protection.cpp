@@ -13,7 +13,8 @@ namespace canhil::checks {
 Protection Protection::read(scenario::Section& section, const scenario::CheckContext& context) {
   Protection rule;
   if (section.has("message")) {
-    rule.message = section.one_of("message", context.contract.messages);
+    rule.message =
+        section.one_of({"message", "One message; by default all of the target."}, context.contract.messages);
     if (!section.error() && !context.contract.sent_by.contains(*rule.message))
       section.reject("message", "'" + *rule.message + "' is not a message of the target",
                      "one that it sends");
@@ -22,7 +23,9 @@ Protection Protection::read(scenario::Section& section, const scenario::CheckCon
   if (context.contract.foreign == nullptr)
     section.reject("kind", "'protection' is for targets with a mapping",
                    "'counters', which asks the target itself");
-  const auto most = [&](std::string_view key) { return section.optional_integer(key, 0).value_or(0); };
+  const auto most = [&](std::string_view key) {
+    return section.optional_integer({key, "So many frames may be wrong; 0 if not given."}, 0).value_or(0);
+  };
   rule.wrong_checksums_at_most = most("wrong_checksums_at_most");
   rule.wrong_counters_at_most = most("wrong_counters_at_most");
   rule.wrong_sizes_at_most = most("wrong_sizes_at_most");

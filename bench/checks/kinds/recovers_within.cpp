@@ -26,7 +26,8 @@ RecoversWithin RecoversWithin::read(scenario::Section& section, const scenario::
     rule.error = read_subject(section, context, [](const quantities::Quantity& quantity) {
       return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
     });
-    std::tie(rule.below, rule.unit) = read_bar(section, "below", *rule.error->quantity);
+    std::tie(rule.below, rule.unit) =
+        read_bar(section, "below", "From then on |estimated - true| is below.", *rule.error->quantity);
   }
   for (const estimators::Estimator* one : running(context)) {
     const std::vector<Subject> reported = always_reported(*one);

@@ -16,7 +16,8 @@ Sigma Sigma::read(scenario::Section& section, const scenario::CheckContext& cont
     return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
   });
   rule.stretch = read_stretch(section, context, rule.judged);
-  const auto [range, unit] = read_range(section, "between", *rule.judged.quantity);
+  const auto [range, unit] =
+      read_range(section, "between", "Every sigma lies between.", *rule.judged.quantity);
   std::tie(rule.low, rule.high) = range;
   rule.unit = unit;
   return rule;

@@ -21,7 +21,9 @@ SigmaGrows SigmaGrows::read(scenario::Section& section, const scenario::CheckCon
   } else {
     rule.window = scenario::read_window(section, context.duration_us);
   }
-  rule.by = section.plain_number("by", scenario::Limits::at_least(1), 1);
+  rule.by = section.plain_number(
+      {"by", "The last sigma of the window is more than so many times the last one before it."},
+      scenario::Limits::at_least(1), 1);
   return rule;
 }
 

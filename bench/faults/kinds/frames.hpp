@@ -31,24 +31,28 @@ struct EachFrame : Frames {
 /// The frame is not sent.
 struct Lost : EachFrame<Lost> {
   static constexpr std::string_view kind = "lost";
+  static constexpr std::string_view meaning = "The frame is not sent.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 };
 
 /// The frame is sent twice.
 struct Repetition : EachFrame<Repetition> {
   static constexpr std::string_view kind = "repeated";
+  static constexpr std::string_view meaning = "The frame is sent twice.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 };
 
 /// The frame lacks its last byte.
 struct TooShort : EachFrame<TooShort> {
   static constexpr std::string_view kind = "too_short";
+  static constexpr std::string_view meaning = "The frame lacks its last byte.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 };
 
 /// The frame has additional bytes, all zero.
 struct TooLong : EachFrame<TooLong> {
   static constexpr std::string_view kind = "too_long";
+  static constexpr std::string_view meaning = "The frame has more bytes than the message.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
   [[nodiscard]] std::string cannot(const Place& place) const;
 };
@@ -56,12 +60,14 @@ struct TooLong : EachFrame<TooLong> {
 /// The frame is extended, with a 29-bit id.
 struct ForeignFormat : EachFrame<ForeignFormat> {
   static constexpr std::string_view kind = "foreign";
+  static constexpr std::string_view meaning = "The frame comes as an extended frame, with 29 bits of id.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 };
 
 /// Bits of the payload are flipped, the CRC is unchanged.
 struct Damaged : Frames {
   static constexpr std::string_view kind = "damaged";
+  static constexpr std::string_view meaning = "A bit of the payload changes, and the CRC stays.";
   std::optional<std::int64_t> bits{};  ///< how many random bits; none: one bit of the first measured signal
   static Damaged read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;

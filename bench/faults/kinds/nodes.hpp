@@ -25,6 +25,8 @@ struct OfNode {
 /// The node sends nothing, and its counters stand still.
 struct Silent : OfNode<Silent> {
   static constexpr std::string_view kind = "silent";
+  static constexpr std::string_view meaning =
+      "The node sends nothing, and goes on where it stopped. Increments of that time are gone.";
   static Silent read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
                                                   const scenario::NodeSettings& settings,
@@ -34,6 +36,7 @@ struct Silent : OfNode<Silent> {
 /// Silent for a time; then its counters restart at 0, and its measurements of that time are lost.
 struct NodeRestart : OfNode<NodeRestart> {
   static constexpr std::string_view kind = "restart";
+  static constexpr std::string_view meaning = "The node is silent for a time; then its counters begin at 0.";
   static NodeRestart read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
                                                   const scenario::NodeSettings& settings,
@@ -43,6 +46,7 @@ struct NodeRestart : OfNode<NodeRestart> {
 /// Its samples are sent late; their time of validity is right.
 struct Late : OfNode<Late> {
   static constexpr std::string_view kind = "late";
+  static constexpr std::string_view meaning = "The sample leaves later; its time of validity is right.";
   static constexpr Stage stage = Stage::sensor;
   std::int64_t by_us = 0;
   static Late read(scenario::Section& section, const scenario::FaultContext& context);
@@ -55,6 +59,8 @@ struct Late : OfNode<Late> {
 /// It sends less often: each time the newest sample, with the sum of the increments since the last one.
 struct Slow : OfNode<Slow> {
   static constexpr std::string_view kind = "slow";
+  static constexpr std::string_view meaning =
+      "The node's period is longer: it sends its newest sample, with the increments of those between.";
   double longer = 0;  ///< the additional period, as a fraction of the right one
   static Slow read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
@@ -66,6 +72,7 @@ struct Slow : OfNode<Slow> {
 /// Its reported times have an offset.
 struct ClockStep : OfNode<ClockStep> {
   static constexpr std::string_view kind = "clock_step";
+  static constexpr std::string_view meaning = "The times of validity of the node are off.";
   std::int64_t by_us = 0;
   static ClockStep read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
@@ -77,6 +84,8 @@ struct ClockStep : OfNode<ClockStep> {
 /// Its clock runs too fast, which also affects its reported intervals.
 struct ClockDrift : OfNode<ClockDrift> {
   static constexpr std::string_view kind = "clock_drift";
+  static constexpr std::string_view meaning =
+      "The clock of the node is too fast, and so are the intervals that it sends.";
   double rate = 0;
   static ClockDrift read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;

@@ -53,10 +53,11 @@ class FloodFrames final : public Repeated {
 Stranger Stranger::read(scenario::Section& section, const scenario::FaultContext& context) {
   Stranger kind;
   kind.when = read_when(section, context, Repeats::stretch);
-  kind.period_us = section.time_us("period_ms", Limits::above(0));
+  kind.period_us = section.time_us({"period_ms", "Time from a frame to the next."}, Limits::above(0));
   kind.id = max_standard_id;
   while (kind.id > 0 && is_known(context, kind.id)) --kind.id;
-  if (const auto id = section.optional_integer("id", 0)) {
+  if (const auto id =
+          section.optional_integer({"id", "Id of the frames; by default the highest that nobody has."}, 0)) {
     kind.id = static_cast<std::uint32_t>(std::min<std::int64_t>(*id, max_standard_id));
     if (*id > max_standard_id || is_known(context, kind.id))
       section.reject("id", fmt::format("{} is used by the DBC, or has more than 11 bits", *id),
@@ -72,11 +73,13 @@ std::unique_ptr<Injector> Stranger::injector(const InRun& run) const {
 Flood Flood::read(scenario::Section& section, const scenario::FaultContext& context) {
   Flood kind;
   kind.when = read_when(section, context, Repeats::stretch);
-  kind.period_us = section.optional_time_us("period_us", Limits::above(0));
+  kind.period_us =
+      section.optional_time_us({"period_us", "Time from a frame to the next."}, Limits::above(0));
   if (kind.period_us)
     section.refuse("load_percent", "is given beside period_us", "one of the two");
   else
-    kind.load = section.number("load_percent", Limits::above(0, 100));
+    kind.load = section.number({"load_percent", "Load that the frames make, of the bus's bit rate."},
+                               Limits::above(0, 100));
   if (is_known(context, urgent.id))
     section.reject("kind", "'flood' uses the id of a message", "a DBC without id 0");
   return kind;

@@ -8,6 +8,7 @@ namespace canhil::faults {
 /// The CRC is wrong.
 struct WrongCrc : Frames {
   static constexpr std::string_view kind = "wrong_crc";
+  static constexpr std::string_view meaning = "The payload is right, the CRC is not.";
   static WrongCrc read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
@@ -15,6 +16,8 @@ struct WrongCrc : Frames {
 /// The counter stays at that of the first affected frame; the CRC is right.
 struct CounterStuck : Frames {
   static constexpr std::string_view kind = "counter_stuck";
+  static constexpr std::string_view meaning =
+      "The counter stays at that of the first frame. The CRC is right.";
   static CounterStuck read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
@@ -22,6 +25,7 @@ struct CounterStuck : Frames {
 /// The counter is too high; the CRC is right.
 struct CounterJump : Frames {
   static constexpr std::string_view kind = "counter_jump";
+  static constexpr std::string_view meaning = "The counter is ahead. The CRC is right.";
   std::int64_t by = 1;
   static CounterJump read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;

@@ -9,6 +9,7 @@ namespace canhil::faults {
 /// Two values of a sample are swapped.
 struct Swapped {
   static constexpr std::string_view kind = "swapped";
+  static constexpr std::string_view meaning = "Two quantities of a node have each other's value.";
   static constexpr Stage stage = Stage::sensor;
   OfValues one{};
   Measured other{};
@@ -23,6 +24,8 @@ struct Swapped {
 /// The sample is flagged invalid.
 struct Invalid {
   static constexpr std::string_view kind = "invalid";
+  static constexpr std::string_view meaning =
+      "The flags by which the sensor vouches for the sample say invalid.";
   static constexpr Stage stage = Stage::sensor;
   std::vector<Measured> flags{};
   std::string text{};

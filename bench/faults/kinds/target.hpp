@@ -8,6 +8,8 @@ namespace canhil::faults {
 /// The process is stopped by SIGSTOP and continued later.
 struct Paused {
   static constexpr std::string_view kind = "paused";
+  static constexpr std::string_view meaning =
+      "The target's process stands still (SIGSTOP), then goes on. Needs `for_s`.";
   static constexpr Stage stage = Stage::target;
   When when{};
   static Paused read(scenario::Section& section, const scenario::FaultContext& context);
@@ -18,6 +20,8 @@ struct Paused {
 /// The process gets only a fraction of the time: in each period it is stopped for the rest.
 struct Slowed {
   static constexpr std::string_view kind = "slowed";
+  static constexpr std::string_view meaning =
+      "The target's process stands still for the rest of each period.";
   static constexpr Stage stage = Stage::target;
   When when{};
   double share = 1;
@@ -31,6 +35,8 @@ struct Slowed {
 /// sends nothing else.
 struct Restarted {
   static constexpr std::string_view kind = "restarted";
+  static constexpr std::string_view meaning =
+      "The target's process is killed and started again, with the state of that time.";
   static constexpr Stage stage = Stage::target;
   When when{};
   static Restarted read(scenario::Section& section, const scenario::FaultContext& context);

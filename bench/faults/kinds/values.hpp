@@ -55,6 +55,7 @@ struct EachValue {
 /// The value is replaced.
 struct Changed : EachValue<Changed> {
   static constexpr std::string_view kind = "changed", stem = "value";
+  static constexpr std::string_view meaning = "A sensor's value is this; a flag is 0 or 1.";
   static constexpr scenario::Limits limits{};
   static constexpr bool exactly = true;
   void check(scenario::Section& section) const;
@@ -64,6 +65,7 @@ struct Changed : EachValue<Changed> {
 /// A constant offset.
 struct Bias : EachValue<Bias> {
   static constexpr std::string_view kind = "bias", stem = "by";
+  static constexpr std::string_view meaning = "A sensor's value is so much more.";
   static constexpr scenario::Limits limits{};
   static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
 };
@@ -71,6 +73,8 @@ struct Bias : EachValue<Bias> {
 /// An offset that grows at a constant rate.
 struct Drift : EachValue<Drift> {
   static constexpr std::string_view kind = "drift", stem = "by";
+  static constexpr std::string_view meaning =
+      "A sensor's value is so much more with each second since `from_s`.";
   static constexpr scenario::Limits limits{};
   static double becomes(double value, double size, const Sampled& sample) {
     return value + size * 1e-6 * static_cast<double>(sample.since_us);
@@ -80,6 +84,8 @@ struct Drift : EachValue<Drift> {
 /// Single samples have an offset.
 struct Spike : EachValue<Spike> {
   static constexpr std::string_view kind = "spike", stem = "by";
+  static constexpr std::string_view meaning =
+      "As `bias`, of single samples: needs `every` above 1 or `percent` below 100.";
   static constexpr scenario::Limits limits{};
   void check(scenario::Section& section) const;
   static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
@@ -88,12 +94,14 @@ struct Spike : EachValue<Spike> {
 /// The value stays at what it was at the start of the fault.
 struct Stuck : EachValue<Stuck> {
   static constexpr std::string_view kind = "stuck";
+  static constexpr std::string_view meaning = "A sensor's value stays what it was at the start.";
   static double becomes(double value, double size, const Sampled& sample);
 };
 
 /// The value is limited to this magnitude.
 struct Saturated : EachValue<Saturated> {
   static constexpr std::string_view kind = "saturated", stem = "at";
+  static constexpr std::string_view meaning = "A sensor's value is no larger than this, to either side.";
   static constexpr scenario::Limits limits = {.least = 0};
   static double becomes(double value, double size, const Sampled& sample);
 };
@@ -101,6 +109,7 @@ struct Saturated : EachValue<Saturated> {
 /// Additional white noise, 1-sigma per sample.
 struct Noise : EachValue<Noise> {
   static constexpr std::string_view kind = "noise", stem = "sigma";
+  static constexpr std::string_view meaning = "White noise is added to the sensor's own, 1-sigma a sample.";
   static constexpr scenario::Limits limits = {.least = 0};
   static double becomes(double value, double size, const Sampled& sample) {
     return value + size * sample.noise.normal();
@@ -110,6 +119,7 @@ struct Noise : EachValue<Noise> {
 /// The sign is wrong.
 struct Reversed : EachValue<Reversed> {
   static constexpr std::string_view kind = "reversed";
+  static constexpr std::string_view meaning = "A sensor's value has the wrong sign.";
   static double becomes(double value, double /*size*/, const Sampled& /*sample*/) { return -value; }
 };
 

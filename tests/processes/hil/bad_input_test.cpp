@@ -181,7 +181,7 @@ TEST(BadInput, UnknownSubcommand) {
   expect_one_line(
       hil_bench("zebra"),
       "subcommand 'zebra' is unknown, expected one of: run, report, compare, bus, accept, campaign, faults, "
-      "diverge, golden, doctor, schedulability");
+      "reference, diverge, golden, doctor, schedulability");
   expect_one_line(hil_bench(""), "subcommand is required");
 }
 
@@ -231,9 +231,20 @@ std::string version_of(const Ended& ended) {
 
 TEST(Version, NamesTheProjectAndTheContract) {
   const std::string bench = version_of(hil_bench("--version"));
-  EXPECT_EQ(bench, fmt::format(" {} · DBC {:016x}, on the bus {:06x}\n", PROJECT_VERSION, messages::dbc_hash,
-                               messages::dbc_hash24));
-  EXPECT_EQ(version_of(hil_target("--version")), bench) << "the version that heartbeats carry";
+  EXPECT_THAT(bench, testing::StartsWith(fmt::format(" {} (revision ", PROJECT_VERSION)));
+  EXPECT_THAT(bench, testing::EndsWith(fmt::format(") · DBC {:016x}, on the bus {:06x}\n", messages::dbc_hash,
+                                                   messages::dbc_hash24)));
+  EXPECT_EQ(version_of(hil_target("--version")), bench);
+  const std::string revision = bench.substr(0, bench.find(" ·"));
+  EXPECT_EQ(version_of(shell(DBCGEN " --version")), revision + "\n");
+  const auto told = json_of(hil_bench(fmt::format("run {} --bus {} --lockstep --json -",
+                                                  scenario("transfer_alignment_quick"), bus()))
+                                .out)["provenance"];
+  EXPECT_THAT(revision, testing::StartsWith(fmt::format(" {} (", told["version"].get<std::string>())));
+  EXPECT_THAT(revision, testing::HasSubstr("revision " + told["revision"].get<std::string>() + ")"));
+  EXPECT_THAT(told["version"].get<std::string>(),
+              testing::StartsWith(told["target"]["version"].get<std::string>() + "."))
+      << "the version that heartbeats carry";
 }
 
 TEST(Scripts, TellTheirUseAndRefuseWhatTheyDoNotKnow) {

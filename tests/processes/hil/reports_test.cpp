@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,9 +51,31 @@ TEST_F(Reports, TellWhichTargetWasTested) {
   ASSERT_THAT(run.err, testing::IsEmpty());
   const auto target = read_json(scratch("target.json"))["provenance"]["target"];
   EXPECT_THAT(target["program"].get<std::string>(), EndsWith("/hil-target"));
-  EXPECT_EQ(target["file_bytes"].get<std::uintmax_t>(),
+  std::map<std::string, nlohmann::json> files;
+  for (const auto& file : read_json(scratch("target.json"))["provenance"]["files"])
+    files[file["role"]] = file;
+  EXPECT_EQ(files["target"]["bytes"].get<std::uintmax_t>(),
             std::filesystem::file_size(target["program"].get<std::string>()));
-  EXPECT_THAT(target["file_hash"].get<std::string>(), testing::MatchesRegex("[0-9a-f]+"));
+}
+
+// sha256sum reads the same files; that of the built-in DBC is dbc/canhil.dbc's.
+TEST_F(Reports, NameEveryFileByItsHash) {
+  const Ended run = hil_bench("run " + scenario("transfer_alignment_quick") + " --bus " + bus() +
+                              " --lockstep --operator 'Ada L' --json " + scratch("signed.json"));
+  const auto provenance = read_json(scratch("signed.json"))["provenance"];
+  EXPECT_EQ(provenance["operator"], "Ada L");
+  std::vector<std::string> roles;
+  for (const auto& file : provenance["files"]) {
+    roles.push_back(file["role"]);
+    const std::string name =
+        file["role"] == "DBC" ? SOURCE_DIR "/dbc/canhil.dbc" : file["name"].get<std::string>();
+    EXPECT_EQ(shell("sha256sum " + name).out.substr(0, 64), file["sha256"]) << name;
+  }
+  EXPECT_THAT(roles, testing::ElementsAre("bench", "target", "scenario", "DBC"));
+  EXPECT_EQ(provenance["adapters"][0]["kind"], "virtual");
+  expect_one_line(hil_bench("run " + scenario("transfer_alignment_quick") +
+                            " --bus in-process --operator \"$(printf '\\t')\""),
+                  "--operator: holds a control character");
 }
 
 TEST_F(Reports, TheSameIsNoWorse) {

@@ -274,6 +274,60 @@ TEST(Decode, SaysWhatItLeavesOut) {
   expect_one_line(hil_bench(fmt::format("decode {} --dbc none.dbc", log)), "none.dbc");
 }
 
+// b's clock is 5 s ahead. Of 123: later by 100, 300, 200 and 200 us, so the mean is 200 us beyond 5 s and the
+// standard deviation sqrt((100^2 + 100^2) / 3) = 81.6 us; 03 is in a alone, 06 in b alone, FF before a
+// begins.
+TEST(LogCompare, TellsHowFarStampsAreApart) {
+  const std::string a =
+      file("a.log",
+           "(100.000000) can0 123#01\n(100.010000) can0 123#02\n(100.020000) can0 123#03\n"
+           "(100.030000) can0 300#AA\n(100.040000) can0 123#04\n(100.050000) can0 123#05\n");
+  const std::string b = file("b.log",
+                             "(104.000000) can1 123#FF\n(105.000100) can1 123#01\n(105.010300) can1 123#02\n"
+                             "(105.030200) can1 300#AA\n(105.040200) can1 123#04\n(105.045000) can1 123#06\n"
+                             "(105.050200) can1 123#05\n");
+  const Ended ended = hil_bench(fmt::format("log compare {} {} --dbc {}/dbc/canhil.dbc", a, b, SOURCE_DIR));
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  const auto lines = lines_of(ended.out);
+  ASSERT_EQ(lines.size(), 5U) << ended.out;
+  EXPECT_THAT(lines[1], testing::MatchesRegex("123 +4 +5000200.0 +81.6 +5000100.0 +5000300.0 +1 +1"));
+  EXPECT_THAT(lines[2],
+              testing::MatchesRegex("TargetHeartbeat +1 +5000200.0 +0.0 +5000200.0 +5000200.0 +0 +0"));
+  EXPECT_THAT(lines[3], testing::MatchesRegex("all +5 +5000200.0 +70.7 +.* 1 +1"));
+  EXPECT_EQ(lines[4], "1 frames were recorded while the other log did not record");
+  const auto json = json_of(hil_bench(fmt::format("log compare {} {} --json -", b, a)).out);
+  EXPECT_NEAR(json["all"]["mean_s"].get<double>(), -5.0002, 1e-9);
+  EXPECT_EQ(json["messages"][0]["only_in_b"], 1);
+  EXPECT_EQ(json["outside"], 1);
+}
+
+// Content that comes again and again, of which one frame is lost on the way to a.
+TEST(LogCompare, PairsRepeatedFramesByTheirTimes) {
+  std::string a, b;
+  for (int i = 0; i < 20; ++i) {
+    if (i != 7) a += fmt::format("(100.{:02}0000) can0 123#01\n", i);
+    b += fmt::format("(100.{:02}0100) can1 123#01\n", i);
+  }
+  const auto json = json_of(
+      hil_bench(fmt::format("log compare {} {} --json -", file("a.log", a), file("b.log", b))).out)["all"];
+  EXPECT_EQ(json["count"], 19);
+  EXPECT_EQ(json["only_in_b"], 1);
+  EXPECT_NEAR(json["max_s"].get<double>(), 100e-6, 1e-9);
+  EXPECT_NEAR(json["sd_s"].get<double>(), 0, 1e-9);
+}
+
+TEST(LogCompare, OfTheSameAndOfNothing) {
+  EXPECT_EQ(hil_bench(fmt::format("log compare {} {}", recorded(), file("again.log", read(recorded())))).code,
+            0);
+  const std::string one = file("one.log", "(100.000000) can0 123#01\n");
+  EXPECT_EQ(
+      hil_bench(fmt::format("log compare {} {}", one, file("two.log", "(100.000000) can0 456#01\n"))).code,
+      3);
+  expect_one_line(hil_bench(fmt::format("log compare {} {}", one, file("empty.log", ""))),
+                  "no frame, expected a recording");
+  expect_one_line(hil_bench(fmt::format("log compare {} {}", one, one)), "is named twice");
+}
+
 // Over the embedded bus that the test hosts, ten times as fast.
 TEST(Replay, SendsTheFramesAgainAtTheirTimes) {
   const std::string bus =

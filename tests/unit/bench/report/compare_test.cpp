@@ -281,7 +281,8 @@ TEST(Compare, SaysInWhatElseTheRunsDiffer) {
   first["provenance"].update({{"seed", 7}, {"revision", "a"}, {"cpu_model", "Slow"}, {"dbc_hash", "1"}});
   const Compared result = compared(first, other);
   EXPECT_EQ(result.outcome, Comparison::no_worse);
-  EXPECT_THAT(result.text, HasSubstr("differs  seed 7 -> 8, DBC 1 -> 2, revision a -> b\n"));
+  EXPECT_THAT(result.text, HasSubstr("differs  seed: 7 -> 8\ndiffers  revision: a -> b\n"
+                                     "differs  DBC: 1 -> 2\n"));
 }
 
 TEST(Compare, NamesAnotherBusWireAndHost) {
@@ -292,13 +293,56 @@ TEST(Compare, NamesAnotherBusWireAndHost) {
   other["provenance"].update({{"bus", "can1"}, {"host", "bench-2"}});
   other["wire"]["bitrate_bitps"] = 1000000;
   EXPECT_THAT(compared(one, other).text,
-              HasSubstr("differs  bus can0 -> can1, bit rate of the wire 500000 -> 1000000, host bench-1 -> "
-                        "bench-2\n"));
+              HasSubstr("differs  bus: can0 -> can1\ndiffers  host: bench-1 -> bench-2\n"
+                        "differs  bit rate of the wire: 500000 -> 1000000\n"));
   other = one;
   one["wire"]["data_bitrate_bitps"] = 2000000;
   other["wire"]["data_bitrate_bitps"] = 5000000;
   EXPECT_THAT(compared(one, other).text,
-              HasSubstr("differs  data bit rate of the wire 2000000 -> 5000000\n"));
+              HasSubstr("differs  data bit rate of the wire: 2000000 -> 5000000\n"));
+}
+
+TEST(Compare, NamesAnotherAdapterProgramAndOption) {
+  Json one = report_of(latencies_us(1, 200));
+  one["provenance"].update(
+      {{"adapters", {{{"bus", "can0"}, {"kind", "usb"}, {"serial", "1"}}}},
+       {"files",
+        {{{"role", "bench"}, {"name", "/a/hil-bench"}, {"sha256", "0123456789abcdef"}, {"date", "x"}},
+         {{"role", "target"}, {"name", "/a/hil-target"}, {"sha256", "same"}, {"date", "x"}}}},
+       {"target", {{"program", "hil-target"}, {"version", "0.1"}}},
+       {"bench_process", {{"policy", "SCHED_OTHER"}, {"spin_us", 0}, {"locked_kib", 0}}}});
+  Json other = one;
+  EXPECT_THAT(compared(one, other).text, Not(HasSubstr("differs")));
+  Json& changed = other["provenance"];
+  changed["adapters"][0]["serial"] = "2";
+  changed["adapters"].push_back({{"bus", "can1"}, {"kind", "pci"}});
+  changed["files"][0].update({{"name", "/b/hil-bench"}, {"sha256", "f123456789abcdef"}, {"date", "y"}});
+  changed["files"][1].update({{"name", "/b/hil-target"}, {"date", "y"}});
+  changed["files"].push_back({{"role", "faults"}, {"sha256", "77"}});
+  changed["target"]["version"] = "0.2";
+  changed["bench_process"].update({{"policy", "SCHED_FIFO"}, {"spin_us", 100}, {"locked_kib", 77}});
+  changed["operator"] = "Ada";
+  EXPECT_THAT(compared(one, other).text,
+              testing::StartsWith("differs  adapter: usb -> usb, pci\n"
+                                  "differs  serial number of the adapter: 1 -> 2\n"
+                                  "differs  program of the bench (SHA-256): 0123456789ab -> f123456789ab\n"
+                                  "differs  version of the target: 0.1 -> 0.2\n"
+                                  "differs  scheduling: SCHED_OTHER -> SCHED_FIFO\n"
+                                  "differs  spin [us]: 0 -> 100\n"
+                                  "differs  locked memory: no -> yes\n"
+                                  "differs  file of faults (SHA-256): not known -> 77\n"
+                                  "differs  operator: not known -> Ada\n"
+                                  "latency  one run a side"))
+      << "all of them, before the first figure";
+}
+
+// A key that a later version adds is named as well.
+TEST(Compare, NamesWhatItDoesNotKnow) {
+  Json one = report_of(latencies_us(1, 200)), other = one;
+  one["provenance"]["moon"] = "new";
+  other["provenance"]["moon"] = "full";
+  const Json third = one;
+  EXPECT_THAT(compare({one, other}, {third})->text, HasSubstr("differs  moon: new and full -> new\n"));
 }
 
 TEST(Compare, TheBusThatABenchMadeForItselfIsNoOther) {

@@ -13,7 +13,6 @@
 #include <sstream>
 
 #include "bench/report/plot.hpp"
-#include "bench/report/provenance.hpp"
 #include "bench/report/run_reports.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/unit/bench/report/finished_run.hpp"
@@ -176,32 +175,6 @@ TEST(Plot, ABarThatWouldHideTheCurveIsLeftOut) {
   EXPECT_THAT(svg(plot), HasSubstr("class=\"bar\""));
   plot.bars[0].below = 200;
   EXPECT_THAT(svg(plot), Not(HasSubstr("class=\"bar\"")));
-}
-
-TEST(Provenance, SaysWhatWasTested) {
-  drive::Run run = run_of();
-  const auto target = [&] { return document(scenario_of(), run).at("provenance").at("target"); };
-  EXPECT_EQ(target().at("program"), "runs elsewhere");
-  run.options.target = "./hil-target";
-  run.target_files = {{"./hil-target", {.hash = 0xAB, .bytes = 1234, .modified_s = 86'400}}};
-  EXPECT_EQ(target().dump(), R"({"program":"./hil-target","file_hash":"00000000000000ab","file_bytes":1234,)"
-                             R"("file_date":"1970-01-02T00:00:00Z"})");
-  EXPECT_THAT(page_of(run), HasSubstr("target: file_hash"));
-  run.options.target = "python3 mine.py";
-  run.target_files.push_back({"mine.py", {.hash = 0xCD, .bytes = 5, .modified_s = 86'400}});
-  EXPECT_EQ(target().at("arguments").dump(), R"([{"file":"mine.py","file_hash":"00000000000000cd",)"
-                                             R"("file_bytes":5,"file_date":"1970-01-02T00:00:00Z"}])");
-  EXPECT_THAT(page_of(run), HasSubstr("mine.py"));
-  run.in_process = true;
-  EXPECT_EQ(target().dump(), R"({"program":"in hil-bench itself"})");
-}
-
-TEST(Provenance, FindsTheCpuModel) {
-  EXPECT_EQ(cpu_model("processor\t: 0\nmodel\t\t: 106\nmodel name\t: Some CPU @ 2 GHz\nflags: x\n"),
-            "Some CPU @ 2 GHz");
-  EXPECT_EQ(cpu_model("processor : 0\n"), "unknown");
-  EXPECT_EQ(date_utc(0), "unknown");
-  EXPECT_EQ(date_utc(86'400), "1970-01-02T00:00:00Z");
 }
 
 }  // namespace

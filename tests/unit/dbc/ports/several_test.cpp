@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <ctime>
+#include <utility>
 
+#include "dbc/ports/descriptor.hpp"
 #include "dbc/ports/local_bus.hpp"
 
 namespace canhil {
@@ -82,6 +85,44 @@ TEST_F(Several, ABusThatIsNotThereIsNamed) {
   const auto missing = open_buses({buses_[0], "local:nobody-hosts-this"}, {});
   ASSERT_FALSE(missing);
   EXPECT_THAT(missing.error().message, HasSubstr("local:nobody-hosts-this"));
+}
+
+// A controller with a clock of its own, that has one frame.
+class Controller final : public Port {
+ public:
+  explicit Controller(std::int64_t hardware_ns) {
+    one_ = Received{
+        .frame = {.id = 5}, .t_ns = 1'000, .hardware_ns = hardware_ns, .source = StampSource::hardware};
+  }
+  SendOutcome send(const Frame& /*frame*/) override { return SendOutcome::sent; }
+  std::optional<Received> receive() override { return std::exchange(one_, std::nullopt); }
+  [[nodiscard]] int descriptor() const override { return event_.get(); }
+  [[nodiscard]] RoomWait room_wait() const override { return {}; }
+  [[nodiscard]] bool closed() const override { return false; }
+  [[nodiscard]] PortCounters counters() const override { return {}; }
+  [[nodiscard]] int stamp_clock() const override { return CLOCK_REALTIME; }
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+ private:
+  std::optional<Received> one_;
+  Descriptor event_{::eventfd(0, EFD_CLOEXEC)};
+  std::string name_ = "can0";
+};
+
+// A latency from a stamp of one controller to a stamp of another would be the difference of their clocks.
+TEST(SeveralControllers, AreStampedByTheOneClockOfTheKernel) {
+  std::vector<std::unique_ptr<Port>> ports;
+  for (const std::int64_t hardware_ns : {std::int64_t{7'000'000}, std::int64_t{9'000'000'000}})
+    ports.push_back(std::make_unique<Controller>(hardware_ns));
+  const auto joined = join_ports(std::move(ports), [](const Frame&) { return std::size_t{0}; });
+  ASSERT_TRUE(joined);
+  for (int i = 0; i < 2; ++i) {
+    const auto received = (*joined)->receive();
+    ASSERT_TRUE(received);
+    EXPECT_EQ(received->hardware_ns, 0);
+    EXPECT_EQ(received->source, StampSource::kernel);
+    EXPECT_EQ(received->t_ns, 1'000);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,83 @@
+#include "bench/drive/adapter.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "bench/drive/buses.hpp"
+#include "dbc/ports/local_bus.hpp"
+
+namespace canhil::drive {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The first line of an attribute; empty: there is none.
+std::string attribute(const fs::path& folder, const char* name) {
+  std::ifstream file(folder / name);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+std::string name_behind(const fs::path& link) {
+  std::error_code unknown;
+  return fs::read_symlink(link, unknown).filename().string();
+}
+
+// PCI writes 0x0c72, USB 0c72.
+std::string without_prefix(const std::string& id) { return id.starts_with("0x") ? id.substr(2) : id; }
+
+// An interface of a USB device lies in the folder of the device.
+void add_usb(Adapter& adapter, const fs::path& of_interface) {
+  for (fs::path folder = of_interface; folder.has_relative_path(); folder = folder.parent_path()) {
+    adapter.vendor_id = attribute(folder, "idVendor");
+    if (adapter.vendor_id.empty()) continue;
+    adapter.product_id = attribute(folder, "idProduct");
+    adapter.product = attribute(folder, "product");
+    adapter.serial = attribute(folder, "serial");
+    const std::string speed = attribute(folder, "speed");
+    adapter.usb_mbitps = speed.empty() ? 0 : std::strtod(speed.c_str(), nullptr);
+    return;
+  }
+}
+
+}  // namespace
+
+Adapter adapter_of(const std::string& bus, const fs::path& sys) {
+  if (BusName(bus).in_process)
+    return {.bus = bus, .kind = "virtual", .driver = "no bus: the device is in hil-bench"};
+  if (is_local(bus)) return {.bus = bus, .kind = "virtual", .driver = "embedded bus"};
+  Adapter adapter{.bus = bus, .kind = "unknown"};
+  std::error_code unknown;
+  const fs::path interface = fs::canonical(sys / "class/net" / bus, unknown);
+  if (unknown) return adapter;
+  if (interface.string().find("/devices/virtual/") != std::string::npos) {
+    adapter.kind = "virtual";
+    adapter.driver = "virtual interface of the kernel";
+    return adapter;
+  }
+  const fs::path device = fs::canonical(interface / "device", unknown);
+  if (unknown) return adapter;
+  adapter.address = device.filename().string();
+  adapter.driver = name_behind(device / "driver");
+  if (const std::string kind = name_behind(device / "subsystem"); !kind.empty()) adapter.kind = kind;
+  if (adapter.kind == "usb") add_usb(adapter, device);
+  if (adapter.kind == "pci") {
+    adapter.vendor_id = without_prefix(attribute(device, "vendor"));
+    adapter.product_id = without_prefix(attribute(device, "device"));
+  }
+  return adapter;
+}
+
+std::string to_text(const Adapter& adapter) {
+  std::string text = fmt::format("{}: {}", adapter.bus, adapter.kind);
+  if (!adapter.driver.empty()) text += ", " + adapter.driver;
+  if (!adapter.address.empty()) text += " at " + adapter.address;
+  if (!adapter.vendor_id.empty()) text += fmt::format(", {}:{}", adapter.vendor_id, adapter.product_id);
+  if (!adapter.product.empty()) text += fmt::format(" '{}'", adapter.product);
+  if (!adapter.serial.empty()) text += ", serial " + adapter.serial;
+  return text;
+}
+
+}  // namespace canhil::drive

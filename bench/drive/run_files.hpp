@@ -1,0 +1,29 @@
+// The files that a run depends on, for who signs its report.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/drive/file_identity.hpp"
+
+namespace canhil::scenario {
+struct Scenario;
+}
+
+namespace canhil::drive {
+
+struct Options;
+
+/// A file with what it was to the run: "bench", "target", "target argument", "scenario", "mapping", "DBC",
+/// "recording", "faults", "log".
+struct RunFile {
+  std::string role;
+  std::string name;
+  FileIdentity identity{};
+};
+
+/// As they lie on the disk now; those that cannot be read are left out. The contract's DBC is that which was
+/// built in: neither size nor date. `in_process`: no target is started.
+std::vector<RunFile> files_of(const scenario::Scenario& scenario, const Options& options, bool in_process);
+
+}  // namespace canhil::drive

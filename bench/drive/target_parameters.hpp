@@ -1,0 +1,25 @@
+// The parameters of the device that the bench holds, which are those of hil-target.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace canhil::drive {
+
+struct TargetParameter {
+  std::string_view name;
+  double initial = 0, minimum = 0, maximum = 0;  ///< in the unit of its name
+  bool whole = false, while_running = false;
+  std::string_view meaning;
+};
+
+struct ParametersOf {
+  std::string_view estimator;
+  std::vector<TargetParameter> parameters;
+};
+
+/// From the tables that the device itself goes by.
+std::vector<ParametersOf> target_parameters();
+
+}  // namespace canhil::drive

@@ -1,0 +1,41 @@
+// Who is answered: the rules of the page's server, apart from its sockets.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace canhil::live {
+
+struct Admission {
+  std::string address;  ///< that the server listens on
+  bool loopback = true;
+  std::uint16_t port = 0;
+  std::string token{};  ///< that a URL has to carry; empty: none
+
+  [[nodiscard]] std::string query() const { return token.empty() ? "" : "?token=" + token; }
+  [[nodiscard]] std::string url() const;
+};
+
+/// A request. Fields that were not sent are empty.
+struct Asked {
+  std::string_view method, target, host, origin;
+  bool upgrade = false;  ///< to a WebSocket
+};
+
+struct Answer {
+  unsigned status = 200;
+  std::string_view what{};  ///< of 200: the path that is asked for; else why not, for people
+};
+
+/// The name of the WebSocket's resource.
+inline constexpr std::string_view socket_path = "/live";
+
+/// A page of another site in the same browser can make it send requests here, under a name of its own even
+/// (DNS rebinding); it cannot choose what the browser says of where they come from.
+Answer admit(const Admission& admission, const Asked& asked);
+
+/// 128 random bits in hexadecimal.
+std::string new_token();
+
+}  // namespace canhil::live

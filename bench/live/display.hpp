@@ -1,0 +1,24 @@
+// Somebody who is shown a flight while it happens: a page, a terminal.
+#pragma once
+
+#include <chrono>
+
+#include "bench/live/snapshot.hpp"
+
+namespace canhil::live {
+
+class Display {
+ public:
+  Display() = default;
+  Display(const Display&) = delete;
+  Display& operator=(const Display&) = delete;
+  virtual ~Display() = default;
+
+  virtual void show(const Snapshot& snapshot) = 0;
+  /// Does what it has to do for about so long: talks to browsers, looks at keys.
+  virtual void run_for(std::chrono::milliseconds time) = 0;
+  /// Whether all that was shown has reached who looks on.
+  [[nodiscard]] virtual bool settled() const { return true; }
+};
+
+}  // namespace canhil::live

@@ -1,0 +1,69 @@
+// From the thread of the flight to that of the view: a queue that never makes the flight wait.
+#pragma once
+
+#include <atomic>
+#include <boost/lockfree/spsc_queue.hpp>
+#include <cstdint>
+
+#include "bench/drive/onlooker.hpp"
+#include "bench/world/engagement/engagement.hpp"
+
+namespace canhil::live {
+
+/// Something that an observer sees, as a value.
+struct Event {
+  enum class Kind : std::uint8_t { transmitted, received, foreign, time_told, interface_changed };
+  Kind kind = Kind::transmitted;
+  bool up = false;
+  std::int64_t t_ns = 0, late_ns = 0;
+  Received received{};  ///< of `transmitted` the frame alone
+};
+
+/// One thread puts in, another takes out. Putting in neither waits, nor allocates, nor calls the system: what
+/// finds no room is dropped and counted.
+class Feed final : public observe::Observer {
+ public:
+  static constexpr std::size_t frames = 32'768;  // 4 MiB; more than ten seconds of a full bus of 1 Mbit/s
+  static constexpr std::size_t epochs = 8'192;
+
+  explicit Feed(std::size_t room = frames) : events_(room), epochs_(epochs) {}
+
+  /// The engagement that the flight adds to, whose epochs are copied; null: there is none. To be called
+  /// before the first frame.
+  void follow(const world::EngagementRecord* engagement) {
+    engagement_ = engagement;
+    followed_ = 0;
+  }
+
+  void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
+  void received(const Received& received) override {
+    put({.kind = Event::Kind::received, .received = received});
+  }
+  void foreign(const Received& received) override {
+    put({.kind = Event::Kind::foreign, .received = received});
+  }
+  void time_told(std::int64_t t_ns) override { put({.kind = Event::Kind::time_told, .t_ns = t_ns}); }
+  void interface_changed(bool up, std::int64_t t_ns) override {
+    put({.kind = Event::Kind::interface_changed, .up = up, .t_ns = t_ns});
+  }
+
+  /// Takes out what is there now, in order, and shows it; the engagement's epochs follow. Any frame that an
+  /// epoch belongs to came after it, so that none is missing. Returns how many events there were.
+  std::uint64_t drain(observe::Observer& to, world::EngagementRecord* engagement);
+
+  [[nodiscard]] std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
+
+ private:
+  void put(const Event& event) {
+    if (!events_.push(event)) drop();
+  }
+  void drop() { dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }
+
+  boost::lockfree::spsc_queue<Event> events_;
+  boost::lockfree::spsc_queue<world::EngagementTruth> epochs_;
+  std::atomic<std::uint64_t> dropped_ = 0;
+  const world::EngagementRecord* engagement_ = nullptr;
+  std::size_t followed_ = 0;
+};
+
+}  // namespace canhil::live

@@ -1,0 +1,71 @@
+// A flight as the view shows it: from the frames that have passed so far, and, once it is over, from the run.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/drive/onlooker.hpp"
+#include "bench/drive/session.hpp"
+#include "bench/live/snapshot.hpp"
+#include "bench/world/engagement/engagement.hpp"
+
+namespace canhil::live {
+
+/// What is known of it before it begins.
+Flight flight_of(const scenario::Scenario& scenario, const drive::Options& options);
+
+/// The flight when it is over: the numbers of its report.
+Flight flight_of(const scenario::Scenario& scenario, const drive::Run& run);
+
+/// Looks at the frames of a flight while it goes on, with the watchers, tracks and checks that judge it at
+/// its end. Its memory does not grow with the flight, nor does the work for one update.
+class FlightInProgress final : public observe::Observer {
+ public:
+  /// What the departure refers to must outlive it.
+  explicit FlightInProgress(const drive::Departure& departure);
+
+  void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
+  void received(const Received& received) override;
+  void foreign(const Received& received) override;
+  void time_told(std::int64_t t_ns) override;
+  void interface_changed(bool up, std::int64_t t_ns) override;
+
+  /// Where epochs of the engagement go; null: there is none.
+  [[nodiscard]] world::EngagementRecord* engagement() { return engagement_ ? &*engagement_ : nullptr; }
+
+  /// Brings a flight up to now. `all_seen`: no frame was missed, so checks may be judged.
+  void update(Flight& flight, bool all_seen);
+
+ private:
+  struct Known {  // a series, and whether it is shown
+    std::string_view estimator;
+    const quantities::Quantity* quantity = nullptr;
+    bool estimates = false, shown = false;
+    report::GrowingSeries series;
+  };
+
+  void each_watcher(const std::function<void(observe::Observer&)>& show);
+  void move_window();
+  void take_tracks(Flight& flight);
+  void take(std::string_view estimator, const quantities::Track& track, bool estimates);
+  void judge_what_is_over(Flight& flight);
+  [[nodiscard]] std::int64_t now_us() const;
+  [[nodiscard]] estimators::Truth truth() const;
+
+  drive::Departure departure_;
+  std::optional<world::EngagementRecord> engagement_{};  // a copy of what the flight adds to
+  observe::LoadMeter load_;
+  std::unique_ptr<observe::Watcher> whole_;  // of the whole flight, for times and checks
+  // Of the last seconds, for tracks: a window moves by half of what the older one has seen.
+  std::unique_ptr<observe::Watcher> recent_, next_recent_;
+  std::int64_t window_since_us_ = 0;
+  std::vector<Known> known_{};
+  std::vector<std::int64_t> judged_at_us_;  // by check of the scenario
+  std::optional<std::int64_t> first_ns_{};
+  std::int64_t last_ns_ = 0;
+  std::optional<std::int64_t> told_ns_{};
+};
+
+}  // namespace canhil::live

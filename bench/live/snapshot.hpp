@@ -1,0 +1,89 @@
+// What the live view shows at one time: the same numbers for the page and for a terminal.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/checks/bus_load.hpp"
+#include "bench/checks/verdict.hpp"
+#include "bench/report/series.hpp"
+
+namespace canhil::live {
+
+struct CheckLine {
+  std::string name;
+  std::optional<checks::Outcome> outcome{};  ///< none: it is judged at the end
+  std::string measured{}, expected{};
+};
+
+/// Of a message of the target. Times [us].
+struct TimingLine {
+  std::string message;
+  std::uint64_t count = 0;  ///< answers with a latency
+  double p50_us = 0, p99_us = 0, max_us = 0;
+  std::uint64_t jitter_count = 0;
+  double jitter_p99_us = 0, jitter_max_us = 0;
+  /// The slowest answer of each stretch of time; not filled for messages that do not end an answer.
+  double stretch_s = 0;
+  std::vector<double> slowest_us{};  ///< NaN: there was none
+};
+
+struct FaultLine {
+  std::string name, kind, stage;
+  double from_s = 0, to_s = 0;
+};
+
+/// A flight as far as it has come.
+struct Flight {
+  std::string title, scenario, bus, clock;
+  double t_s = 0, duration_s = 0;
+  std::optional<checks::Outcome> outcome{};  ///< none: it goes on
+  std::string reason{};
+  std::vector<CheckLine> checks{};
+  std::vector<report::Series> series{};
+  std::string no_timing{};  ///< why no times are shown; empty: they are
+  std::vector<TimingLine> timing{};
+  std::string bit_rate{};
+  double load_now = 0;  ///< of the last whole second; shares of the bus
+  checks::Load load{};
+  checks::LoadLine load_line{};
+  std::vector<FaultLine> faults{};
+  std::string no_tracks{};  ///< why nothing is shown of quantities and times before the end; empty: it is
+};
+
+/// A campaign or a matrix of faults as far as it has come.
+struct Batch {
+  struct Line {
+    std::string name, result;
+    bool failed = false;
+  };
+  std::string title, of;  ///< "runs", "flights"
+  std::uint64_t done = 0, total = 0, failed = 0;
+  std::string failed_means{};  ///< "ended early", "violations"
+  double rate_per_s = 0;
+  std::optional<checks::Outcome> outcome{};  ///< none: it goes on
+  std::string reason{};
+  std::deque<Line> latest{};  ///< the newest first
+  static constexpr std::size_t most_latest = 40;
+  void add(Line line) {
+    if (latest.size() == most_latest) latest.pop_back();
+    latest.push_front(std::move(line));
+  }
+};
+
+struct Snapshot {
+  std::optional<Flight> flight{};
+  std::optional<Batch> batch{};
+  std::string ended{};  ///< why nothing was flown; empty: it is, or was
+  std::uint64_t frames = 0;
+  std::uint64_t dropped = 0;  ///< frames that the view missed, as it was too slow
+
+  [[nodiscard]] bool over() const {
+    return !ended.empty() || (flight && flight->outcome) || (batch && batch->outcome);
+  }
+};
+
+}  // namespace canhil::live

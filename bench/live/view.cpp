@@ -1,0 +1,166 @@
+#include "bench/live/view.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+namespace canhil::live {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto look_every = 25ms;      // at frames: the queue must not fill
+constexpr auto show_every = 250ms;     // at the most often
+constexpr int rest = 9;                // of its time the view works a tenth, however much there is to show
+constexpr auto longest_farewell = 1s;  // until who looks on has seen the end
+constexpr int low_nice = 10;
+
+void run_below_others() {
+  // Of this thread alone, as Linux has it.
+  static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), low_nice));
+}
+void run_when_idle() {
+  const sched_param parameters{};
+  static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_IDLE, &parameters));
+}
+
+}  // namespace
+
+View::View(std::vector<std::unique_ptr<Display>> displays, Snapshot begun)
+    : displays_(std::move(displays)), snapshot_(std::move(begun)) {
+  // Signals are for the thread that flies: it looks at them at once.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread_ = std::thread([this] { run(); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+View::~View() { close(); }
+
+void View::close() {
+  closing_ = true;
+  if (!thread_.joinable()) return;
+  thread_.join();
+  displays_.clear();
+}
+
+void View::Tap::departs(const drive::Departure& departure) {
+  const std::scoped_lock lock(view_.mutex_);
+  view_.feed_.follow(departure.per_run_truth.engagement ? &*departure.per_run_truth.engagement : nullptr);
+  view_.requests_.departure.emplace(departure);
+  view_.requests_.landing = false;
+  view_.asked_ = true;
+}
+
+// What the departure refers to goes away: the view has to be done with it.
+void View::Tap::landed() {
+  std::unique_lock lock(view_.mutex_);
+  view_.feed_.follow(nullptr);
+  view_.requests_.landing = true;
+  view_.asked_ = true;
+  // The flight waits for the view now: where that is permitted the view is no longer the last of all.
+  const sched_param parameters{};
+  static_cast<void>(pthread_setschedparam(view_.thread_.native_handle(), SCHED_OTHER, &parameters));
+  view_.landed_.wait(lock, [&] { return !view_.requests_.landing || view_.gave_up_; });
+}
+
+void View::show(Batch batch) {
+  const std::scoped_lock lock(mutex_);
+  requests_.batch = std::move(batch);
+  asked_ = true;
+}
+void View::show(Flight flight) {
+  const std::scoped_lock lock(mutex_);
+  requests_.flight = std::move(flight);
+  asked_ = true;
+}
+void View::show_ended(std::string why) {
+  const std::scoped_lock lock(mutex_);
+  requests_.ended = std::move(why);
+  asked_ = true;
+}
+
+void View::look_at_requests() {
+  if (!asked_.exchange(false)) return;
+  const std::scoped_lock lock(mutex_);
+  if (requests_.departure) {
+    if (requests_.departure->real_time) run_when_idle();
+    flight_.emplace(*requests_.departure);
+    requests_.departure.reset();
+  }
+  if (std::exchange(requests_.landing, false)) {
+    look_at_frames();
+    if (flight_ && snapshot_.flight) flight_->update(*snapshot_.flight, feed_.dropped() == 0);
+    flight_.reset();
+    landed_.notify_all();
+  }
+  if (requests_.batch) snapshot_.batch = std::exchange(requests_.batch, {});
+  if (requests_.flight) snapshot_.flight = std::exchange(requests_.flight, {});
+  if (!requests_.ended.empty()) snapshot_.ended = std::exchange(requests_.ended, {});
+}
+
+void View::look_at_frames() {
+  if (flight_) snapshot_.frames += feed_.drain(*flight_, flight_->engagement());
+  snapshot_.dropped = feed_.dropped();
+}
+
+void View::serve(std::chrono::milliseconds time) {
+  for (const auto& display : displays_) display->run_for(time / static_cast<std::int64_t>(displays_.size()));
+}
+
+void View::show_all() {
+  for (const auto& display : displays_) display->show(snapshot_);
+}
+
+// What goes wrong in the view, such as no memory, is not the flight's.
+void View::run() {
+  run_below_others();
+  try {
+    look_on();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hil-bench: the live view ended: %s\n", error.what());
+    give_up();
+  }
+}
+
+void View::give_up() {
+  const std::scoped_lock lock(mutex_);
+  gave_up_ = true;
+  flight_.reset();
+  landed_.notify_all();
+}
+
+void View::look_on() {
+  Clock::time_point next = Clock::now();
+  while (!closing_) {
+    look_at_requests();
+    look_at_frames();
+    if (const auto began = Clock::now(); began >= next) {
+      if (flight_ && snapshot_.flight) flight_->update(*snapshot_.flight, feed_.dropped() == 0);
+      show_all();
+      next = std::max(began + show_every, Clock::now() + rest * (Clock::now() - began));
+    }
+    serve(look_every);
+  }
+  look_at_requests();
+  show_all();
+  const auto until = Clock::now() + longest_farewell;
+  const auto settled = [&] {
+    return std::ranges::all_of(displays_, [](const auto& display) { return display->settled(); });
+  };
+  do {
+    serve(look_every);
+  } while (!settled() && Clock::now() < until);
+}
+
+}  // namespace canhil::live

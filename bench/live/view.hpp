@@ -1,0 +1,85 @@
+// The live view of a flight, a campaign or a matrix of faults: a thread of low priority, fed through a queue.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "bench/drive/onlooker.hpp"
+#include "bench/drive/session.hpp"
+#include "bench/live/display.hpp"
+#include "bench/live/feed.hpp"
+#include "bench/live/flight.hpp"
+
+namespace canhil::live {
+
+class View {
+ public:
+  /// Begins to show `begun`. A flight in real time goes first on every CPU: the view runs when nobody else
+  /// wants to.
+  View(std::vector<std::unique_ptr<Display>> displays, Snapshot begun);
+  ~View();
+
+  /// For Options::onlooker: of one flight after the other. It must not outlive the view.
+  [[nodiscard]] drive::Onlooker& onlooker() { return onlooker_; }
+  /// Shows this in place of what it showed of the batch; of a flight when it is over. Any thread may call.
+  void show(Batch batch);
+  void show(Flight flight);
+  /// Nothing was flown, and why.
+  void show_ended(std::string why);
+  /// Shows the end to who looks on, for a second at most, and stops. The destructor does it too.
+  void close();
+
+ private:
+  class Tap final : public drive::Onlooker {
+   public:
+    explicit Tap(View& view) : view_(view) {}
+    void departs(const drive::Departure& departure) override;
+    void landed() override;
+    void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override {
+      view_.feed_.transmitted(frame, t_ns, late_ns);
+    }
+    void received(const Received& received) override { view_.feed_.received(received); }
+    void foreign(const Received& received) override { view_.feed_.foreign(received); }
+    void time_told(std::int64_t t_ns) override { view_.feed_.time_told(t_ns); }
+    void interface_changed(bool up, std::int64_t t_ns) override { view_.feed_.interface_changed(up, t_ns); }
+
+   private:
+    View& view_;
+  };
+  // What other threads ask of the view's.
+  struct Requests {
+    std::optional<drive::Departure> departure{};
+    bool landing = false;
+    std::optional<Batch> batch{};
+    std::optional<Flight> flight{};
+    std::string ended{};
+  };
+
+  void run();
+  void look_on();
+  void give_up();
+  void look_at_requests();
+  void look_at_frames();
+  void serve(std::chrono::milliseconds time);
+  void show_all();
+
+  std::vector<std::unique_ptr<Display>> displays_;
+  Feed feed_;
+  Tap onlooker_{*this};
+  std::mutex mutex_;
+  std::condition_variable landed_;
+  Requests requests_;
+  bool gave_up_ = false;
+  std::atomic<bool> asked_ = false, closing_ = false;
+  // Of the view's thread alone.
+  Snapshot snapshot_;
+  std::optional<FlightInProgress> flight_{};
+  std::thread thread_;
+};
+
+}  // namespace canhil::live

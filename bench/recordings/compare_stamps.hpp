@@ -1,0 +1,44 @@
+// Two recordings of one bus: how far the stamps of the same frames are apart.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dbc/wire/frame.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::recordings {
+
+/// Of the frames of one id, b's stamp less a's.
+struct StampDifference {
+  std::uint32_t id = 0;
+  bool extended = false;
+  std::uint64_t count = 0;  ///< frames that are in both
+  double mean_s = 0, sd_s = 0, min_s = 0, max_s = 0;
+  std::uint64_t only_in_a = 0, only_in_b = 0;
+};
+
+struct StampsCompared {
+  std::vector<StampDifference> messages;  ///< by id
+  StampDifference all;
+  std::uint64_t outside = 0;  ///< frames of one log at times at which the other does not record
+};
+
+/// Two frames are the same one if they have the same id and content and their stamps are less than 5 ms apart
+/// from what the clocks are. The difference of the clocks is the median of frames whose content comes once;
+/// it is followed as it drifts. Error frames are left out. Error: one line; a log cannot be read or has no
+/// frame.
+Result<StampsCompared> compare_stamps(const std::string& log_a, const std::string& log_b);
+
+/// The name of a message; empty: not known.
+using MessageName = std::function<std::string(const StampDifference& message)>;
+
+/// A line for each message and one for all, in us.
+std::string to_text(const StampsCompared& compared, const MessageName& name);
+/// One object: `messages` (`id`, `extended`, `name`, `count`, `mean_s`, `sd_s`, `min_s`, `max_s`,
+/// `only_in_a`, `only_in_b`; no times where `count` is 0), `all`, `outside`.
+std::string to_json(const StampsCompared& compared, const MessageName& name);
+
+}  // namespace canhil::recordings

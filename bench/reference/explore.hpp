@@ -1,0 +1,30 @@
+// Which keys a reader asks for, found by running it: with an empty text, and then with each key that
+// something depends on, so that keys which are asked for only beside others are found too.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/scenario/described.hpp"
+
+namespace canhil::reference {
+
+/// A key and what its being asked for depends on, in words: "Only with `trajectory` `weave`."
+struct AskedKey {
+  scenario::DescribedKey key;
+  std::string only;                     ///< empty: it does not depend on other keys
+  std::vector<std::string> in_place{};  ///< keys beside which a required one is not required
+};
+
+/// Reads a text of TOML. It may refuse it: what was asked for counts.
+using Read = std::function<void(std::string_view text)>;
+
+enum class Depth : std::uint8_t { as_it_is, every_branch };
+
+/// `given`: the beginning of each text.
+std::vector<AskedKey> explore(const Read& read, const std::string& given = "",
+                              Depth depth = Depth::every_branch);
+
+}  // namespace canhil::reference

@@ -1,0 +1,272 @@
+#include "bench/reference/parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "bench/campaign/campaign.hpp"
+#include "bench/campaign/metric.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/target_parameters.hpp"
+#include "bench/scenario/engagement.hpp"
+#include "bench/scenario/faults.hpp"
+#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/initial_error.hpp"
+#include "bench/scenario/node.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/scenario/section.hpp"
+#include "bench/scenario/truth.hpp"
+
+namespace canhil::reference {
+namespace {
+
+using scenario::Section;
+
+constexpr std::int64_t longest_run_us = 86'400'000'000;
+constexpr std::string_view file = "reference";  // in messages that nobody sees
+
+/// What a reader of one section asks for.
+template <class ReadSection>
+std::vector<AskedKey> keys_of(ReadSection read, const std::string& given = "") {
+  return explore(
+      [&](std::string_view text) {
+        Section section = Section::parse(text, file);
+        read(section);
+      },
+      given);
+}
+
+/// The keys of one table, without the tables in it.
+std::vector<AskedKey> in_table(const std::vector<AskedKey>& keys, std::string_view table) {
+  std::vector<AskedKey> own;
+  std::ranges::copy_if(keys, std::back_inserter(own), [&](const AskedKey& one) {
+    return one.key.table == table && !(one.key.type == "table" && one.key.meaning.empty());
+  });
+  return own;
+}
+
+std::vector<AskedKey> keys_of_file(const scenario::DbcVocabulary& contract) {
+  const auto all =
+      explore([&](std::string_view text) { std::ignore = scenario::parse(text, file, contract); }, "",
+              Depth::as_it_is);
+  const auto dbc =
+      explore([&](std::string_view text) { std::ignore = scenario::parse(text, file, contract); },
+              "dbc = \"canhil\"\n", Depth::as_it_is);
+  std::vector<AskedKey> keys = in_table(all, "");
+  for (AskedKey& one : in_table(dbc, "")) {
+    if (one.key.name != "dbc") continue;
+    one.key.required = false;
+    keys.push_back(std::move(one));
+  }
+  return keys;
+}
+
+Part target_part(const scenario::DbcVocabulary& contract) {
+  const auto keys = keys_of([&](Section& root) { scenario::read_targets(root, contract); });
+  scenario::DbcVocabulary mapped = contract;
+  mapped.foreign = std::make_shared<const scenario::Foreign>();
+  const auto own = keys_of([&](Section& root) { scenario::read_targets(root, mapped); });
+  Part part{
+      .title = "The target",
+      .about = "`[target]`, or `[[target]]` once for each estimator that the target runs.",
+      .tables = {
+          {.name = "[target]", .about = "", .keys = in_table(keys, "target")},
+          {.name = "[target.initial_sigma]",
+           .about = "The uncertainty of the initial state that the target receives. `los_rate` needs none.",
+           .keys = in_table(keys, "target.initial_sigma")},
+          {.name = "[target] with a mapping",
+           .about = "A target that has a DBC of its own.",
+           .keys = in_table(own, "target")}}};
+  for (Table& table : part.tables)
+    for (AskedKey& one : table.keys) one.only.clear();  // of names of the DBC, which the target knows better
+  return part;
+}
+
+Part parameters_part() {
+  Part part{
+      .title = "Parameters of the target",
+      .about =
+          "`[target.parameters]`: each is set over the bus and read back. Ranges and defaults are those of "
+          "hil-target; a target of your own may have others, and refuses what is out of range.",
+      .tables = {}};
+  for (const drive::ParametersOf& of : drive::target_parameters()) {
+    Table table{.name = std::string(of.estimator), .about = "", .keys = {}};
+    for (const drive::TargetParameter& one : of.parameters) {
+      auto key = scenario::described_number(one.whole ? "whole number" : "number",
+                                            scenario::Limits::between(one.minimum, one.maximum), one.initial);
+      key.name = key.shown = one.name;
+      key.meaning = one.meaning;
+      key.table = "target.parameters";
+      table.keys.push_back({.key = std::move(key), .only = one.while_running ? "" : "Set before the start."});
+    }
+    part.tables.push_back(std::move(table));
+  }
+  return part;
+}
+
+Part truth_part() {
+  Part part{
+      .title = "Truth and initial errors",
+      .about = "",
+      .tables = {{.name = "[truth]",
+                  .about = "The flight of the carrier.",
+                  .keys = keys_of([](Section& section) { scenario::read_truth(section, longest_run_us); })},
+                 {.name = "[initial_error]",
+                  .about = "Errors of the initial state that the target receives.",
+                  .keys = keys_of([](Section& section) { scenario::read_initial_error(section); })},
+                 {.name = "[engagement]",
+                  .about = "A missile and its target, drawn anew for each run.",
+                  .keys = keys_of([](Section& section) { scenario::read_engagement(section); })}}};
+  const auto keys = keys_of([](Section& root) {
+    Section section = root.table("glide");
+    scenario::read_glide(root, section);
+  });
+  for (const std::string_view table : scenario::glide_tables) {
+    for (const std::string& path : {std::string(table), fmt::format("{}.initial_error", table)}) {
+      auto own = in_table(keys, path);
+      if (!own.empty())
+        part.tables.push_back(
+            {.name = fmt::format("[{}]", path), .about = "Of an unpowered glider.", .keys = std::move(own)});
+    }
+  }
+  return part;
+}
+
+Part nodes_part(const scenario::DbcVocabulary& contract) {
+  Part part{.title = "Nodes", .about = "Each table puts a node on the bus.", .tables = {}};
+  for (const scenario::NodeTable* node : contract.nodes)
+    part.tables.push_back(
+        {.name = fmt::format("[{}]", node->key), .about = "", .keys = keys_of([&](Section& section) {
+                                                                std::ignore = node->read(*node, section);
+                                                              })});
+  part.tables.push_back({.name = "Any node that sends what was recorded",
+                         .about = "In place of the keys of the node (recorded-data.md).",
+                         .keys = keys_of(
+                             [&](Section& section) {
+                               std::ignore =
+                                   contract.read_recorded(*contract.nodes.front(), section, longest_run_us);
+                             },
+                             "recorded = \"samples.csv\"\n")});
+  return part;
+}
+
+/// Every node, with all its defaults.
+std::vector<scenario::NodeSettings> every_node(const scenario::DbcVocabulary& contract) {
+  std::vector<scenario::NodeSettings> nodes;
+  for (const scenario::NodeTable* node : contract.nodes) {
+    Section section = Section::parse("", file);
+    nodes.push_back(node->read(*node, section));
+  }
+  return nodes;
+}
+
+Part faults_part(const scenario::DbcVocabulary& contract) {
+  const auto nodes = every_node(contract);
+  const scenario::FaultContext context{.duration_us = longest_run_us, .contract = contract, .nodes = nodes};
+  const auto of_all = explore(
+      [&](std::string_view text) {
+        Section root = Section::parse(text, file);
+        std::vector<scenario::Fault> faults;
+        scenario::read_faults(root, context, faults);
+      },
+      "[[fault]]\n", Depth::as_it_is);
+  Part part{.title = "Faults", .about = "`[[fault]]`, any number (faults.md).", .tables = {}};
+  part.tables.push_back({.name = "[[fault]]", .about = "", .keys = in_table(of_all, "fault[1]")});
+  for (const scenario::FaultKind& kind : contract.fault_kinds)
+    part.tables.push_back({.name = std::string(kind.name),
+                           .about = std::string(kind.meaning),
+                           .keys = keys_of([&](Section& section) { kind.read(section, context); })});
+  return part;
+}
+
+Part checks_part(const scenario::DbcVocabulary& contract) {
+  scenario::DbcVocabulary mapped = contract;
+  mapped.foreign = std::make_shared<const scenario::Foreign>();
+  const std::vector<scenario::FaultWindow> faults{{.name = "NAME", .window = {.from_us = 0, .to_us = 1}}};
+  const auto context_of = [&](const scenario::DbcVocabulary& by) {
+    return scenario::CheckContext{
+        .duration_us = longest_run_us, .contract = by, .estimators = contract.estimators, .faults = faults};
+  };
+  const auto own = context_of(contract), with_mapping = context_of(mapped);
+  const auto of_all = explore(
+      [&](std::string_view text) {
+        Section section = Section::parse(text, file);
+        scenario::read_check(section, own);
+      },
+      "", Depth::as_it_is);
+  Part part{
+      .title = "Checks", .about = "`[[check]]`, at least one. What they mean: scenarios.md.", .tables = {}};
+  part.tables.push_back({.name = "[[check]]", .about = "", .keys = of_all});
+  for (const scenario::CheckKind& kind : contract.check_kinds)
+    part.tables.push_back({.name = std::string(kind.name),
+                           .about = std::string(kind.meaning),
+                           .keys = explore([&](std::string_view text) {
+                             for (const auto* context : {&own, &with_mapping}) {
+                               Section section = Section::parse(text, file);
+                               kind.read(section, *context);
+                             }
+                           })});
+  return part;
+}
+
+Part campaign_part() {
+  const auto with = [](const std::string& given) {
+    return explore(
+        [](std::string_view text) {
+          std::ignore = campaign::parse_campaign(
+              text, file, [](const std::string& /*name*/) -> Result<std::string> { return failure("none"); });
+        },
+        given, Depth::as_it_is);
+  };
+  const std::vector<std::string> variants{"NAME", "OTHER"};
+  const auto read_metric = [&](Section& section) {
+    campaign::read_metric(section, variants, longest_run_us);
+  };
+  auto root = in_table(with("sweep = {}\n"), "");
+  const auto of_all = explore(
+      [&](std::string_view text) {
+        Section section = Section::parse(text, file);
+        read_metric(section);
+      },
+      "", Depth::as_it_is);
+  Part part{.title = "Campaigns",
+            .about = "A campaign's file (campaigns.md).",
+            .tables = {{.name = "Campaign", .about = "", .keys = std::move(root)},
+                       {.name = "[[variant]]",
+                        .about = "At least one.",
+                        .keys = in_table(with("[[variant]]\nset = {}\n"), "variant[1]")},
+                       {.name = "[[metric]]", .about = "", .keys = {}}}};
+  for (const AskedKey& one : of_all) {
+    if (one.key.name != "quantity") part.tables.back().keys.push_back(one);
+  }
+  for (const campaign::MetricKind& kind : campaign::metric_kinds()) {
+    Table table{.name = std::string(kind.name), .about = std::string(kind.meaning), .keys = {}};
+    const auto keys = keys_of(read_metric, fmt::format("kind = \"{}\"\n", kind.name));
+    std::ranges::copy_if(keys, std::back_inserter(table.keys), [&](const AskedKey& one) {
+      return one.key.shown == "quantity" || std::ranges::none_of(of_all, [&](const AskedKey& other) {
+               return other.key.shown == one.key.shown;
+             });
+    });
+    part.tables.push_back(std::move(table));
+  }
+  return part;
+}
+
+}  // namespace
+
+std::vector<Part> parts() {
+  const scenario::DbcVocabulary contract = drive::contract();
+  return {{.title = "The file",
+           .about = "",
+           .tables = {{.name = "Scenario", .about = "", .keys = keys_of_file(contract)}}},
+          target_part(contract),
+          parameters_part(),
+          truth_part(),
+          nodes_part(contract),
+          faults_part(contract),
+          checks_part(contract),
+          campaign_part()};
+}
+
+}  // namespace canhil::reference

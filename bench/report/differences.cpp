@@ -1,0 +1,158 @@
+#include "bench/report/differences.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+namespace canhil::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Facts = std::vector<std::pair<std::string, std::string>>;  // by the way to it, in the report's order
+
+struct Worded {
+  std::string_view path, words;
+};
+
+// A way that is not here is its own name.
+constexpr std::array<Worded, 28> worded{
+    {{"dbc_hash", "DBC"},
+     {"latency_stamps", "latency stamps"},
+     {"period_overrides", "periods"},
+     {"preemption", "preemption of the kernel"},
+     {"cpu_model", "CPU"},
+     {"target.program", "target"},
+     {"target.version", "version of the target"},
+     {"files.bench", "program of the bench (SHA-256)"},
+     {"files.target", "program of the target (SHA-256)"},
+     {"files.target argument", "file among the target's arguments (SHA-256)"},
+     {"files.mapping", "mapping (SHA-256)"},
+     {"files.recording", "recorded data (SHA-256)"},
+     {"files.faults", "file of faults (SHA-256)"},
+     {"adapters.kind", "adapter"},
+     {"adapters.driver", "driver of the adapter"},
+     {"adapters.address", "place of the adapter"},
+     {"adapters.vendor_id", "vendor of the adapter"},
+     {"adapters.product_id", "product of the adapter"},
+     {"adapters.product", "name of the adapter"},
+     {"adapters.serial", "serial number of the adapter"},
+     {"adapters.usb_mbitps", "USB speed of the adapter [Mbit/s]"},
+     {"bench_process.policy", "scheduling"},
+     {"bench_process.locked_kib", "locked memory"},
+     {"bench_process.timer_slack_ns", "timer slack [ns]"},
+     {"bench_process.no_deep_sleep", "no deep sleep"},
+     {"bench_process.spin_us", "spin [us]"},
+     {"bitrate_bitps", "bit rate of the wire"},
+     {"data_bitrate_bitps", "data bit rate of the wire"}}};
+
+// What must be the same for a comparison, or is compared by another key, or is another in each run. The
+// kernel's preemption is that of the process too.
+constexpr std::array<std::string_view, 10> left_out_of_it{
+    "scenario",       "scenario_hash", "contract",  "clock",        "date",
+    "files.scenario", "files.DBC",     "files.log", "adapters.bus", "bench_process.preemption"};
+
+std::string in_words(const std::string& path) {
+  const auto found = std::ranges::find(worded, path, &Worded::path);
+  if (found != worded.end()) return std::string(found->words);
+  constexpr std::array<Worded, 2> folders{{{"bus_of.", "bus of "}, {"bench_process.", "bench process "}}};
+  for (const Worded& folder : folders) {
+    if (path.starts_with(folder.path)) return std::string(folder.words) + path.substr(folder.path.size());
+  }
+  return path;
+}
+
+// The bus that a bench made for itself has its process in its name: that is another in each run.
+bool is_own_bus(std::string_view name) {
+  constexpr std::string_view own = "local:canhil-";
+  return name.starts_with(own) && name.size() > own.size() &&
+         name.find_first_not_of("0123456789", own.size()) == std::string_view::npos;
+}
+
+std::string text_of(const std::string& path, const Json& value) {
+  if (path == "bench_process.locked_kib" && value.is_number()) return value.get<double>() > 0 ? "yes" : "no";
+  if (!value.is_string()) return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = value.get<std::string>();
+  if (is_own_bus(text)) return "local:";
+  return path.starts_with("files.") ? text.substr(0, 12) : text;
+}
+
+void add(Facts& facts, const std::string& path, const Json& value) {
+  if (std::ranges::find(left_out_of_it, path) != left_out_of_it.end()) return;
+  const bool objects = value.is_array() && !value.empty() && value.front().is_object();
+  if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) add(facts, path.empty() ? key : path + "." + key, inner);
+  } else if (!objects) {
+    facts.emplace_back(path, text_of(path, value));
+  } else {
+    for (const Json& item : value) {
+      const bool file = item.contains("role") && item.contains("sha256");
+      if (file)
+        add(facts, path + "." + item.at("role").get<std::string>(), item.at("sha256"));
+      else
+        add(facts, path, item);
+    }
+  }
+}
+
+// Several under one way, as of two adapters, are one value.
+Facts facts_of(const Json& report) {
+  Facts all, facts;
+  add(all, "", report.at("provenance"));
+  for (const char* key : {"bitrate_bitps", "data_bitrate_bitps"}) {
+    if (report.contains("wire") && report.at("wire").contains(key)) add(all, key, report.at("wire").at(key));
+  }
+  for (auto& [path, text] : all) {
+    const auto known = std::ranges::find(facts, path, &Facts::value_type::first);
+    if (known == facts.end())
+      facts.emplace_back(path, std::move(text));
+    else
+      known->second += ", " + text;
+  }
+  return facts;
+}
+
+std::vector<Facts> facts_of_each(const std::vector<Json>& reports) {
+  std::vector<Facts> each;
+  for (const Json& report : reports) each.push_back(facts_of(report));
+  return each;
+}
+
+// Each of a side's values once, in the order of its runs.
+std::vector<std::string> values_of(const std::vector<Facts>& side, const std::string& path) {
+  std::vector<std::string> values;
+  for (const Facts& facts : side) {
+    const auto found = std::ranges::find(facts, path, &Facts::value_type::first);
+    const std::string text = found == facts.end() ? "not known" : found->second;
+    if (std::ranges::find(values, text) == values.end()) values.push_back(text);
+  }
+  return values;
+}
+
+}  // namespace
+
+std::string differences(const std::vector<Json>& before, const std::vector<Json>& after) {
+  const std::vector<Facts> a = facts_of_each(before), b = facts_of_each(after);
+  std::vector<std::string> paths;
+  for (const std::vector<Facts>* side : {&a, &b}) {
+    for (const Facts& facts : *side) {
+      for (const auto& [path, text] : facts) {
+        if (std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+      }
+    }
+  }
+  std::string lines;
+  for (const std::string& path : paths) {
+    const auto of_a = values_of(a, path), of_b = values_of(b, path);
+    if (of_a != of_b)
+      lines += fmt::format("differs  {}: {} -> {}\n", in_words(path), fmt::join(of_a, " and "),
+                           fmt::join(of_b, " and "));
+  }
+  return lines;
+}
+
+}  // namespace canhil::report

@@ -1,0 +1,68 @@
+// The measurement uncertainty of the latencies of a run, after the GUM (JCGM 100:2008): each influence is of
+// type B with a rectangular distribution of half-width a, so u = a / sqrt(3); several are added as squares.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/drive/session.hpp"
+
+namespace canhil::report {
+
+/// U = k u: of a normal distribution about 95 % lie within.
+inline constexpr double coverage_factor = 2;
+
+/// What makes a figure uncertain.
+enum class Influence : std::uint8_t {
+  stamps,  ///< resolution of the two stamps
+  clock,   ///< rate of the clock of both stamps
+  host,    ///< delay until the kernel or the bench stamps a frame
+  wire,    ///< the bit within which two nodes see the end of a frame
+  figure,  ///< bucket of the distribution that the quantile was taken from
+};
+inline constexpr std::array<std::string_view, 5> influence_names{"stamps", "clock", "host", "wire", "figure"};
+
+/// How the stamps of a run came to be.
+struct StampConditions {
+  bool hardware = false;        ///< the controller stamped both ways
+  bool simulated_wire = false;  ///< stamps are computed, not read
+  double usb_poll_s = 0;        ///< between two looks at a USB adapter; 0: it is none, or hardware stamped
+  double bit_s = 0;             ///< 0: no wire, or its bit rate is not known
+  bool wire_unknown = false;    ///< there is a wire, and its bit rate is not known
+  bool echoed = true;           ///< the stimulus was stamped on the bus, not by the bench
+};
+StampConditions stamp_conditions(const drive::Run& run);
+
+/// Half-widths [s] by Influence, for a latency [s] of this size; `lateness_s`: of the bench at the same
+/// quantile; `bucket_s`: the width of the figure's bucket, 0 for an exact one.
+std::array<double, 5> half_widths_s(const StampConditions& conditions, double latency_s, double lateness_s,
+                                    double bucket_s);
+/// u of one influence [s]. The half-width of `stamps` is that of one stamp of two.
+double standard_s(Influence influence, double half_width_s);
+/// The root of the sum of the squares of all.
+double combined_s(const std::array<double, 5>& half_widths_s);
+
+/// A latency with its budget.
+struct UncertainFigure {
+  std::string_view name;  ///< "p50"
+  double value_s = 0;
+  std::array<double, 5> half_width_s{};
+  double expanded_s = 0;  ///< coverage_factor times the combined standard uncertainty
+};
+struct UncertainLatency {
+  std::string message;
+  std::vector<UncertainFigure> figures;  ///< p50, p90, p99, p999, max
+};
+
+/// Of the messages that close a group of answers, in real time; else empty.
+std::vector<UncertainLatency> uncertainties(const scenario::Scenario& scenario, const drive::Run& run);
+
+/// What the budget does not hold, a line each; empty: nothing that is known of.
+std::vector<std::string> left_out(const StampConditions& conditions);
+
+/// In a text report: a line for each message. Empty where there are none.
+std::string uncertainty_text(const scenario::Scenario& scenario, const drive::Run& run);
+
+}  // namespace canhil::report

@@ -1,0 +1,43 @@
+#include "bench/scenario/described.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace canhil::scenario {
+namespace {
+
+thread_local Description* described_now = nullptr;
+
+/// A value within limits.
+double some_value(const Limits& limits) {
+  if (!std::isfinite(limits.least)) return std::min(limits.most, 1.0);
+  if (!limits.above_least) return limits.least;
+  return std::isfinite(limits.most) ? (limits.least + limits.most) / 2 : limits.least + 1;
+}
+
+std::string range_of(const Limits& limits) {
+  if (!std::isfinite(limits.least) && !std::isfinite(limits.most)) return "";
+  if (!std::isfinite(limits.most))
+    return fmt::format("{} {}", limits.above_least ? "above" : "at least", limits.least);
+  if (limits.above_least) return fmt::format("above {}, up to {}", limits.least, limits.most);
+  return fmt::format("{} to {}", limits.least, limits.most);
+}
+
+}  // namespace
+
+Describing::Describing(Description& description) : before_(described_now) { described_now = &description; }
+Describing::~Describing() { described_now = before_; }
+Description* Describing::current() { return described_now; }
+
+DescribedKey described_number(std::string_view type, const Limits& limits, std::optional<double> fallback) {
+  return {.type = std::string(type),
+          .range = range_of(limits),
+          .fallback = fallback && holds(limits, *fallback) ? fmt::format("{}", *fallback)
+                                                           : "",  // else of another key
+          .required = !fallback,
+          .sample = fmt::format("{}", fallback.value_or(some_value(limits)))};
+}
+
+}  // namespace canhil::scenario

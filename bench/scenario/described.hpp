@@ -1,0 +1,69 @@
+// What readers ask of the sections that they read: the reference of keys is made of it (bench/reference), so
+// a range or a default stands in the reader alone.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/scenario/quantity.hpp"
+
+namespace canhil::scenario {
+
+/// The name of a key, and one sentence that says what it means.
+struct Key {
+  // NOLINTBEGIN(google-explicit-constructor): most keys are asked for by their name alone
+  Key(const char* its_name) : name(its_name) {}
+  Key(const std::string& its_name) : name(its_name) {}
+  Key(std::string_view its_name) : name(its_name) {}
+  // NOLINTEND(google-explicit-constructor)
+  Key(std::string_view its_name, std::string_view its_meaning, std::string_view as_shown = {})
+      : name(its_name), meaning(its_meaning), shown(as_shown) {}
+
+  std::string_view name;
+  std::string_view meaning;
+  std::string_view shown;  ///< in the reference, where the name itself depends on another key's value
+};
+
+/// One key as it was asked for.
+struct DescribedKey {
+  std::string table{};  ///< path of the table that it is in; empty: the file itself
+  std::string name{};
+  std::string shown{};  ///< in the reference
+  std::string meaning{};
+  std::string type{};   ///< "number", "text", "table" ...
+  std::string range{};  ///< in words, in the key's unit; empty: any
+  std::string fallback{};
+  bool required = false;
+  std::vector<std::string> words{};  ///< of which it is one
+  std::string sample{};              ///< a value that it may have, as TOML
+};
+
+struct Description {
+  std::vector<DescribedKey> keys;
+  std::set<std::string> looked_for;  ///< paths of the keys that something depends on being there
+};
+
+/// While it lives, what this thread's new sections are asked for is described.
+class Describing {
+ public:
+  explicit Describing(Description& description);
+  ~Describing();
+  Describing(const Describing&) = delete;
+  Describing& operator=(const Describing&) = delete;
+
+  /// Null: nothing is described.
+  static Description* current();
+
+ private:
+  Description* before_;
+};
+
+inline constexpr std::string_view interval_type = "[low, high]";
+
+/// A number, or numbers, within limits.
+DescribedKey described_number(std::string_view type, const Limits& limits, std::optional<double> fallback);
+
+}  // namespace canhil::scenario

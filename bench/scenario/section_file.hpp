@@ -1,0 +1,88 @@
+// The file that sections are parts of, as toml++ has it. toml++ is heavy: for section.cpp alone.
+#pragma once
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/scenario/key_depth.hpp"
+#include "bench/scenario/section.hpp"
+
+namespace canhil::scenario {
+
+inline std::optional<double> as_number(const toml::node& node) {
+  if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
+  if (const auto* real = node.as_floating_point()) return real->get();
+  return std::nullopt;
+}
+
+inline std::string type_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "is a table";
+    case toml::node_type::array:
+      return "is an array";
+    case toml::node_type::string:
+      return "is a string";
+    case toml::node_type::integer:
+    case toml::node_type::floating_point:
+      return "is a number";
+    case toml::node_type::boolean:
+      return "is a boolean";
+    default:
+      return "is a date or time";
+  }
+}
+
+inline std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
+
+struct Section::File {
+  std::string name;
+  std::string folder;                // folder of the files that it names
+  std::uint64_t files_hash = 0;      // of the files that were read
+  std::vector<std::string> files{};  // the files that were read
+  toml::table root;
+  std::optional<Error> error;
+  Description* description = Describing::current();
+
+  /// A value from a setting has no line in the file.
+  [[nodiscard]] std::string where(std::size_t line) const {
+    return line == 0 ? name : fmt::format("{}:{}", name, line);
+  }
+
+  void fail(std::size_t line, std::string_view what) {
+    if (error) return;
+    std::string message = fmt::format("{}: {}", where(line), what);
+    for (char& c : message) {
+      if (static_cast<unsigned char>(c) < ' ' || c == 0x7F)
+        c = '?';  // a quoted key may contain any character
+    }
+    error = Error{std::move(message)};
+  }
+
+  /// Sets a value by its key, creating the tables on the way.
+  void set(const Setting& setting) {
+    if (std::ranges::count(setting.key, '.') >= most_key_parts) return fail(0, deep_key);
+    toml::table* table = &root;
+    std::string_view rest = setting.key;
+    for (auto dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
+      toml::node& next = table->insert(rest.substr(0, dot), toml::table{}).first->second;
+      table = next.as_table();
+      if (table == nullptr) {
+        fail(0, fmt::format("key '{}': '{}' {}, expected a table", setting.key, rest.substr(0, dot),
+                            type_of(next)));
+        return;
+      }
+      rest.remove_prefix(dot + 1);
+    }
+    const toml::table value = toml::parse(fmt::format("value = {}", setting.value));
+    table->insert_or_assign(rest, *value.get("value"));
+  }
+};
+
+}  // namespace canhil::scenario

@@ -1,0 +1,90 @@
+"""What a command of the documentation cannot be run as it stands for, and what is done in its place.
+
+A command without a rule is run as it is and must end with 0. The first rule whose pattern is found in it holds. A rule that no
+page needs any more is a failure (rules_test.py).
+"""
+
+import re
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Rule:
+    pattern: str
+    codes: tuple[int, ...] = (0,)
+    says: str = ""  # a regular expression: part of what it prints
+    instead: tuple[tuple[str, str], ...] = ()  # what is put in place of what, as regular expressions
+    why_not: str = ""  # it is not run; its options are looked up in the help of its program
+    pages: str = ""  # a regular expression; empty: any
+
+
+# Names that stand for what a reader has, in the words of the documentation.
+PLACEHOLDERS = (
+    (r"\bSCENARIO\b", "bench/flights/transfer_alignment_quick.toml"),
+    (r"\bFILE\.dbc\b", "dbc/canhil.dbc"),
+    (r"\bMESSAGE\b", "Sync"),
+    (r"bench/flights/transfer_alignment\.toml", "bench/flights/transfer_alignment_quick.toml"),
+    (r"\bcan(\d)\b", r"nocan\1"),  # no interface of this machine, whichever it has
+    (r"\bvcan(\d)\b", r"novcan\1"),
+)
+
+NO_INTERFACE = r"cannot open 'no|nov?can\d"
+PASSES = (0, 3)  # timing is not measured in virtual time, nor on a busy host
+BARS = (0, 1, 3)  # those of a campaign are for its own number of runs
+IN_VIRTUAL_TIME = ((r"$", " --lockstep"),)
+FEW_RUNS = ((r"$", " --runs 2"),)
+
+RULES = (
+    # What cannot be run here, or is run elsewhere.
+    Rule(r"", pages=r"docs/tutorial\.md$", why_not="is run for what it prints: tests/docs/outputs.py"),
+    Rule(r"^bash bench/demo\.sh", why_not="installs packages and builds: .ci/run starts from there"),
+    Rule(r"^bash tests/run\.sh", why_not="is what runs this test"),
+    Rule(r"with_fifth|tests/fifth_estimator/", why_not="a build of its own: tests/run.sh --full makes it"),
+    Rule(r"cmake --(preset|build|install)|\bcpack\b|\bapt install\b|^ctest\b", why_not="builds, installs or tests: tests/run.sh, tests/package"),
+    Rule(r"^ip |^gpg ", why_not="of real hardware and people's keys"),
+    Rule(r"tests/(controller|vcan)/run\.sh", why_not="an emulated machine: tests/controller, tests/vcan"),
+    Rule(r"tests/(mutants|soak|perf)/", why_not="minutes to hours: tests/run.sh --full, --soak"),
+    Rule(r"reception_fuzz", why_not="an hour: tests/fuzz"),
+    Rule(r"can\.logconvert|asammdf", why_not="programs of others, on recordings of others"),
+    Rule(r"/shared/|-of-N|\bmy\.sqlite|\bOUT\.sqlite", why_not="shards of a cluster: tests/processes/slurm"),
+    Rule(r"\[--|transfer\|inflight|campaign (export|replay) ", why_not="a synopsis: tests/processes/campaign"),
+    Rule(r"/usr/share/canhil", why_not="an installed canhil: tests/package"),
+    Rule(r"campaign --paper|paper_transfer/table2", why_not="minutes: tests/papers"),
+    Rule(r"hil-bench accept", why_not="minutes: tests/processes/accept"),
+    Rule(r"hil-bench faults |faults/violation", why_not="minutes: tests/processes/faults"),
+    # Hardware: everything up to the interface, which is not there.
+    Rule(r"hil-bench doctor .*can\d", codes=(0, 1), says="nocan0", instead=((r"--cpu \d", "--cpu 0"), (r" --seconds \d+", ""), (r"$", " --seconds 1"))),
+    Rule(r"^sha256sum ", why_not="of the reports of a run on hardware"),
+    Rule(r"^hil-(bench|target) .*\bv?can\d", codes=(2,), says=NO_INTERFACE, instead=((r"--cpu \d", "--cpu 0"),)),
+    # As long as a test may take.
+    Rule(r"hil-bench bus ", codes=(124,), instead=((r"^", "timeout -s INT -k 5 1 "), (r"local:\w+", "local:documented"))),
+    Rule(r"my_target\.py", codes=(0, 1), says="rules kept", instead=((r"my_target", "docs/examples/kit/los_rate"),)),
+    Rule(r"hil-bench campaign (?!merge|report)", codes=BARS, instead=((r"\bFILE\b", "bench/monte_carlo/quick.toml"), *FEW_RUNS)),
+    Rule(r"hil-bench compare", codes=(0, 1)),
+    Rule(r"all_four\.toml --bus 'in-process\?bitrate=500000'$", codes=(1,), says="1 of 8 checks failed: bus_load"),
+    Rule(r"\| head$", codes=(0, 141)),  # the reader has seen enough
+    Rule(r"hil-bench run .*(\?bitrate|in-process|--lockstep)", codes=PASSES),
+    Rule(r"hil-bench run .*\|\| \[ \$\? = 3 \]", instead=((r" \|\|", " --lockstep ||"),)),
+    Rule(r"hil-bench run .*own_ecu\.toml", codes=PASSES, instead=((r"$", " --log drive.log"),)),
+    Rule(r"hil-bench run ", codes=PASSES, instead=IN_VIRTUAL_TIME),
+    Rule(r"hil-bench dbc check", codes=(0, 1), says="messages played"),
+    Rule(r"hil-bench check ", codes=PASSES),
+)
+
+RUN = "hil-bench run bench/flights/transfer_alignment_quick.toml --lockstep"
+# What the commands of a page take for granted.
+PREPARED = {
+    "README.md": tuple(f"{RUN} --json {name}.json" for name in ("before", "after", "a1", "a2", "b1", "b2")),
+    "docs/dbc.md": ("cp tests/data/dbc/multiplexed.dbc motion.dbc",),
+    "docs/mapping.md": ("cp docs/examples/own_ecu/own_ecu.mapping.toml docs/examples/own_ecu/own_ecu.dbc .",),
+    "docs/recorded-data.md": (
+        "cp bench/flights/transfer_alignment_quick.toml my.toml",
+        r"sed -E '/^\[(master_ins|slave_imu)\]/,/^$/{/^[a-z]/d; s/^\[.*/&\nrecorded = \"first.log\"/}' my.toml > my_again.toml",
+    ),
+    "docs/report.md": tuple(f"{RUN} --json {name}.json" for name in ("run", "other", "before", "after", "a1", "a2", "a3", "a4", "b1", "b2", "b3", "b4")),
+    "docs/recordings.md": (f"{RUN} --log run.log --json run.json", "hil-bench log convert run.log drive.asc"),
+}
+
+
+def rule_of(text: str, page: str) -> Rule:
+    return next((rule for rule in RULES if re.search(rule.pages, page) and re.search(rule.pattern, text)), Rule(""))

@@ -1,0 +1,111 @@
+#include "bench/live/feed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+#include <thread>
+#include <vector>
+
+namespace {
+thread_local std::size_t allocations = 0;
+}
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace canhil::live {
+namespace {
+
+class Seen final : public observe::Observer {
+ public:
+  void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override {
+    sent.push_back(frame.id);
+    last_ns = t_ns;
+    last_late_ns = late_ns;
+  }
+  void received(const Received& received) override { answers.push_back(received.t_ns); }
+  void time_told(std::int64_t t_ns) override { told_ns = t_ns; }
+  std::vector<std::uint32_t> sent;
+  std::vector<std::int64_t> answers;
+  std::int64_t last_ns = 0, last_late_ns = 0, told_ns = 0;
+};
+
+TEST(LiveFeed, GivesWhatWasSeenInOrder) {
+  Feed feed;
+  feed.transmitted({.id = 1}, 10, 2);
+  feed.received({.frame = {.id = 7}, .t_ns = 20});
+  feed.time_told(30);
+  feed.transmitted({.id = 2}, 40, 3);
+  Seen seen;
+  EXPECT_EQ(feed.drain(seen, nullptr), 4U);
+  EXPECT_EQ(seen.sent, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(seen.answers, std::vector<std::int64_t>{20});
+  EXPECT_EQ(seen.told_ns, 30);
+  EXPECT_EQ(seen.last_ns, 40);
+  EXPECT_EQ(seen.last_late_ns, 3);
+  EXPECT_EQ(feed.dropped(), 0U);
+}
+
+TEST(LiveFeed, DropsAndCountsWhatFindsNoRoom) {
+  Feed feed(8);
+  for (std::uint32_t id = 0; id < 20; ++id) feed.transmitted({.id = id}, 0, 0);
+  EXPECT_EQ(feed.dropped(), 12U);
+  Seen seen;
+  EXPECT_EQ(feed.drain(seen, nullptr), 8U);
+  EXPECT_EQ(seen.sent.back(), 7U);  // what is in it stays
+  feed.transmitted({.id = 20}, 0, 0);
+  EXPECT_EQ(feed.drain(seen, nullptr), 1U);
+  EXPECT_EQ(feed.dropped(), 12U);
+}
+
+TEST(LiveFeed, CopiesTheEpochsOfAnEngagement) {
+  world::EngagementRecord flown, copy;
+  Feed feed;
+  feed.follow(&flown);
+  for (std::int64_t t_us : {0, 5000, 10'000}) {
+    flown.epochs.push_back({.t_us = t_us, .range = 1000});
+    feed.transmitted({}, t_us * 1000, 0);
+  }
+  Seen seen;
+  feed.drain(seen, &copy);
+  ASSERT_EQ(copy.epochs.size(), 3U);
+  EXPECT_EQ(copy.epochs.back().t_us, 10'000);
+}
+
+TEST(LiveFeed, DoesNotAllocateWhereTheFlightIs) {
+  Feed feed(64);
+  const Received answer{.frame = {.id = 3, .size = 8}, .t_ns = 1};
+  const std::size_t before = allocations;
+  for (int i = 0; i < 200; ++i) {  // with room, and without
+    feed.transmitted({.id = 1}, i, 0);
+    feed.received(answer);
+    feed.time_told(i);
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(feed.dropped(), 0U);
+}
+
+TEST(LiveFeed, LosesNothingUncountedBetweenTwoThreads) {
+  constexpr std::uint32_t frames = 100'000;
+  Feed feed(256);
+  Seen seen;
+  std::atomic<bool> over = false;
+  std::thread reader([&] {
+    while (!over) feed.drain(seen, nullptr);
+    feed.drain(seen, nullptr);
+  });
+  for (std::uint32_t id = 0; id < frames; ++id) feed.transmitted({.id = id}, id, 0);
+  over = true;
+  reader.join();
+  EXPECT_EQ(seen.sent.size() + feed.dropped(), frames);
+  EXPECT_TRUE(std::ranges::is_sorted(seen.sent));
+  EXPECT_GT(seen.sent.size(), 0U);
+}
+
+}  // namespace
+}  // namespace canhil::live
