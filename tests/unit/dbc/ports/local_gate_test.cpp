@@ -268,9 +268,8 @@ TEST_F(LocalGate, WhoNeverReadsIsDroppedAndTheOthersGetEveryFrame) {
     hub->receive();
   }
   EXPECT_THAT(told_,
-              ElementsAre(fmt::format("bus 'local:x': node 'stuck??[2J' ({}) did not read what the bus "
-                                      "brought and was dropped",
-                                      us())));
+              ElementsAre(fmt::format(
+                  "bus 'local:x': node 'stuck??[2J' ({}) did not read its frames and was dropped", us())));
   EXPECT_THAT(hub->nodes(), ElementsAre("reader"));
   EXPECT_EQ(hub->held_up_by(), "");
 }
