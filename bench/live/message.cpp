@@ -13,10 +13,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using report::rounded;
 
-Json number(double value, int digits = 5) {
+Json json_number(double value, int digits = 5) {
   return std::isfinite(value) ? Json(rounded(value, digits)) : Json(nullptr);
 }
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+Json json_number(const std::optional<double>& value) { return value ? json_number(*value) : Json(nullptr); }
 Json outcome(const std::optional<checks::Outcome>& outcome) {
   return outcome ? Json(checks::name(*outcome)) : Json(nullptr);
 }
@@ -42,28 +42,30 @@ Json object(const report::Series& series, std::size_t from) {
   for (std::size_t i = from; i < series.points.size(); ++i) {
     const report::Series::Point& point = series.points[i];
     json["t_s"].push_back(point.t_s);
-    json["low"].push_back(number(point.low));
-    json["high"].push_back(number(point.high));
-    json["sigma"].push_back(number(point.sigma));
+    json["low"].push_back(json_number(point.low));
+    json["high"].push_back(json_number(point.high));
+    json["sigma"].push_back(json_number(point.sigma));
   }
   for (const report::Series::Bar& bar : series.bars)
-    json["bars"].push_back(
-        {{"check", bar.check}, {"below", number(bar.below)}, {"from_s", bar.from_s}, {"to_s", bar.to_s}});
+    json["bars"].push_back({{"check", bar.check},
+                            {"below", json_number(bar.below)},
+                            {"from_s", bar.from_s},
+                            {"to_s", bar.to_s}});
   return json;
 }
 
 Json object(const TimingLine& line) {
   Json json{{"message", line.message},
             {"count", line.count},
-            {"p50_us", number(line.p50_us)},
-            {"p99_us", number(line.p99_us)},
-            {"max_us", number(line.max_us)},
+            {"p50_us", json_number(line.p50_us)},
+            {"p99_us", json_number(line.p99_us)},
+            {"max_us", json_number(line.max_us)},
             {"jitter_count", line.jitter_count},
-            {"jitter_p99_us", number(line.jitter_p99_us)},
-            {"jitter_max_us", number(line.jitter_max_us)}};
+            {"jitter_p99_us", json_number(line.jitter_p99_us)},
+            {"jitter_max_us", json_number(line.jitter_max_us)}};
   if (line.slowest_us.empty()) return json;
   json["stretch_s"] = line.stretch_s;
-  for (const double slowest_us : line.slowest_us) json["slowest_us"].push_back(number(slowest_us));
+  for (const double slowest_us : line.slowest_us) json["slowest_us"].push_back(json_number(slowest_us));
   return json;
 }
 
@@ -83,9 +85,9 @@ Json object(const Flight& flight, FromOf from_of) {
             {"no_tracks", flight.no_tracks},
             {"timing", Json::array()},
             {"bit_rate", flight.bit_rate},
-            {"load_now", number(flight.load_now)},
-            {"load_mean", number(flight.load.mean)},
-            {"load_busiest", number(flight.load.busiest)},
+            {"load_now", json_number(flight.load_now)},
+            {"load_mean", json_number(flight.load.mean)},
+            {"load_busiest", json_number(flight.load.busiest)},
             {"load_stretch_s", flight.load_line.stretch_s},
             {"load", Json::array()},
             {"faults", Json::array()}};
@@ -97,7 +99,7 @@ Json object(const Flight& flight, FromOf from_of) {
   for (const report::Series& series : flight.series)
     json["series"].push_back(object(series, from_of(series)));
   for (const TimingLine& line : flight.timing) json["timing"].push_back(object(line));
-  for (const double busiest : flight.load_line.busiest) json["load"].push_back(number(busiest));
+  for (const double busiest : flight.load_line.busiest) json["load"].push_back(json_number(busiest));
   for (const FaultLine& fault : flight.faults)
     json["faults"].push_back({{"name", fault.name},
                               {"kind", fault.kind},
@@ -114,7 +116,7 @@ Json object(const Batch& batch) {
             {"total", batch.total},
             {"failed", batch.failed},
             {"failed_means", batch.failed_means},
-            {"rate_per_s", number(batch.rate_per_s)},
+            {"rate_per_s", json_number(batch.rate_per_s)},
             {"outcome", outcome(batch.outcome)},
             {"reason", batch.reason},
             {"latest", Json::array()}};
