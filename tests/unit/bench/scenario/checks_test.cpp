@@ -70,7 +70,7 @@ TEST(ScenarioChecks, Error) {
   EXPECT_DOUBLE_EQ(rule.below, 5e-3);
   const auto velocity = rule_of<checks::Error>(
       "kind = 'error'\nquantity = 'velocity.down'\nstatistic = 'mean'\nfrom_s = 1\nbelow_mps = 0.2");
-  EXPECT_EQ(velocity.of.quantity, &quantities::velocity_down);
+  EXPECT_EQ(velocity.judged.quantity, &quantities::velocity_down);
   EXPECT_EQ(velocity.statistic, checks::Error::Statistic::mean);
   EXPECT_DOUBLE_EQ(velocity.below, 0.2);
 }
@@ -93,12 +93,12 @@ TEST(ScenarioChecks, Convergence) {
 TEST(ScenarioChecks, Consistency) {
   const auto white = rule_of<checks::Consistency>(
       "kind = 'consistency'\nquantity = 'innovation.nis'\nfrom_s = 2\nprobability = 0.99");
-  EXPECT_EQ(white.of.quantity, &quantities::innovation_nis);
+  EXPECT_EQ(white.judged.quantity, &quantities::innovation_nis);
   EXPECT_EQ(white.window.from_us, 2'000'000);
   EXPECT_DOUBLE_EQ(std::get<checks::Probability>(white.bound).value, 0.99);
   const auto mean = rule_of<checks::Consistency>(
       "kind = 'consistency'\nquantity = 'attitude.nees'\nmean_between = [0.5, 8]");
-  EXPECT_EQ(mean.of.quantity->name, "attitude.nees");
+  EXPECT_EQ(mean.judged.quantity->name, "attitude.nees");
   EXPECT_DOUBLE_EQ(std::get<checks::MeanBetween>(mean.bound).low, 0.5);
   EXPECT_DOUBLE_EQ(std::get<checks::MeanBetween>(mean.bound).high, 8.0);
 }
@@ -106,7 +106,7 @@ TEST(ScenarioChecks, Consistency) {
 TEST(ScenarioChecks, Sigma) {
   const auto heading = rule_of<checks::Sigma>(
       "kind = 'sigma'\nquantity = 'attitude.heading'\nfrom_s = 19\nbetween_mrad = [0.2, 0.4]");
-  EXPECT_EQ(heading.of.quantity, &quantities::attitude_heading);
+  EXPECT_EQ(heading.judged.quantity, &quantities::attitude_heading);
   EXPECT_EQ(heading.stretch.window.from_us, 19'000'000);
   EXPECT_DOUBLE_EQ(heading.low, 0.2e-3);
   EXPECT_DOUBLE_EQ(heading.high, 0.4e-3);

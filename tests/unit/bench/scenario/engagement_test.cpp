@@ -147,7 +147,7 @@ TEST(LosChecks, EveryKey) {
                                                        "time_to_go_s = [0.5, 2]\nbelow_mradps = 3",
                                                        los))
                                                .checks[0]);
-  EXPECT_EQ(rate.of.quantity->name, "los.rate.pitch");
+  EXPECT_EQ(rate.judged.quantity->name, "los.rate.pitch");
   EXPECT_EQ(rate.stretch.to_go_s, std::pair(0.5, 2.0));
   EXPECT_DOUBLE_EQ(rate.below, 3e-3);
   const Scenario s = parsed(los);

@@ -137,8 +137,8 @@ TEST(GlideSections, ChecksOfTheWind) {
                   glider));
   const auto error = rule_of<checks::Error>(s.checks.at(0));
   EXPECT_EQ(s.checks.at(0).name, "error wind.along mean");
-  EXPECT_EQ(error.of.estimator, "wind");
-  EXPECT_EQ(error.of.quantity->name, "wind.along");
+  EXPECT_EQ(error.judged.estimator, "wind");
+  EXPECT_EQ(error.judged.quantity->name, "wind.along");
   EXPECT_EQ(error.statistic, checks::Error::Statistic::mean);
   EXPECT_EQ(error.stretch.window.from_us, 10'000'000);
   EXPECT_EQ(error.below, 2);
@@ -147,7 +147,7 @@ TEST(GlideSections, ChecksOfTheWind) {
   EXPECT_EQ(answers.counts[0].mark, "updated");
   EXPECT_EQ(answers.counts[0].at_least, 5);
   EXPECT_EQ(answers.counts[1].mark, "fins_late");
-  EXPECT_EQ(rule_of<checks::Consistency>(s.checks.at(2)).of.quantity->degrees_of_freedom, 9);
+  EXPECT_EQ(rule_of<checks::Consistency>(s.checks.at(2)).judged.quantity->degrees_of_freedom, 9);
 }
 
 TEST(GlideSections, WrongOnesGiveOneLine) {

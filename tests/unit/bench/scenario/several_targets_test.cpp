@@ -76,14 +76,14 @@ TEST(SeveralTargets, ACheckSaysWhoseAnswersItIsAbout) {
       HasSubstr(
           "key 'check[1].estimator': is missing, expected one of: transfer_alignment, inflight_alignment"));
   const Scenario s = parsed(two(second, check + "estimator = 'inflight_alignment'\n"));
-  EXPECT_EQ(rule_of<checks::Error>(s.checks.at(0)).of.estimator, "inflight_alignment");
+  EXPECT_EQ(rule_of<checks::Error>(s.checks.at(0)).judged.estimator, "inflight_alignment");
   EXPECT_EQ(s.checks.at(0).name, "error attitude.roll of inflight_alignment");
 }
 
 TEST(SeveralTargets, WhereOneAlignsItIsTheOneThatIsMeant) {
   const std::string check = "[[check]]\nkind = 'error'\nquantity = 'attitude.roll'\nbelow_mrad = 5\n";
   const Scenario s = parsed(with("[[check]]", check + "[[check]]"));
-  EXPECT_EQ(rule_of<checks::Error>(s.checks.at(0)).of.estimator, "transfer_alignment");
+  EXPECT_EQ(rule_of<checks::Error>(s.checks.at(0)).judged.estimator, "transfer_alignment");
   EXPECT_THAT(refusal(with("[[check]]", check + "estimator = 'inflight_alignment'\n[[check]]")),
               HasSubstr("'inflight_alignment' is unknown, expected one of: transfer_alignment"));
 }
