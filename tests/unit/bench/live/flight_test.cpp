@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "bench/checks/rule.hpp"
 #include "bench/drive/contract.hpp"
 
 namespace canhil::live {
