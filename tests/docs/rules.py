@@ -33,6 +33,7 @@ PASSES = (0, 3)  # timing is not measured in virtual time, nor on a busy host
 BARS = (0, 1, 3)  # those of a campaign are for its own number of runs
 IN_VIRTUAL_TIME = ((r"$", " --lockstep"),)
 FEW_RUNS = ((r"$", " --runs 2"),)
+ANY_PORT = (r"--live\b( \d+)?", "--live 0")  # tests run side by side
 
 RULES = (
     # What cannot be run here, or is run elsewhere.
@@ -52,11 +53,14 @@ RULES = (
     Rule(r"campaign --paper|paper_transfer/table2", why_not="minutes: tests/papers"),
     Rule(r"hil-bench accept", why_not="minutes: tests/processes/accept"),
     Rule(r"hil-bench faults |faults/violation", why_not="minutes: tests/processes/faults"),
+    Rule(r"--live-hold|--tui", why_not="waits for Ctrl-C, needs a terminal: tests/processes/live"),
     # Hardware: everything up to the interface, which is not there.
     Rule(r"hil-bench doctor .*can\d", codes=(0, 1), says="nocan0", instead=((r"--cpu \d", "--cpu 0"), (r" --seconds \d+", ""), (r"$", " --seconds 1"))),
     Rule(r"^sha256sum ", why_not="of the reports of a run on hardware"),
     Rule(r"^hil-(bench|target) .*\bv?can\d", codes=(2,), says=NO_INTERFACE, instead=((r"--cpu \d", "--cpu 0"),)),
     # As long as a test may take.
+    Rule(r"hil-bench run .*--live\b", codes=PASSES, instead=(ANY_PORT, *IN_VIRTUAL_TIME)),
+    Rule(r"hil-bench campaign .*--live\b", codes=BARS, instead=((r"\bFILE\b", "bench/monte_carlo/quick.toml"), ANY_PORT, *FEW_RUNS)),
     Rule(r"hil-bench bus ", codes=(124,), instead=((r"^", "timeout -s INT -k 5 1 "), (r"local:\w+", "local:documented"))),
     Rule(r"my_target\.py", codes=(0, 1), says="rules kept", instead=((r"my_target", "docs/examples/kit/los_rate"),)),
     Rule(r"hil-bench campaign (?!merge|report)", codes=BARS, instead=((r"\bFILE\b", "bench/monte_carlo/quick.toml"), *FEW_RUNS)),
