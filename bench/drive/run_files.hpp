@@ -1,4 +1,4 @@
-// The files that a run depends on, for who signs its report.
+// The files that a run depends on, for the provenance of its report.
 #pragma once
 
 #include <string>

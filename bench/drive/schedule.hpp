@@ -17,8 +17,8 @@ namespace canhil::drive {
 /// Faults of bus and target act before the nodes at that time.
 class Schedule final : public observe::Observer {
  public:
-  /// `keeper` closes every step, so it comes last among those due at the same time; when it is finished, so
-  /// is the schedule. `faults`: of the run; null: none.
+  /// `keeper` closes every step, so it is the last of the nodes due at the same time; the schedule ends when
+  /// it ends. `faults`: of the run; null: none.
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
            Rounding rounding = Rounding::as_on_the_bus, std::unique_ptr<faults::Faults> faults = nullptr)
       : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)) {

@@ -61,7 +61,7 @@ std::string page_with(const std::string& query) {
   return page;
 }
 
-// What connections ask of the server.
+// What the server's connections share.
 struct Site {
   Admission admission;
   std::string page;
@@ -123,7 +123,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
   }
 
  private:
-  // There is nothing to say to the server: whoever does is no page of ours.
+  // The page never sends data on the WebSocket. A client that sends any is not our page, and is disconnected.
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
       static_cast<void>(error);
@@ -227,7 +227,7 @@ class BeastServer final : public Server {
     acceptor_.bind(endpoint);
     acceptor_.listen();
     const tcp::endpoint local = acceptor_.local_endpoint();
-    // Where every address of the machine listens, its name is one that a browser elsewhere may know.
+    // If the server listens on every address of the machine, a browser elsewhere needs the host name.
     site_.admission = {
         .address = local.address().is_unspecified() ? asio::ip::host_name() : local.address().to_string(),
         .loopback = local.address().is_loopback(),
@@ -250,7 +250,7 @@ class BeastServer final : public Server {
   void show(const Snapshot& snapshot) override {
     if (!accepting_) accept();
     std::erase_if(spectators_, [](const auto& one) { return !one->open(); });
-    // Nothing is written for nobody; who comes is given all of it.
+    // With no spectators nothing is written; a spectator that connects later receives the whole snapshot.
     last_ = std::nullopt;
     whole_ = nullptr;
     if (spectators_.empty()) sent_.clear();

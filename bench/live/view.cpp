@@ -20,8 +20,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto look_every = 25ms;      // at frames: the queue must not fill
 constexpr auto show_every = 250ms;     // at the most often
-constexpr int rest = 9;                // of its time the view works a tenth, however much there is to show
-constexpr auto longest_farewell = 1s;  // until who looks on has seen the end
+constexpr int rest = 9;                // pause / work: the view works for a tenth of its time at most
+constexpr auto longest_farewell = 1s;  // waits so long until viewers have received the end
 constexpr int low_nice = 10;
 
 void run_below_others() {

@@ -65,7 +65,7 @@ void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double u
 /// The RMS over time [s], every `step`-th point.
 Curve over_time(std::span<const campaign::CurvePoint> points, double unit = 1, std::size_t step = 1);
 
-/// A figure of an answer, by its name in the report; NaN: there is none.
+/// A figure of an answer, by its name in the report; NaN: the answer has no such figure.
 double figure(const campaign::Answer& answer, std::string_view name);
 
 /// A campaign with the answers from its results. Error: results cannot be read, or runs are missing.

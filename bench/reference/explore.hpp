@@ -18,7 +18,7 @@ struct AskedKey {
   std::vector<std::string> in_place{};  ///< keys beside which a required one is not required
 };
 
-/// Reads a text of TOML. It may refuse it: what was asked for counts.
+/// Reads a TOML text. It may reject the text: only the keys that it asked for are evaluated.
 using Read = std::function<void(std::string_view text)>;
 
 enum class Depth : std::uint8_t { as_it_is, every_branch };

@@ -47,7 +47,7 @@ class GrowingSeries {
   /// `estimates`: the estimates beside the truth, rather than the values. `scenario` must outlive it.
   GrowingSeries(std::string_view estimator, const quantities::Track& track, bool estimates,
                 const scenario::Scenario& scenario);
-  /// Takes what the track says of later times than that of its last value that was taken.
+  /// Appends the values of the track that are later than the last value appended before.
   void take(const quantities::Track& track);
   /// The run is over: if answers are missing at its end that is a gap too.
   void end(const quantities::Track& track);

@@ -94,7 +94,7 @@ class Bench {
         break;
     }
   }
-  /// What comes to its aid, valid at another time.
+  /// Sends the estimator's aiding measurement, valid at another time.
   void aid(messages::Estimator estimator, const Spoil& spoil, std::int64_t valid_us, bool gps) {
     switch (estimator) {
       case messages::Estimator::transfer_alignment:

@@ -97,7 +97,7 @@ def linked(folder, place, file):
     words = [str(again.pop(word)) if word in again else word for word in words]
     target = place / "hil-target"
     at = words.index("-o")
-    # What was compiled again comes before the libraries that hold the old ones: the linker takes what it meets first.
+    # The recompiled objects precede the libraries with the old ones, because the linker uses the first definition.
     words[at:at + 2] = [str(one) for one in again.values()] + ["-o", str(target)]
     finished = subprocess.run(words, cwd=folder, capture_output=True, text=True)
     if finished.returncode != 0:

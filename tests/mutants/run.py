@@ -43,7 +43,7 @@ LONGEST_S = 900  # of the suites together
 
 CAUGHT, SURVIVED, NO_BUILD = "caught", "survived", "does not build"
 
-# What takes the least time comes first; times come last, and by themselves.
+# The fastest suites come first. Timing suites come last and run alone.
 SINGLE_FLIGHTS = ("algorithms", "parameters", "flags and states", "protocol")
 CAMPAIGNS = ("errors", "honesty")
 TIMES = ("timing",)
@@ -119,7 +119,7 @@ def fly_suites(target, first, stages):
 
 
 def outcome_of(mutant, stages):
-    """What became of it, as its entry in the JSON file."""
+    """The result for a mutant, as its entry in the JSON file."""
     entry = {"family": mutant.family, "name": mutant.name, "file": mutant.file, "what": mutant.what}
     try:
         target = overlaid.build(BUILD, mutant.full_name, mutant.file, mutant.applied((ROOT / mutant.file).read_text()))
@@ -201,7 +201,7 @@ def options():
 
 
 def prepare(progress):
-    """Sees to it that the target passes as it is."""
+    """Checks that the unchanged target passes."""
     if not BENCH.exists():
         raise Failure(f"{BENCH}: is not there, expected the project built (cmake --preset default; cmake --build --preset default)")
     progress.say("the target as it is")

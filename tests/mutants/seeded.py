@@ -39,7 +39,7 @@ class Mutant:
 
 
 def mutants_of(family, text):
-    """Those that the text of a family's file says, in its order."""
+    """The mutants in the text of a family's file, in the same order."""
     read = tomllib.loads(text)
     if set(read) != {"mutant"}:
         raise ValueError(f"{family}: holds {', '.join(sorted(read)) or 'nothing'}, expected tables [[mutant]] and nothing else")

@@ -29,8 +29,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SCENARIOS = ["transfer_alignment_quick", "inflight_quick", "los_quick", "wind_quick"]
 LONGEST_S = {"lockstep": 12, "real time": 3}  # of the flight
-# A host that keeps a program waiting for 0.4 s makes the target silent in real time: that flight is flown again, the same one. A
-# target that is silent by itself is so each time.
+# A busy host can suspend a program for 0.4 s, which looks like a silent target in real time. Such a flight is repeated
+# unchanged. A target with a real defect is silent in every repetition.
 MOST_FLIGHTS = {"lockstep": 1, "real time": 4}
 # Faults that last for a stretch of time: they do not strike every so many samples (docs/faults.md).
 STRETCHES = ["silent", "slow", "clock_step", "clock_drift", "restart", "stranger", "flood"]
@@ -58,7 +58,7 @@ class Contract:
                 self.kinds.append(kind)
 
     def all_kinds(self, bench, probe):
-        """Those that the bench knows: it names them where it is told another."""
+        """The kinds of faults that the bench knows; its error message for an unknown kind lists them."""
         probe.write_text(scenario("transfer_alignment_quick", 1, 1, [{"kind": "?"}]))
         told = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True).stderr
         found = re.search(r"expected one of:? (.*)", told)
@@ -169,7 +169,7 @@ def descriptors(pid):
 
 
 def fly(command, environment, log):
-    """Exit code, what it said, peak of its resident memory [KiB], most descriptors."""
+    """Exit code, standard error, peak resident memory [KiB], largest number of open descriptors."""
     bench = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                              stderr=subprocess.PIPE, text=True)
     most, ended = [0], threading.Event()
@@ -217,7 +217,8 @@ class Course:
         return statistics.linear_regression(*zip(*points)).slope if len(points) > 2 else 0.0
 
     def growth(self):
-        """Of the medians of the first and the last third: a peak in one run is none."""
+        """Median of the last third minus median of the first third, so that a peak in one run does not
+        count."""
         values = [value for _, value in self.settled()]
         third = max(1, len(values) // 3)
         return statistics.median(values[-third:]) - statistics.median(values[:third])

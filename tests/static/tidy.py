@@ -84,7 +84,8 @@ class Cache:
         return self.hashes[path]
 
     def state_of(self, source):
-        """A file that is there when the source, as it is, was clean; None: not built, so nothing is known."""
+        """A file that exists if this version of the source was found clean before; None: the source is not
+        built."""
         files = self.includes.get(source.object)
         if files is None:
             return None
@@ -140,7 +141,7 @@ def wrong_ones(file, sources, output):
 
 
 def join(file, sources):
-    """Writes the file that includes those of the sources that can stand together; gives them."""
+    """Writes a file that includes the sources which can be compiled as one; returns these sources."""
     held, macros = [], {}
     for source in sources:
         if all(macros.setdefault(name, flag) == flag for name, flag in source.macros.items()):

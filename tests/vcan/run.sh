@@ -43,7 +43,8 @@ in_uml() {
   printf '#!/bin/sh\nexec sh %q %q %q\n' "$here/uml_init.sh" "$dir" "$PWD" >"$dir/init"
   chmod +x "$dir/init"
 
-  # The guest makes its descriptors non-blocking: pipes of its own keep that from the caller's stdout.
+  # The guest makes its descriptors non-blocking. It gets its own pipes, so the caller's stdout stays
+  # blocking.
   mkfifo "$dir/out" "$dir/err"
   cat "$dir/out" & out=$!
   cat "$dir/err" >&2 & err=$!

@@ -16,7 +16,8 @@ SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, MONITOR = "sensor and truth", "pack", "wi
 LOOP = "device and run loop"
 STAGES = (SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, LOOP, MONITOR)
 GOALS = (("pack + wire + E2E + unpack", (PACK, WIRE, UNPACK), 10), (SENSOR, (SENSOR,), 25))
-# The first that is found in the path of a source file. None: pack or unpack, by the function that the line is in.
+# The stage of a source file: the first entry whose text occurs in the file's path. None: pack or unpack,
+# depending on the function that contains the line.
 FILES = (
     ("bench/world/", SENSOR), ("bench/nodes/", SENSOR),
     ("messages/canhil.hpp", None), ("dbc/wire/bits", None), ("dbc/wire/quantise", None), ("dbc/wire/message.hpp", None),

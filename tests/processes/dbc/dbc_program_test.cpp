@@ -104,7 +104,7 @@ TEST(DbcLint, BadInputIsOneLine) {
   expect_one_line(hil_bench("dbc"), "A subcommand is required");
   expect_one_line(hil_bench("dbc lint"), "FILE is required");
   expect_one_line(hil_bench("dbc lint /nowhere.dbc"), "/nowhere.dbc: cannot be read");
-  // Nothing of the first file either.
+  // Findings of the first file are not printed either.
   expect_one_line(hil_bench(fmt::format("dbc lint '{}' /nowhere.dbc", odd_file())),
                   "/nowhere.dbc: cannot be read");
   expect_one_line(hil_bench(fmt::format("dbc lint --json --sarif - {}", canhil_dbc)), "expected one of them");

@@ -33,7 +33,7 @@ std::atomic<std::size_t> allocations = 0;
 namespace canhil::target {
 namespace {
 
-/// What shows that a session went its way to the end.
+/// Evidence that a session ran to its end.
 struct Session {
   std::size_t answers_above;
   bool running;  ///< at the end

@@ -105,7 +105,8 @@ TEST_P(DifferentialRiccati, GlintStartedOnTheClosedFormStaysThere) {
   EXPECT_LT(worst_gain_error(glint, vc, generic_start(), 5000 - 3 * vc, gain), 1e-3);
 }
 
-// Eq. (9) as printed, K3 = P3bar/(s2 r^3): no limit on an RMS detects this error, so this comparison must.
+// Eq. (9) as printed, K3 = P3bar/(s2 r^3), is wrong. No limit on an RMS detects that error, so this
+// comparison of gains must detect it.
 TEST_P(DifferentialRiccati, CatchesPrintedEquation9) {
   const double vc = GetParam();
   const Covariance p_bar = riccati(q, thermal_psd, vc);

@@ -47,7 +47,7 @@ TEST(WindFilter, StepIsPredictionThenUpdate) {
   EXPECT_EQ(state.altitude, run.altitude[1]);
 }
 
-// The published P0 is that of a wind which follows from air velocity, attitude and ground velocity.
+// The published P0 assumes that the wind is computed from air velocity, attitude and ground velocity.
 TEST(WindFilter, StartIsThePublishedOne) {
   const RecordedRun run;
   Start start;
