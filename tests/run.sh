@@ -153,7 +153,7 @@ probe_sanitizers() {
 
 address_sanitizer() {
   echo "address, leak and undefined-behaviour sanitizers on: code that reads external input, and both programs; docs/ci.md lists the rest"
-  # In a copy of the tree with one more estimator: tests that adding one breaks nothing, without another build.
+  # Tests a copy of the tree with one more estimator in the build: adding an estimator must break nothing.
   local copy=$root/build/with_fifth
   echo "built with a fifth estimator in it (tests/fifth_estimator), in build/with_fifth"
   if ! python3 tests/fifth_estimator/add.py "$copy"; then failure "making $copy"; return; fi

@@ -36,8 +36,8 @@ class Finishing {
     const std::scoped_lock lock(mutex_);
     if (--workers_ == 0) ended_.notify_one();
   }
-  /// Waits for a commit interval, or until the workers end, and returns what has arrived; none: no more to
-  /// come.
+  /// Waits for a commit interval, or until the workers end, and returns the runs that have finished; none: no
+  /// more will come.
   std::optional<std::vector<Finished>> take() {
     std::unique_lock lock(mutex_);
     const bool ended = ended_.wait_for(lock, commit_interval, [&] { return workers_ == 0; });

@@ -132,7 +132,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
                               .measured = std::move(found),
                               .expected = std::string(expected)});
   };
-  // If others send under the names of bench or target, a check proves neither success nor failure.
+  // If another node sends with the ids of bench or target, a check can neither pass nor fail.
   const Outcome fault = evidence.seen.bus.intruded.empty() ? Outcome::fail : Outcome::not_measured;
   imply(causes_kind, fault, wrong_causes(evidence.seen), "each answer with time and counter of its cause");
   imply(groups_kind, fault, broken_groups(evidence.seen), "all messages of an answer, with one counter");

@@ -31,7 +31,7 @@ using doctor::Line;
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 constexpr std::int64_t listen_ns = ns_per_s;  // ten heartbeats
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Arguments {
   std::string bus;
   std::string loop;

@@ -33,7 +33,7 @@ namespace {
 
 constexpr std::size_t heap_bytes = 64 << 20;  // enough for a recording of several minutes
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Arguments {
   std::string scenario;
   std::string bus{local_prefix};    // a private one

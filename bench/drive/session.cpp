@@ -208,7 +208,8 @@ class Session {
             .wire = bus_.wire};
   }
 
-  // On behalf of a fault. If it fails, the target stays silent, which ends the run.
+  // Restarts the target because a fault requests it. If that fails, the target stays silent, which ends the
+  // run.
   void restart_target(std::int64_t t_us) {
     target_->kill_it();
     target_.reset();

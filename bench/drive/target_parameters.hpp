@@ -19,7 +19,7 @@ struct ParametersOf {
   std::vector<TargetParameter> parameters;
 };
 
-/// From the tables that the device itself goes by.
+/// Read from the parameter tables of the device itself.
 std::vector<ParametersOf> target_parameters();
 
 }  // namespace canhil::drive

@@ -25,7 +25,7 @@ struct Asked {
 
 struct Answer {
   unsigned status = 200;
-  std::string_view what{};  ///< of 200: the path that is asked for; else why not, for people
+  std::string_view what{};  ///< status 200: the requested path; otherwise the reason
 };
 
 /// The name of the WebSocket's resource.

@@ -52,7 +52,7 @@ std::string_view text_of(const report::EmbeddedFiles& files, std::string_view na
   return std::ranges::find(files, name, &report::EmbeddedFile::name)->text;
 }
 
-// In the page's own addresses the token is repeated.
+// The page, with the token inserted into the addresses that it refers to.
 std::string page_with(const std::string& query) {
   constexpr std::string_view mark = "$QUERY";
   std::string page(text_of(page_texts, "page"));
@@ -116,7 +116,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
       if (error) self->open_ = false;
     });
   }
-  // It was busy, and misses one.
+  // The browser is still receiving the previous message, so this one is not sent to it.
   void skip() {
     follows_ = false;
     if (std::chrono::steady_clock::now() - began_ > slowest_message) drop();
@@ -144,7 +144,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
   bool open_ = false, follows_ = false;
 };
 
-// One request and its answer.
+// Handles one HTTP request.
 class Exchange : public std::enable_shared_from_this<Exchange> {
  public:
   using Look = std::function<void(std::shared_ptr<Spectator>)>;

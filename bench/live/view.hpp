@@ -76,7 +76,7 @@ class View {
   Requests requests_;
   bool gave_up_ = false;
   std::atomic<bool> asked_ = false, closing_ = false;
-  // Of the view's thread alone.
+  // Only the view's thread uses snapshot_ and flight_.
   Snapshot snapshot_;
   std::optional<FlightInProgress> flight_{};
   std::thread thread_;

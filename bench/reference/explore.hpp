@@ -1,5 +1,5 @@
-// Which keys a reader asks for, found by running it: with an empty text, and then with each key that
-// something depends on, so that keys which are asked for only beside others are found too.
+// Finds the keys that a reader asks for by running it: first with an empty text, then with each key on which
+// something depends. So keys that are read only beside others are found too.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace canhil::reference {
 
-/// A key and what its being asked for depends on, in words: "Only with `trajectory` `weave`."
+/// A key and, in words, the condition under which it is read: "Only with `trajectory` `weave`."
 struct AskedKey {
   scenario::DescribedKey key;
   std::string only;                     ///< empty: it does not depend on other keys

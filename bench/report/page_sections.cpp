@@ -136,7 +136,7 @@ std::string split_table(const Json& report) {
              reported("compute_max_us"));
 }
 
-// How far each latency may be off, and why: half-widths of what makes it so.
+// The uncertainty of each latency, and its sources with their half-widths.
 std::string uncertainty_table(const Json& report) {
   if (!report.contains("uncertainty")) return "";
   const Json& uncertainty = report.at("uncertainty");

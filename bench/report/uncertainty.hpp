@@ -14,7 +14,7 @@ namespace canhil::report {
 /// U = k u: of a normal distribution about 95 % lie within.
 inline constexpr double coverage_factor = 2;
 
-/// What makes a figure uncertain.
+/// The sources of uncertainty of a latency.
 enum class Influence : std::uint8_t {
   stamps,  ///< resolution of the two stamps
   clock,   ///< rate of the clock of both stamps
@@ -59,10 +59,10 @@ struct UncertainLatency {
 /// Of the messages that close a group of answers, in real time; else empty.
 std::vector<UncertainLatency> uncertainties(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// What the budget does not hold, a line each; empty: nothing that is known of.
+/// Known influences that the budget does not include, one line each; empty: none is known.
 std::vector<std::string> left_out(const StampConditions& conditions);
 
-/// In a text report: a line for each message. Empty where there are none.
+/// The part of the text report with a line for each message; empty: there are no such messages.
 std::string uncertainty_text(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

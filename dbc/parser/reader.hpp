@@ -25,7 +25,7 @@ class Reader {
   const Token& take() { return tokens_[index_ + 1 < tokens_.size() ? index_++ : index_]; }
   /// The next token is the first on its line and a keyword that can begin a section.
   [[nodiscard]] bool at_section() const;
-  /// At ';', or where the section ends without one.
+  /// The next token is ';', or the section ends without one.
   [[nodiscard]] bool at_section_end() const {
     return at_mark(';') || at_section() || peek().kind == TokenKind::end;
   }
@@ -35,7 +35,7 @@ class Reader {
   [[nodiscard]] bool at_word(std::string_view word) const {
     return peek().kind == TokenKind::word && peek().text == word;
   }
-  /// At a token that word() accepts.
+  /// The next token is one that word() accepts.
   [[nodiscard]] bool at_name() const {
     return at_name_with_digit() || (peek().kind == TokenKind::word && !is_keyword(peek().text));
   }

@@ -32,7 +32,7 @@ class ConsistencyMonitor {
       inconsistent_ = bias_[i].alarmed(normalised[i]) || inconsistent_;
   }
 
-  /// Sets whether the estimator itself knows that its sigmas do not hold now.
+  /// Sets whether the estimator reports that its sigmas are not valid now.
   void distrust(bool distrusted) { distrusted_ = distrusted; }
 
   [[nodiscard]] bool degraded() const { return inconsistent_ || distrusted_; }

@@ -12,7 +12,7 @@
 
 namespace canhil::target {
 
-/// What a parameter may be, in the unit of its name, and what it does.
+/// The range, default and effect of a parameter, in the unit that its name states.
 struct ParameterRange {
   double minimum = 0;
   double maximum = 0;

@@ -119,7 +119,7 @@ TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
 
 TEST(Interface, AdapterPulledAndPluggedInAgainOnTheBenchsSideIsSurvived) {
   set_up_on_wire();
-  run("rmmod canhil_wire");  // it does not follow a controller that goes
+  run("rmmod canhil_wire");  // it does not notice when a controller disappears
   const Outcome outcome = run_with([] {
     run("echo 1 >/sys/class/net/can1/device/remove && echo 1 >/sys/bus/pci/rescan && "
         "ip link set can1 up type can bitrate 1000000");

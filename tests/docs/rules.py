@@ -35,7 +35,7 @@ IN_VIRTUAL_TIME = ((r"$", " --lockstep"),)
 FEW_RUNS = ((r"$", " --runs 2"),)
 
 RULES = (
-    # What cannot be run here, or is run elsewhere.
+    # Commands that cannot be run here, or that another test runs.
     Rule(r"", pages=r"docs/tutorial\.md$", why_not="is run for what it prints: tests/docs/outputs.py"),
     Rule(r"^bash bench/demo\.sh", why_not="installs packages and builds: .ci/run starts from there"),
     Rule(r"^bash tests/run\.sh", why_not="is what runs this test"),

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 class DoesNotBuild(Exception):
-    """The first line of what the compiler said."""
+    """The first line of the compiler's error output."""
 
 
 def ask(folder, *words):
@@ -51,7 +51,8 @@ def linking(folder):
 
 
 def source_again(place, file, source):
-    """What to compile in place of `source`: the file of `place`, or, of sources compiled as one, the list that names it."""
+    """The file to compile in place of `source`: the changed file in `place`, or, if sources are compiled as one, a changed
+    list that names it."""
     if Path(source) == ROOT / file:
         return place / file
     if "/Unity/" not in source:
@@ -88,7 +89,7 @@ def compile_again(folder, place, file, name):
 
 
 def linked(folder, place, file):
-    """The target in `place`, with the file of `place` in the project's place."""
+    """Builds the target in `place`, with the changed file from there in place of the project's file."""
     names = sorted(readers(folder).get(ROOT / file, ()))
     if not names:
         raise DoesNotBuild(f"{file}: no object of the target reads it")

@@ -51,11 +51,11 @@ SUITES = ("several", "transfer_alignment", "inflight_alignment", "los_rate", "wi
 
 
 class Failure(Exception):
-    """Nothing can be said about any mutant; one line that says why."""
+    """A reason, in one line, why no mutant can be judged."""
 
 
 class Progress:
-    """On a terminal one line that moves; elsewhere nothing."""
+    """Shows the progress in one line of a terminal; without a terminal it prints nothing."""
 
     def __init__(self):
         self.shown = sys.stdout.isatty()
@@ -108,7 +108,8 @@ def accept(target, estimator, families, folder):
 
 
 def fly_suites(target, first, stages):
-    """As accept(), of all suites, stage by stage, that of the mutant's family right after the quick one."""
+    """Runs accept() for all suites, stage by stage. The quick suite is first, then that of the mutant's
+    family."""
     with tempfile.TemporaryDirectory() as folder:
         for families in stages:
             for estimator in sorted(SUITES, key=lambda name: (name != SUITES[0], name != first)):
@@ -163,8 +164,8 @@ def print_table(table):
 
 
 def chosen(mutants, only, seed):
-    """Those that --only leaves, and of them a dozen where there is a seed: one of each family, then any. Of the dozen none only shows
-    in times: beside other tests these are not measured."""
+    """The mutants that --only selects. With a seed, a dozen of them are drawn: one of each family, then any. Mutants that only timing
+    can reveal are not drawn, because other tests running at the same time disturb timing."""
     left = [mutant for mutant in mutants if only.search(mutant.full_name)]
     if seed is None:
         return left
@@ -212,7 +213,8 @@ def prepare(progress):
 
 
 def fly(mutants, jobs, target_passes):
-    """Several at once by what is in virtual time; who survives that by times, one after the other: they disturb each other there."""
+    """Tests several mutants at once in virtual time. The survivors are then tested for timing one after the other, because in real
+    time they would disturb each other."""
     progress = Progress()
     start = time.monotonic()
     if not target_passes:

@@ -116,7 +116,7 @@ def toml(value):
 
 
 def scenario(base, seed, duration_s, faults):
-    """A shipped scenario, shorter, with these faults, and no check but that something was answered."""
+    """A shipped scenario, shortened, with these faults; its only check is that something was answered."""
     text = (ROOT / f"bench/flights/{base}.toml").read_text().split("[[check]]")[0]
     text = re.sub(r"(?m)^duration_s = .*", f"duration_s = {duration_s}", text)
     text = re.sub(r"(?m)^seed = .*", f"seed = {seed}", text)

@@ -109,7 +109,7 @@ PAGE = """{"suites": [{"requirements": [
 
 
 class Judging(unittest.TestCase):
-    """With a program in the bench's place that writes a report and ends with a code."""
+    """Replaces the bench by a program that writes a given report and ends with a given exit code."""
 
     def judged(self, code, page=None):
         with tempfile.TemporaryDirectory() as folder:

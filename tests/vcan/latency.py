@@ -25,7 +25,8 @@ LIMIT_US = 2.0
 
 
 class Contract:
-    """What the DBC says of groups: by CAN id, the group of a message, what that answers, and how to decode."""
+    """The sample groups of the DBC: for each CAN id, its group, the group that this one answers, and how to
+    decode it."""
 
     def __init__(self, dbc):
         matrix = next(iter(canmatrix.formats.loadp(dbc).values()))

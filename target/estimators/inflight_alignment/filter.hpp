@@ -39,7 +39,7 @@ struct State {
   bool handed_over = false;     // sin_cos: tilt and heading were fed back at the last fix
 };
 
-/// What became of a fix.
+/// How a fix was processed.
 enum class Outcome : std::uint8_t {
   ok,
   gated,                  // NIS above the gate

@@ -4,7 +4,7 @@
 
 namespace canhil::los_rate {
 
-/// Where the gain comes from.
+/// How the gain is computed.
 enum class Algorithm : std::uint8_t {
   switched_table,  // the paper's: P-bar tables for thermal and glint noise, switched where the two cross
   combined,        // one gain for the sum of all noises, tabulated in range and closing speed

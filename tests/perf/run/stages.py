@@ -50,7 +50,7 @@ def definitions(file):
 
 
 def stage_of(file, line):
-    """Of a place in the project's code; None: it is not the project's."""
+    """The stage of a place in the project's code; None: the place is outside the project."""
     for part, stage in FILES:
         if part in file:
             if stage:
@@ -102,7 +102,8 @@ def shares_of(costs, calls, homes):
 
     @functools.cache
     def split_of(function):
-        """{stage: part} of what a library does in a function: its home's stage, or its callers', by what each called for."""
+        """{stage: share} of a library function's cost: all to the stage of its file, otherwise to the stages of its callers,
+        by the cost of each caller's calls."""
         stage = stage_of(homes.get(function, ""), 0)
         if stage:
             return {stage: 1.0}

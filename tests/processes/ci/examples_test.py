@@ -79,7 +79,8 @@ class Pipeline(unittest.TestCase):
         return output, 0
 
     def keep(self, change=None):
-        """What the system keeps of a run of main: where the next run finds it, whichever system it is."""
+        """Stores the reports as the CI system keeps them after a run of main, where the next run of either
+        system finds them."""
         for folder in ("kept", "last_good"):
             os.makedirs(f"{self.here}/{folder}", exist_ok=True)
             for bus in ("local", "vcan"):
@@ -111,7 +112,7 @@ class Pipeline(unittest.TestCase):
             json.dump(report, file)
         output, code = self.run_steps(compare)
         self.assertEqual(code, 1, output)
-        # Of another scenario there is nothing to hold it against: that does not stop a merge.
+        # A report of another scenario cannot be compared; this does not block a merge.
         self.keep(lambda report: report["provenance"].update(scenario_hash="0"))
         output, code = self.run_steps(compare)
         self.assertEqual(code, 0, output)

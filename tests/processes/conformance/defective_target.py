@@ -9,7 +9,7 @@ import los_rate  # noqa: E402
 
 
 class Sound(canhil_target.Target):
-    """What all defects are made of."""
+    """The base of all defects."""
 
 
 class SlowBeat(Sound):
@@ -29,14 +29,14 @@ class AnyContract(Sound):
 
 
 class AnyEstimator(Sound):
-    """Says nothing of an estimator that it does not have."""
+    """Does not reject an estimator that it does not have."""
 
     def reset(self, estimator, algorithm):
         super().reset(self.estimator.estimator, algorithm)
 
 
 class UnknownCommand(Sound):
-    """Takes a command that it does not know for none."""
+    """Treats an unknown command as the command `none`."""
 
     def on_command(self, command):
         known = ("reset", "start", "stop", "add", "none")
@@ -53,7 +53,7 @@ class NoStateNeeded(Sound):
 
 
 class HalfState(Sound):
-    """Takes an initial state whose last message is there for a whole one."""
+    """Treats an initial state as complete when its last message has arrived, even if others are missing."""
 
     def completed(self, group, place, counter, values):
         if group == "TargetInit" and place == len(canhil_target.GROUPS[group]) - 1:
@@ -88,7 +88,7 @@ class EarlyAnswers(Sound):
 
 
 class NoStop(Sound):
-    """Says that it has stopped, and goes on."""
+    """Reports that it has stopped, but continues."""
     flying = False
 
     def start(self):
@@ -237,7 +237,7 @@ class Chance(Sound):
 
 
 class NoWrap(Sound):
-    """Takes a time of validity as it is."""
+    """Uses a time of validity unchanged, without unwrapping it."""
 
     def unwrapped_us(self, group, value):
         return round(value)
@@ -280,7 +280,7 @@ class NoLosses(Sound):
 
 
 class HalfSamples(Sound):
-    """Takes a sample whose last message is there for a whole one."""
+    """Treats a sample as complete when its last message has arrived, even if others are missing."""
 
     def completed(self, group, place, counter, values):
         if group == "Seeker":
@@ -299,7 +299,7 @@ class EightBits(Sound):
 
 
 class Parrot(Sound):
-    """Reads back what was asked for."""
+    """Reads back the requested value, not the value in force."""
 
     def send_group(self, group, values):
         if group == "ParamAck" and values["status"] == "out_of_range":
@@ -312,7 +312,7 @@ class Parrot(Sound):
 
 
 class AnyParameter(Sound):
-    """Accepts a parameter that nobody knows."""
+    """Accepts an unknown parameter."""
 
     def send_group(self, group, values):
         if group == "ParamAck" and not isinstance(values["parameter"], str):

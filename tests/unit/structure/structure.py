@@ -27,11 +27,12 @@ MAY_INCLUDE = {
 # Out of reach even through other headers: a check judges decoded frames against the truth, and nothing else.
 NEVER_REACHES = {"bench/checks/": ("target/", "bench/nodes/")}
 
-# What works on quantities names no estimator (a folder of bench/estimators), not even as a word, and no message at all.
+# Code that works on quantities contains no estimator's name (a folder of bench/estimators), not even in a comment, and
+# no name of a message.
 ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/")
 
-# Where an estimator may be named: its folder and the registry; the papers, which are about one each; the seeker, which steers by what
-# it is answered; and the truth of the glide, whose table [wind] has an estimator's name.
+# Places that may name an estimator: its folder and the registry; the papers, each about one estimator; the seeker, which steers by
+# the answers of one; and the truth of the glide, whose table [wind] has an estimator's name.
 KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/nodes/seeker.", "bench/scenario/glide.")
 
 # Aim for 300. A long table or one long derivation may pass it; at a third more, a file has got a second subject.
@@ -177,7 +178,7 @@ def quantity_breaches(sources):
 
 
 def estimator_breaches(sources):
-    """Nobody but its folder and the registry names an estimator or a message of its answers; see KNOW_ESTIMATORS."""
+    """Only its own folder and the registry name an estimator or a message of its answers; see KNOW_ESTIMATORS."""
     own = {n: without_comments(t) for n, t in sources.items() if n.startswith("bench/estimators/")}
     estimators = {n.split("/")[2] for n in own if n.count("/") == 3}
     groups = re.findall(r"\b(?:Answer|Navigation)Group<([^<>;]*)>", " ".join(own.values()))
@@ -195,7 +196,7 @@ def estimator_breaches(sources):
 
 
 def node_breaches(sources, graph):
-    """A node is known to the registry alone: nobody else includes its header or names its settings, other nodes neither."""
+    """Only the registry includes a node's header or names its settings; other nodes must not either."""
     headers = {n for n, t in sources.items() if n.startswith("bench/nodes/") and re.search(r"\bextern const struct Kind \w+;", t)}
     settings = {s for n in headers for s in re.findall(r"\bstruct (\w+Settings) \{", sources[n])}
     named = re.compile(rf"\b({'|'.join(sorted(settings))})\b") if settings else None
@@ -235,7 +236,7 @@ def machine_path_breaches(texts):
                 yield f"{name}:{number}: '{match[0]}' is a path of one machine, expected a relative one"
 
 
-# Where a page names the tests that keep what it promises.
+# The page that names, for each promise, the test that proves it.
 PROVEN = "docs/duty.md"
 NAMED_TEST = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
 TEST = re.compile(r"\bTEST(?:_[FP])?\((\w+),\s*(\w+)\)")

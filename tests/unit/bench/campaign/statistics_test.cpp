@@ -100,7 +100,8 @@ TEST(RunDistribution, BootstrapsTheRmsOfABatch) {
   std::vector<RunSeries> runs;
   for (std::uint64_t run = 0; run < 400; ++run) runs.push_back(run_with(run, {run % 4 == 0 ? 10.0 : 0.0}));
   const auto found = run_distribution(runs, heading, 100'000, 1, 100);
-  // Of 100 runs B(100, 1/4) have 10: 5 % and 95 % quantiles are 18 and 32 of them.
+  // A quarter of the runs have the value 10, so of 100 drawn runs B(100, 1/4) have it. The 5 % and 95 %
+  // quantiles of that number are 18 and 32.
   EXPECT_NEAR(found.rms_low, std::sqrt(18.0), 0.13);
   EXPECT_NEAR(found.rms_high, std::sqrt(32.0), 0.13);
   EXPECT_EQ(run_distribution(runs, heading, 100'000, 1, 100).rms_low, found.rms_low) << "seeded";

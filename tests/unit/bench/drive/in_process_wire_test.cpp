@@ -281,8 +281,8 @@ TEST(InProcessWire, ADeviceThatIsOffTheBusWaitsForItsReturn) {
     }
   }
   ASSERT_GT(at_ns.size(), 64U);
-  // From the error flag of the 32nd error on: 12 bits of flags, 11, 128 times 11, and the first bit of the
-  // next attempt.
+  // Bits from the error flag of the 32nd error on: 12 bits of flags, 11, 128 times 11, and the first bit of
+  // the next attempt.
   EXPECT_EQ(at_ns[32] - at_ns[31], (12 + 11 + 128 * 11 + 1) * 1'000'000);
 }
 

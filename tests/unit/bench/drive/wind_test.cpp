@@ -81,9 +81,9 @@ TEST(Wind, IsEstimatedThroughTheBus) {
   EXPECT_LT(flown.mean_error(norm), 2);
 }
 
-// The first answer contains exactly the information from the carrier. All other errors are off: with the
-// noise of the navigation and coefficients wrong by 20 %, the error is 1.2 m/s RMS even if the carrier sends
-// the truth.
+// The first answer contains exactly the carrier's information. All other errors are off: with navigation
+// noise and coefficient errors of 20 %, the error would be 1.2 m/s RMS even if the carrier sent the true
+// wind.
 TEST(Wind, StartsFromWhatTheCarrierTells) {
   const auto first_error = [](const std::string& sigma) {
     std::vector<scenario::Setting> settings{set("glide.initial_error.air_velocity_sigma_mps", sigma)};

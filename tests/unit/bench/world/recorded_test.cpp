@@ -128,8 +128,8 @@ TEST_P(RecordedEvery, StrapdownNavigationOfItsIncrementsReturnsToWhatWasRecorded
 
 INSTANTIATE_TEST_SUITE_P(Rates, RecordedEvery, testing::Values(10'000, 20'000, 40'000));
 
-// Rounded velocities, at times of no grid: the derivatives of their spline jump at each of them, and no
-// quadrature may step across. Sums of ten or of a hundred parts round to 1e-15 of 0.1 m/s and 2 mrad.
+// Rounded velocities at irregular times: the derivatives of their spline jump at each of them, so no
+// quadrature may step across one. Sums of ten or of a hundred parts agree to 1e-15 of 0.1 m/s and 2 mrad.
 TEST(RecordedPath, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
   const FlightRecord flown(turning, 4'000'000, 1'000);
   auto states = states_of(flown, 37'000);
@@ -168,7 +168,8 @@ TEST(RecordedPath, FollowsThePositionsWhereTheVelocityIsBiased) {
   EXPECT_LT(worst_acceleration, 1e-3) << "[m/s^2], 100 ug";
 }
 
-// Positions rounded to a centimetre, as 1e-7 degrees are: a curve through them would accelerate by 25 m/s^2.
+// The positions are rounded to a centimetre, like values in 1e-7 degrees. A curve through them would have
+// accelerations of 25 m/s^2.
 TEST(RecordedPath, RoundingOfPositionsIsNoAcceleration) {
   const FlightRecord flown(turning, 60'000'000, 10'000);
   auto states = states_of(flown, 20'000);

@@ -66,7 +66,7 @@ class Missile : public BenchSide {
     send(sample.motion);
     send(sample.range);
   }
-  /// The next group, as `spoil` leaves it.
+  /// Sends the next group after `spoil` has changed it.
   void fly(const std::function<void(SeekerSample&)>& spoil = [](SeekerSample&) {}) {
     SeekerSample sample = next();
     spoil(sample);

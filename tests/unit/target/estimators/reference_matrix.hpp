@@ -79,7 +79,7 @@ double spectral_radius(const Dense& m);
 double determinant(const Dense& m);
 /// L of m = L L', upper triangle zero.
 Dense lower_cholesky(const Dense& m);
-/// By its series in extended precision: for matrices of size up to about 10.
+/// The exponential by its power series in extended precision, for matrices of size up to about 10.
 Dense matrix_exponential(const Dense& m);
 
 }  // namespace canhil

@@ -354,7 +354,8 @@ TEST(InflightHistory, RefusesWhatItCannotReach) {
     return history->update(state, from.fixes[0], t_us, settings).outcome;
   };
   EXPECT_EQ(outcome(2'000'001), Outcome::not_reached);
-  // Of the predictions at every 0.1 s four are kept, to 1.7 s; before the one at 1.6 s nothing is known.
+  // The last four predictions of 0.1 s are kept. The oldest one runs from 1.6 s to 1.7 s, so an earlier fix
+  // is too old.
   EXPECT_EQ(outcome(1'580'000), Outcome::older_than_history);
   EXPECT_EQ(outcome(-1), Outcome::out_of_order);
   EXPECT_TRUE(same_bits(state, before));

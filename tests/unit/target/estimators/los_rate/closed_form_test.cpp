@@ -60,7 +60,7 @@ TEST(Riccati, SolvesItsEquationWhateverTheRatioOfSpeedToNoise) {
     const Dense size =
         entrywise_sizes(A * P) + P_size * transposed(A) + P_size.column(0) * P_size.row(0) / s2 + Q;
     EXPECT_LT(largest(entrywise_quotient(residual, size)), 1e-12) << x;
-    // Stabilising, of all solutions: (A - k C)' stable for every x.
+    // Of all solutions, takes the stabilising one: (A - k C)' is stable for every x.
     const double c1 = P(0, 0) / s2 - 4.5 * v;
     EXPECT_GT(c1, 0);
     EXPECT_GT(determinant(P), 0);

@@ -79,7 +79,7 @@ TEST(ClosedGain, CombinedTableIsWithinThreePercentOfTheKalmanFilter) {
         const ClosedGain closed = closed_gain(design.combined.pitch, {r, vc});
         worst = std::max({worst, std::abs(closed.K.e / K.e - 1), std::abs(closed.K.w / K.w - 1),
                           std::abs(closed.K.a / K.a - 1)});
-        // Sigmas of the closed forms are of continuous time, between prediction and update.
+        // The closed forms give sigmas in continuous time, which lie between those of prediction and update.
         EXPECT_NEAR(closed.sigma.rate / std::sqrt(P.ww), 1, 0.08) << T << " " << vc << " " << r;
         EXPECT_NEAR(closed.sigma.error / std::sqrt(P.ee), 1, 0.12) << T << " " << vc << " " << r;
         EXPECT_NEAR(closed.sigma.acceleration / std::sqrt(P.aa), 1, 0.05) << T << " " << vc << " " << r;

@@ -161,8 +161,8 @@ TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
     Matrix6 Q6 = Matrix6::Zero();
     Q6.topLeftCorner<3, 3>() = Q6.bottomRightCorner<3, 3>() = Q;
     x = Phi * x;
-    // Input during the turn: Phi's last columns would rotate it by the whole turn, so it is rotated by half
-    // of it.
+    // An input during the turn: the last columns of Phi would rotate it by the whole turn, although on
+    // average it must be rotated by half.
     x += u;
     P = Phi * P * Phi.transpose() + Q6;
     Eigen::Matrix<double, 2, 6> H = Eigen::Matrix<double, 2, 6>::Zero();

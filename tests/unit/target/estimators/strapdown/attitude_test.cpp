@@ -26,7 +26,7 @@ Vector3d rotation_by(double angle, std::mt19937_64& engine) {
   return (angle / norm(axis) * axis).fixed<3, 1>();
 }
 
-// 0.1 rad is where the series hands over to the closed form.
+// At 0.1 rad the implementation changes from the series to the closed form.
 TEST(Attitude, ExpIsTheMatrixExponential) {
   std::mt19937_64 engine(1);
   for (const double angle : {0.0, 1e-9, 1e-3, 0.0999999, 0.1000001, 0.7, 3.0}) {

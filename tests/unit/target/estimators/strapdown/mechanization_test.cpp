@@ -178,8 +178,8 @@ TEST(Mechanization, TwoSamplesFollowSculling) {
   EXPECT_NEAR(two.velocity / (theta * A / 2 * std::pow(x, 4) / 30 * duration), 1, 0.1);
 }
 
-// Specific force turned by half of the rotation: of second order in a turn, where without it the velocity
-// would be off by 0.5 |omega| dt |f| t.
+// The specific force must be turned by half of the rotation during the step. Then the error is of second
+// order in that rotation; otherwise the velocity would be off by 0.5 |omega| dt |f| t.
 TEST(Mechanization, OneSampleFollowsATurnAtConstantRate) {
   const double rate = 0.3;
   const Motion turn{

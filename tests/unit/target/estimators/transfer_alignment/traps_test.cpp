@@ -34,8 +34,9 @@ Covariance small_covariance(std::mt19937_64& engine) {
   return (1e-4 * random_covariance_dense(state_count, engine)).fixed<state_count, state_count>();
 }
 
-// Chat <- exp(+[phi x]) Chat, phi in n axes and from the left: what dx holds is what the misalignment loses.
-// A heading of 100 deg tells body from navigation axes.
+// The correction Chat <- exp(+[phi x]) Chat has phi in n axes and multiplies from the left. It must reduce
+// the misalignment by exactly the attitude part of dx. At a heading of 100 deg, body and navigation axes
+// cannot be confused.
 TEST(Traps, CorrectionRemovesTheEstimatedError) {
   const Settings settings;
   std::mt19937_64 engine(5);
@@ -48,7 +49,8 @@ TEST(Traps, CorrectionRemovesTheEstimatedError) {
   ASSERT_EQ(result.outcome, Outcome::ok);
   const Dense phi = three(result.dx, attitude_state);
   ASSERT_GT(norm(phi), 1e-4);
-  // Of the INS before the correction, relative to the corrected one: exactly the estimated errors.
+  // The INS before the correction, relative to the corrected INS, must differ by exactly the estimated
+  // errors.
   EXPECT_LT(norm(Dense(strapdown::misalignment(before.nav.C_bn, state.ins.nav.C_bn)) - phi), 1e-14);
   EXPECT_LT(norm(Dense(before.nav.v_eb_n) - state.ins.nav.v_eb_n - three(result.dx, velocity_state)), 1e-13);
   EXPECT_EQ(Dense(state.ins.accel_bias), Dense(before.accel_bias) + three(result.dx, accel_bias_state));
@@ -167,8 +169,8 @@ TEST(Traps, AlphaOfAHeadingErrorVanishesInLevelFlight) {
   EXPECT_NEAR(uncertainty_size(settings, P, Vector3d(5, 0, -9.8)), 0.5, 1e-12);
 }
 
-// Chat f is averaged over the interval: where in it the step of the specific force falls must not matter
-// much, and the last sample's alone would differ by half of it.
+// Chat f is averaged over the interval, so the instant at which the specific force steps within it must
+// hardly matter. With the last sample's Chat f alone, the result would differ by half.
 TEST(Traps, SpecificForceIsAveragedOverTheInterval) {
   Settings settings;
   settings.algorithm = Algorithm::kalman;

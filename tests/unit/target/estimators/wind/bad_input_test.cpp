@@ -27,7 +27,8 @@ void expect_sound(const Flown& flown) {
   }
 }
 
-// Recovered: the last samples are used without an error, and the wind is known as well as without the fault.
+// Recovered: the last samples are used and have no error flag, and the wind is as accurate as without the
+// fault.
 void expect_recovered(const Flown& flown, double margin = 0.5) {
   static const double undisturbed = fly(recorded(), Settings()).mean_error(900, 1001);
   for (std::size_t k = 900; k < 1001; ++k) {
