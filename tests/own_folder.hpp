@@ -1,4 +1,5 @@
-// A folder of this test program alone: CTest runs each case as a process of its own, several at a time.
+// A temporary folder for one process of a test program: CTest runs each case as its own process, several at a
+// time.
 #pragma once
 
 #include <gtest/gtest.h>

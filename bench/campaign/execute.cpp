@@ -209,7 +209,7 @@ Result<Execution> execute(const Campaign& campaign, const Options& options, cons
   if (!written) return tl::unexpected(written.error());
   store->close();
   if (const auto error = finishing.error()) {
-    // An empty results file would block the next attempt.
+    // Removes a results file without runs, because it would block the next attempt.
     std::error_code ignored;
     if (progress.stored + progress.done == 0) std::filesystem::remove(options.file, ignored);
     return tl::unexpected(*error);

@@ -27,7 +27,7 @@ enum class ClockKind : std::uint8_t { real_time, lockstep, simulated_wire };
 /// The clock of a run on a bus; `lockstep`: as requested.
 ClockKind clock_of(BusTime time, bool lockstep);
 
-/// The options of the command line or of a campaign.
+/// The options of a run, from the command line or from a campaign.
 struct Options {
   BusName bus{};
   BusOf bus_of{};

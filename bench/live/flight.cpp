@@ -227,8 +227,8 @@ void FlightInProgress::take(std::string_view estimator, const quantities::Track&
   known->shown = estimates || !track.only_if_judged || !series.bars.empty();
 }
 
-// A pass over the whole flight, once for the checks that are over together: as many passes as the scenario
-// has checks, however long it is.
+// Checks whose last value has arrived are judged together in one pass over the whole flight. So there are at
+// most as many passes as checks, however long the flight is.
 void FlightInProgress::judge_what_is_over(Flight& flight) {
   const scenario::Scenario& scenario = departure_.scenario;
   std::vector<std::size_t> due;

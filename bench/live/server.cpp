@@ -83,7 +83,7 @@ class Place {
   Site* site_;
 };
 
-// A browser that looks on: one message at a time, the newest when the one before has gone.
+// A connected browser. It receives one message at a time; when that one is sent, the newest follows.
 class Spectator : public std::enable_shared_from_this<Spectator> {
  public:
   Spectator(tcp::socket socket, Place place) : place_(std::move(place)), stream_(std::move(socket)) {}
@@ -276,7 +276,7 @@ class BeastServer final : public Server {
   void accept() {
     accepting_ = true;
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-      if (error) {  // such as no descriptor left: tried again with the next snapshot
+      if (error) {  // for example no free descriptor; the next snapshot tries again
         accepting_ = false;
         return;
       }
@@ -291,7 +291,7 @@ class BeastServer final : public Server {
     });
   }
 
-  // Connections live in the handlers that io_ holds, and count in site_.
+  // The handlers in io_ own the connections, and the connections are counted in site_.
   Site site_;
   Text whole_;
   std::optional<Snapshot> last_;

@@ -54,7 +54,7 @@ struct Results {
 
   /// The campaign of this name; it must exist.
   [[nodiscard]] const Flown& of(std::string_view name) const;
-  /// The curve of a campaign and a variant, both named by the words.
+  /// The curve of the campaign and the variant that the words name.
   [[nodiscard]] std::span<const campaign::CurvePoint> curve(
       Words& words, const campaign::Quantity& quantity = quantities::attitude_heading) const;
 };
@@ -74,7 +74,7 @@ Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const cam
 /// The results file of a campaign in the folder.
 std::filesystem::path results_file(const FlyOptions& options, std::string_view campaign);
 
-/// Flies the runs that the folder lacks. None: stopped. Error: one line.
+/// Flies the runs that are missing in the folder. None: stopped early. Error: one line.
 Result<std::optional<Results>> fly(report::EmbeddedFiles campaigns, report::EmbeddedFiles scenarios,
                                    const FlyOptions& options, const std::atomic<bool>& stop);
 

@@ -41,7 +41,7 @@ std::array<double, 5> half_widths_s(const StampConditions& conditions, double la
                                     double bucket_s);
 /// u of one influence [s]. The half-width of `stamps` is that of one stamp of two.
 double standard_s(Influence influence, double half_width_s);
-/// The root of the sum of the squares of all.
+/// The combined uncertainty: the root of the sum of the squares.
 double combined_s(const std::array<double, 5>& half_widths_s);
 
 /// A latency with its budget.
@@ -56,7 +56,7 @@ struct UncertainLatency {
   std::vector<UncertainFigure> figures;  ///< p50, p90, p99, p999, max
 };
 
-/// Of the messages that close a group of answers, in real time; else empty.
+/// The uncertainties of the messages that close a group of answers. Empty unless the run was in real time.
 std::vector<UncertainLatency> uncertainties(const scenario::Scenario& scenario, const drive::Run& run);
 
 /// Known influences that the budget does not include, one line each; empty: none is known.

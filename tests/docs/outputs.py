@@ -56,7 +56,7 @@ def scratch_tree(folder, build):
 
 
 def check(page, build, write):
-    """The complaints about a page; with write the page is brought up to date and none is left but of commands that failed."""
+    """The complaints about a page. With `write` the page is updated, and only failed commands remain as complaints."""
     text = page.read_text()
     complaints, pieces, end = [], [], 0
     # Not in /tmp: tests/vcan/run.sh may run a command in a guest, which has a /tmp of its own.

@@ -18,7 +18,7 @@ class Rule:
     pages: str = ""  # a regular expression; empty: any
 
 
-# Names that stand for what a reader has, in the words of the documentation.
+# Placeholders in the documentation, and what they are replaced by here.
 PLACEHOLDERS = (
     (r"\bSCENARIO\b", "bench/flights/transfer_alignment_quick.toml"),
     (r"\bFILE\.dbc\b", "dbc/canhil.dbc"),

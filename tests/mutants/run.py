@@ -87,7 +87,8 @@ def run(command, longest_s=None, **more):
 
 
 def accept(target, estimator, families, folder):
-    """(requirement, what was seen) of the first that the target does not meet; None: it meets all that were measured."""
+    """(requirement, observation) of the first requirement that the target violates; None: it meets all that were
+    measured."""
     report = Path(folder, "report.json")
     report.unlink(missing_ok=True)
     wanted = [word for family in families for word in ("--family", family)]

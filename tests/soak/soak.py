@@ -284,7 +284,8 @@ def soak(arguments):
                 silent += 1
             runs += 1
             ended[how] = ended.get(how, 0) + 1
-            # Faults that leave no IMU sample for more than 200 ms end an alignment, and the target says why.
+            # A fault that leaves no IMU sample for more than 200 ms ends an alignment, and the target reports
+            # the reason.
             if (how != "completed" and "input_silent" not in how) or target.poll() is not None:
                 unexpected.append(f"run {runs}, {base}, {mode}, faults {faults}: {how}")
                 if target.poll() is not None:

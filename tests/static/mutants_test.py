@@ -140,7 +140,7 @@ class Judging(unittest.TestCase):
 
 
 class Overlaying(unittest.TestCase):
-    """What is compiled in the place of a source, where sources are compiled one by one and as one."""
+    """The file that is compiled in place of a source, with sources compiled one by one and as one."""
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()

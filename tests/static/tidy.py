@@ -43,7 +43,7 @@ class Source:
 
 
 def sources_of(build):
-    """Each once; those of the project only, nothing generated."""
+    """Each source once, only those of the project, none that is generated."""
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         files = [entry["file"]]
@@ -129,7 +129,8 @@ def write_joined(file, sources):
 
 
 def wrong_ones(file, sources, output):
-    """The sources that compiler errors are in, or in what they were the first to include."""
+    """The sources with compiler errors, either in the source or in a header that it was the first to
+    include."""
     found, number = set(), None
     for line in output.splitlines():
         stack = re.match(rf"In file included from {re.escape(str(file))}:(\d+):", line)

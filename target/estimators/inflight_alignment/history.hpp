@@ -42,7 +42,7 @@ struct HistoryModel {
   static std::int64_t applied_at(std::int64_t valid_us, std::int64_t now_us, const Settings& settings) {
     return settings.late_fixes == LateFixes::at_validity ? valid_us : now_us;
   }
-  /// Keeps the count of refused measurements of an update that was tried.
+  /// An update that was tried and refused changes only the count of rejected fixes.
   static void keep_refusal(State& state, const State& tried) { state.rejected = tried.rejected; }
 };
 

@@ -165,8 +165,8 @@ void update(State& state, Plane measured, double dt, bool kalman, const Design& 
   }
 }
 
-// A closed gain does not suit an estimate that is much worse than its steady state: the Kalman filter starts
-// up.
+// While coasting, the estimate may become much worse than the steady state that a closed gain assumes; the
+// Kalman filter's start-up is then used again.
 void coast(State& state, double dt, const Sample& sample, const Settings& settings, UpdateResult& result) {
   result.outcome = Outcome::coasting;
   state.coasted_s += dt;

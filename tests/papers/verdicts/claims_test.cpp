@@ -127,7 +127,7 @@ TEST_F(WindClaims, NoneIsLostOnlyIfNoVariantLostARun) {
   }
 }
 
-// Limits that belong to no campaign, because they compare variants by figures of their own.
+// Limits that no campaign contains, because they compare variants by figures defined for this purpose.
 TEST(InflightClaims, ThatAreBarsFailThePage) {
   MadeUp made_up(papers.at(1));
   const auto heading = [&](const char* campaign, const std::string& variant, const char* figure,

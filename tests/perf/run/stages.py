@@ -31,7 +31,8 @@ UNPACKS = {"unpack", "load_le", "load_be", "unsigned_bits", "signed_bits", "phys
 
 
 def here(file):
-    """The file of this tree and build: an object of a compiler cache may name those of another one."""
+    """The file in this tree and build; a compiler cache may return an object that names another tree's
+    files."""
     if "/build/" not in file:
         return pathlib.Path(file)
     below = file.split("/build/")[1].split("/", 1)[1]  # of the folder of the build

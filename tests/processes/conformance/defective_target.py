@@ -22,7 +22,7 @@ class SlowBeat(Sound):
 
 
 class AnyContract(Sound):
-    """Obeys whatever the hash of the contract."""
+    """Obeys without checking the hash of the contract."""
 
     def on_command(self, command):
         super().on_command({**command, "dbc_hash": canhil_target.DBC_HASH24})
@@ -62,7 +62,7 @@ class HalfState(Sound):
 
 
 class DeafToRepetition(Sound):
-    """Drops a command with the counter of the one before."""
+    """Drops a command whose counter equals the previous command's."""
 
     def receive(self, identifier, data):
         group = canhil_target.MESSAGES.get(identifier, ("",))[0]
@@ -214,7 +214,7 @@ class Disorder(Sound):
 
 
 class OwnCause(Sound):
-    """cause_counter is that of the next sample."""
+    """Sends the next sample's counter as cause_counter."""
 
     def send_group(self, group, values):
         if group == "LosRate":

@@ -45,7 +45,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*(.*)
 INCLUDED = re.compile(r'([<"])([^>"]+)[>"]')
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.S)
 STANDARD_HEADER = re.compile(r"[a-z_]+$")  # <cmath>, never <math.h>
-# A path that exists on one person's machine; behind a variable or in an address it is none.
+# A path that exists on one person's machine. It is permitted after a variable or in an address.
 MACHINE_PATH = re.compile(r"(?<![\w.~})\-])/(?:work|root|home/\w+|Users/\w+|builds)/")
 
 

@@ -70,7 +70,7 @@ TEST(RunDistribution, IsOfEachRunsLastUpdateAtOrBeforeTheTime) {
   for (std::uint64_t run = 0; run < 10; ++run)
     runs.push_back(
         run_with(run, {99, run % 2 == 0 ? static_cast<double>(run + 1) : -static_cast<double>(run + 1), 99}));
-  runs[3] = run_with(3, {4});  // its fix was lost: the one before counts
+  runs[3] = run_with(3, {4});  // its fix was lost, so the value before counts
   const auto found = run_distribution(runs, heading, 250'000, 5, 100);
   EXPECT_EQ(found.missing, 0U);
   EXPECT_DOUBLE_EQ(found.rms, std::sqrt(38.5));

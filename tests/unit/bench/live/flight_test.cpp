@@ -16,7 +16,8 @@ scenario::Scenario scenario(const std::string& name) {
   return std::move(*read);
 }
 
-// Looks on in the flight's own thread: each frame is looked at, each half second all is brought up to date.
+// Observes in the flight's own thread: it processes each frame, and updates the shown flight each half
+// second.
 class LooksOn final : public drive::Onlooker {
  public:
   explicit LooksOn(Flight& flight) : flight_(flight) {}

@@ -204,7 +204,7 @@ std::vector<Parameter> own_parameters() {
   return own;
 }
 
-// A value without a limit of its own: the default is inside of every range.
+// For a value without its own limit: the default lies inside every range.
 TEST(LosRateParameters, AreReadBackRefusedOutsideTheirRangeAndWhileRunning) {
   ASSERT_EQ(own_parameters().size(), 25U);
   for (const Parameter parameter : own_parameters()) {

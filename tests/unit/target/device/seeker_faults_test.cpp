@@ -290,7 +290,7 @@ TEST(SeekerLoss, BlindnessOutlivesAnUntimelyGroup) {
   EXPECT_EQ(missile.estimate().blind, 1);
 }
 
-// After the pass: target and range gone, for ten seconds.
+// After the pass, target and range are lost for ten seconds.
 TEST(SeekerLoss, AfterThePassTheSigmasGrowToTheirLimit) {
   Missile missile;
   while (!missile.over()) missile.fly();

@@ -49,7 +49,7 @@ constexpr Case cases[] = {{Algorithm::ekf, Aiding::ssbl},     {Algorithm::ekf, A
                           {Algorithm::ukf, Aiding::ssbl},     {Algorithm::ukf, Aiding::gps},
                           {Algorithm::sin_cos, Aiding::ssbl}, {Algorithm::sin_cos, Aiding::gps}};
 
-// Bar D. The one variance of sin_cos that may be zero is that of k once the heading is handed over.
+// Bar D. In sin_cos only the variance of k may be zero, after the heading was handed over.
 TEST(InflightFilter, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
   for (const auto [algorithm, aiding] : cases) {
     for (const double start_deg : {90.0, 170.0}) {

@@ -105,7 +105,7 @@ TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   EXPECT_NEAR(nav.latitude / (2 * amplitude / omega / earth.meridian_radius), 1, 0.01);
 }
 
-// The quantities that a filter takes from a step: the velocity change is that of the specific force plus
+// The quantities that a filter uses from a step: the velocity change must equal the specific force plus
 // gravity and Coriolis terms.
 TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
   NavState nav;

@@ -151,7 +151,8 @@ TEST(Traps, CovarianceStepIsTheDenseH2Recursion) {
   EXPECT_LT(largest_difference(state.P, expected.P), 1e-14);
 }
 
-// alpha = |dC| |f| or an uncapped sqrt(tr P_phi) lets the heading variance run away in cruise.
+// With alpha = |dC| |f|, or with an uncapped sqrt(tr P_phi), the heading variance would diverge in the
+// cruise.
 TEST(Traps, AlphaIsCapped) {
   Settings settings;
   State state = flown(settings, 10);
