@@ -58,7 +58,7 @@ std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule&
   const std::vector<Subject> subjects = rule.subjects();
   for (const estimators::Estimator* one : evidence.estimators) {
     std::string why = scenario::why_no_truth(scenario, one->facts);
-    // A quantity that is not an error may still need the truth, as for the time to go of each sample.
+    // Even a quantity that is not an error may need the truth, for example to sort samples by time to go.
     const auto is_untold = [&](const Subject& subject) {
       return subject.estimator == one->name && tracks_of(evidence, one->name, *subject.quantity).empty();
     };

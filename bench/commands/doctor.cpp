@@ -70,7 +70,8 @@ Result<void> check_name(const std::string& option, const std::string& bus) {
   return {};
 }
 
-// None if the kernel does not know it, as for an embedded bus.
+// The kernel's data about the bus interface; none: the kernel does not know the bus, for example an embedded
+// one.
 std::optional<doctor::Interface> interface_of(const std::string& bus) {
   return is_local(bus) ? std::nullopt : doctor::find_interface(bus);
 }

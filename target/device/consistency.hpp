@@ -38,9 +38,9 @@ class ConsistencyMonitor {
   [[nodiscard]] bool degraded() const { return inconsistent_ || distrusted_; }
 
  private:
-  // The memory is `updates` long; a single update counts at most `largest` of its sigmas. The alarm begins
-  // when S is more than 6 of its standard deviations above zero (`either_side`: or below), and ends after 2 *
-  // updates in a row within 2 standard deviations.
+  // A control chart S with a memory of `updates` updates. The deviation of a single update is limited to
+  // `largest` sigmas. The alarm begins when S exceeds 6 of its standard deviations (`either_side`: on either
+  // side of zero), and ends after 2 * updates in a row within 2 standard deviations.
   template <int updates, int largest, bool either_side>
   class Chart {
    public:

@@ -28,14 +28,14 @@ BLOCK = re.compile(
 
 
 def of_any_host(line):
-    """The line without what differs from host to host: the seconds that a run took, the revision, the fingerprint of a new key."""
+    """The line without parts that differ between hosts: the duration of a run, the revision, the fingerprint of a new key."""
     line = re.sub(r"\bin \d+(\.\d+)? s\b", "in T s", line.rstrip())
     line = re.sub(r"revision [0-9a-f]+(-dirty)?", "revision REVISION", line)
     return re.sub(r"SHA256:\S+", "SHA256:KEY", line)
 
 
 def selected(output, pattern):
-    """The lines in which the pattern is found, '...' for each stretch of others."""
+    """The lines that contain the pattern; '...' replaces each group of other lines."""
     if not pattern:
         return output
     lines = []

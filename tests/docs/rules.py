@@ -52,7 +52,7 @@ RULES = (
     Rule(r"campaign --paper|paper_transfer/table2", why_not="minutes: tests/papers"),
     Rule(r"hil-bench accept", why_not="minutes: tests/processes/accept"),
     Rule(r"hil-bench faults |faults/violation", why_not="minutes: tests/processes/faults"),
-    # Hardware: everything up to the interface, which is not there.
+    # Commands for hardware run until they open the interface, which does not exist here.
     Rule(r"hil-bench doctor .*can\d", codes=(0, 1), says="nocan0", instead=((r"--cpu \d", "--cpu 0"), (r" --seconds \d+", ""), (r"$", " --seconds 1"))),
     Rule(r"^sha256sum ", why_not="of the reports of a run on hardware"),
     Rule(r"^hil-(bench|target) .*\bv?can\d", codes=(2,), says=NO_INTERFACE, instead=((r"--cpu \d", "--cpu 0"),)),

@@ -38,7 +38,7 @@ PATIENCE_S = 60  # a run that takes longer hangs
 
 
 class Contract:
-    """Messages of the bench's nodes and their signals, from the DBC; the kinds of faults, from the bench's own complaint."""
+    """Messages of the bench's nodes and their signals, from the DBC; kinds of faults, from the bench's own error message."""
 
     def __init__(self, bench, folder):
         self.messages = {}  # by node: {message: [(signal, least, most)]}
@@ -67,7 +67,7 @@ class Contract:
 
     @staticmethod
     def flies(bench, probe, fault):
-        """Whether the kind flies in process with these keys."""
+        """Whether a fault of this kind with these keys can be flown in process."""
         probe.write_text(scenario("transfer_alignment_quick", 1, 1, [timed(fault, 0.2, 0.5, 2)]))
         told = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True)
         return told.returncode != 2
@@ -206,7 +206,8 @@ class Course:
         self.values.append((sort, value))
 
     def settled(self):
-        """(place, value less the median of its sort), after a quarter of the runs: by then all has been done once."""
+        """(index, value minus the median of its kind of run), after the first quarter of the runs: by then every path
+        has been used once."""
         medians = {sort: statistics.median(v for s, v in self.values if s == sort) for sort, _ in self.values}
         all_of_them = [(i, value - medians[sort]) for i, (sort, value) in enumerate(self.values)]
         return all_of_them[len(all_of_them) // 4:]

@@ -109,7 +109,7 @@ def fly(bench, scenario, folder):
 
 
 def disagreements(scenario, measured, reported, closing):
-    """Prints both; a line for each that differs."""
+    """Prints both measurements; returns one line for each difference."""
     wrong = []
     if set(measured) != set(reported):
         wrong.append(f"answering messages {sorted(measured)}, in the report {sorted(reported)}")

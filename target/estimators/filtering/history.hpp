@@ -133,7 +133,8 @@ class History {
     predictions_[prediction_count_++] = {state, t_us};
   }
 
-  // The state at an epoch: its ins, and the rest as it was before the first prediction after the epoch.
+  // The state at an epoch: `ins` at that epoch, and the other members as they were before the first later
+  // prediction.
   State state_at(const State& now, std::size_t epoch) {
     const State* then = &now;
     for (std::size_t i = prediction_count_; i > 0 && predictions_[i - 1].t_us > epoch_us(epoch); --i)

@@ -98,7 +98,7 @@ class Pipeline(unittest.TestCase):
             xml.etree.ElementTree.parse(f"{self.here}/reports/{bus}.xml")
             self.assertTrue(os.path.exists(f"{self.here}/reports/{bus}.html"))
         self.assertNotIn("no worse", output, "nothing to compare with yet")
-        # A second run of the same is no worse; one whose target failed a check in place of passing it is.
+        # An equal second run is not worse. A run whose target fails a check that passed before is worse.
         compare = [step for step in steps if "hil-bench compare" in step]
         self.assertEqual(len(compare), 1)
         self.keep()

@@ -264,7 +264,7 @@ class AnySize(Sound):
 
 
 class Repetitions(Sound):
-    """Does not see that a frame is repeated."""
+    """Does not detect that a frame is repeated."""
 
     def receive(self, identifier, data):
         if canhil_target.MESSAGES.get(identifier, ("",))[0] == "Seeker" and self.received.get(identifier) == data[1] & 0x0F:

@@ -123,7 +123,7 @@ class WebSocket:
             pass
 
     def message(self):
-        """The next one as JSON; None: the bench has closed the connection."""
+        """The next message as JSON; None: the bench has closed the connection."""
         while True:
             try:
                 head = self.file.read(2)

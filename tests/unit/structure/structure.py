@@ -10,7 +10,8 @@ from pathlib import Path
 CODE = ("dbc", "target", "bench")
 SKIPPED = {".git", "build", "runs", "__pycache__"}
 
-# Longest prefix wins: a file under KEY may include project headers under these prefixes; one that ends in .hpp is that file alone.
+# The longest prefix applies: a file under KEY may include project headers under these prefixes. An entry that ends in .hpp is that
+# file only.
 ESTIMATOR_SHARED = ("target/estimators/strapdown/", "target/estimators/filtering/")
 GENERATED = "messages/"  # dbcgen's headers, made from dbc/: whoever may include dbc/ may include them
 DEVICE = "target/device/device.hpp"  # the bench may hold a Device, through this header
@@ -89,7 +90,8 @@ def is_project(name):
 
 
 def part(name):
-    """The folder of the layout that a file belongs to: dbc/wire, bench/world, target/estimators/wind; inside it all is one."""
+    """The folder of the layout that contains a file: dbc/wire, bench/world, target/estimators/wind. Its subfolders belong to
+    it."""
     depth = 3 if name.startswith("target/estimators/") else 2
     return "/".join(name.split("/")[:-1][:depth])
 

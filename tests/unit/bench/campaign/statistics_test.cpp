@@ -29,7 +29,8 @@ TEST(RmsCurve, IsTheRootOfTheMeanSquareOverRuns) {
 TEST(RmsCurve, HasTheStandardErrorThatTheScatterOverTheRunsGivesIt) {
   const std::vector runs{run_with(0, {3, 2}), run_with(1, {-4, -2})};
   const auto curve = rms_curve(runs, heading);
-  // Squares 9 and 16: their mean is off by sqrt(24.5 / 2), its root by that over twice the root.
+  // The mean of the squares 9 and 16 has the standard error sqrt(24.5 / 2); that of its root is this divided
+  // by twice the root.
   EXPECT_DOUBLE_EQ(curve[0].rms_error, 3.5 / (2 * std::sqrt(12.5)));
   EXPECT_EQ(curve[1].rms_error, 0) << "all alike";
   EXPECT_TRUE(std::isnan(rms_curve(std::vector{run_with(0, {3})}, heading)[0].rms_error)) << "one run";

@@ -182,7 +182,7 @@ TEST_P(Containers, KeepTheirBoundsAndTheirTimesAddUp) {
     nearest = std::max(nearest, static_cast<double>(bound.longest_ns) / static_cast<double>(*bound.bound_ns));
   }
   EXPECT_GT(nearest, GetParam().empty() ? 0.45 : 0.8) << "the bounds bind nothing";
-  // Every group was whole: a container of each.
+  // Each group arrived complete, because it was sent in one container.
   EXPECT_EQ(timing.responses[message_index<messages::SlaveImuDeltaTheta>()].count,
             run.seen.stimuli.at("SlaveImu").count);
   EXPECT_EQ(timing.responses[message_index<messages::SeekerAntenna>()].count,

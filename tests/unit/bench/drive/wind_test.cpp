@@ -104,8 +104,8 @@ TEST(Wind, StartsFromWhatTheCarrierTells) {
 TEST(Wind, DenserAirIsAWindAlongTheTrack) {
   const Flown flown =
       fly({set("airframe.density_error_percent", "3"), set("airframe.coefficient_error_percent", "0")});
-  // The effect of 1.5 % of the air speed. 40 runs gave 2.73 m/s with a sigma of 0.09 m/s, and at most 0.24
-  // m/s across.
+  // The effect of an error of 1.5 % of the air speed. 40 runs gave 2.73 m/s with a sigma of 0.09 m/s along
+  // the track, and at most 0.24 m/s across it.
   EXPECT_NEAR(flown.mean_error(along_track), 2.73, 0.35);
   EXPECT_LT(flown.mean_error(cross_track), 0.35);
 }

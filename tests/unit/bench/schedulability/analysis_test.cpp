@@ -123,9 +123,9 @@ TEST(Responses, ErrorsCostAnErrorFrameAndTheLongestRetransmission) {
   EXPECT_THAT(with({}), ElementsAre(190, 190));
   EXPECT_THAT(with({.burst = 1, .interval_ns = 10 * ms}), ElementsAre(190 + 161, 190 + 161));
   EXPECT_THAT(with({.burst = 3, .interval_ns = 10 * ms}), ElementsAre(190 + 3 * 161, 190 + 3 * 161));
-  // Every 200 us one more: 1 + ceil(t / 200) - 1 errors within t.
+  // One more error every 200 us: 1 + ceil(t / 200) - 1 errors within t.
   EXPECT_THAT(with({.burst = 1, .interval_ns = 200 * us}), ElementsAre(190 + 5 * 161, 190 + 5 * 161));
-  // More errors than the bus can make good.
+  // So many errors that the bus cannot recover.
   EXPECT_THAT(with({.burst = 1, .interval_ns = 100 * us}), ElementsAre(-1, -1));
 }
 

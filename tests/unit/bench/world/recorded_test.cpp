@@ -70,8 +70,8 @@ RC_GTEST_PROP(RecordedPath, PassesThroughItsSamplesWithTheRatesOfItsCurve, ()) {
     RC_ASSERT(angle_between(truth.C_bn, states[i].C_bn) < 1e-14 * 100);
     RC_ASSERT(displacement_n(truth.position, *states[i].position).norm() < 12 * bend + 1e-6);
   }
-  // Central differences with steps of e err by e^2 times a third derivative; a spline's has jumps, as large
-  // as the step of its second derivative from one sample to the next.
+  // The error of central differences with steps of e is e^2 times a third derivative. That of a spline jumps
+  // by as much as its second derivative changes from one sample to the next.
   constexpr double e = 1e-5;
   for (double t = 0.3; t < 11; t += 0.777) {
     const Movement before = movement(again.motion, t - e), now = movement(again.motion, t),
@@ -147,8 +147,8 @@ TEST(RecordedPath, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
   }
 }
 
-// A navigation system with a wrong velocity and right positions: over a long flight the truth follows the
-// positions.
+// A navigation system reports a wrong velocity and correct positions: over a long flight the truth must
+// follow the positions.
 TEST(RecordedPath, FollowsThePositionsWhereTheVelocityIsBiased) {
   const FlightRecord flown(turning, 120'000'000, 10'000);
   auto states = states_of(flown, 20'000);

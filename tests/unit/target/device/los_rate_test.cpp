@@ -275,7 +275,7 @@ TEST(LosRateParameters, SettingsReachTheEstimator) {
 // At the ends of the ranges, in random combinations, all designs and gains stay finite.
 TEST(LosRateParameters, TheEndsOfTheRangesKeepTheEstimatorWhole) {
   std::mt19937_64 engine(1);
-  // Largest and smallest accepted of a rough scan.
+  // The largest and the smallest value that is accepted, found by a rough scan.
   std::vector<std::array<float, 2>> ends;
   for (const Parameter parameter : own_parameters()) {
     BenchSide bench;

@@ -230,7 +230,7 @@ struct Untimely {
 
 class UntimelyGroups : public testing::TestWithParam<Untimely> {};
 
-// Answered and counted, without an effect on later answers.
+// These samples are answered and counted, but do not affect later answers.
 TEST_P(UntimelyGroups, AreAnsweredCountedAndLeaveNoTrace) {
   const auto flight = [&](bool untimely) {
     Missile missile;

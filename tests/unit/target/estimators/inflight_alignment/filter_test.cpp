@@ -133,8 +133,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   }
 }
 
-// The vehicle's acceleration of 1 m/s^2 tilts the levelling of the first sample by 6 deg, so a start that is
-// better known is not levelled.
+// The vehicle accelerates by 1 m/s^2, so levelling by the first sample would tilt it by 6 deg. A start with
+// smaller sigmas must not be levelled.
 TEST(InflightFilter, OnlyAnUnknownTiltIsLevelled) {
   Settings settings = recorded_settings(Algorithm::sin_cos, Aiding::ssbl);
   const RecordedRun& from = inputs(Aiding::ssbl);
@@ -261,7 +261,7 @@ TEST(InflightFilter, PredictsByItselfWithoutFixes) {
   EXPECT_EQ(update(state, from.fixes[19], settings).outcome, Outcome::ok);
 }
 
-// Its mean, carried to the present, is what the INS would be corrected by.
+// The mean of the prediction, propagated to the present, must equal the correction of the INS.
 TEST(InflightFilter, TheEstimateBetweenFixesIsThePredictionsMean) {
   for (const auto [algorithm, aiding] : cases) {
     const Settings settings = recorded_settings(algorithm, aiding);
@@ -337,7 +337,8 @@ TEST(InflightHistory, BetweenEpochsThePositionIsInterpolated) {
   };
   const Vector3d a = innovation(160'000), b = innovation(180'000), m = innovation(165'000);
   EXPECT_GT((b - a).norm(), 0.03);
-  // The prediction's mean belongs to the later epoch: its errors' difference is of the order of 1e-9.
+  // Between epochs the innovation is interpolated. Only the prediction's mean is that of the later epoch,
+  // which changes the result by about 1e-9.
   EXPECT_LT((m - (a + 0.25 * (b - a))).norm(), 1e-6);
 }
 

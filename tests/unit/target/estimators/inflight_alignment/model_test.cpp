@@ -20,7 +20,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using strapdown::NavState;
 
-// From the paper's eq. (8) the first row lacks its minus sign: not a rotation.
+// The printed eq. (8) lacks the minus sign of the first row, so it is not a rotation.
 TEST(PsiAngle, PlatformToComputerIsTheRotationByRollPitchYaw) {
   const Vector3d psi(0.3, -0.2, 1.2);
   const Matrix3d C = platform_to_computer(psi);
@@ -65,7 +65,7 @@ Truth errors_of(const NavState& ins, const NavState& truth) {
           ins.v_eb_n - C_tc * truth.v_eb_n};
 }
 
-// A tenth of a second of a turning vehicle: an INS without errors, and one that starts with each of them.
+// A vehicle turns for a tenth of a second, with an INS without errors and an INS that starts with all errors.
 struct Flight {
   Vector3d accel_bias{0.05, -0.03, 0.04};   // [m/s^2]
   Vector3d gyro_bias{2e-4, -3e-4, 1.5e-4};  // [rad/s]

@@ -119,7 +119,7 @@ TEST(BadInput, IsNamedCoastedOverAndRecoveredFrom) {
   }
 }
 
-// A coast's sigma must be true: over 60 lost samples errors and sigmas agree on average.
+// The sigma must be correct during a coast: over 60 lost samples, errors and sigmas agree on average.
 TEST(BadInput, SigmasOfACoastAreConsistent) {
   for (const Algorithm algorithm : {Algorithm::kalman, Algorithm::combined}) {
     double ratio = 0;

@@ -149,7 +149,7 @@ TEST(Statistics, NisAndSigmasAreConsistent) {
       });
     }
     EXPECT_NEAR(nis / count, 1, 0.05) << static_cast<int>(algorithm);
-    // Errors are correlated over about 1/W: some 40 * 2.8 * 8 independent ones.
+    // Errors are correlated over about 1/W, so there are about 40 * 2.8 * 8 independent ones.
     EXPECT_NEAR(ratio / count, 1, 0.15) << static_cast<int>(algorithm);
   }
 }

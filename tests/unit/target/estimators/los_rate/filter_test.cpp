@@ -16,7 +16,8 @@ namespace {
 constexpr std::array algorithms{Algorithm::switched_table, Algorithm::combined, Algorithm::kalman,
                                 Algorithm::low_pass};
 
-// Started on the truth, without noise, an exact prediction leaves nothing to correct: Euler steps would.
+// The filter starts at the truth, without noise. An exact prediction then needs no correction, unlike Euler
+// steps.
 TEST(LosRate, PredictionIsExactForConstantClosingSpeed) {
   EngagementSetup setup = setup_of(Algorithm::kalman);
   setup.target = {0, 40};
@@ -114,8 +115,8 @@ TEST(TwoPlanes, WithoutTheRollTermTheEstimateIsLost) {
   EXPECT_GT(sum_without, 1000 * sum_with);
 }
 
-// The 6-state Kalman filter of section 5 of the notes, roll in its transition: with equal noises its
-// covariance is two equal blocks and its estimate this filter's.
+// The 6-state Kalman filter of section 5 of the notes, with the roll in its transition. With equal noises its
+// covariance must have two equal blocks, and its estimate must equal this filter's.
 TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;

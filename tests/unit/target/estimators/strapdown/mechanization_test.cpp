@@ -194,7 +194,8 @@ TEST(Mechanization, OneSampleFollowsATurnAtConstantRate) {
   const Errors errors = fly(turn, Mechanization::one_sample, 20, 0.02);
   // Its free-air gradient, 2 g/a, differs from the test's by 1e-8 1/s^2, at 1000 m for 20 s.
   EXPECT_LT(errors.velocity, 5e-4);
-  // Earth's rate is taken in the body axes of the step's start: half a step's turn, 3e-3 rad, of 1.5e-3 rad.
+  // The step uses the earth's rate in the body axes of its start. The error is half a step's turn, 3e-3 rad,
+  // of 1.5e-3 rad.
   EXPECT_LT(errors.attitude, 5e-6);
   EXPECT_LT(fly(turn, Mechanization::two_sample, 20, 0.02).velocity, errors.velocity);
 }

@@ -106,7 +106,8 @@ TEST(WindFilter, AdaptiveNoiseMakesTheStatisticConsistent) {
   for (const State& state : tight.states) EXPECT_EQ(state.noise_factor, 1);
 }
 
-// A gap is predicted over in parts, each with its own fins: nearly what an update less would have given.
+// A gap is predicted in parts, each with its own fins. The result is nearly the same as if only the update
+// had been missing.
 TEST(WindFilter, LostNavigationIsBridged) {
   const RecordedRun run;
   const Settings settings;
