@@ -1,4 +1,4 @@
-// The parameters of the device that the bench holds, which are those of hil-target.
+// The parameters of the device, from which the bench learns those of hil-target.
 #pragma once
 
 #include <string>

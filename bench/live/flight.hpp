@@ -39,7 +39,7 @@ class FlightInProgress final : public observe::Observer {
   void update(Flight& flight, bool all_seen);
 
  private:
-  struct Known {  // a series, and whether it is shown
+  struct Known {  // a series, and whether the page shows it
     std::string_view estimator;
     const quantities::Quantity* quantity = nullptr;
     bool estimates = false, shown = false;

@@ -19,8 +19,8 @@ namespace canhil::live {
 
 class View {
  public:
-  /// Begins to show `begun`. A flight in real time goes first on every CPU: the view runs when nobody else
-  /// wants to.
+  /// Begins to show `begun`. Flights in real time have priority on every CPU: the view's thread runs only
+  /// when a CPU is idle.
   View(std::vector<std::unique_ptr<Display>> displays, Snapshot begun);
   ~View();
 

@@ -19,7 +19,7 @@ class TargetWatch : public Observer {
   virtual bool closes_step(const Frame& frame) = 0;
   /// Whether the awaited step is done.
   [[nodiscard]] virtual bool step_done() const = 0;
-  /// The awaited step, for people: "step 17".
+  /// The awaited step, as text for messages: "step 17".
   [[nodiscard]] virtual std::string step() const = 0;
 };
 

@@ -49,7 +49,8 @@ trap cleanup EXIT
 chmod 755 "$machine"
 tar -C "$machine" -xf "$minimal"
 
-# apt as on this machine, and the names and certificates it needs to reach its sources.
+# apt is configured as on this machine, and gets the host names and certificates that it needs to reach its
+# sources.
 rm -rf "$machine/etc/apt"
 cp -aL /etc/apt "$machine/etc/apt"
 cp -aL /usr/share/keyrings/. "$machine/usr/share/keyrings/"

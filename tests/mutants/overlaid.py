@@ -45,7 +45,7 @@ def compilations(folder):
 
 @functools.lru_cache(maxsize=None)
 def linking(folder):
-    """The words of the command that links the target."""
+    """The command line that links the target, as a list of words."""
     last = [line for line in ask(folder, "commands", "hil-target").splitlines() if "-o hil-target" in line][-1]
     return shlex.split(re.sub(r"^: && (.*?) && :$", r"\1", last))
 

@@ -32,7 +32,7 @@ LONGEST_S = {"lockstep": 12, "real time": 3}  # of the flight
 # A busy host can suspend a program for 0.4 s, which looks like a silent target in real time. Such a flight is repeated
 # unchanged. A target with a real defect is silent in every repetition.
 MOST_FLIGHTS = {"lockstep": 1, "real time": 4}
-# Faults that last for a stretch of time: they do not strike every so many samples (docs/faults.md).
+# Faults that last for a time. They do not affect single samples at intervals (docs/faults.md).
 STRETCHES = ["silent", "slow", "clock_step", "clock_drift", "restart", "stranger", "flood"]
 PATIENCE_S = 60  # a run that takes longer hangs
 
@@ -196,7 +196,7 @@ def fly(command, environment, log):
 
 
 class Course:
-    """A number after each run, of runs of several sorts, and whether it grows with their number."""
+    """A number after each run, with the kind of that run, and whether it grows with the number of runs."""
 
     def __init__(self, name, unit, most_growth, why):
         self.name, self.unit, self.most_growth, self.why = name, unit, most_growth, why

@@ -40,7 +40,7 @@ class Contract:
         return str(frame.attributes.get(name, "")).strip('"')
 
     def value(self, identifier, data, signal_name):
-        """The raw value of a signal; None where the message has none of that name."""
+        """The raw value of a signal; None: the message has no signal of that name."""
         frame = self.frames[identifier]
         if all(one.name != signal_name for one in frame.signals):
             return None

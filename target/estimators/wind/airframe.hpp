@@ -30,7 +30,7 @@ struct Drag {
   double wave = 0, wave_mach = 1, wave_width = 1;
 };
 
-/// All that the model needs of an airframe.
+/// The airframe data that the model uses.
 struct Airframe {
   double mass = 1;                            // [kg]
   double Ixx = 1, Iyy = 1, Izz = 1, Ixz = 0;  // [kg m^2]

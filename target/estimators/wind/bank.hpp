@@ -26,7 +26,7 @@ struct BankDesign {
   std::size_t count = 1;                 // of running filters
 };
 
-/// All that a bank keeps between two samples.
+/// The state of a bank between two samples.
 struct Bank {
   std::array<State, bank_most> states;
   std::array<double, bank_most> surprise{};  // J

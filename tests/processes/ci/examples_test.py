@@ -66,7 +66,7 @@ class Pipeline(unittest.TestCase):
             os.chmod(path, 0o755)
 
     def run_steps(self, steps):
-        """The output; the exit code of the step that ended it."""
+        """The output, and the exit code of the step that ended the pipeline."""
         environment = {**os.environ, "PATH": f"{self.here}/bin:/usr/bin:/bin", "CI_API_V4_URL": "x", "CI_PROJECT_ID": "1",
                        "CI_DEFAULT_BRANCH": "main", "CI_JOB_TOKEN": "x"}
         output = ""

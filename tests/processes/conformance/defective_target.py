@@ -13,7 +13,7 @@ class Sound(canhil_target.Target):
 
 
 class SlowBeat(Sound):
-    """A heartbeat every second while no bench is at work."""
+    """Sends a heartbeat every second while no bench is active."""
     beats = itertools.count()
 
     def send_heartbeat(self):

@@ -84,8 +84,8 @@ TEST(SaeBenchmark, At125KilobitsPerSecond) {
                           19'280, 19'800, 20'320, 29'240, 29'760, 29'760));
 }
 
-// Tindell, Burns, Wellings 1995: at 125 kbit/s the benchmark misses no deadline of a control loop; at half
-// of it the bus is overloaded, and there is no bound for the messages at the end.
+// Tindell, Burns, Wellings 1995: at 125 kbit/s the benchmark meets all deadlines of the control loops. At
+// half of that bit rate the bus is overloaded, and the messages of the lowest priority have no bound.
 TEST(SaeBenchmark, AtHalfTheBitRateTheBusIsOverloaded) {
   const Bus bus{.rates = {.nominal = 62'500}};
   EXPECT_GT(utilisation(sae_benchmark(), bus.rates), 1);

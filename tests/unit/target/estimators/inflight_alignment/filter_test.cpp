@@ -210,8 +210,7 @@ TEST(InflightFilter, AFixBeyondTheGateIsRefusedUntilTooManyAre) {
   }
 }
 
-// z = dR - rho: a fix to the north means that the INS is too far south, or that the fix is biased to the
-// north.
+// z = dR - rho: if the fix is north of the INS, the INS is too far south, or the fix is biased to the north.
 TEST(InflightFilter, AFixMovesPositionAndBiasTowardsItself) {
   for (const auto [algorithm, aiding] : cases) {
     const Settings settings = recorded_settings(algorithm, aiding);
@@ -246,7 +245,7 @@ TEST(InflightFilter, AFixAcrossTheDateLineIsNear) {
   EXPECT_NEAR(result.innovation.y(), -2e-7 * 6.38e6 * std::cos(fix.latitude), 1.0);
 }
 
-// Without fixes the filter predicts by itself, so that its steps stay short.
+// Without fixes the filter predicts at its own intervals, so that the steps stay short.
 TEST(InflightFilter, PredictsByItselfWithoutFixes) {
   Settings settings = recorded_settings(Algorithm::sin_cos, Aiding::gps);
   settings.longest_interval = 0.995;

@@ -121,7 +121,7 @@ Vector<4> states(const Matrix3d& C_pc) {
   return {phi.x(), phi.y(), std::sin(psi), 1 - std::cos(psi)};
 }
 
-// In the levelled form biases are turned with the heading error.
+// In the levelled form, biases are rotated by the heading error.
 Errors<16> errors_at_the_start(const Flight& flight, SinCosForm form) {
   Errors<16> errors;
   errors.form = form;
@@ -144,8 +144,8 @@ TEST(SinCos, PredictsTheErrorsOfAnIns) {
   }
 }
 
-// Tilts of 10 and 15 deg: 0.48 m/s^2 of the vertical force is of second order in them, 0.048 m/s in the
-// interval. Left are 8e-4 m/s, of higher order.
+// With tilts of 10 and 15 deg, 0.48 m/s^2 of the vertical force is of second order in the tilts: 0.048 m/s in
+// the interval. Terms of higher order amount to 8e-4 m/s.
 TEST(SinCos, LevelledPredictsTheVerticalVelocityToTheSecondOrderOfTheTilts) {
   const Flight flight(10 * rad_per_deg);
   const auto off = [&](SinCosForm form) {

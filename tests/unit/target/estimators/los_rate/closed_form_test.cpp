@@ -76,8 +76,9 @@ TEST(Riccati, WithoutProcessNoiseMirrorsThePoles) {
 
 class DifferentialRiccati : public testing::TestWithParam<double> {};
 
-// An integration that starts on the closed form stays on it: worst relative difference of the gains from 5 km
-// to 50 m. `transform` is the paper's operation on P-bar, right or as printed.
+// Integrates from the closed form's covariance, which must stay equal to the closed form. Returns the worst
+// relative difference of the gains from 5 km to 50 m. `transform` is the paper's operation on P-bar,
+// corrected or as printed.
 double worst_gain_error(const Noise& noise, double vc, const Matrix3d& P0, double r_from,
                         const std::function<Vector3d(double)>& gain) {
   double worst = 0;

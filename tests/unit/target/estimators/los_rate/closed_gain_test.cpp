@@ -59,8 +59,8 @@ TEST(LowPass, HasItsPolesAndItsNoise) {
   }
 }
 
-// Gain by gain: the combined table against the full Kalman filter, 100 to 500 Hz, after 2.2 s, to 0.05 s to
-// go.
+// Compares the combined table with the full Kalman filter, gain by gain, at 100 to 500 Hz, from 2.2 s after
+// the start to 0.05 s to go.
 TEST(ClosedGain, CombinedTableIsWithinThreePercentOfTheKalmanFilter) {
   for (const double T : {0.01, 0.005, 0.002}) {
     for (const double vc : {600.0, 900.0, 1200.0}) {

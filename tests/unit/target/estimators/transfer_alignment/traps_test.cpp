@@ -107,7 +107,7 @@ TEST(Traps, MeasurementNoiseIsADensity) {
   }
 }
 
-// lmax(P N'N P) takes all 12 rows of P's attitude columns, the posterior's.
+// lmax(P N'N P) must use all 12 rows of the attitude columns of the posterior P.
 TEST(Traps, BetaUsesAllRowsOfThePosterior) {
   std::mt19937_64 engine(6);
   for (const H2Case h2_case : {H2Case::one, H2Case::two, H2Case::three, H2Case::four}) {

@@ -221,7 +221,8 @@ TEST(WindBadInput, MissingFinsWidenTheUncertainty) {
   expect_recovered(flown);
 }
 
-// No fins from the start: flagged at every step, and the other input still gives a wind of the right size.
+// There are no fins from the start. This is flagged at every step, and the other input must still give a wind
+// of the right magnitude.
 TEST(WindBadInput, NoFinsAtAll) {
   const Flown flown =
       fly(recorded(), Settings(), [](std::size_t, Navigation&, FinFrame& fins) { fins.arrives = false; });
