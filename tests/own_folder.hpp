@@ -31,7 +31,7 @@ class OwnFolder {
       std::filesystem::temp_directory_path() / ("canhil-" + std::to_string(made_by_));
 };
 
-/// Until the program ends.
+/// The folder of this process; it exists until the program ends.
 inline std::string own_folder() {
   static const OwnFolder own;
   return own.path.string();

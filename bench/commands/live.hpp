@@ -12,7 +12,7 @@
 
 namespace canhil::commands {
 
-/// As typed.
+/// The options of the live view as given on the command line.
 struct Live {
   std::optional<int> port;
   std::string address;

@@ -57,7 +57,7 @@ class Schedule final : public observe::Observer {
     return frames_;
   }
 
-  /// Until when a fault explains silence of the target.
+  /// The time until which a fault explains that the target is silent.
   [[nodiscard]] std::int64_t silent_until_us() const {
     std::int64_t until_us = std::numeric_limits<std::int64_t>::min();
     for (const auto& injector : injectors_) until_us = std::max(until_us, injector->silent_until_us());

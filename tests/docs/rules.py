@@ -56,7 +56,7 @@ RULES = (
     Rule(r"hil-bench doctor .*can\d", codes=(0, 1), says="nocan0", instead=((r"--cpu \d", "--cpu 0"), (r" --seconds \d+", ""), (r"$", " --seconds 1"))),
     Rule(r"^sha256sum ", why_not="of the reports of a run on hardware"),
     Rule(r"^hil-(bench|target) .*\bv?can\d", codes=(2,), says=NO_INTERFACE, instead=((r"--cpu \d", "--cpu 0"),)),
-    # As long as a test may take.
+    # Commands that do not end by themselves; they run as long as a test may take.
     Rule(r"hil-bench bus ", codes=(124,), instead=((r"^", "timeout -s INT -k 5 1 "), (r"local:\w+", "local:documented"))),
     Rule(r"my_target\.py", codes=(0, 1), says="rules kept", instead=((r"my_target", "docs/examples/kit/los_rate"),)),
     Rule(r"hil-bench campaign (?!merge|report)", codes=BARS, instead=((r"\bFILE\b", "bench/monte_carlo/quick.toml"), *FEW_RUNS)),

@@ -42,7 +42,7 @@ BankDesign make_bank(const Settings& settings);
 
 /// Like initial() of a filter: without and with knowledge at release.
 Bank initial(const BankDesign& design);
-/// With knowledge at release.
+/// The initial bank, with the knowledge at release.
 Bank initial(const Start& start, const BankDesign& design);
 
 /// Processes one sample with each filter and mixes their states; returns the result of the likeliest filter.

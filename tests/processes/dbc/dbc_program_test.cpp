@@ -170,7 +170,7 @@ TEST(DbcShow, BadInputIsOneLine) {
   expect_one_line(hil_bench("dbc show " SOURCE_DIR "/README.md"), "README.md:1:1: no section of a DBC file");
 }
 
-// A name in a DBC steers no terminal.
+// A name in a DBC must not send escape sequences to the terminal.
 TEST(DbcShow, PrintsNoControlCharacters) {
   const std::string path = scratch("escape.dbc");
   std::ofstream(path) << "BU_: A\nBO_ 291 M: 2 A\n SG_ s : 0|12@1+ (1,0) [0|0] \"\x1B[31m\" A\n"

@@ -69,7 +69,7 @@ Ended others(const std::string& arguments) {
       fmt::format("/usr/bin/python3 {}/tests/processes/recordings/others.py {}", SOURCE_DIR, arguments));
 }
 
-// As others.py writes them.
+// The frames of a log in the text format of others.py.
 std::string frames_in_words(const std::string& log) {
   std::string text;
   for (const LogEntry& entry : entries_of(log)) {

@@ -36,7 +36,8 @@ ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/")
 # the answers of one; and the truth of the glide, whose table [wind] has an estimator's name.
 KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/nodes/seeker.", "bench/scenario/glide.")
 
-# Aim for 300. A long table or one long derivation may pass it; at a third more, a file has got a second subject.
+# The aim is 300 lines. A file with a long table or a long derivation may exceed it; a file that exceeds it by a
+# third has a second subject.
 MOST_LINES = 400
 VAGUE = {"util", "utils", "common", "manager", "helper", "helpers", "base"}
 TERMS = {"time_base"}  # terms of the field that hold such a word
