@@ -50,9 +50,9 @@ in_uml() {
   cat "$dir/err" >&2 & err=$!
   limit=${CANHIL_VCAN_TIMEOUT_S:-600}
   say "user-mode Linux"
-  # The guest is one kernel for both programs. On a busy host with several processors it would stall for longer
-  # than a target may be silent. So it runs on one processor, as the guest itself has one: its processes hand
-  # over to each other with every system call.
+  # The guest is one kernel for both programs: on a busy host without real-time priority it would stall for
+  # longer than a target may be silent. It is pinned to one processor, because the guest has only one: its
+  # processes hand over to each other with every system call.
   realtime="taskset -c $((RANDOM % $(nproc))) chrt -f 10"
   $realtime true 2>/dev/null || realtime="chrt -f 10"
   $realtime true 2>/dev/null || realtime=
