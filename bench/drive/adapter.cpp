@@ -1,10 +1,12 @@
 #include "bench/drive/adapter.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <fstream>
 
 #include "bench/drive/buses.hpp"
+#include "bench/drive/session.hpp"
 #include "dbc/ports/local_bus.hpp"
 
 namespace canhil::drive {
@@ -78,6 +80,15 @@ std::string to_text(const Adapter& adapter) {
   if (!adapter.product.empty()) text += fmt::format(" '{}'", adapter.product);
   if (!adapter.serial.empty()) text += ", serial " + adapter.serial;
   return text;
+}
+
+std::vector<Adapter> adapters_of(const Options& options) {
+  std::vector<Adapter> adapters{adapter_of(options.bus.text)};
+  for (const auto& [node, bus] : options.bus_of) {
+    if (std::ranges::find(adapters, bus, &Adapter::bus) == adapters.end())
+      adapters.push_back(adapter_of(bus));
+  }
+  return adapters;
 }
 
 }  // namespace canhil::drive

@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace canhil::drive {
+
+struct Options;
 
 struct Adapter {
   std::string bus;        ///< "can0", "local:x"
@@ -23,5 +26,8 @@ Adapter adapter_of(const std::string& bus, const std::filesystem::path& sys = "/
 
 /// "can0: usb, gs_usb at 1-4:1.0, 1d50:606f 'candleLight', serial 0042"
 std::string to_text(const Adapter& adapter);
+
+/// The adapters of the buses of a run, without duplicates.
+std::vector<Adapter> adapters_of(const Options& options);
 
 }  // namespace canhil::drive

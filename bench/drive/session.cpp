@@ -333,15 +333,6 @@ Options in_lockstep_against(std::string command) {
   return options;
 }
 
-std::vector<Adapter> adapters_of(const Options& options) {
-  std::vector<Adapter> adapters{adapter_of(options.bus.text)};
-  for (const auto& [node, bus] : options.bus_of) {
-    if (std::ranges::find(adapters, bus, &Adapter::bus) == adapters.end())
-      adapters.push_back(adapter_of(bus));
-  }
-  return adapters;
-}
-
 Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
                 const Progress& progress) {
   const auto in_file = [&](const Error& error) {

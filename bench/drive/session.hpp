@@ -82,9 +82,6 @@ struct Run {
   std::optional<Error> log_error{};  ///< see Collected
 };
 
-/// The adapters of the buses, without duplicates.
-std::vector<Adapter> adapters_of(const Options& options);
-
 /// Runs a scenario. Error: the run was not possible (usage or configuration); a failing target is a verdict,
 /// not an error.
 Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,

@@ -182,7 +182,7 @@ estimators::Truth FlightInProgress::truth() const {
   return truth;
 }
 
-void FlightInProgress::update(Flight& flight, bool all_seen) {
+void FlightInProgress::update(Flight& flight, bool all_seen, bool landed) {
   const scenario::Scenario& scenario = departure_.scenario;
   flight.t_s = seconds(std::clamp<std::int64_t>(now_us(), 0, scenario.duration_us));
   flight.no_timing = told_ns_ ? "virtual time" : "";
@@ -192,16 +192,16 @@ void FlightInProgress::update(Flight& flight, bool all_seen) {
     return;
   }
   if (flight.no_timing.empty()) flight.timing = timing_of(scenario, whole_->observations().timing);
-  take_tracks(flight);
+  take_tracks(flight, landed ? std::numeric_limits<std::int64_t>::max() : now_us() - settled_us);
   if (all_seen) judge_what_is_over(flight);
 }
 
-void FlightInProgress::take_tracks(Flight& flight) {
+void FlightInProgress::take_tracks(Flight& flight, std::int64_t until_us) {
   for (const estimators::Estimator* one : estimators::in(departure_.scenario)) {
     if (!departure_.scenario.runs(one->name)) continue;
     estimators::give_tracks(*one, recent_->observations(), truth(), [&](const quantities::Track& track) {
-      take(one->name, track, false);
-      if (!track.estimate_title.empty()) take(one->name, track, true);
+      take(one->name, track, false, until_us);
+      if (!track.estimate_title.empty()) take(one->name, track, true, until_us);
     });
   }
   flight.series.clear();
@@ -210,7 +210,8 @@ void FlightInProgress::take_tracks(Flight& flight) {
   }
 }
 
-void FlightInProgress::take(std::string_view estimator, const quantities::Track& track, bool estimates) {
+void FlightInProgress::take(std::string_view estimator, const quantities::Track& track, bool estimates,
+                            std::int64_t until_us) {
   auto known = std::ranges::find_if(known_, [&](const Known& one) {
     return one.estimator == estimator && one.quantity == track.quantity && one.estimates == estimates;
   });
@@ -223,7 +224,7 @@ void FlightInProgress::take(std::string_view estimator, const quantities::Track&
   }
   const report::Series& series = known->series.series();
   if (!is_shown(series.kind, departure_.truth.is_known())) return;
-  known->series.take(track);
+  known->series.take(track, until_us);
   known->shown = estimates || !track.only_if_judged || !series.bars.empty();
 }
 

@@ -35,8 +35,9 @@ class FlightInProgress final : public observe::Observer {
   /// The record that receives epochs of the engagement; null: the flight has no engagement.
   [[nodiscard]] world::EngagementRecord* engagement() { return engagement_ ? &*engagement_ : nullptr; }
 
-  /// Brings a flight up to now. `all_seen`: no frame was missed, so checks may be judged.
-  void update(Flight& flight, bool all_seen);
+  /// Brings a flight up to now. `all_seen`: no frame was missed, so checks may be judged. Series end 1.5 s
+  /// ago, as a late fix brings the sigma of its time; with `landed` they end now.
+  void update(Flight& flight, bool all_seen, bool landed = false);
 
  private:
   struct Known {  // a series, and whether the page shows it
@@ -48,8 +49,9 @@ class FlightInProgress final : public observe::Observer {
 
   void each_watcher(const std::function<void(observe::Observer&)>& show);
   void move_window();
-  void take_tracks(Flight& flight);
-  void take(std::string_view estimator, const quantities::Track& track, bool estimates);
+  void take_tracks(Flight& flight, std::int64_t until_us);
+  void take(std::string_view estimator, const quantities::Track& track, bool estimates,
+            std::int64_t until_us);
   void judge_what_is_over(Flight& flight);
   [[nodiscard]] std::int64_t now_us() const;
   [[nodiscard]] estimators::Truth truth() const;

@@ -38,7 +38,7 @@ struct FaultLine {
 
 /// A flight as far as it has come.
 struct Flight {
-  std::string title, scenario, bus, clock;
+  std::string title{}, scenario{}, bus{}, clock{};
   double t_s = 0, duration_s = 0;
   std::optional<checks::Outcome> outcome{};  ///< none: it goes on
   std::string reason{};

@@ -101,7 +101,7 @@ void View::look_at_requests() {
   }
   if (std::exchange(requests_.landing, false)) {
     look_at_frames();
-    if (flight_ && snapshot_.flight) flight_->update(*snapshot_.flight, feed_.dropped() == 0);
+    if (flight_ && snapshot_.flight) flight_->update(*snapshot_.flight, feed_.dropped() == 0, true);
     flight_.reset();
     landed_.notify_all();
   }

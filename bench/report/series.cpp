@@ -102,13 +102,13 @@ void GrowingSeries::add_silence(std::int64_t from_us) {
   series_.points.push_back({.t_s = seconds(from_us), .low = none, .high = none});
 }
 
-void GrowingSeries::take(const Track& track) {
+void GrowingSeries::take(const Track& track, std::int64_t until_us) {
   std::vector<Series::Point>& points = series_.points;
   const std::int64_t stretch_us =
       std::max<std::int64_t>(1, scenario_.duration_us / static_cast<std::int64_t>(Series::max_points));
   const std::int64_t taken_us = last_us_;
   for (const TrackPoint& answer : track.points) {
-    if (answer.t_us <= taken_us || answer.t_us > track.drawn_until_us) continue;
+    if (answer.t_us <= taken_us || answer.t_us > std::min(until_us, track.drawn_until_us)) continue;
     const Series::Point point = point_of(answer);
     if (!std::isfinite(point.low)) continue;
     if (silent_until(answer.t_us, track)) add_silence(last_us_ + 1);

@@ -47,8 +47,8 @@ class GrowingSeries {
   /// `estimates`: the estimates beside the truth, rather than the values. `scenario` must outlive it.
   GrowingSeries(std::string_view estimator, const quantities::Track& track, bool estimates,
                 const scenario::Scenario& scenario);
-  /// Appends the values of the track that are later than the last value appended before.
-  void take(const quantities::Track& track);
+  /// Takes the values of a track that are later than the last one taken, up to a time of validity [us].
+  void take(const quantities::Track& track, std::int64_t until_us = std::numeric_limits<std::int64_t>::max());
   /// The run is over: if answers are missing at its end that is a gap too.
   void end(const quantities::Track& track);
   [[nodiscard]] const Series& series() const { return series_; }

@@ -81,8 +81,9 @@ PREPARED = {
         "cp bench/flights/transfer_alignment_quick.toml my.toml",
         r"sed -E '/^\[(master_ins|slave_imu)\]/,/^$/{/^[a-z]/d; s/^\[.*/&\nrecorded = \"first.log\"/}' my.toml > my_again.toml",
     ),
-    "docs/report.md": tuple(f"{RUN} --json {name}.json" for name in ("run", "other", "before", "after", "a1", "a2", "a3", "a4", "b1", "b2", "b3", "b4")),
-    "docs/recordings.md": (f"{RUN} --log run.log --json run.json", "hil-bench log convert run.log drive.asc"),
+    "docs/report.md": tuple(f"{RUN} --json {name}.json" for name in ("run", "other", "before", "after", "a1", "a2", "a3", "a4", "b1", "b2", "b3", "b4"))
+    + (f"{RUN} --log bench.log", "cp bench.log second.log"),
+    "docs/recordings.md": (f"{RUN} --log run.log --json run.json", "hil-bench log convert run.log drive.asc", "cp run.log a.log", "cp run.log b.log"),
 }
 
 

@@ -158,7 +158,7 @@ TEST_F(Accept, StopsAtTheFirstFailureWhenToldTo) {
 }
 
 TEST_F(Accept, BadInputIsOneLine) {
-  expect_one_line(accept("--target /no/such/program"), "target '/no/such/program': is no program");
+  expect_one_line(accept("--target /no/such/program"), "target '/no/such/program': is not a program");
   expect_one_line(accept("--estimator winds"), "--estimator 'winds': has no suite in");
   expect_one_line(accept("--family error"), "--family 'error': is unknown, expected one of: errors");
   expect_one_line(accept("--tolerance 0"), "--tolerance");

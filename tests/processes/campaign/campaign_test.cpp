@@ -270,8 +270,8 @@ TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {
   const auto against = [](const std::string& arguments) {
     return hil_bench(fmt::format("campaign {} --out {} {}", campaign_file(3), folder("nobody"), arguments));
   };
-  expect_one_line(against("--target /no/such/program"), "target '/no/such/program': is no program");
-  expect_one_line(against("--target " + campaign_file(3)), "is no program");
+  expect_one_line(against("--target /no/such/program"), "target '/no/such/program': is not a program");
+  expect_one_line(against("--target " + campaign_file(3)), "is not a program");
   expect_one_line(against("--target /usr/bin/true"), "target");
   EXPECT_FALSE(fs::exists(scratch("nobody/campaign3.sqlite")));
   expect_one_line(against("--unrounded --target " HIL_TARGET), "--unrounded");

@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& named) { return named.param.name; });
 
 TEST(Conformance, BadInputIsOneLine) {
-  expect_one_line(hil_bench("conformance --target /no/such/program"), "'/no/such/program': is no program");
+  expect_one_line(hil_bench("conformance --target /no/such/program"), "'/no/such/program': is not a program");
   expect_one_line(hil_bench("conformance --target /usr/bin/true"),
                   "exited with 0 before its first heartbeat");
   expect_one_line(hil_bench("conformance --estimator none_such"),

@@ -139,8 +139,8 @@ TEST(DbcShow, DrawsTheLayoutOfAMessage) {
   EXPECT_EQ(hil_bench(fmt::format("dbc show {} 352", multiplexed_dbc)).out, ended.out);
   EXPECT_THAT(
       hil_bench(fmt::format("dbc show {} SlaveImuDeltaTheta", canhil_dbc)).out,
-      HasSubstr("rad   always      -\nF  gyro_validity      63     1       Intel  unsigned  1      0       "
-                "0..1           -     always      1=valid, 0=invalid\n"));
+      HasSubstr("rad   always        -\nF  gyro_validity      63     1       Intel  unsigned  1      0       "
+                "0..1           -     always        1=valid, 0=invalid\n"));
 }
 
 TEST(DbcShow, WritesJson) {

@@ -260,8 +260,8 @@ TEST(Scripts, TellTheirUseAndRefuseWhatTheyDoNotKnow) {
     expect_one_line(shell(fmt::format("bash {}/tests/run.sh {}", SOURCE_DIR, options)), what);
   };
   refused("--only", "--only: expected a regular");
-  refused("--quick", "--quick is now what it does without an option: bash tests/run.sh");
-  refused("--fuzz", "--fuzz is now a part of --full: bash tests/run.sh --full");
+  refused("--quick", "--quick is now the default: bash tests/run.sh");
+  refused("--fuzz", "--fuzz is now part of --full: bash tests/run.sh --full");
   refused("--full --coverage", "--coverage excludes --full");
   refused("--coverage --tidy", "--coverage excludes --tidy");
 }
@@ -275,7 +275,8 @@ TEST(BadInput, ReportThatCannotBeWrittenIsToldBeforeTheRun) {
 TEST(BadInput, FilesThatWouldReplaceSomethingElse) {
   const std::string quick = scenario("transfer_alignment_quick");
   ASSERT_EQ(shell("mkfifo " + scratch("pipe")).code, 0);
-  expect_one_line(hil_bench(fmt::format("run {} --junit {}", quick, scratch("pipe"))), "is no regular file");
+  expect_one_line(hil_bench(fmt::format("run {} --junit {}", quick, scratch("pipe"))),
+                  "is not a regular file");
   ASSERT_EQ(shell(fmt::format("cp {} {}", quick, scratch("self.toml"))).code, 0);
   expect_one_line(hil_bench(fmt::format("run {0} --log {0}", scratch("self.toml"))), "is named twice");
   EXPECT_EQ(read(scratch("self.toml")), read(quick));

@@ -104,7 +104,7 @@ TEST_F(Golden, BadInputIsOneLine) {
   expect_one_line(hil_bench(fmt::format("golden check {}/empty", folder_)), "has no scenario");
   expect_one_line(hil_bench("golden"), "golden");
   expect_one_line(check("--tolerance -1"), "--tolerance");
-  expect_one_line(check("--target /no/such/program"), "'/no/such/program': is no program");
+  expect_one_line(check("--target /no/such/program"), "'/no/such/program': is not a program");
   EXPECT_FALSE(fs::exists(folder_ + "/none.log"));
 }
 

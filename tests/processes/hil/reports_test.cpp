@@ -49,11 +49,11 @@ TEST_F(Reports, TellWhichTargetWasTested) {
   const Ended run = hil_bench("run " + scenario("transfer_alignment_quick") + " --bus " + bus() +
                               " --lockstep --json " + scratch("target.json"));
   ASSERT_THAT(run.err, testing::IsEmpty());
-  const auto target = read_json(scratch("target.json"))["provenance"]["target"];
+  const nlohmann::json provenance = read_json(scratch("target.json"))["provenance"];
+  const nlohmann::json& target = provenance["target"];
   EXPECT_THAT(target["program"].get<std::string>(), EndsWith("/hil-target"));
   std::map<std::string, nlohmann::json> files;
-  for (const auto& file : read_json(scratch("target.json"))["provenance"]["files"])
-    files[file["role"]] = file;
+  for (const auto& file : provenance["files"]) files[file["role"]] = file;
   EXPECT_EQ(files["target"]["bytes"].get<std::uintmax_t>(),
             std::filesystem::file_size(target["program"].get<std::string>()));
 }
@@ -136,10 +136,10 @@ TEST_F(Reports, WhatIsWrongInAReportIsToldWithItsFileAndKey) {
 
 TEST_F(Reports, APageStandsBesideAFileAndInNoLinksPlace) {
   expect_one_line(shell(fmt::format("cat {} | {} report /dev/stdin", scratch("one.json"), HIL_BENCH)),
-                  "file '/dev/stdin': is no regular file");
+                  "file '/dev/stdin': is not a regular file");
   const std::string linked = altered("linked.json", [](auto&) {});
   std::filesystem::create_symlink("elsewhere", scratch("linked.html"));
-  expect_one_line(hil_bench("report " + linked), "linked.html': is no regular file");
+  expect_one_line(hil_bench("report " + linked), "linked.html': is not a regular file");
   EXPECT_TRUE(std::filesystem::is_symlink(scratch("linked.html")));
   std::filesystem::remove(scratch("linked.html"));
 }

@@ -279,7 +279,7 @@ TEST_F(Altered, WhatAMappingLeavesOutIsListed) {
       run_with("own_ecu.mapping.toml", "\"IMU_TX1.TX1_AccY\" = \"-imu.specific_force.y\"", "#"));
   const Ended ended = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml", scratch("altered")));
   EXPECT_EQ(ended.code, 1);
-  EXPECT_THAT(ended.out, HasSubstr("warning unmapped: IMU_TX1.TX1_AccY nothing is put into it"));
+  EXPECT_THAT(ended.out, HasSubstr("warning unmapped: IMU_TX1.TX1_AccY no value is mapped to it"));
   static_cast<void>(run_with("own_ecu.mapping.toml", "[play.signals]", "every_ms = 20\n[play.signals]"));
   const Ended slow = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml --json", scratch("altered")));
   EXPECT_EQ(slow.code, 1);

@@ -136,7 +136,7 @@ TEST(Reference, DamagedIsOneLine) {
   EXPECT_THAT(refused("message A 3\nsignals a b\nmean 1\n"), HasSubstr(":3: 'mean 1', expected 2 numbers"));
   EXPECT_THAT(refused("message A 3\nsignals a\nwhat 1\n"), HasSubstr(":3: 'what 1', expected"));
   EXPECT_THAT(refused("message A 3\nsignals a\n7 0.1 2\n"),
-              HasSubstr(":3: '7 0.1 2', expected the place of one of 3 answers"));
+              HasSubstr(":3: '7 0.1 2', expected the index of one of 3 answers"));
   EXPECT_THAT(refused("message A 3\nsignals a\nmean 1\n"), HasSubstr("A lacks a line"));
 }
 

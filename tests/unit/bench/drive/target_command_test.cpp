@@ -43,7 +43,7 @@ TEST(TargetCommand, ProgramIsFoundAsAShellFindsIt) {
   EXPECT_TRUE(std::filesystem::path(program_path("sh")).is_absolute());
   EXPECT_TRUE(check_target("sh -c true"));
   EXPECT_THAT(check_target("no-such-program x").error().message,
-              HasSubstr("target 'no-such-program': is no program"));
+              HasSubstr("target 'no-such-program': is not a program"));
 }
 
 // The file of the interpreter does not identify the version of a script.

@@ -52,7 +52,7 @@ TEST(ReadFaults, WhatIsWrongIsSaidInOneLine) {
       {fault("invalid", "quantity = \"slave_imu.temperature\""), "expected"},
       {fault("counter_jump", theta + "by = 15"),
        "key 'fault[1].by': 15 is a whole turn of the counter or more"},
-      {fault("stranger", "period_ms = 10\nid = 130"), "key 'fault[1].id': 130 is of the contract"},
+      {fault("stranger", "period_ms = 10\nid = 130"), "key 'fault[1].id': 130 is used by the DBC"},
       {fault("flood", "period_us = 100\nload_percent = 3"),
        "key 'fault[1].load_percent': is given beside period_us"},
       {fault("paused", "from_s = 1"), "key 'fault[1].for_s': is missing, expected how long it lasts"},

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "bench/checks/rule.hpp"
 #include "bench/drive/contract.hpp"
 
 namespace canhil::live {
@@ -26,7 +28,7 @@ class LooksOn final : public drive::Onlooker {
     in_progress_.emplace(departure);
   }
   void landed() override {
-    in_progress_->update(flight_, true);
+    in_progress_->update(flight_, true, true);
     in_progress_.reset();
   }
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override {

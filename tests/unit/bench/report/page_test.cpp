@@ -85,9 +85,10 @@ TEST(Page, FilesThatAreNoReportsAreRefusedInOneLine) {
   const std::string path = test::own_folder() + "/canhil_no_report.json";
   EXPECT_THAT(read_document("/no/such").error().message, HasSubstr("/no/such: cannot be read"));
   std::ofstream(path) << "{";
-  EXPECT_THAT(read_document(path).error().message, HasSubstr("is no JSON"));
+  EXPECT_THAT(read_document(path).error().message, HasSubstr("is not JSON"));
   std::ofstream(path) << "[1]";
-  EXPECT_THAT(read_document(path).error().message, HasSubstr("is no report, expected one with \"schema\""));
+  EXPECT_THAT(read_document(path).error().message,
+              HasSubstr("is not a report, expected one with \"schema\""));
   const auto torn = html(Json{{"schema", schema}, {"verdict", 5}});
   ASSERT_FALSE(torn);
   EXPECT_THAT(torn.error().message, Not(HasSubstr("\n")));
