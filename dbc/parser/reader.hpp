@@ -102,7 +102,7 @@ constexpr std::uint64_t text_id(std::uint64_t id) {
   return id > last_standard_id && id <= last_extended_id ? id | extended_flag : id;
 }
 
-/// Both leave the section if the object does not exist.
+/// Each of these functions returns the object that the text names; it leaves the section if there is none.
 Message& message_of(Draft& draft, std::uint64_t raw_id, Position at);
 Signal& signal_of(Draft& draft, Message& message, std::string_view name, Position at);
 Node& node_of(Draft& draft, std::string_view name, Position at);

@@ -133,7 +133,7 @@ Settings profile_7(const ProfileChoice& choice, unsigned size) {
 struct Profile {
   std::string_view name;
   Settings (*settings)(const ProfileChoice&, unsigned size);
-  unsigned data_id_bits = 0;  ///< 0: a data id list in its place
+  unsigned data_id_bits = 0;  ///< 0: the profile uses a data id list
   bool nibble = false;
 };
 

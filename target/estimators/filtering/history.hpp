@@ -18,7 +18,7 @@ namespace canhil::filtering {
 ///   step(state, increment, settings)
 ///   update(state, earlier, share, measurement, settings): for a measurement valid at the state's epoch minus
 ///     `share` of the increment that began with the ins `earlier` (null: at the epoch)
-///   keep_refusal(state, tried): copies what a refused update changes from the tried state
+///   keep_refusal(state, tried): copies from the tried state the members that a refused update changes
 ///   applied_at(t_us, now_us, settings): the epoch at which to apply a measurement valid at t_us
 /// A filter that also predicts between measurements (Predictions > 0: the largest number of predictions
 /// within the history) adds
