@@ -32,7 +32,7 @@ class Option {
   /// Takes exactly `count` values.
   Option words(int count) const;
   Option one_of(std::vector<std::string> words) const;
-  /// After parsing.
+  /// Valid only after parsing.
   [[nodiscard]] bool given() const;
 
  private:
@@ -69,7 +69,7 @@ class Command {
   /// Sets a callback for the end of parsing if this command was given. Callbacks of subcommands run first.
   void on_given(std::function<void()> callback) const;
 
-  /// After parsing.
+  /// Valid only after parsing.
   [[nodiscard]] bool subcommand_given() const;
 
   [[nodiscard]] std::string name() const;

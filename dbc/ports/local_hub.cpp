@@ -32,8 +32,8 @@ using local::Peer;
 using local::Reading;
 
 constexpr int backlog = 64;                // nodes that wait to be accepted
-constexpr std::size_t ready_limit = 4096;  // own frames that the host has not yet read back
-constexpr int accept_every = 64;           // frames in a row after which new nodes get their turn
+constexpr std::size_t ready_limit = 4096;  // frames that the host has not yet received
+constexpr int accept_every = 64;           // reads in a row after which the hub looks for new nodes
 // Nodes may send, join and leave without end. One call therefore handles at most this many of these events;
 // the descriptor stays readable for the rest.
 constexpr int most_at_once = 256;

@@ -65,7 +65,8 @@ Settings short_header(const ProfileChoice& choice, DataId mode) {
   return settings;
 }
 
-/// A profile whose header fields are whole bytes: [byte, bytes] of each field; 0 bytes: not sent.
+/// A profile whose header fields are whole bytes: the first byte and the number of bytes of each field; 0
+/// bytes: not sent.
 struct Header {
   struct Field {
     unsigned byte = 0;

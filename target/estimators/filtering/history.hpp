@@ -1,7 +1,7 @@
 #pragma once
-// Applies late measurements. Keeps the last increments, and for each the part of the state that it changes,
-// with the values before it. A measurement valid at an earlier epoch is applied at that epoch, and the
-// increments since are repeated. The result equals that of a measurement in time, bit for bit.
+// Applies late measurements. Keeps the last increments, and before each increment the part of the state that
+// increments change. A measurement valid at an earlier epoch is applied at that epoch, and the later
+// increments are repeated. The result equals the result without the delay, bit for bit.
 #include <array>
 #include <cstddef>
 #include <cstdint>

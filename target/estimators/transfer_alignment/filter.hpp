@@ -50,7 +50,7 @@ struct UpdateResult {
   StateVector dx = StateVector::Zero();                             // K innovation: the correction
   double alpha = 0;                                                 // H2 [m/s^2]
   double beta = 0;                                                  // H2; 0: a Kalman step without H2 terms
-  bool degraded = false;  // H2 with Loop::invariant: P exceeded P0, so this was a Kalman step
+  bool degraded = false;  // H2 with Loop::invariant: a Kalman step, as P of the attitude exceeded P0
 };
 
 /// The state at the start of an alignment: the slave's own navigation state, with P0 from the settings.

@@ -56,7 +56,7 @@ struct Settings {
   double rate_weight = 1;      // of the rates in S; the air velocity has 1 [(m/s)^2/(rad/s)^2]
 
   double adaptation_time = 0.3;   // time constant of the adapted noise if NIS/9 is 2 [s]
-  double adaptation_limit = 1e4;  // of the factor on the variance of the adapted noise
+  double adaptation_limit = 1e4;  // upper limit of the factor on the variance of the adapted noise
 
   double gust_noise = 4;        // of the wind, for the bank's gust filter [m/s/sqrt(s)]
   double memory = 1;            // of the bank's likelihoods [s]
