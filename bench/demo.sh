@@ -41,7 +41,7 @@ bus=$(choose_bus)
 if [[ $bus == vcan0 && $had_vcan == no ]]; then trap 'ip link del vcan0' EXIT; fi
 if [[ $bus == vcan0 ]]; then say "bus: vcan0"; else say "bus: embedded (this kernel has no vcan that this user may make)"; fi
 
-# What the bench says is shown when it has ended, not in the middle of the line that moves.
+# The bench's standard error is printed when it has ended, so that it does not interrupt the progress line.
 say "flying 20 s in real time"
 code=0
 progress_start "demo: flying 20 s" /dev/null >&2

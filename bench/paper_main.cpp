@@ -20,7 +20,7 @@
 namespace canhil::commands {
 namespace {
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Arguments {
   std::string paper;
   std::string folder;  // empty: paper-NAME in the current folder

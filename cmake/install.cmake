@@ -1,8 +1,9 @@
-# cmake --install: programs, the libraries for find_package(canhil), data, documents; cpack -G DEB packs them into a Debian package.
+# cmake --install installs programs, the libraries for find_package(canhil), data and documents; cpack -G DEB packs them into a Debian
+# package.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# What other projects can link: messages and their codecs, buses, logs, estimators.
+# The libraries that other projects can link: messages and their codecs, buses, logs, estimators.
 set(canhil_exported wire files dbc messages messages_fd logs ports strapdown filtering transfer_alignment inflight_alignment los_rate wind)
 foreach(library IN LISTS canhil_exported)
   get_target_property(type canhil_${library} TYPE)
@@ -35,7 +36,7 @@ foreach(program hil-bench hil-target)
   install(FILES ${CMAKE_SOURCE_DIR}/packaging/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
 endforeach()
 
-# The unit names the program where it is installed, which only the installation knows.
+# The unit file contains the path of the installed program, which is known only at installation.
 install(CODE "
   set(bindir \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\")
   configure_file(\"${CMAKE_SOURCE_DIR}/packaging/hil-target@.service\" \"${CMAKE_BINARY_DIR}/hil-target@.service\" @ONLY)")
@@ -51,7 +52,7 @@ if(HELP2MAN)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
 endif()
 
-# All that is installed, without the tests: cmake --build build/default --target canhil_installed.
+# Builds everything that is installed, but no tests: cmake --build build/default --target canhil_installed.
 add_custom_target(canhil_installed)
 add_dependencies(canhil_installed ${targets} dbcgen hil-target hil-bench hil-bench-campaign hil-bench-paper)
 if(HELP2MAN)

@@ -35,7 +35,7 @@ function(canhil_share_headers folder)
     foreach(property INTERFACE_COMPILE_DEFINITIONS INTERFACE_COMPILE_OPTIONS)
       get_target_property(own ${library} ${property})
       if(own)
-        list(APPEND definitions ${own}) # with or without -D
+        list(APPEND definitions ${own}) # a definition may begin with -D
       endif()
     endforeach()
   endforeach()
@@ -51,7 +51,7 @@ function(canhil_share_headers folder)
   list(REMOVE_DUPLICATES ways)
   foreach(way IN LISTS ways)
     list(LENGTH ${way}_targets count)
-    if(count LESS 4) # the header costs as much as it saves
+    if(count LESS 4) # compiling the header takes as long as it saves
       continue()
     endif()
     string(SUBSTRING ${way} 0 6 short)

@@ -1,8 +1,8 @@
-# Completion of hil-bench and hil-target: what the program itself offers by --help.
+# Completes the subcommands and options of hil-bench and hil-target; the program lists them in its --help.
 _canhil() {
   local current=${COMP_WORDS[COMP_CWORD]} program=${COMP_WORDS[0]} word words
   local -a path=()
-  # The subcommands that were typed: they come before any option.
+  # The subcommands on the command line; they precede all options.
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     [[ $word == [a-z]* ]] || break
     path+=("$word")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# manual.sh PROGRAMS OUT VERSION: pages of the manual from what the programs in a folder say by --help.
+# manual.sh PROGRAMS OUT VERSION: writes manual pages to OUT from the --help output of the programs in the folder PROGRAMS.
 set -euo pipefail
 programs=$1 out=$2 version=$3
 mkdir -p "$out"
@@ -8,7 +8,7 @@ page() { # page NAME COMMAND...
   shift
   help2man --no-info --section 1 --version-string "canhil $version" --name "$("$@" --help | head -n 1)" --output "$out/$name.1" "$*"
 }
-export PATH=$programs:$programs/dbc/codegen:$PATH # the pages name the programs without a folder
+export PATH=$programs:$programs/dbc/codegen:$PATH # so that the pages show program names without a path
 page hil-target hil-target
 page dbcgen dbcgen
 page hil-bench hil-bench

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# package.sh OUT: builds what is installed, and nothing else, and puts the Debian package into a folder as canhil.deb.
+# package.sh OUT: builds only what is installed, and writes the Debian package to OUT/canhil.deb.
 set -euo pipefail
 out=$(mkdir -p "${1:?expected a folder for canhil.deb}" && realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

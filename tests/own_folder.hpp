@@ -1,4 +1,5 @@
-// A folder of this test program alone: CTest runs each case as a process of its own, several at a time.
+// A temporary folder for one process of a test program: CTest runs each case as its own process, several at a
+// time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ class OwnFolder {
       std::filesystem::temp_directory_path() / ("canhil-" + std::to_string(made_by_));
 };
 
-/// Until the program ends.
+/// The folder of this process; it exists until the program ends.
 inline std::string own_folder() {
   static const OwnFolder own;
   return own.path.string();

@@ -153,7 +153,7 @@ probe_sanitizers() {
 
 address_sanitizer() {
   echo "address, leak and undefined-behaviour sanitizers on: code that reads external input, and both programs; docs/ci.md lists the rest"
-  # In a copy of the tree with one more estimator: tests that adding one breaks nothing, without another build.
+  # Tests a copy of the tree with one more estimator in the build: adding an estimator must break nothing.
   local copy=$root/build/with_fifth
   echo "built with a fifth estimator in it (tests/fifth_estimator), in build/with_fifth"
   if ! python3 tests/fifth_estimator/add.py "$copy"; then failure "making $copy"; return; fi
@@ -177,8 +177,9 @@ thread_sanitizer() {
 coverage() {
   find build/coverage -name '*.gcda' -delete 2>/dev/null # the counts of an earlier run
   export GCOV_ERROR_FILE=/dev/null # a process that cannot write its counts would print an extra line, where a test expects one
-  # Left out: two tests in which the program cannot write files, including its counts.
-  # The longer timeout: half optimised and instrumented, a long test takes twice its time.
+  # Left out: two tests that prevent the program from writing files, because gcov's counts would be lost too.
+  # The time-out is longer because a long test takes twice its time with less optimisation and
+  # instrumentation.
   build coverage tests_unit tests_processes tests_pages &&
     run_ctest coverage --timeout 600 -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&
     python3 tests/static/coverage.py build/coverage | tee "$results/coverage.txt" || failure "no figures of coverage"

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double full_turn_deg = 360;
 
-/// Differs between programs that are both right, such as the version.
+/// True for signals that describe the program, such as its version: correct programs may differ in them.
 bool of_the_program(const SignalInfo& signal) {
   return signal.name.starts_with("version_") || signal.name == "dbc_hash";
 }

@@ -37,7 +37,7 @@ class Answers final : public drive::Onlooker {
     messages_.clear();
     t_s_ = 0;
   }
-  /// By message name, sorted.
+  /// The series of each message, sorted by name.
   [[nodiscard]] const std::map<std::string, Series, std::less<>>& messages() const { return messages_; }
   /// The series of "Message.signal"; null: unknown, or the flight had no answer of this message.
   [[nodiscard]] const Series* find(std::string_view message) const;

@@ -42,8 +42,8 @@ Result<void> write(const Reference& reference, const std::filesystem::path& file
 /// Error: one line, with the line of the file.
 Result<Reference> read_reference(const std::filesystem::path& file);
 
-/// Where a target deviates from the reference: the signal with the largest deviation in tolerances, and its
-/// first such instant; empty: nowhere.
+/// Where a target deviates from the reference: the signal with the largest deviation, in tolerances, and the
+/// first time of that deviation; empty: nowhere.
 std::string departure(const Reference& reference, const Answers& answers, double share = 1);
 
 /// The same for two flights of one target that must agree: within `steps` of each signal and `relative` to

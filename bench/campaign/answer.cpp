@@ -229,7 +229,7 @@ void answer(const RmsRatio& rule, const Runs& runs, const Runs& other, Answer& o
   Bars(out, missing == 0).at_most(ratio, rule.at_most, times);
 }
 
-// A run without a value counts as the worst, so nothing is missing here.
+// A run without a value counts as the worst, so no run is counted as missing.
 void answer(const Paired& rule, const Runs& runs, const Runs& other, Answer& out) {
   const PairedFraction paired = paired_fraction(runs, other, *rule.quantity, rule.at_us, rule.confidence);
   out.measured =

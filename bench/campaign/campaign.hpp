@@ -33,9 +33,9 @@ struct Sources {
   std::map<std::string, std::string> scenarios;
 };
 
-/// In one campaign: the list of its runs stays in memory.
+/// Limit of the runs in a campaign, because their list is kept in memory.
 inline constexpr std::uint64_t most_runs = 10'000'000;
-/// Each is a scenario of its own that is read before the first run.
+/// Limit of the variants in a campaign, because the scenario of each is read before the first run.
 inline constexpr std::uint64_t most_variants = 10'000;
 
 struct Campaign {

@@ -36,8 +36,8 @@ class Finishing {
     const std::scoped_lock lock(mutex_);
     if (--workers_ == 0) ended_.notify_one();
   }
-  /// Waits for a commit interval, or until the workers end, and returns what has arrived; none: no more to
-  /// come.
+  /// Waits for a commit interval, or until the workers end, and returns the runs that have finished; none: no
+  /// more will come.
   std::optional<std::vector<Finished>> take() {
     std::unique_lock lock(mutex_);
     const bool ended = ended_.wait_for(lock, commit_interval, [&] { return workers_ == 0; });
@@ -209,7 +209,7 @@ Result<Execution> execute(const Campaign& campaign, const Options& options, cons
   if (!written) return tl::unexpected(written.error());
   store->close();
   if (const auto error = finishing.error()) {
-    // An empty results file would block the next attempt.
+    // Removes a results file without runs, because it would block the next attempt.
     std::error_code ignored;
     if (progress.stored + progress.done == 0) std::filesystem::remove(options.file, ignored);
     return tl::unexpected(*error);

@@ -296,7 +296,7 @@ std::string subject(const Distribution& rule) { return fmt::format(" at {:g} s",
 std::string subject(const Paired& rule) {
   return fmt::format(" at {:g} s against {}", seconds(rule.at_us), rule.other);
 }
-/// For a rule with a window.
+/// The subject of a rule with a window.
 template <class Windowed>
 std::string subject(const Windowed& rule) {
   return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));

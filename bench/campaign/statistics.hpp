@@ -37,7 +37,7 @@ std::optional<double> time_within(std::span<const CurvePoint> curve, double thre
 /// it; a run that had ended by then, or has no finite value, is missing.
 struct RunDistribution {
   double rms = 0, mean = 0;          ///< of the finite values [SI]
-  double median = 0;                 ///< of an even number: the mean of the two middle values
+  double median = 0;                 ///< for an even number: the mean of the middle two
   double p90 = 0;                    ///< by nearest rank
   double below = 0;                  ///< fraction of all runs below a bound
   double rms_low = 0, rms_high = 0;  ///< 5 % and 95 % quantile of the RMS of `batch` runs

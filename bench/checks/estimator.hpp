@@ -60,7 +60,8 @@ struct Estimator {
                  const quantities::TrackSink& give) = nullptr;
   /// All its marks; a mark that never occurred has no times. The first, "answers", counts all answers.
   std::vector<Mark> (*marks)(const checks::Observations& seen) = nullptr;
-  /// Marks besides "answers" that signal no trouble, such as updates or the start of the estimator.
+  /// Marks that report normal events, such as an update or the start of the estimator. "answers" is not
+  /// listed.
   std::span<const std::string_view> plain_marks{};
   /// Result lines of a run for people. `algorithm`: the one that the target runs.
   std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,

@@ -29,8 +29,8 @@ std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::s
 /// Why timing with a bar [s] at a quantile cannot be judged; empty: it can. The bench must keep its own
 /// deadlines to judge those of the target.
 std::string unfit(const Evidence& evidence, double quantile, double bar_s);
-/// If the host delays the bench by more than this fraction of a bar, at the quantile of the bar, it may delay
-/// the target as much.
+/// The largest permitted lateness of the bench, as a fraction of the bar and at the bar's quantile. Beyond
+/// it, the host may have delayed the target as much.
 inline constexpr double lateness_share = 0.5;
 
 /// "max", "99 % quantile".

@@ -50,7 +50,7 @@ class TimeLine {
   void add(std::int64_t t_ns, std::int64_t value_ns);
 
   [[nodiscard]] std::int64_t stretch_ns() const { return stretch_ns_; }
-  /// By stretch from time 0 on; -1 for a stretch without a value.
+  /// The largest value of each stretch of time from 0 on; -1 for a stretch without a value.
   [[nodiscard]] const std::vector<std::int64_t>& largest_ns() const { return largest_ns_; }
 
  private:

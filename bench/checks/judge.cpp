@@ -58,7 +58,7 @@ std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule&
   const std::vector<Subject> subjects = rule.subjects();
   for (const estimators::Estimator* one : evidence.estimators) {
     std::string why = scenario::why_no_truth(scenario, one->facts);
-    // A quantity that is not an error may still need the truth, as for the time to go of each sample.
+    // Even a quantity that is not an error may need the truth, for example to sort samples by time to go.
     const auto is_untold = [&](const Subject& subject) {
       return subject.estimator == one->name && tracks_of(evidence, one->name, *subject.quantity).empty();
     };
@@ -132,7 +132,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
                               .measured = std::move(found),
                               .expected = std::string(expected)});
   };
-  // If others send under the names of bench or target, a check proves neither success nor failure.
+  // If another node sends with the ids of bench or target, a check can neither pass nor fail.
   const Outcome fault = evidence.seen.bus.intruded.empty() ? Outcome::fail : Outcome::not_measured;
   imply(causes_kind, fault, wrong_causes(evidence.seen), "each answer with time and counter of its cause");
   imply(groups_kind, fault, broken_groups(evidence.seen), "all messages of an answer, with one counter");

@@ -11,8 +11,8 @@ namespace canhil::checks {
 /// The implied check that fails when they were not.
 inline constexpr std::string_view senders_kind = "senders";
 
-/// Who else sent frames of the bench or repeated answers of the target: one line; empty: nobody. If anybody
-/// did, the measurements may not be the target's.
+/// Reports, in one line, other nodes that sent frames of the bench or repeated answers of the target; empty:
+/// none. If there was one, the measurements may not be the target's.
 std::string other_senders(const Observations& seen);
 
 }  // namespace canhil::checks

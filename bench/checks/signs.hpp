@@ -38,9 +38,9 @@ struct SignAt {
   std::int64_t t_us = 0;
   std::string text;
 };
-/// The first sign in [from, to]; none: there is none.
+/// The first sign in [from, to]; none: no sign then.
 std::optional<SignAt> first_in(std::span<const Sign> signs, std::int64_t from_us, std::int64_t to_us);
-/// The last sign after a time; none: there is none.
+/// The last sign after a time; none: no sign then.
 std::optional<SignAt> last_after(std::span<const Sign> signs, std::int64_t t_us);
 
 }  // namespace canhil::checks

@@ -15,8 +15,8 @@ inline constexpr int tolerated_fixes = 2;
 /// Seeker samples may be lost on purpose, but at least this fraction must be answered.
 inline constexpr double least_answered = 0.5;
 
-/// The longest time [us] between two answers that does not count as silence: `periods` periods of the
-/// answers, and at least one second in which an answer was due.
+/// Answers further apart than this time [us] count as silence: `periods` periods of the answers, but at least
+/// one period plus one second.
 constexpr double longest_wait_us(double period_us, double periods = 2) {
   constexpr double second_us = 1e6;
   return std::max(second_us + period_us, periods * period_us);

@@ -79,7 +79,7 @@ struct TimedWindow {
   scenario::Window window{};
   Histogram latency{};
   Histogram period{};  ///< from one arrival to the next
-  /// How long after its deadline each stimulus was on the bus: the delay that the host causes.
+  /// The time from the deadline of each stimulus until it was on the bus: the delay that the host causes.
   Histogram lateness{};
   /// The bench's own deviation from the period that the message answers: by stimulus, the time between two on
   /// the bus minus the time between their deadlines. A stimulus that stands for several due ones counts as

@@ -72,7 +72,7 @@ std::vector<WireBound> wire_bounds(const Observations& seen) {
   const TimingRecord& timing = seen.timing;
   if (timing.wire.rates.nominal == 0) return {};
   const std::vector<wire::Carrier> all = wire::carriers_of(timing.messages, timing.wire.fd);
-  // By priority.
+  // The carriers sorted by priority.
   std::map<std::uint32_t, wire::Carrier> carriers;
   for (std::size_t i = 0; i < timing.messages.size(); ++i) {
     const wire::Carrier& carrier = all[i];

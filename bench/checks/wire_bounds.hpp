@@ -23,7 +23,7 @@ struct WireBound {
   std::optional<std::int64_t> bound_ns{};  ///< none: the analysis finds no bound
 };
 
-/// By priority. Empty where the bit rate of the bus is not known.
+/// The bounds sorted by priority. Empty if the bit rate of the bus is unknown.
 std::vector<WireBound> wire_bounds(const Observations& seen);
 
 /// Why bounds are not valid for this run; empty: they are.

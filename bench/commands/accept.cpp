@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Arguments {
   std::string suites = data_folder("acceptance");
   std::string target = drive::quoted_word(own_folder() + "/hil-target");
@@ -106,7 +106,7 @@ ExitCode execute(const Arguments& arguments) {
     options.progress = progress;
     auto one = accept::accept(suite, options, interrupted);
     if (!one) return complain(one.error());
-    if (one->findings.empty()) continue;  // it has none of the selected families
+    if (one->findings.empty()) continue;  // none of the selected families is in this suite
     all.suites.push_back(std::move(*one));
     if (interrupted || (arguments.first && all.outcome() == checks::Outcome::fail)) break;
   }

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t most_threads = 1024;
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Arguments {
   std::string file;
   std::string out;

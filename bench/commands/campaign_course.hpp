@@ -1,4 +1,4 @@
-// How the runs of a campaign go on, as the live view shows it.
+// The progress of a campaign's runs for the live view.
 #pragma once
 
 #include <fmt/format.h>

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Arguments {
   std::string target = drive::quoted_word(own_folder() + "/hil-target");
   std::string estimator;  // empty: the one that the target reports or accepts

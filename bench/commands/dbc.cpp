@@ -20,7 +20,7 @@
 namespace canhil::commands {
 namespace {
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct LintArguments {
   std::vector<std::string> files;
   std::string sarif;

@@ -31,7 +31,7 @@ using doctor::Line;
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 constexpr std::int64_t listen_ns = ns_per_s;  // ten heartbeats
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Arguments {
   std::string bus;
   std::string loop;
@@ -70,7 +70,8 @@ Result<void> check_name(const std::string& option, const std::string& bus) {
   return {};
 }
 
-// None if the kernel does not know it, as for an embedded bus.
+// The kernel's data about the bus interface; none: the kernel does not know the bus, for example an embedded
+// one.
 std::optional<doctor::Interface> interface_of(const std::string& bus) {
   return is_local(bus) ? std::nullopt : doctor::find_interface(bus);
 }

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t most_threads = 1024, most_runs = 100'000;
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Shown {
   std::string json, html;
   bool markdown = false;

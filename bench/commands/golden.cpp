@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Arguments {
   std::string folder;
   std::vector<std::string> scenarios;

@@ -12,7 +12,7 @@
 
 namespace canhil::commands {
 
-/// As typed.
+/// The options of the live view as given on the command line.
 struct Live {
   std::optional<int> port;
   std::string address;
@@ -23,7 +23,7 @@ struct Live {
 /// --live, --live-address, --live-hold. `live` must outlive parsing. Gives --live.
 command_line::Option add_live(command_line::Command command, Live& live);
 
-/// A live view, or none: then it does nothing.
+/// A live view that is open, or none: then its functions do nothing.
 class OpenView {
  public:
   /// Opens the page, says on stderr where it is, and shows what has begun, there and on `others`. Error: one

@@ -29,7 +29,7 @@ namespace {
 
 constexpr double slowest = 1e-3, fastest = 1e3;
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct DecodeArguments {
   std::string log, dbc, format = "text", out{report::to_stdout};
   std::vector<std::string> only;

@@ -51,7 +51,7 @@ ExitCode rebuild_all(const std::vector<std::string>& paths) {
   return ExitCode::pass;
 }
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Sides {
   std::string a, b;
   std::vector<std::string> before, after;

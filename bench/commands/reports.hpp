@@ -16,7 +16,7 @@ struct Reports {
 /// --json, --junit, --html, --csv. `reports` must outlive parsing.
 void add_reports(command_line::Command command, Reports& reports);
 
-/// Whether they can be written and differ from all of `others`. Error: one line.
+/// Checks that the report files can be written and that none of them is in `others`. Error: one line.
 Result<void> check_outputs(const Reports& reports, std::vector<std::string> others);
 
 /// Removes reports of an earlier run, so that none can be mistaken for a report of this run, however it ends.

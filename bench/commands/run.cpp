@@ -33,7 +33,7 @@ namespace {
 
 constexpr std::size_t heap_bytes = 64 << 20;  // enough for a recording of several minutes
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Arguments {
   std::string scenario;
   std::string bus{local_prefix};    // a private one
@@ -272,7 +272,7 @@ ExitCode execute(const Arguments& arguments) {
       view->get()->show(live::flight_of(*scenario, *finished));
     else
       view->get()->show_ended(finished.error().message);
-    if (arguments.terminal) view->get()->close();  // the report comes to the terminal as it was
+    if (arguments.terminal) view->get()->close();  // the terminal is restored before the report is printed
   }
   if (!finished) return complain(with_controller(finished.error(), arguments.bus));
   if (arguments.realtime.wanted) {

@@ -16,7 +16,7 @@
 namespace canhil::commands {
 namespace {
 
-// As given on the command line.
+// The arguments as given on the command line.
 struct Arguments {
   std::string file;
   std::optional<std::uint64_t> bitrate;

@@ -18,8 +18,8 @@ void add_bus(command_line::Command app, int& code);
 /// if there is one.
 void add_diverge(command_line::Command app, int& code);
 
-/// `hil-bench golden record|check`: stores a target's answers in some flights, and later finds the first
-/// answer that changed. Exit code 1 if there is one.
+/// `hil-bench golden record|check`: stores a target's answers in some flights, and later reports the first
+/// answer that differs. Exit code 1 if an answer differs.
 void add_golden(command_line::Command app, int& code);
 
 /// `hil-bench conformance`: tests the protocol rules one by one. Exit code 1 if the target breaks one.
@@ -35,7 +35,7 @@ void add_schedulability(command_line::Command app, int& code);
 
 /// `hil-bench log|decode|replay|check`: commands for recorded frames.
 void add_log(command_line::Command app, int& code);
-/// `hil-bench log compare A B`: how far the stamps of two recordings of one bus are apart.
+/// `hil-bench log compare A B`: the differences between the stamps of two recordings of one bus.
 void add_log_compare(command_line::Command log, int& code);
 
 /// `hil-bench dbc lint|show|rules`: commands for DBC files of any project. Exit code 1 if lint rejects one.

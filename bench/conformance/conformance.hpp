@@ -1,4 +1,4 @@
-// Whether a target keeps the protocol: tests the rules with a program over its own embedded bus.
+// Tests whether a target keeps the protocol, with a program over its own embedded bus.
 #pragma once
 
 #include <atomic>

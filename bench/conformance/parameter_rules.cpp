@@ -86,7 +86,7 @@ std::string a_reset_brings_them_back(Subject& subject) {
   return "";
 }
 
-// What a parameter must do before the start.
+// Before the start, a parameter must accept all values of its range and reject others.
 std::string takes_its_range(Talk& talk, const Parameter& parameter) {
   const auto expect = [&](double value, ParameterStatus status, double in_force_then) -> std::string {
     const auto ack = talk.set(named(parameter), value);

@@ -28,7 +28,7 @@ struct Undisturbed {
   double time_us = 0;       ///< its time of validity
 };
 
-/// The target under test, and what is known of it.
+/// The target under test, with its known properties.
 struct Subject {
   Talk& talk;
   std::span<const Parameter> parameters{};                ///< all that it has; empty: unknown

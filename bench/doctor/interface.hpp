@@ -42,11 +42,11 @@ struct Interface {
   std::uint32_t mtu = 0;
   std::uint32_t queue_length = 0;
   std::optional<Controller> controller{};
-  std::optional<std::uint32_t> stamping{};  ///< SOF_TIMESTAMPING_*; none: the driver does not report it
+  std::optional<std::uint32_t> stamping{};  ///< SOF_TIMESTAMPING_*; none: not reported
 };
 
-/// Parses the payload of an RTM_NEWLINK message (from its ifinfomsg on). From a damaged message it takes what
-/// can be read.
+/// Parses the payload of an RTM_NEWLINK message (from its ifinfomsg on). Of a damaged message, the readable
+/// part is used.
 Interface read_link(std::span<const std::byte> message);
 
 /// Asks the kernel. None: there is no interface of this name.

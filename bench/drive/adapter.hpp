@@ -21,7 +21,7 @@ struct Adapter {
   double usb_mbitps = 0;                  ///< 12: full speed; 0: not USB
 };
 
-/// Of an interface of the kernel, or a bus that has none. `sys`: where sysfs is mounted.
+/// The adapter of a kernel interface; a bus without an interface has none. `sys`: where sysfs is mounted.
 Adapter adapter_of(const std::string& bus, const std::filesystem::path& sys = "/sys");
 
 /// "can0: usb, gs_usb at 1-4:1.0, 1d50:606f 'candleLight', serial 0042"

@@ -1,4 +1,4 @@
-// Which version of a file it was: its hash, size and date.
+// Identifies a version of a file: its hash, size and date.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace canhil::drive {
 
-/// A file as it lay on the disk.
+/// Identifies the content of a file on disk.
 struct FileIdentity {
   std::string sha256;           ///< of its bytes, 64 hexadecimal digits as sha256sum prints them
   std::uint64_t bytes = 0;      ///< its size

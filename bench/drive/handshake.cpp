@@ -29,7 +29,7 @@ std::string range_of(Estimator estimator, Parameter parameter) {
                      range->maximum);
 }
 
-// For hil-target; another target may offer others.
+// The algorithms of hil-target; another target may have others.
 std::string algorithms_of(Estimator estimator) {
   target::Device device;
   Outbox<1> out;

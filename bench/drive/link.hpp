@@ -53,7 +53,7 @@ class Link {
   /// Sleeps until a frame arrives (true), or until `deadline_ns` or a signal (false).
   bool wait_until(std::int64_t deadline_ns);
 
-  /// Frames that waited for room beyond their deadline for more than a period of Sync.
+  /// The number of frames that waited for room until more than a period of Sync after their deadline.
   [[nodiscard]] std::uint64_t late_in_queue() const { return late_in_queue_; }
 
   [[nodiscard]] const Port& port() const { return port_; }

@@ -1,5 +1,5 @@
-// Who looks on at a flight, and from where: its own thread may look at the same truth while the flight goes
-// on.
+// The interface of an onlooker, which observes a flight while it goes on; its own thread may read the
+// flight's truth.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,8 @@
 
 namespace canhil::drive {
 
-/// What is known of a flight when it begins. All that it refers to holds until Onlooker::landed().
+/// The facts about a flight when it begins. The objects that it refers to stay valid until
+/// Onlooker::landed().
 struct Departure {
   const scenario::Scenario& scenario;
   const world::FlightRecord& truth;

@@ -212,7 +212,7 @@ class Recording {
     }
     last_ns_ = entry.t_ns;
     if (manner_.lockstep) target_->closes_step(frame);
-    // Relative to its deadline, assuming that the first frame was on time.
+    // The lateness relative to the frame's deadline, assuming that the first frame was on time.
     const std::int64_t late_ns =
         std::max<std::int64_t>(entry.t_ns - first_ns_ - (t_us - first_us_) * 1000, 0);
     for (observe::Observer* observer : observers_)

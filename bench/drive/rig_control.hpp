@@ -1,4 +1,4 @@
-// Actions of faults besides frames: on the target's process and on the interface.
+// Fault actions that are not frames: they act on the target's process or on the bus interface.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The files that a run depends on, for who signs its report.
+// The files that a run depends on, for the provenance of its report.
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ struct RunFile {
   FileIdentity identity{};
 };
 
-/// As they lie on the disk now; those that cannot be read are left out. The contract's DBC is that which was
-/// built in: neither size nor date. `in_process`: no target is started.
+/// The files as they are on disk now; unreadable files are left out. The contract's DBC is the one compiled
+/// in, so it has neither size nor date. `in_process`: no target program is started.
 std::vector<RunFile> files_of(const scenario::Scenario& scenario, const Options& options, bool in_process);
 
 }  // namespace canhil::drive

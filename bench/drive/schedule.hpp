@@ -17,8 +17,8 @@ namespace canhil::drive {
 /// Faults of bus and target act before the nodes at that time.
 class Schedule final : public observe::Observer {
  public:
-  /// `keeper` closes every step, so it comes last among those due at the same time; when it is finished, so
-  /// is the schedule. `faults`: of the run; null: none.
+  /// `keeper` closes every step, so it is the last of the nodes due at the same time; the schedule ends when
+  /// it ends. `faults`: of the run; null: none.
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
            Rounding rounding = Rounding::as_on_the_bus, std::unique_ptr<faults::Faults> faults = nullptr)
       : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)) {
@@ -57,7 +57,7 @@ class Schedule final : public observe::Observer {
     return frames_;
   }
 
-  /// Until when a fault explains silence of the target.
+  /// The time until which a fault explains that the target is silent.
   [[nodiscard]] std::int64_t silent_until_us() const {
     std::int64_t until_us = std::numeric_limits<std::int64_t>::min();
     for (const auto& injector : injectors_) until_us = std::max(until_us, injector->silent_until_us());

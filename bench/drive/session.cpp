@@ -208,7 +208,7 @@ class Session {
             .wire = bus_.wire};
   }
 
-  // On behalf of a fault. If it fails, the target stays silent, which ends the run.
+  // Restarts the target for a fault. If that fails, the target stays silent, which ends the run.
   void restart_target(std::int64_t t_us) {
     target_->kill_it();
     target_.reset();
@@ -291,7 +291,7 @@ class Session {
   Ending ending_;
 };
 
-// Without the measurements that only a verdict needs.
+// Flies a run without the measurements that only a verdict needs.
 Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                    std::uint64_t run_index, Options options) {
   static const std::atomic<bool> never = false;

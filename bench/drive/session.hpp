@@ -27,7 +27,7 @@ enum class ClockKind : std::uint8_t { real_time, lockstep, simulated_wire };
 /// The clock of a run on a bus; `lockstep`: as requested.
 ClockKind clock_of(BusTime time, bool lockstep);
 
-/// The options of the command line or of a campaign.
+/// The options of a run, from the command line or from a campaign.
 struct Options {
   BusName bus{};
   BusOf bus_of{};
@@ -89,8 +89,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
 
 /// Runs a scenario for a campaign: against a Device in this process, in virtual time, with the random numbers
 /// of (seed, run_index). A pure function: the same arguments give the same bits on any thread. Error: the
-/// scenario cannot be run (configuration). A target that gives up is an ending, and so is a draw that cannot
-/// be flown.
+/// scenario cannot be run (configuration). If the target gives up, or the drawn flight cannot be flown, the
+/// result records this as the end of the run; it is not an error.
 Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                  std::uint64_t run_index, Rounding rounding = Rounding::as_on_the_bus);
 

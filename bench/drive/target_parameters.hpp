@@ -1,4 +1,4 @@
-// The parameters of the device that the bench holds, which are those of hil-target.
+// The parameters of the device, from which the bench learns those of hil-target.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct ParametersOf {
   std::vector<TargetParameter> parameters;
 };
 
-/// From the tables that the device itself goes by.
+/// Read from the parameter tables of the device itself.
 std::vector<ParametersOf> target_parameters();
 
 }  // namespace canhil::drive

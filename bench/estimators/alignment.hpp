@@ -34,7 +34,7 @@ inline constexpr std::array<const quantities::Quantity*, 10> alignment_told{
     &quantities::velocity_north,    &quantities::velocity_east,      &quantities::velocity_down,
     &quantities::velocity_norm};
 
-/// These quantities plus those of one estimator.
+/// The quantities above plus those of one estimator.
 template <std::size_t count>
 constexpr auto and_alignment_told(const std::array<const quantities::Quantity*, count>& own) {
   std::array<const quantities::Quantity*, alignment_told.size() + count> all{};

@@ -20,7 +20,7 @@ std::span<const Estimator* const> in(const scenario::Scenario& scenario);
 const Estimator* find(std::string_view name);
 /// The estimator whose samples have these columns (quantities::names); null if there is none.
 const Estimator* telling(std::string_view columns);
-/// The estimator that sends a message, one of the groups that its messages close; null if there is none.
+/// The estimator that sends a message which closes a group of its answers; null: no estimator does.
 const Estimator* sending(const MessageInfo& message);
 /// The estimator whose samples a campaign keeps for a scenario.
 const Estimator& of(const scenario::Scenario& scenario);

@@ -33,7 +33,7 @@ struct Column {
 };
 Result<Column> read_column(const std::string& file);
 
-/// A fault that is flown in each scenario that it fits.
+/// A fault that is flown in each scenario to which it applies.
 struct Row {
   std::string fault;   ///< a kind, or its name in a set
   std::string node{};  ///< the affected node; empty: the bus, or as the set defines

@@ -52,8 +52,9 @@ struct Undisturbed {
 };
 Undisturbed undisturbed(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// The response in a flight of the matrix. Signs that the undisturbed flight has at the same time are no
-/// response, and checks that fail in it are no violations; null: this is the undisturbed flight.
+/// The response in a flight of the matrix. Signs that also occur at the same time in the undisturbed flight
+/// do not count as a response, and checks that fail in it do not count as violations; null: this is the
+/// undisturbed flight.
 Response response_of(const scenario::Scenario& scenario, const drive::Run& run, const Undisturbed* before);
 
 }  // namespace canhil::fault_matrix

@@ -15,7 +15,7 @@ namespace canhil::fault_matrix {
 using Cells = std::vector<const Finished*>;
 Cells cells_of(const Results& results, std::size_t row, std::size_t column);
 
-/// From worst to best.
+/// The kinds of responses, from worst to best.
 inline constexpr std::array kinds_by_weight{Response::Kind::violated, Response::Kind::not_measured,
                                             Response::Kind::ended, Response::Kind::detected,
                                             Response::Kind::tolerated};

@@ -30,7 +30,7 @@ class BefallenNode : public nodes::Node {
   virtual void befall(std::vector<Frame>& frames, std::int64_t t_us) = 0;
   /// Lets the node transmit, and appends what remains after the fault.
   void sample(nodes::Transmission& out);
-  /// Whether a frame is of the node's sample group.
+  /// Whether a frame belongs to the node's sample group.
   [[nodiscard]] bool is_own(const Frame& frame) const { return message_of(frame) != nullptr; }
   /// Null: a message of another node.
   [[nodiscard]] const MessageInfo* message_of(const Frame& frame) const;

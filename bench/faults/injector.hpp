@@ -76,7 +76,7 @@ class Injector {
   virtual void transmit(std::vector<Frame>& /*out*/) {}
   /// Called when the run has ended, however it ended: releases what it holds.
   virtual void end() {}
-  /// Until when this fault explains silence of the target.
+  /// The time until which this fault explains that the target is silent.
   [[nodiscard]] virtual std::int64_t silent_until_us() const {
     return std::numeric_limits<std::int64_t>::min();
   }

@@ -26,7 +26,7 @@ struct When {
   }
 };
 
-/// What is affected: individual frames or samples, or everything within the time.
+/// What a fault affects: individual frames or samples (each), or the whole time (stretch).
 enum class Repeats : std::uint8_t { each, stretch };
 
 /// The keys from_s, to_s, for_s, each_s and, for `each`, every and percent.

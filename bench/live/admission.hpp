@@ -1,4 +1,4 @@
-// Who is answered: the rules of the page's server, apart from its sockets.
+// Which requests are answered: the rules of the page's server, apart from its sockets.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,15 @@ struct Asked {
 
 struct Answer {
   unsigned status = 200;
-  std::string_view what{};  ///< of 200: the path that is asked for; else why not, for people
+  std::string_view what{};  ///< status 200: the requested path; otherwise the reason
 };
 
 /// The name of the WebSocket's resource.
 inline constexpr std::string_view socket_path = "/live";
 
-/// A page of another site in the same browser can make it send requests here, under a name of its own even
-/// (DNS rebinding); it cannot choose what the browser says of where they come from.
+/// Decides whether to answer a request. A page of another site in the same browser can make the browser send
+/// requests here, even under its own host name (DNS rebinding). It cannot choose the origin that the browser
+/// states, so that origin is checked.
 Answer admit(const Admission& admission, const Asked& asked);
 
 /// 128 random bits in hexadecimal.

@@ -1,4 +1,4 @@
-// Somebody who is shown a flight while it happens: a page, a terminal.
+// Displays that show a flight while it happens: a page or a terminal.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ class Display {
   virtual void show(const Snapshot& snapshot) = 0;
   /// Does what it has to do for about so long: talks to browsers, looks at keys.
   virtual void run_for(std::chrono::milliseconds time) = 0;
-  /// Whether all that was shown has reached who looks on.
+  /// Whether all output has reached the viewers.
   [[nodiscard]] virtual bool settled() const { return true; }
 };
 

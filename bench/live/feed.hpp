@@ -10,7 +10,7 @@
 
 namespace canhil::live {
 
-/// Something that an observer sees, as a value.
+/// One call of an observer, stored as a value.
 struct Event {
   enum class Kind : std::uint8_t { transmitted, received, foreign, time_told, interface_changed };
   Kind kind = Kind::transmitted;
@@ -47,8 +47,9 @@ class Feed final : public observe::Observer {
     put({.kind = Event::Kind::interface_changed, .up = up, .t_ns = t_ns});
   }
 
-  /// Takes out what is there now, in order, and shows it; the engagement's epochs follow. Any frame that an
-  /// epoch belongs to came after it, so that none is missing. Returns how many events there were.
+  /// Removes the events that are queued now and passes them on in order, then copies the engagement's epochs.
+  /// An epoch is queued before the frames that belong to it, so none is missing. Returns the number of
+  /// events.
   std::uint64_t drain(observe::Observer& to, world::EngagementRecord* engagement);
 
   [[nodiscard]] std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }

@@ -22,7 +22,7 @@ constexpr std::int64_t settled_us = 1'500'000;
 double us(double ns) { return ns * 1e-3; }
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
-// Errors and statistics; of a flight whose truth is not known what was estimated.
+// Shown are errors and statistics; if the truth of the flight is unknown, estimates instead of errors.
 bool is_shown(report::Series::Kind kind, bool known) {
   using enum report::Series::Kind;
   return kind == statistic || kind == (known ? error : estimate);
@@ -80,8 +80,8 @@ void add_load(Flight& flight, std::span<const wire::BitLength> lengths, wire::Bi
   flight.load_now = whole.empty() ? 0 : wire::bus_load(whole.back(), 1.0, rates);
 }
 
-// When the last value counts that a check looks at; none: it says nothing of it, or looks at times, which are
-// complete at the end of the run alone.
+// The time of the last value that can change a check's result. None: the check has no such limit, or it
+// concerns timing, which is complete only at the end of the run.
 std::optional<std::int64_t> over_at_us(const scenario::Check& check) {
   const auto bar = check.rule->bar();
   if (!bar || bar->stretch.to_go_s || !check.rule->timed().empty()) return std::nullopt;
@@ -164,7 +164,7 @@ void FlightInProgress::interface_changed(bool up, std::int64_t t_ns) {
   each_watcher([&](observe::Observer& to) { to.interface_changed(up, t_ns); });
 }
 
-// What the older watcher saw last is in the newer one too, so nothing is lost between two updates.
+// The newer watcher has also seen the frames since the last update, so no frame is lost in the change.
 void FlightInProgress::move_window() {
   window_since_us_ = now_us();
   if (!recent_) return;
@@ -228,8 +228,8 @@ void FlightInProgress::take(std::string_view estimator, const quantities::Track&
   known->shown = estimates || !track.only_if_judged || !series.bars.empty();
 }
 
-// A pass over the whole flight, once for the checks that are over together: as many passes as the scenario
-// has checks, however long it is.
+// Checks whose last value has arrived are judged together in one pass over the whole flight. So there are at
+// most as many passes as checks, however long the flight is.
 void FlightInProgress::judge_what_is_over(Flight& flight) {
   const scenario::Scenario& scenario = departure_.scenario;
   std::vector<std::size_t> due;

@@ -13,7 +13,7 @@
 
 namespace canhil::live {
 
-/// What is known of it before it begins.
+/// The facts about a flight that are known before it begins.
 Flight flight_of(const scenario::Scenario& scenario, const drive::Options& options);
 
 /// The flight when it is over: the numbers of its report.
@@ -32,7 +32,7 @@ class FlightInProgress final : public observe::Observer {
   void time_told(std::int64_t t_ns) override;
   void interface_changed(bool up, std::int64_t t_ns) override;
 
-  /// Where epochs of the engagement go; null: there is none.
+  /// The record that receives epochs of the engagement; null: the flight has no engagement.
   [[nodiscard]] world::EngagementRecord* engagement() { return engagement_ ? &*engagement_ : nullptr; }
 
   /// Brings a flight up to now. `all_seen`: no frame was missed, so checks may be judged. Series end 1.5 s
@@ -40,7 +40,7 @@ class FlightInProgress final : public observe::Observer {
   void update(Flight& flight, bool all_seen, bool landed = false);
 
  private:
-  struct Known {  // a series, and whether it is shown
+  struct Known {  // a series, and whether the page shows it
     std::string_view estimator;
     const quantities::Quantity* quantity = nullptr;
     bool estimates = false, shown = false;
@@ -60,7 +60,8 @@ class FlightInProgress final : public observe::Observer {
   std::optional<world::EngagementRecord> engagement_{};  // a copy of what the flight adds to
   observe::LoadMeter load_;
   std::unique_ptr<observe::Watcher> whole_;  // of the whole flight, for times and checks
-  // Of the last seconds, for tracks: a window moves by half of what the older one has seen.
+  // Watchers of the last one to two window_us, for tracks: after each window_us the younger one replaces the
+  // older one.
   std::unique_ptr<observe::Watcher> recent_, next_recent_;
   std::int64_t window_since_us_ = 0;
   std::vector<Known> known_{};

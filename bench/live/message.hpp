@@ -9,12 +9,12 @@
 
 namespace canhil::live {
 
-/// What was sent of each series: of the next message only what came since is a part.
+/// The number of points of each series that were sent already; the next message contains only newer points.
 using Sent = std::map<std::string, std::size_t>;
 
 /// All of it.
 std::string whole_message(const Snapshot& snapshot);
-/// What is new; `sent` becomes what was sent with it. The end of a flight is always whole.
+/// The changes since `sent`, which is updated. At the end of a flight the message contains everything.
 std::string next_message(const Snapshot& snapshot, Sent& sent);
 
 }  // namespace canhil::live

@@ -1,4 +1,4 @@
-// The files of the page, built in.
+// The files of the page, compiled into the program.
 #pragma once
 
 #include "bench/report/embedded_file.hpp"

@@ -18,7 +18,7 @@ Look look_of(const std::optional<checks::Outcome>& outcome) {
                                              : Look::open;
 }
 
-// Not wider than its column, whatever the value.
+// Formats any value so that it fits its column.
 std::string number(std::optional<double> value) {
   return !value || !std::isfinite(*value) ? "-"
          : std::abs(*value) >= 1e6        ? fmt::format("{:.2e}", *value)

@@ -1,4 +1,4 @@
-// A snapshot as lines of a terminal, whatever its size.
+// Formats a snapshot as text lines that fit a terminal of any size.
 #pragma once
 
 #include <string>

@@ -52,7 +52,7 @@ std::string_view text_of(const report::EmbeddedFiles& files, std::string_view na
   return std::ranges::find(files, name, &report::EmbeddedFile::name)->text;
 }
 
-// In the page's own addresses the token is repeated.
+// The page, with the token inserted into the addresses that it refers to.
 std::string page_with(const std::string& query) {
   constexpr std::string_view mark = "$QUERY";
   std::string page(text_of(page_texts, "page"));
@@ -61,7 +61,7 @@ std::string page_with(const std::string& query) {
   return page;
 }
 
-// What connections ask of the server.
+// What the server's connections share.
 struct Site {
   Admission admission;
   std::string page;
@@ -83,7 +83,7 @@ class Place {
   Site* site_;
 };
 
-// A browser that looks on: one message at a time, the newest when the one before has gone.
+// A connected browser. It receives one message at a time; when that one is sent, the newest follows.
 class Spectator : public std::enable_shared_from_this<Spectator> {
  public:
   Spectator(tcp::socket socket, Place place) : place_(std::move(place)), stream_(std::move(socket)) {}
@@ -116,14 +116,14 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
       if (error) self->open_ = false;
     });
   }
-  // It was busy, and misses one.
+  // The browser is still receiving the previous message, so this one is not sent to it.
   void skip() {
     follows_ = false;
     if (std::chrono::steady_clock::now() - began_ > slowest_message) drop();
   }
 
  private:
-  // There is nothing to say to the server: whoever does is no page of ours.
+  // The page never sends data on the WebSocket. A client that sends any is not our page, and is disconnected.
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
       static_cast<void>(error);
@@ -144,7 +144,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
   bool open_ = false, follows_ = false;
 };
 
-// One request and its answer.
+// Handles one HTTP request.
 class Exchange : public std::enable_shared_from_this<Exchange> {
  public:
   using Look = std::function<void(std::shared_ptr<Spectator>)>;
@@ -227,7 +227,7 @@ class BeastServer final : public Server {
     acceptor_.bind(endpoint);
     acceptor_.listen();
     const tcp::endpoint local = acceptor_.local_endpoint();
-    // Where every address of the machine listens, its name is one that a browser elsewhere may know.
+    // If the server listens on every address of the machine, a browser elsewhere needs the host name.
     site_.admission = {
         .address = local.address().is_unspecified() ? asio::ip::host_name() : local.address().to_string(),
         .loopback = local.address().is_loopback(),
@@ -250,7 +250,7 @@ class BeastServer final : public Server {
   void show(const Snapshot& snapshot) override {
     if (!accepting_) accept();
     std::erase_if(spectators_, [](const auto& one) { return !one->open(); });
-    // Nothing is written for nobody; who comes is given all of it.
+    // With no spectators nothing is written; a spectator that connects later receives the whole snapshot.
     last_ = std::nullopt;
     whole_ = nullptr;
     if (spectators_.empty()) sent_.clear();
@@ -276,7 +276,7 @@ class BeastServer final : public Server {
   void accept() {
     accepting_ = true;
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-      if (error) {  // such as no descriptor left: tried again with the next snapshot
+      if (error) {  // for example no free descriptor; the next snapshot tries again
         accepting_ = false;
         return;
       }
@@ -291,7 +291,7 @@ class BeastServer final : public Server {
     });
   }
 
-  // Connections live in the handlers that io_ holds, and count in site_.
+  // The handlers in io_ own the connections, and the connections are counted in site_.
   Site site_;
   Text whole_;
   std::optional<Snapshot> last_;

@@ -10,18 +10,18 @@
 
 namespace canhil::live {
 
-/// What a browser can cost: so many connections, of which each has one message on its way at the most; who is
-/// slower misses those between. Whoever takes none for ten seconds is dropped.
+/// Limits of the load by browsers: the number of connections, and one message under way for each. A slower
+/// browser misses the snapshots in between. One that accepts no data for ten seconds is disconnected.
 inline constexpr std::size_t most_connections = 16;
 inline constexpr std::uint16_t usual_port = 8460;
 inline constexpr const char* loopback_address = "127.0.0.1";
 
-/// Port 0: any that is free. An address other than the loopback's has a token in its URL. Error: one line; no
-/// address of this machine, or the port is in use.
+/// Opens the page. Port 0: any free port. On an address other than loopback, the URL contains a token. Error:
+/// one line; the address does not belong to this machine, or the port is in use.
 class Server : public Display {
  public:
   static Result<std::unique_ptr<Server>> open(const std::string& address, std::uint16_t port);
-  /// Of the page.
+  /// The URL of the page.
   [[nodiscard]] virtual std::string url() const = 0;
 };
 

@@ -19,7 +19,7 @@ struct CheckLine {
   std::string measured{}, expected{};
 };
 
-/// Of a message of the target. Times [us].
+/// A message of the target. Times [us].
 struct TimingLine {
   std::string message;
   std::uint64_t count = 0;  ///< answers with a latency

@@ -8,8 +8,8 @@
 
 namespace canhil::live {
 
-/// Takes the terminal of standard output until it is destroyed. What is written to standard error meanwhile
-/// comes out then. Error: one line; standard output is no terminal.
+/// Takes the terminal of standard output until the display is destroyed. Text written to standard error
+/// meanwhile is printed then. Error: one line; standard output is not a terminal.
 Result<std::unique_ptr<Display>> open_terminal();
 
 }  // namespace canhil::live

@@ -20,12 +20,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto look_every = 25ms;      // at frames: the queue must not fill
 constexpr auto show_every = 250ms;     // at the most often
-constexpr int rest = 9;                // of its time the view works a tenth, however much there is to show
-constexpr auto longest_farewell = 1s;  // until who looks on has seen the end
+constexpr int rest = 9;                // pause / work: the view works for a tenth of its time at most
+constexpr auto longest_farewell = 1s;  // waits so long until viewers have received the end
 constexpr int low_nice = 10;
 
 void run_below_others() {
-  // Of this thread alone, as Linux has it.
+  // The nice value of this thread only: Linux has one for each thread.
   static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), low_nice));
 }
 void run_when_idle() {
@@ -62,7 +62,8 @@ void View::Tap::departs(const drive::Departure& departure) {
   view_.asked_ = true;
 }
 
-// What the departure refers to goes away: the view has to be done with it.
+// The objects that the departure refers to are destroyed after this call, so it waits until the view no
+// longer uses them.
 void View::Tap::landed() {
   std::unique_lock lock(view_.mutex_);
   view_.feed_.follow(nullptr);
@@ -122,7 +123,7 @@ void View::show_all() {
   for (const auto& display : displays_) display->show(snapshot_);
 }
 
-// What goes wrong in the view, such as no memory, is not the flight's.
+// An error in the view, such as lack of memory, must not end the flight.
 void View::run() {
   run_below_others();
   try {

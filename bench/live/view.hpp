@@ -19,19 +19,19 @@ namespace canhil::live {
 
 class View {
  public:
-  /// Begins to show `begun`. A flight in real time goes first on every CPU: the view runs when nobody else
-  /// wants to.
+  /// Begins to show `begun`. Flights in real time have priority on every CPU: the view's thread runs only
+  /// when a CPU is idle.
   View(std::vector<std::unique_ptr<Display>> displays, Snapshot begun);
   ~View();
 
-  /// For Options::onlooker: of one flight after the other. It must not outlive the view.
+  /// Pass this to Options::onlooker. It follows one flight after another, and must not outlive the view.
   [[nodiscard]] drive::Onlooker& onlooker() { return onlooker_; }
   /// Shows this in place of what it showed of the batch; of a flight when it is over. Any thread may call.
   void show(Batch batch);
   void show(Flight flight);
   /// Nothing was flown, and why.
   void show_ended(std::string why);
-  /// Shows the end to who looks on, for a second at most, and stops. The destructor does it too.
+  /// Shows the end to the viewers, for a second at most, and stops. The destructor calls this too.
   void close();
 
  private:
@@ -51,7 +51,7 @@ class View {
    private:
     View& view_;
   };
-  // What other threads ask of the view's.
+  // Requests from other threads to the view's thread.
   struct Requests {
     std::optional<drive::Departure> departure{};
     bool landing = false;
@@ -76,7 +76,7 @@ class View {
   Requests requests_;
   bool gave_up_ = false;
   std::atomic<bool> asked_ = false, closing_ = false;
-  // Of the view's thread alone.
+  // Only the view's thread uses snapshot_ and flight_.
   Snapshot snapshot_;
   std::optional<FlightInProgress> flight_{};
   std::thread thread_;

@@ -18,7 +18,7 @@ struct TimedValue {
   std::optional<double> sigma{};
 };
 
-/// By quantity, in order of time.
+/// The reported values of each quantity, in order of time.
 struct Answers {
   const Mapping* mapping = nullptr;
   std::map<const quantities::Quantity*, Spool<TimedValue>> values;

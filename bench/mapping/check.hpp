@@ -11,7 +11,7 @@
 namespace canhil::mapping {
 
 struct Remark {
-  /// For information, or something to fix.
+  /// note: for information only; warning: should be corrected.
   enum class Grade : std::uint8_t { note, warning };
   Grade grade = Grade::note;
   std::string rule;     ///< "saturates"
@@ -19,9 +19,10 @@ struct Remark {
   std::string what;     ///< one line
 };
 
-/// In the order of plays and hears: signals without a mapped value, or whose value is not used; ranges and
-/// steps compared with the node's values and the noise of its sensor (canhil's DBC: limits, SensorSigma);
-/// periods compared with the DBC's cycle times; messages of the target's senders that the bench does not use.
+/// Remarks in the order of plays and hears: signals without a mapped value, or whose value is not used;
+/// ranges and steps compared with the node's values and the noise of its sensor (canhil's DBC: limits,
+/// SensorSigma); periods compared with the DBC's cycle times; messages from the target's senders that the
+/// bench does not use.
 std::vector<Remark> remarks_on(const Mapping& mapping);
 
 /// The bus load of the mapping's messages, with their longest frames; messages without a cycle time are left

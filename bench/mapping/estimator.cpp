@@ -35,7 +35,7 @@ Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
   return Spool<Value>(sorted);
 }
 
-// Sorted by time: a cause that is answered later may be earlier.
+// The result is sorted by time of the cause, because answers may arrive in another order.
 Spool<TrackPoint> errors_of(const ReferenceQuantity& of, const Spool<TimedValue>& all, const Truth& truth) {
   Spool<TrackPoint> errors;
   for (const TimedValue& one : all) {

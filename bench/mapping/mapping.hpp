@@ -108,7 +108,7 @@ struct Mapping final : scenario::Foreign {
 
 /// Reads a named file. Error: one line.
 using ReadText = std::function<Result<std::string>(const std::string& file)>;
-/// From the disk.
+/// Reads a file from the disk.
 Result<std::string> read_from_disk(const std::string& file);
 
 /// The parameter group of a J1939 id (SAE J1939-21, 5.2): without priority and source address, and for a

@@ -7,7 +7,7 @@ namespace canhil::quantities {
 
 inline constexpr Unit degps{"deg/s", "_degps", world::units::deg}, mps2{"m/s^2", "_mps2"};
 
-/// Of the body relative to inertial space, in body axes.
+/// Rates of the body relative to inertial space, in body axes.
 inline constexpr Quantity rate_x{
     .name = "rate.x", .meaning = "error of the inertial rate about x", .unit = degps};
 inline constexpr Quantity rate_y{

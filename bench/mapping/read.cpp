@@ -87,7 +87,7 @@ class Reader {
     return found;
   }
 
-  // "MESSAGE.SIGNAL", where the message is one of several.
+  // Parses "MESSAGE.SIGNAL", for the case that several messages are possible.
   std::pair<const dbc::Message*, const dbc::Signal*> signal_of(Section& section, std::string_view key,
                                                                std::string_view text) {
     const std::size_t dot = std::min(text.find('.'), text.size());

@@ -1,5 +1,5 @@
-// What the bench needs to know of a kind of node. It is defined in the node's own file; all other code
-// iterates over the registry or over the nodes of a scenario.
+// The properties of a kind of node that the bench uses. They are defined in the node's own file; all other
+// code iterates over the registry or over the nodes of a scenario.
 #pragma once
 
 #include "bench/nodes/node.hpp"

@@ -161,7 +161,7 @@ class Seeker final : public Node {
   world::Engagement engagement_;
   world::ErroneousSeeker errors_;
   SeekerSettings config_;
-  world::Stream faults_;  // losses and jitter, a separate stream: they do not change measurements
+  world::Stream faults_;  // A separate stream for losses and jitter, so that they do not change measurements.
   bool guided_;
   std::int64_t period_us_;
   std::int64_t valid_us_ = 0;

@@ -49,7 +49,7 @@ class Backlog {
   void pause(bool more, bool overflowed, std::int64_t now_ns);
   /// The last pause left frames waiting.
   [[nodiscard]] bool more() const { return more_; }
-  /// Frames were waiting a moment ago: pause() must be called each time.
+  /// Frames were waiting a moment ago, so pause() must be called after each frame.
   [[nodiscard]] bool stands() const { return since_ns_.has_value(); }
 
   /// The longest flood so far, longer than any backlog of the bench's own making.

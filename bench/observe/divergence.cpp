@@ -13,12 +13,12 @@
 namespace canhil::observe {
 namespace {
 
-// The compared frames of one log, one after another.
+// The frames of one log that are compared, in order.
 class Answers {
  public:
   explicit Answers(LogReader reader) : reader_(std::move(reader)) {}
 
-  // The next one; none at the end.
+  // The next compared frame; none at the end of the log.
   Result<std::optional<LogEntry>> next() {
     for (;;) {
       auto entry = reader_.next();

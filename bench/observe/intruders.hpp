@@ -21,7 +21,7 @@ class Intruders final : public Observer {
       : messages_(messages), places_(messages), ours_(messages.size()) {}
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
-  /// By message name.
+  /// The number of frames from other senders, by message name.
   [[nodiscard]] const std::map<std::string_view, std::uint64_t>& frames() const { return frames_; }
 
  private:

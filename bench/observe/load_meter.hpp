@@ -50,7 +50,7 @@ class LoadMeter final : public Observer {
   void time_told(std::int64_t t_ns) override {
     if (by_ == LoadBy::virtual_time) second_ = static_cast<std::size_t>(t_ns / 1'000'000'000);
   }
-  /// For each second from time 0 on.
+  /// The length of all frames in each second, from time 0 on.
   [[nodiscard]] const std::vector<wire::BitLength>& lengths() const { return lengths_; }
   /// If the bus had more to carry so far than it can: a phrase that explains why nothing is received; empty:
   /// the reason is another.

@@ -1,4 +1,4 @@
-// The interface of those who watch a run.
+// The interface of objects that receive the events of a run.
 #pragma once
 
 #include <cstdint>

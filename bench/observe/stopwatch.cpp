@@ -272,7 +272,7 @@ Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us,
   return same == sent.rend() ? &*found : &*same;
 }
 
-// By now its echo has arrived, if it arrives at all.
+// Called so late that the echo of the oldest stimulus has arrived, if it arrives at all.
 void Stopwatch::forget_oldest(std::string_view name, Group& group) {
   const Stimulus stimulus = group.sent.front().stimulus;
   group.sent.pop_front();

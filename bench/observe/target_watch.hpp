@@ -13,13 +13,13 @@ class TargetWatch : public Observer {
  public:
   /// Whether any of its frames arrived since the last call.
   virtual bool heard() = 0;
-  /// Why the run is over; none: it is not.
+  /// Why the run is over; none: it goes on.
   [[nodiscard]] virtual std::optional<std::string> fault() const = 0;
   /// Whether a frame that is about to be sent closes a step; the end of that step is then awaited.
   virtual bool closes_step(const Frame& frame) = 0;
   /// Whether the awaited step is done.
   [[nodiscard]] virtual bool step_done() const = 0;
-  /// The awaited step, for people: "step 17".
+  /// The awaited step, as text for messages: "step 17".
   [[nodiscard]] virtual std::string step() const = 0;
 };
 

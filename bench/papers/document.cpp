@@ -74,7 +74,7 @@ Table table_of(Lines lines) {
   return table;
 }
 
-// "x 0 to 20" without its first word.
+// Parses the range of an axis, such as "0 to 20".
 std::pair<double, double> range_of(std::string_view words) {
   const auto [from, to] = cut(words, " to ");
   return {number_in(from), number_in(to)};

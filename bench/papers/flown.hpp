@@ -54,7 +54,7 @@ struct Results {
 
   /// The campaign of this name; it must exist.
   [[nodiscard]] const Flown& of(std::string_view name) const;
-  /// The curve of a campaign and a variant, both named by the words.
+  /// The curve of the campaign and the variant that the words name.
   [[nodiscard]] std::span<const campaign::CurvePoint> curve(
       Words& words, const campaign::Quantity& quantity = quantities::attitude_heading) const;
 };
@@ -65,7 +65,7 @@ void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double u
 /// The RMS over time [s], every `step`-th point.
 Curve over_time(std::span<const campaign::CurvePoint> points, double unit = 1, std::size_t step = 1);
 
-/// A figure of an answer, by its name in the report; NaN: there is none.
+/// A figure of an answer, by its name in the report; NaN: the answer has no such figure.
 double figure(const campaign::Answer& answer, std::string_view name);
 
 /// A campaign with the answers from its results. Error: results cannot be read, or runs are missing.
@@ -74,7 +74,7 @@ Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const cam
 /// The results file of a campaign in the folder.
 std::filesystem::path results_file(const FlyOptions& options, std::string_view campaign);
 
-/// Flies the runs that the folder lacks. None: stopped. Error: one line.
+/// Flies the runs that are missing in the folder. None: stopped early. Error: one line.
 Result<std::optional<Results>> fly(report::EmbeddedFiles campaigns, report::EmbeddedFiles scenarios,
                                    const FlyOptions& options, const std::atomic<bool>& stop);
 

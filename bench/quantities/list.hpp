@@ -68,7 +68,7 @@ inline constexpr Quantity innovation_nis{
     .nan_allowed = true,
     .once = "nis"};
 
-/// Of the error of a velocity update, NED.
+/// The magnitude of the three components of the velocity error.
 inline constexpr Quantity velocity_norm{
     .name = "velocity.norm", .meaning = "magnitude of the error of the velocity", .unit = mps};
 

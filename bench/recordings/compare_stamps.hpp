@@ -11,7 +11,7 @@
 
 namespace canhil::recordings {
 
-/// Of the frames of one id, b's stamp less a's.
+/// The differences of the stamps (b minus a) of the frames with one id.
 struct StampDifference {
   std::uint32_t id = 0;
   bool extended = false;

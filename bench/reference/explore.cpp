@@ -17,7 +17,7 @@ using Settings = std::map<std::string, std::string>;  // keys with their tables,
 
 /// How far branches go: a word, a key beside it, and one within that.
 constexpr std::size_t most_settings = 3;
-/// What a key may be of which only its name is known.
+/// The value that is tried for a key of which only the name is known.
 constexpr std::string_view any_value = "1";
 
 std::string path_of(const DescribedKey& key) {
@@ -95,7 +95,7 @@ class Explorer {
     waiting_.push_back(std::move(settings));
   }
 
-  /// Of a key among those found; none: nothing new is said of it.
+  /// The index in found_ of this key, which is added if it is new; none: nothing new was learnt about it.
   std::optional<std::size_t> place_of(const DescribedKey& key, bool is_there,
                                       const Description& description) {
     const auto same = [&](const DescribedKey& one) {
@@ -107,7 +107,8 @@ class Explorer {
     };
     const auto any = std::ranges::find_if(found_, same);
     const auto found = std::ranges::find_if(found_, alike);
-    // That it has been asked for more closely, as it is there, says no more than what was known.
+    // A reader may ask for a key that is present in more detail. Its entry from before stays, except that a
+    // missing meaning is filled in.
     if (is_there && any != found_.end()) {
       if (any->meaning.empty() && !key.meaning.empty()) {
         *any = key;
@@ -138,7 +139,7 @@ class Explorer {
     return all;
   }
 
-  /// A key whose words are worth telling: neither one, nor a long list of names.
+  /// The key, if its permitted words are worth trying one by one: at least two, but not a long list of names.
   [[nodiscard]] const DescribedKey* word_key(const std::string& path) const {
     constexpr std::size_t most_words = 12;
     const auto found = std::ranges::find_if(found_, [&](const DescribedKey& key) {
@@ -188,7 +189,7 @@ class Explorer {
     return conditions.empty() ? "" : fmt::format("Only with {}.", fmt::join(conditions, ", or "));
   }
 
-  /// Of a key that is asked for with an empty text: words of others with which it is not.
+  /// For a key that is read from an empty text: the words of other keys that make the reader ignore it.
   [[nodiscard]] std::string not_with(std::size_t place) const {
     std::map<std::string, std::vector<std::string>> words;
     for (const Tried& tried : tried_) {

@@ -26,7 +26,7 @@ using scenario::Section;
 constexpr std::int64_t longest_run_us = 86'400'000'000;
 constexpr std::string_view file = "reference";  // in messages that nobody sees
 
-/// What a reader of one section asks for.
+/// The keys that a reader of one section asks for.
 template <class ReadSection>
 std::vector<AskedKey> keys_of(ReadSection read, const std::string& given = "") {
   return explore(
@@ -79,7 +79,7 @@ Part target_part(const scenario::DbcVocabulary& contract) {
            .about = "A target that has a DBC of its own.",
            .keys = in_table(own, "target")}}};
   for (Table& table : part.tables)
-    for (AskedKey& one : table.keys) one.only.clear();  // of names of the DBC, which the target knows better
+    for (AskedKey& one : table.keys) one.only.clear();  // they name values of another DBC
   return part;
 }
 

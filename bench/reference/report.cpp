@@ -11,7 +11,8 @@ namespace canhil::reference {
 namespace {
 
 constexpr std::size_t most_words_shown = 12;
-/// Keys that so many tables of a part have alike stand once, in front.
+/// If at least this number of tables in a part have the same key, it is listed once, at the start of the
+/// part.
 constexpr std::size_t least_sharing = 4;
 
 std::string unit_of(const scenario::DescribedKey& key) {
@@ -59,7 +60,7 @@ std::string rows(const std::vector<std::string>& all) {
                      fmt::join(all, ""));
 }
 
-/// The rows that many tables of a part have.
+/// The rows that are equal in many tables of a part.
 std::vector<std::string> shared_rows(const Part& part) {
   std::vector<std::pair<std::string, std::size_t>> counts;
   for (const Table& table : part.tables) {

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 // All of these conditions must hold for a latency to count as worse.
 constexpr double largest_p = 0.01;  // of a test, divided by the number of tests
 constexpr double least_us = 2;      // increase of p50 or p99, larger than the resolution of two stamps
-// With one run per side, which does not show the scatter between runs:
+// Conditions with one run per side, which does not show the scatter between runs:
 constexpr double least_effect = 0.64;  // a 'medium' effect of Vargha and Delaney (2000)
 constexpr double tail_times = 2;       // factor for the fraction beyond the 99 % quantile
 constexpr double least_share = 1;      // increase of p50 or p99 as a fraction of itself
@@ -154,7 +154,7 @@ class Comparer {
     say("{:<8} latency of {}: {}", worse ? "worse" : "same", message, figures);
   }
 
-  // With one run per side.
+  // Compares the latencies of a message with one run per side.
   void latency_of(const std::string& message, const Json& before, const Json& after, double p_bar) {
     const Buckets a = buckets_of(before), b = buckets_of(after);
     const RankTest ranks = rank_test(a, b);

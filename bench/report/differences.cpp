@@ -99,7 +99,7 @@ void add(Facts& facts, const std::string& path, const Json& value) {
   }
 }
 
-// Several under one way, as of two adapters, are one value.
+// Several values with the same path, as of two adapters, are joined into one.
 Facts facts_of(const Json& report) {
   Facts all, facts;
   add(all, "", report.at("provenance"));

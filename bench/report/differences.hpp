@@ -1,4 +1,4 @@
-// In what runs differ, apart from what they measured: that may be why one is slower.
+// How runs differ in their conditions rather than in their measurements; this may explain why one is slower.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -117,7 +117,7 @@ Json object(const Series& series) {
   return json;
 }
 
-// By second; for a long run the maximum of each stretch of seconds.
+// The bus load of each second; for a long run the maximum of each stretch of seconds.
 Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   const checks::LoadLine line = checks::load_line(checks::whole_seconds(seen), rates);
   Json json{{"bitrate_bitps", rates.nominal},

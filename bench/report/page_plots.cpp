@@ -14,7 +14,7 @@ namespace {
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();  // null in the report
 
-// As many as there are times.
+// The numbers of an array, filled up with NaN to the number of times, `size`.
 std::vector<double> numbers(const Json& array, std::size_t size) {
   std::vector<double> values;
   for (const Json& value : array) values.push_back(value.is_null() ? not_there : value.get<double>());

@@ -39,7 +39,7 @@ void add_incidents(Rows& rows, const Json& object, std::string_view of) {
   }
 }
 
-// The object of a list is known by what it was, or by its bus.
+// An object in a list is labelled by its role, or else by its bus.
 const char* item_key(const Json& item) { return item.contains("role") ? "role" : "bus"; }
 std::string item_name(const Json& item) { return item.value(item_key(item), "?"); }
 Json without_name(Json item) {
@@ -53,7 +53,7 @@ void add_rows(Rows& rows, const std::string& name, const Json& value) {
     for (const auto& [key, inner] : value.items())
       add_rows(rows, name.empty() ? key : fmt::format("{}: {}", name, key), inner);
   } else if (value.is_array()) {
-    // Files and adapters are rows of their own, by what they were.
+    // Each file and adapter has its own rows, labelled by its role.
     if (!value.empty() && value.front().is_object()) {
       for (const Json& item : value)
         add_rows(rows, fmt::format("{}: {}", name, item_name(item)), without_name(item));
@@ -136,7 +136,7 @@ std::string split_table(const Json& report) {
              reported("compute_max_us"));
 }
 
-// How far each latency may be off, and why: half-widths of what makes it so.
+// The uncertainty of each latency, and its sources with their half-widths.
 std::string uncertainty_table(const Json& report) {
   if (!report.contains("uncertainty")) return "";
   const Json& uncertainty = report.at("uncertainty");

@@ -10,7 +10,7 @@
 namespace canhil::report {
 namespace {
 
-// Of the drawing, in its own units: the width of a phone's column.
+// The size of the drawing in its own units; the width is that of a phone's column.
 constexpr double width = 440, height = 230;
 constexpr double left = 66, right = 428, top = 24, bottom = 192;
 

@@ -5,7 +5,7 @@
 
 namespace canhil::report {
 
-/// As many digits as a picture shows.
+/// Rounds to the number of significant digits that a picture can show.
 inline double rounded(double value, int digits = 5) {
   if (value == 0 || !std::isfinite(value)) return value;
   const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - (digits - 1));

@@ -55,8 +55,8 @@ std::array<double, 5> half_widths_s(const StampConditions& conditions, double la
   const double resolution_s =
       conditions.hardware ? hardware_stamp_s : std::max(kernel_stamp_s, conditions.usb_poll_s);
   const double rate = conditions.hardware ? crystal_rate : kernel_clock_rate;
-  // The delay of a stamp lies between nothing and the bench's own lateness, of either stamp: their difference
-  // within that on both sides. Controllers and simulated wires stamp without the host.
+  // Each of the two stamps is delayed by 0 up to the bench's own lateness, so their difference is off by at
+  // most that lateness in either direction. Controllers and simulated wires stamp without the host.
   const double host_s = conditions.hardware || computed ? 0 : lateness_s;
   return {resolution_s / 2, rate * latency_s, host_s, conditions.bit_s, bucket_s / 2};
 }

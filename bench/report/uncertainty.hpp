@@ -14,7 +14,7 @@ namespace canhil::report {
 /// U = k u: of a normal distribution about 95 % lie within.
 inline constexpr double coverage_factor = 2;
 
-/// What makes a figure uncertain.
+/// The sources of uncertainty of a latency.
 enum class Influence : std::uint8_t {
   stamps,  ///< resolution of the two stamps
   clock,   ///< rate of the clock of both stamps
@@ -41,7 +41,7 @@ std::array<double, 5> half_widths_s(const StampConditions& conditions, double la
                                     double bucket_s);
 /// u of one influence [s]. The half-width of `stamps` is that of one stamp of two.
 double standard_s(Influence influence, double half_width_s);
-/// The root of the sum of the squares of all.
+/// The combined uncertainty: the root of the sum of the squares.
 double combined_s(const std::array<double, 5>& half_widths_s);
 
 /// A latency with its budget.
@@ -56,13 +56,13 @@ struct UncertainLatency {
   std::vector<UncertainFigure> figures;  ///< p50, p90, p99, p999, max
 };
 
-/// Of the messages that close a group of answers, in real time; else empty.
+/// The uncertainties of the messages that close a group of answers. Empty unless the run was in real time.
 std::vector<UncertainLatency> uncertainties(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// What the budget does not hold, a line each; empty: nothing that is known of.
+/// Known influences that the budget does not include, one line each; empty: none is known.
 std::vector<std::string> left_out(const StampConditions& conditions);
 
-/// In a text report: a line for each message. Empty where there are none.
+/// The part of the text report with a line for each message; empty: there are no such messages.
 std::string uncertainty_text(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

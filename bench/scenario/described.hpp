@@ -1,5 +1,5 @@
-// What readers ask of the sections that they read: the reference of keys is made of it (bench/reference), so
-// a range or a default stands in the reader alone.
+// Records which keys the readers ask for. The reference of keys (bench/reference) is generated from this
+// record, so each range and default is written only once, in its reader.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace canhil::scenario {
 
-/// The name of a key, and one sentence that says what it means.
+/// The name of a key, and its meaning in one sentence.
 struct Key {
   // NOLINTBEGIN(google-explicit-constructor): most keys are asked for by their name alone
   Key(const char* its_name) : name(its_name) {}
@@ -27,7 +27,7 @@ struct Key {
   std::string_view shown;  ///< in the reference, where the name itself depends on another key's value
 };
 
-/// One key as it was asked for.
+/// A key as a reader asked for it.
 struct DescribedKey {
   std::string table{};  ///< path of the table that it is in; empty: the file itself
   std::string name{};
@@ -46,7 +46,7 @@ struct Description {
   std::set<std::string> looked_for;  ///< paths of the keys that something depends on being there
 };
 
-/// While it lives, what this thread's new sections are asked for is described.
+/// During its lifetime, records what is asked for in sections that this thread creates.
 class Describing {
  public:
   explicit Describing(Description& description);

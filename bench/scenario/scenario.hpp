@@ -31,7 +31,7 @@
 
 namespace canhil::scenario {
 
-/// A file that a scenario was made of, beside its own.
+/// An input file of a scenario other than the scenario file.
 struct InputFile {
   std::string role;  ///< "recording", "faults"
   std::string path;

@@ -1,4 +1,5 @@
-// The file that sections are parts of, as toml++ has it. toml++ is heavy: for section.cpp alone.
+// The parsed file that sections belong to. It includes toml++, which is slow to compile, so only section.cpp
+// includes it.
 #pragma once
 
 #include <fmt/format.h>

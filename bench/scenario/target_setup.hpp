@@ -31,7 +31,7 @@ struct Parameter {
 /// For a target that receives nothing at the start (DbcVocabulary::foreign).
 struct OwnStart {
   std::int64_t settle_us = 0;   ///< from the start of target or bench to the first sample
-  std::int64_t silence_us = 0;  ///< limit of silence after which it counts as gone
+  std::int64_t silence_us = 0;  ///< a target silent for longer counts as gone
   std::string before, after;    ///< shell commands around the run: power, relays; empty: none
 };
 

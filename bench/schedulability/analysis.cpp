@@ -21,7 +21,7 @@ std::int64_t queued_within(const Stream& stream, std::int64_t interval_ns) {
   return stream.period_ns > 0 ? divide_up(interval_ns, stream.period_ns) : 1;
 }
 
-/// The message under analysis among those of higher priority, in ns.
+/// The message under analysis and the messages of higher priority, times in ns.
 struct Level {
   std::span<const Stream> higher;
   const Stream& own;

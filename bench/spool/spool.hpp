@@ -33,7 +33,7 @@ class SpoolFile {
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
   /// Enlarges the file; its contents stay, its address may change. Errors: std::bad_alloc.
   void grow();
-  /// Must be called before an access: now and then it releases all other pages. Thread-safe.
+  /// Must be called before each access; from time to time it releases all other pages. Thread-safe.
   void touch(std::size_t offset) const {
     const std::size_t block = offset / block_bytes;
     if (block != last_block_.load(std::memory_order_relaxed)) enter(block);

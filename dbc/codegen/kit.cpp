@@ -19,7 +19,7 @@ struct Group {
   std::vector<const Message*> messages;  // by id: the order of transmission
 };
 
-// Sorted by the id of the first message.
+// The groups, sorted by the id of their first message.
 std::vector<Group> groups_of(const Database& database) {
   std::vector<const Message*> sorted;
   for (const Message& message : database.messages) sorted.push_back(&message);

@@ -32,7 +32,7 @@ class Option {
   /// Takes exactly `count` values.
   Option words(int count) const;
   Option one_of(std::vector<std::string> words) const;
-  /// After parsing.
+  /// Valid only after parsing.
   [[nodiscard]] bool given() const;
 
  private:
@@ -57,7 +57,7 @@ class Command {
   Option add_number(const std::string& name, std::optional<std::uint64_t>& value, const std::string& help,
                     std::uint64_t least = 0,
                     std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
-  /// A flag that may have such a number: `usual` where it has none.
+  /// A flag that can be followed by such a number; without a number its value is `usual`.
   Option add_flag_or_number(const std::string& name, std::optional<int>& value, const std::string& help,
                             int usual, int least, int most) const;
   /// A decimal number from `least` to `most`; "nan" is rejected.
@@ -69,7 +69,7 @@ class Command {
   /// Sets a callback for the end of parsing if this command was given. Callbacks of subcommands run first.
   void on_given(std::function<void()> callback) const;
 
-  /// After parsing.
+  /// Valid only after parsing.
   [[nodiscard]] bool subcommand_given() const;
 
   [[nodiscard]] std::string name() const;

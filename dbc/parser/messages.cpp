@@ -37,7 +37,7 @@ bool names_no_node(const Reader& in) {
   return in.peek().kind == TokenKind::end || (in.peek().kind == TokenKind::word && !in.at_name());
 }
 
-// Separated by commas, in old files by blanks on one line.
+// Commas separate the receivers; in old files blanks separate them, on one line.
 void read_receivers(Reader& in, Draft& draft, Signal& signal) {
   Position at;
   const auto follows = [&] { return in.take_mark_if(',') || (in.at_name() && in.peek().at.line == at.line); };
@@ -81,7 +81,7 @@ Signal read_signal(Reader& in, Draft& draft) {
   return signal;
 }
 
-/// Whether a frame can have the id. False for the pseudo message too.
+/// True if a frame can have the id of the message; the pseudo message has no frame.
 bool check_id(Draft& draft, const Message& message, std::uint32_t written_id) {
   if (message.id == independent_signals_id) {
     draft.findings.add(

@@ -25,7 +25,7 @@ class Reader {
   const Token& take() { return tokens_[index_ + 1 < tokens_.size() ? index_++ : index_]; }
   /// The next token is the first on its line and a keyword that can begin a section.
   [[nodiscard]] bool at_section() const;
-  /// At ';', or where the section ends without one.
+  /// The next token is ';', or the section ends without one.
   [[nodiscard]] bool at_section_end() const {
     return at_mark(';') || at_section() || peek().kind == TokenKind::end;
   }
@@ -35,7 +35,7 @@ class Reader {
   [[nodiscard]] bool at_word(std::string_view word) const {
     return peek().kind == TokenKind::word && peek().text == word;
   }
-  /// At a token that word() accepts.
+  /// The next token is one that word() accepts.
   [[nodiscard]] bool at_name() const {
     return at_name_with_digit() || (peek().kind == TokenKind::word && !is_keyword(peek().text));
   }
@@ -102,7 +102,7 @@ constexpr std::uint64_t text_id(std::uint64_t id) {
   return id > last_standard_id && id <= last_extended_id ? id | extended_flag : id;
 }
 
-/// Both leave the section if the object does not exist.
+/// Each of these functions returns the object that the text names; it leaves the section if there is none.
 Message& message_of(Draft& draft, std::uint64_t raw_id, Position at);
 Signal& signal_of(Draft& draft, Message& message, std::string_view name, Position at);
 Node& node_of(Draft& draft, std::string_view name, Position at);

@@ -9,7 +9,7 @@ using wire::intermission_bits;
 
 constexpr int two_flags_bits = 12;
 
-/// From the start of a frame to the end of a bit, counted from 0.
+/// The time from the start of a frame to the end of a bit; bits count from 0.
 std::int64_t end_of_bit_ns(std::int64_t bit, const wire::BitLength& length, const wire::BitRates& rates) {
   const std::int64_t before_data = length.data > 0 ? length.nominal - wire::frame_end_bits : length.nominal;
   const std::int64_t data = std::clamp<std::int64_t>(bit + 1 - before_data, 0, length.data);

@@ -171,7 +171,8 @@ Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions opt
   if (joined || !is_local(bus)) return joined;
   options.fd = format != BusFormat::classic;
   auto hosted = host_local_bus(bus, options, std::move(rules));
-  // If another process hosts the bus by now, the reason for the failed join is more helpful.
+  // If hosting failed although the join found no host, reports why hosting failed; otherwise another process
+  // hosts the bus, and the reason for the failed join is more helpful.
   if (!hosted && joined.error().message.starts_with(nobody_hosts)) return tl::unexpected(hosted.error());
   if (!hosted) return joined;
   return format == BusFormat::fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);

@@ -20,7 +20,7 @@ std::size_t most_nodes(std::size_t wanted) {
   return std::min<std::size_t>(wanted, files.rlim_cur / 4);
 }
 
-// When the arrears of a node that is behind reach the limit, if it takes no frame until then.
+// The time at which the arrears of a node that is behind reach the limit if it takes no further frame.
 std::int64_t overdue_ns(const Peer& peer, const HubRules& rules) {
   return peer.behind_since_ns + rules.reading_limit_ns - peer.arrears_ns;
 }

@@ -32,10 +32,10 @@ using local::Peer;
 using local::Reading;
 
 constexpr int backlog = 64;                // nodes that wait to be accepted
-constexpr std::size_t ready_limit = 4096;  // own frames that the host has not yet read back
-constexpr int accept_every = 64;           // frames in a row after which new nodes get their turn
-// Nodes may send, join and leave without end, so one call handles at most this many; the rest keeps the
-// descriptor readable.
+constexpr std::size_t ready_limit = 4096;  // frames that the host has not yet received
+constexpr int accept_every = 64;           // reads in a row after which the hub looks for new nodes
+// Nodes may send, join and leave without end. One call therefore handles at most this many of these events;
+// the descriptor stays readable for the rest.
 constexpr int most_at_once = 256;
 constexpr int most_let_in = 4;  // admitting a node costs far more than a frame
 
@@ -74,8 +74,9 @@ class Hub final : public LocalHub {
     return SendOutcome::sent;
   }
 
-  /// Costs one system call if a frame waits. Looks for new nodes only after finding no frame twice in a row:
-  /// new nodes wake a host that waits in between, and a host that is only between two frames saves the call.
+  /// Costs one system call if a frame waits. Looks for new nodes only after two searches in a row without a
+  /// frame: a new node wakes a host that waits between them, and a host that only pauses between two frames
+  /// saves the system call.
   std::optional<Received> receive() override {
     if (wire_) run_wire();
     if (!ready_.empty()) return next_ready();  // older than all unread frames
@@ -172,8 +173,8 @@ class Hub final : public LocalHub {
     return behind_ == 0;
   }
 
-  /// Delivers one frame to every node that wants it. Only one frame can be pending: the next one is read when
-  /// none is.
+  /// Delivers one frame to every node that wants it. At most one frame is pending: the next frame is read
+  /// only after all nodes have taken the pending one.
   void deliver(Datagram& datagram, int origin) {
     for (Peer& peer : peers_) deliver_to(peer, datagram, origin);
     if (behind_ > 0) watch_all();
@@ -188,7 +189,8 @@ class Hub final : public LocalHub {
     pending_origin_ = origin;
   }
 
-  /// Reads the next frame, from each node in turn; returns the node's index.
+  /// Reads the next frame, from each node in turn; returns the sending node's socket, or no_origin without a
+  /// frame.
   int read_any(Datagram& datagram, Frame& frame) {
     for (std::size_t idle = 0; idle < peers_.size();) {
       if (next_ >= peers_.size()) next_ = 0;

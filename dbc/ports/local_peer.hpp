@@ -24,7 +24,7 @@ struct Peer {
   std::size_t wire_node = 0;
   IdSet wanted;
   std::int64_t behind_since_ns = 0;  ///< CLOCK_MONOTONIC, if it is behind
-  /// How long it has stalled the bus, minus worked_off_ns for each frame that it took since.
+  /// The time for which it has stalled the bus, minus worked_off_ns for each frame that it took afterwards.
   std::int64_t arrears_ns = 0;
 };
 

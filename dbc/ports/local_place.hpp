@@ -55,7 +55,8 @@ struct Process {
 Process process_behind(int socket);
 /// "pid 17 of uid 1000".
 std::string to_text(const Process& process);
-/// Only processes of the same user share a bus, root not excepted.
+/// True if the process belongs to this user. Processes of different users never share a bus, not even with
+/// root.
 bool is_of_this_user(const Process& process);
 
 }  // namespace canhil::local

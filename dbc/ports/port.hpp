@@ -33,7 +33,7 @@ struct Received {
   std::uint8_t bus = 0;  ///< index among several buses behind one port, see Port::bus_name()
 };
 
-/// What became of a frame given to Port::send().
+/// The outcome of Port::send() for a frame.
 enum class SendOutcome : std::uint8_t {
   sent,        ///< the bus has accepted the frame
   queue_full,  ///< no room: wait(port, WaitFor::room, ...), then try again

@@ -17,7 +17,7 @@ struct WireSettings {
   double bit_error_rate = 0;            ///< see BitErrors
   std::uint64_t seed = 1;               ///< of the errors
 
-  /// What these settings say of the wire.
+  /// The facts about the wire that follow from these settings.
   [[nodiscard]] WireFacts facts() const {
     return {.rates = rates, .urgent_first = order == QueueOrder::priority};
   }

@@ -1,5 +1,5 @@
-// Cyclic redundancy checks with parameters known only at run time: those of the "Rocksoft" model, which
-// describes the published CRCs (Williams, A Painless Guide to CRC Error Detection Algorithms, 1993).
+// Cyclic redundancy checks with parameters known only at run time, in the "Rocksoft" model that describes the
+// published CRCs (Williams, A Painless Guide to CRC Error Detection Algorithms, 1993).
 #pragma once
 
 #include <cstdint>

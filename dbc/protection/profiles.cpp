@@ -65,7 +65,8 @@ Settings short_header(const ProfileChoice& choice, DataId mode) {
   return settings;
 }
 
-/// A profile whose header fields are whole bytes: [byte, bytes] of each field; 0 bytes: not sent.
+/// A profile whose header fields are whole bytes: the first byte and the number of bytes of each field; 0
+/// bytes: not sent.
 struct Header {
   struct Field {
     unsigned byte = 0;
@@ -133,7 +134,7 @@ Settings profile_7(const ProfileChoice& choice, unsigned size) {
 struct Profile {
   std::string_view name;
   Settings (*settings)(const ProfileChoice&, unsigned size);
-  unsigned data_id_bits = 0;  ///< 0: a data id list in its place
+  unsigned data_id_bits = 0;  ///< 0: the profile uses a data id list
   bool nibble = false;
 };
 

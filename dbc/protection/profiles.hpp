@@ -13,7 +13,7 @@
 
 namespace canhil::protection {
 
-/// The parameters of a profile that depend on the message. A given place replaces the profile's own.
+/// The parameters of a profile that depend on the message. A place given here replaces the profile's default.
 struct ProfileChoice {
   std::uint32_t data_id = 0;
   std::vector<std::uint8_t> data_id_list;  ///< 16 entries, profiles 2 and 22 only

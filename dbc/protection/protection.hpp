@@ -18,7 +18,7 @@ namespace canhil::protection {
 /// Protection of one message. Immutable; only make() allocates or fails.
 class Protection {
  public:
-  /// Protection of a message with these settings. Error: that of validate().
+  /// Protection of a message with these settings. Error: as validate().
   static Result<Protection> make(Settings settings, const Subject& subject);
 
   [[nodiscard]] const Settings& settings() const { return settings_; }

@@ -1,4 +1,4 @@
-# Run at every build: writes the git revision to OUT, and touches it only when it changed.
+# Runs at every build: writes the git revision to OUT if it has changed.
 execute_process(COMMAND git describe --always --dirty --abbrev=12 --exclude=* WORKING_DIRECTORY ${SOURCE}
                 OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 if(failed)

@@ -12,12 +12,12 @@ struct Version {
   std::uint8_t major = 0, minor = 0, patch = 0;
 };
 
-/// The project's: project(canhil VERSION ...) in CMakeLists.txt.
+/// The version in project(canhil VERSION ...) of CMakeLists.txt.
 Version version();
 /// "0.2.0"
 std::string_view version_text();
 
-/// The git revision of the build, "-dirty" where files were altered; "unknown" outside a checkout.
+/// The git revision of the build, with "-dirty" if files were altered; "unknown" outside a checkout.
 std::string_view revision();
 
 /// What --version prints: "hil-bench 0.2.0 (revision 0123456789ab)".

@@ -22,7 +22,7 @@ struct Carrier {
   BitLength longest{};
 };
 
-/// By index in all_messages.
+/// The carrier of each message, by index in all_messages.
 using Carriers = std::array<Carrier, messages::all_messages.size()>;
 
 /// On classic CAN: each message travels in a frame of its own.

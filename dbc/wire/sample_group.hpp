@@ -19,7 +19,8 @@ class SampleGroup {
     dropped_previous  ///< stored; the previous group was incomplete and is discarded
   };
 
-  /// Stores one message that carries `counter`. A counter other than the pending group's starts a new group.
+  /// Stores one message that carries `counter`. If this counter differs from the pending group's, a new group
+  /// starts.
   template <class Message>
   Outcome put(const Message& message, std::uint8_t counter) {
     constexpr unsigned bit = bit_of<Message>();

@@ -66,10 +66,10 @@ struct Context {
   Answers& answers;
   Losses& losses;
   Errors& errors;
-  ConsistencyMonitor& consistency;  ///< must get every innovation; answers carry its verdict
+  ConsistencyMonitor& consistency;  ///< pass it every innovation; answers carry its verdict
 };
 
-/// Outcome of a step that can end a run.
+/// The outcome of a step; `fault` ends the run of the estimator.
 enum class Health : std::uint8_t { good, fault };
 
 /// One estimator behind the bus. No method allocates, throws or blocks.

@@ -11,20 +11,19 @@
 namespace canhil::target {
 
 /// Two control charts of exponentially weighted averages (Roberts, 'Control Chart Tests Based on Geometric
-/// Moving Averages', 1959), each S <- keep S + z with z of mean 0 and variance 1 if the filter is consistent,
-/// so that S has the variance 1/(1 - keep^2):
+/// Moving Averages', 1959). Each chart is S <- keep S + z. If the filter is consistent, z has mean 0 and
+/// variance 1, so S has the variance 1/(1 - keep^2):
 ///   size   z = (NIS - m)/sqrt(2 m), NIS chi-squared of m: detects errors larger than the covariance;
 ///   bias   z = each innovation over its sigma: detects innovations that are not white because of a lasting
 ///          error (a model's coefficient, a sensor's scale), even if raised noise makes NIS right again
 ///          (Mehra, 'On the Identification of Variances and Adaptive Kalman Filtering', 1970).
-/// A small NIS raises no alarm: such a filter errs less than it claims.
+/// A NIS below its mean raises no alarm: the errors are then smaller than the covariance states.
 class ConsistencyMonitor {
  public:
   void reset() { *this = {}; }
 
-  /// Takes an innovation that was compared with its covariance, whether used or gated: NIS, and each
-  /// component over its own sigma (at most nine, the same number in every call). A NaN counts as the largest
-  /// value.
+  /// Takes the innovation of a measurement that was used or gated: its NIS, and each component over its own
+  /// sigma (at most nine components, the same number in every call). A NaN counts as the largest value.
   void observe(double nis, std::span<const double> normalised) {
     const auto m = static_cast<double>(normalised.size());
     inconsistent_ = size_.alarmed((nis - m) / std::sqrt(2 * m));
@@ -32,15 +31,15 @@ class ConsistencyMonitor {
       inconsistent_ = bias_[i].alarmed(normalised[i]) || inconsistent_;
   }
 
-  /// Sets whether the estimator itself knows that its sigmas do not hold now.
+  /// Sets whether the estimator reports that its sigmas are not valid now.
   void distrust(bool distrusted) { distrusted_ = distrusted; }
 
   [[nodiscard]] bool degraded() const { return inconsistent_ || distrusted_; }
 
  private:
-  // The memory is `updates` long; a single update counts at most `largest` of its sigmas. The alarm begins
-  // when S is more than 6 of its standard deviations above zero (`either_side`: or below), and ends after 2 *
-  // updates in a row within 2 standard deviations.
+  // A control chart S with a memory of `updates` updates. The deviation z of a single update is limited to
+  // `largest` sigmas. The alarm begins when S exceeds 6 of its standard deviations (`either_side`: also below
+  // -6), and ends after 2 * `updates` consecutive updates with S within 2 standard deviations.
   template <int updates, int largest, bool either_side>
   class Chart {
    public:
@@ -60,9 +59,9 @@ class ConsistencyMonitor {
     bool alarm_ = false;
   };
 
-  // Four outliers in a row raise an alarm, three do not. 6 standard deviations are a mean NIS of 1.8 m for
-  // m = 3, and a mean innovation of 0.19 sigma. With consistent draws one or two in a million updates raise
-  // an alarm (5e6 draws each for m = 1, 2, 3 and 9).
+  // size_: four outliers in a row raise an alarm, three do not. S reaches 6 standard deviations at a mean NIS
+  // of 1.8 m for m = 3 (size_), and at a mean innovation of 0.19 sigma (bias_). With consistent draws one or
+  // two in a million updates raise an alarm (5e6 draws each for m = 1, 2, 3 and 9).
   Chart<20, 6, false> size_;
   std::array<Chart<500, 4, true>, 9> bias_{};
   bool inconsistent_ = false, distrusted_ = false;

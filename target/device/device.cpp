@@ -201,7 +201,7 @@ bool Device::select(Estimator estimator, Algorithm algorithm, Estimation& estima
   return true;
 }
 
-// All estimators start together: their answers depend only on the frames of this run.
+// Starts all estimators together, so that their answers depend only on the frames of this run.
 void Device::start() {
   // A bench that missed the answer repeats the command.
   const bool again = all_in(TargetState::running) && std::ranges::all_of(selected_, &Estimation::untouched);

@@ -29,7 +29,8 @@ class Device {
   /// Frames that are not for the target are ignored. Allocates nothing.
   std::span<const Frame> receive(const Frame& frame);
 
-  /// Heartbeats without a cause; the process sends them while no bench keeps the time base.
+  /// A heartbeat for each estimator, not caused by a frame; the process sends them while no bench keeps the
+  /// time base.
   std::span<const Frame> idle_heartbeat();
 
   /// The permitted values of an estimator's parameter; none: it has no such parameter.

@@ -131,8 +131,8 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   }
 
  private:
-  // Until the heading sigma is below this limit, the axes of reported tilts and velocity may be turned by any
-  // angle.
+  // While the heading sigma is above this limit, the axes of the reported tilts and velocity may be turned by
+  // any angle, so the adapter reports that the sigmas are not valid.
   void doubt_heading(Context& context) const {
     constexpr double known_sigma = 30 * deg;
     context.consistency.distrust(!(ia::uncertainty(state_).attitude(2, 2) <= known_sigma * known_sigma));
@@ -212,7 +212,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return refuse(fix, FixOutcome::future, context);
   }
 
-  // A fix that states a larger sigma than the settings is weighted by its own.
+  // The settings for a fix: its noise is the larger of the sigma that the fix states and the settings' sigma.
   [[nodiscard]] ia::Settings settings_for(const Fix& fix) const {
     ia::Settings filter = tuning_.filter;
     filter.fix_noise_horizontal = std::max(filter.fix_noise_horizontal, fix.horizontal_sigma);

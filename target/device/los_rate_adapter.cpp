@@ -220,8 +220,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // A group whose interval begins after the end of the last one follows lost groups. If it begins earlier,
-  // its increments do not match the step. The first group has no previous step.
+  // If the interval of a group begins after the end of the last group, groups between them were lost. If it
+  // begins before that end, its increments do not match the step. The first group has no previous step.
   los::Measurement measured(std::int64_t t_us) const {
     const auto& antenna = group_.get<SeekerAntenna>();
     const auto& angles = group_.get<SeekerAngles>();

@@ -12,7 +12,7 @@
 
 namespace canhil::target {
 
-/// What a parameter may be, in the unit of its name, and what it does.
+/// The range, default and effect of a parameter, in the unit that its name states.
 struct ParameterRange {
   double minimum = 0;
   double maximum = 0;
@@ -76,7 +76,8 @@ class ParameterTable {
  private:
   static constexpr std::size_t capacity = 64;
 
-  // The bus carries floats; the nearest float to 1e-9 is less than 1e-9.
+  // Limits are rounded like the values on the bus, which are floats: the nearest float to 1e-9 is less than
+  // 1e-9.
   static double on_the_wire(double limit) { return static_cast<double>(static_cast<float>(limit)); }
 
   [[nodiscard]] std::optional<std::size_t> find(messages::Parameter parameter) const {

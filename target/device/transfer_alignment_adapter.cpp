@@ -199,7 +199,7 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // The INS itself in a closed loop; in an open loop the INS corrected for each answer.
+  // In a closed loop the INS itself; in an open loop a copy, corrected by the estimated errors.
   const ta::Ins& best_estimate() {
     if (tuning_.filter.loop != ta::Loop::open) return state_.ins;
     corrected_ = ta::estimate(state_);

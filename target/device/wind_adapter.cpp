@@ -22,9 +22,9 @@ constexpr double deg = std::numbers::pi / 180;
 
 constexpr std::int64_t lead_limit_us = 200'000;     // a sample further ahead of the last Sync is rejected
 constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of navigation is an error
-// The sigmas assume that coefficient errors, redrawn every 50 ms, average out over many such intervals. The
-// gains after a start are too high for that: of 200 flights with errors of 20 %, 15 erred by more than
-// 5 sigma within 0.3 s.
+// For this time after a start the sigmas are reported as not valid. They assume that coefficient errors,
+// redrawn every 50 ms, average out over many such intervals, but the gains after a start are too high for
+// this averaging: of 200 flights with errors of 20 %, 15 erred by more than 5 sigma within 0.3 s.
 constexpr std::int64_t settling_us = 1'000'000;
 // Physical limits; below the limits of the bus, so that the bus can also carry invalid values.
 constexpr double ground_speed_most = 600;
@@ -48,8 +48,8 @@ std::optional<wind::Algorithm> algorithm_of(Algorithm algorithm) {
   }
 }
 
-// An angle [rad]. A raw value beyond half a turn becomes NaN: encoders without limits send such values for a
-// NaN.
+// An angle [rad]. A raw value beyond half a turn becomes NaN: an encoder that does not check limits sends
+// such a value for a NaN.
 double angle(double value_deg) {
   return std::abs(value_deg) <= 180.5 ? value_deg * deg : std::numeric_limits<double>::quiet_NaN();
 }
@@ -155,8 +155,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     }
   }
 
-  // Answers every complete group that is rejected or used with reservation; of the others, one per output
-  // interval.
+  // Answers each complete group that does not update the filter, or updates it outside the range of the model
+  // or with late or refused fins. Of the other groups it answers one per output interval.
   void on_navigation(Context& context) {
     const auto& horizontal = group_.get<GliderNavVelocityNE>();
     const auto& attitude = group_.get<GliderNavAttitude>();
@@ -263,7 +263,7 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
   wind::FinHistory fins_;
   SampleGroup<GliderNavVelocityNE, GliderNavAttitude, GliderNavRates, GliderNavVelocityD> group_;
   std::int64_t start_us_ = 0;
-  std::int64_t settled_us_ = 0;   // before this time the sigmas are those of a start and unreliable
+  std::int64_t settled_us_ = 0;   // the sigmas are not reliable before this time
   std::int64_t newest_us_ = 0;    // the newest time of validity of navigation
   std::int64_t answered_us_ = 0;  // the time of validity of the last answer
 };

@@ -18,7 +18,7 @@ constexpr std::int64_t period_ns = messages::TargetHeartbeat::info.cycle_time_us
 constexpr std::int64_t bench_silent_ns = 2 * period_ns;
 constexpr std::int64_t bench_gone_ns = 2'000'000'000;
 constexpr std::int64_t send_patience_ns = 50'000'000;
-constexpr int looks_every = 16;  // the clock is read after this many waits
+constexpr int looks_every = 16;  // waits between two readings of the clock
 // On a busy bus the target reads its clock after this many frames.
 constexpr int most_at_once = 256;
 
@@ -110,8 +110,8 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
       }
     }
     notes.interface_is(port.up());
-    // A wait without a frame ended at the report's time. If frames keep coming, the clock is read now and
-    // then.
+    // A wait without a frame ends when the report is due. While frames keep coming, the clock is read only
+    // after looks_every waits or most_at_once frames.
     const bool look = !heard || more || ++unlooked >= looks_every;
     const std::int64_t now = look ? now_ns() : 0;
     if (look) unlooked = 0;

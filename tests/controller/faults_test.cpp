@@ -111,7 +111,7 @@ TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
   set_up_on_wire();
   const Outcome outcome = run_with([] { set_interface("can0", false); });
   EXPECT_FALSE(outcome.report["ending"]["completed"]);
-  // Silent since its last frame, which it sent just before the queue was full.
+  // The bench has been silent since its last frame, which it sent just before the queue was full.
   EXPECT_THAT(outcome.ended.out, testing::ContainsRegex("fail: .*the bus took no frame since t="));
   EXPECT_THAT(outcome.incidents(), Contains("error passive"));
   EXPECT_EQ(outcome.ended.code, 1);
@@ -119,7 +119,7 @@ TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
 
 TEST(Interface, AdapterPulledAndPluggedInAgainOnTheBenchsSideIsSurvived) {
   set_up_on_wire();
-  run("rmmod canhil_wire");  // it does not follow a controller that goes
+  run("rmmod canhil_wire");  // it does not notice when a controller disappears
   const Outcome outcome = run_with([] {
     run("echo 1 >/sys/class/net/can1/device/remove && echo 1 >/sys/bus/pci/rescan && "
         "ip link set can1 up type can bitrate 1000000");

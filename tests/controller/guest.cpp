@@ -33,7 +33,7 @@ void set_up(const std::string& can0_options, const std::string& can1_options) {
 }
 
 void set_up_on_wire(const std::string& can0_options, const std::string& can1_options) {
-  // It learns of the controllers as they are set up.
+  // canhil_wire attaches to the controllers when they are set up, so it must be loaded before.
   run("ip link set can0 down && ip link set can1 down && "
       "{ [ -d /sys/module/canhil_wire ] || insmod \"$CANHIL_WIRE\"; }");
   wire("can0 sound");
@@ -76,7 +76,7 @@ void wire(const std::string& what) {
 }
 
 Target::Target() {
-  // Its heartbeat is not awaited: the bench does.
+  // Does not wait for the target's heartbeat, because the bench does.
   const Ended started = shell(fmt::format("{} --bus can0 >{} 2>{} & echo $!", HIL_TARGET,
                                           scratch("target.out"), scratch("target.err")));
   pid_ = started.out;

@@ -60,7 +60,8 @@ setsid timeout -k 5 "$limit" qemu-system-x86_64 -nodefaults -no-user-config -dis
 qemu=$!
 wait $qemu
 ended=$?
-# If QEMU did not start, nobody has opened the pipes for writing (for both ways: does not wait for the other side).
+# If QEMU did not start, nobody has opened the pipes for writing, and reading would block. Opening them for both
+# directions does not block.
 : <>"$dir/out" <>"$dir/err"
 wait $out $err
 if [ -s "$dir/status" ]; then exit "$(cat "$dir/status")"; fi

@@ -28,14 +28,14 @@ BLOCK = re.compile(
 
 
 def of_any_host(line):
-    """The line without what differs from host to host: the seconds that a run took, the revision, the fingerprint of a new key."""
+    """The line without parts that differ between hosts: the duration of a run, the revision, the fingerprint of a new key."""
     line = re.sub(r"\bin \d+(\.\d+)? s\b", "in T s", line.rstrip())
     line = re.sub(r"revision [0-9a-f]+(-dirty)?", "revision REVISION", line)
     return re.sub(r"SHA256:\S+", "SHA256:KEY", line)
 
 
 def selected(output, pattern):
-    """The lines in which the pattern is found, '...' for each stretch of others."""
+    """The lines that contain the pattern; '...' replaces each group of other lines."""
     if not pattern:
         return output
     lines = []
@@ -56,7 +56,7 @@ def scratch_tree(folder, build):
 
 
 def check(page, build, write):
-    """The complaints about a page; with write the page is brought up to date and none is left but of commands that failed."""
+    """The complaints about a page. With `write` the page is updated, and only failed commands remain as complaints."""
     text = page.read_text()
     complaints, pieces, end = [], [], 0
     # Not in /tmp: tests/vcan/run.sh may run a command in a guest, which has a /tmp of its own.

@@ -38,7 +38,7 @@ def _blocks(lines: list[str]):
 
 
 def _without_remark(line: str) -> str:
-    """Without what a shell does not read: `# ...`."""
+    """The line without its shell comment: `# ...`."""
     quoted = re.sub(r"'[^']*'|\"[^\"]*\"", lambda text: "x" * len(text[0]), line)
     remark = re.search(r"(^|\s)#", quoted)
     return line[: remark.start()].rstrip() if remark else line.rstrip()

@@ -18,7 +18,7 @@ class Rule:
     pages: str = ""  # a regular expression; empty: any
 
 
-# Names that stand for what a reader has, in the words of the documentation.
+# Placeholders in the documentation, and what they are replaced by here.
 PLACEHOLDERS = (
     (r"\bSCENARIO\b", "bench/flights/transfer_alignment_quick.toml"),
     (r"\bFILE\.dbc\b", "dbc/canhil.dbc"),
@@ -36,7 +36,7 @@ FEW_RUNS = ((r"$", " --runs 2"),)
 ANY_PORT = (r"--live\b( \d+)?", "--live 0")  # tests run side by side
 
 RULES = (
-    # What cannot be run here, or is run elsewhere.
+    # Commands that cannot be run here, or that another test runs.
     Rule(r"", pages=r"docs/tutorial\.md$", why_not="is run for what it prints: tests/docs/outputs.py"),
     Rule(r"^bash bench/demo\.sh", why_not="installs packages and builds: .ci/run starts from there"),
     Rule(r"^bash tests/run\.sh", why_not="is what runs this test"),
@@ -54,11 +54,11 @@ RULES = (
     Rule(r"hil-bench accept", why_not="minutes: tests/processes/accept"),
     Rule(r"hil-bench faults |faults/violation", why_not="minutes: tests/processes/faults"),
     Rule(r"--live-hold|--tui", why_not="waits for Ctrl-C, needs a terminal: tests/processes/live"),
-    # Hardware: everything up to the interface, which is not there.
+    # Commands for hardware run until they open the interface, which does not exist here.
     Rule(r"hil-bench doctor .*can\d", codes=(0, 1), says="nocan0", instead=((r"--cpu \d", "--cpu 0"), (r" --seconds \d+", ""), (r"$", " --seconds 1"))),
     Rule(r"^sha256sum ", why_not="of the reports of a run on hardware"),
     Rule(r"^hil-(bench|target) .*\bv?can\d", codes=(2,), says=NO_INTERFACE, instead=((r"--cpu \d", "--cpu 0"),)),
-    # As long as a test may take.
+    # Commands that do not end by themselves; they run as long as a test may take.
     Rule(r"hil-bench run .*--live\b", codes=PASSES, instead=(ANY_PORT, *IN_VIRTUAL_TIME)),
     Rule(r"hil-bench campaign .*--live\b", codes=BARS, instead=((r"\bFILE\b", "bench/monte_carlo/quick.toml"), ANY_PORT, *FEW_RUNS)),
     Rule(r"hil-bench bus ", codes=(124,), instead=((r"^", "timeout -s INT -k 5 1 "), (r"local:\w+", "local:documented"))),

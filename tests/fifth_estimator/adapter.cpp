@@ -70,7 +70,7 @@ class BaroInertialAdapter final : public TunedAdapter<baro_inertial::Settings> {
       const auto& told = group_.get<BarometerHeight>();
       const At<double> fix{unwrap_us(told.time_of_validity_us, context.now_us), counter, told.height_m};
       if (fix.t_us < imu_.now_us()) {
-        ++context.losses.late;  // kept simple: no history to apply it to
+        ++context.losses.late;  // kept simple: no history, so a late fix is lost
       } else if (fix.t_us == imu_.now_us()) {
         return answer(fix, context);
       } else if (!pending_.push(fix)) {

@@ -13,7 +13,7 @@ import copied_tree  # noqa: E402
 
 HERE = "tests/fifth_estimator"
 
-# (registry, the line that is there, the line that comes after it)
+# (registry, an existing line in it, the line to insert after it)
 LINES = [
     ("bench/estimators/registry.cpp", '#include "messages/canhil.hpp"', f'#include "{HERE}/baro_inertial.hpp"'),
     ("bench/estimators/registry.cpp", "    &los_rate,", "    &baro_inertial,"),

@@ -1,4 +1,4 @@
-// What a baro-inertial height alone tells.
+// Quantities that only a baro-inertial height filter reports.
 #pragma once
 
 #include "bench/quantities/list.hpp"

@@ -20,7 +20,7 @@ cache=${XDG_CACHE_HOME:-${HOME:-/root}/.cache}/canhil/fresh_machine
 minimal=$cache/bookworm-minbase.tar
 mkdir -p "$cache"
 
-# Host-side proxies of apt are for debootstrap, which knows only the environment.
+# debootstrap reads proxies only from the environment, so apt's proxies are exported for it.
 eval "$(apt-config shell apt_http_proxy Acquire::http::Proxy apt_https_proxy Acquire::https::Proxy)"
 export http_proxy="${http_proxy:-${apt_http_proxy:-}}" https_proxy="${https_proxy:-${apt_https_proxy:-}}"
 [[ -n "$http_proxy" ]] || unset http_proxy
@@ -49,7 +49,8 @@ trap cleanup EXIT
 chmod 755 "$machine"
 tar -C "$machine" -xf "$minimal"
 
-# apt as on this machine, and the names and certificates it needs to reach its sources.
+# apt is configured as on this machine, and gets the host names and certificates that it needs to reach its
+# sources.
 rm -rf "$machine/etc/apt"
 cp -aL /etc/apt "$machine/etc/apt"
 cp -aL /usr/share/keyrings/. "$machine/usr/share/keyrings/"

@@ -10,7 +10,7 @@ namespace {
 
 using namespace canhil;
 
-// The name is a part of the message as it was typed.
+// The error message must contain the name exactly as typed.
 void expect_one_line(const Error& error, std::string_view name) {
   fuzz::expect(error.message.find(name) != std::string::npos &&
                error.message.find("expected") != std::string::npos);

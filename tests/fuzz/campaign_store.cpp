@@ -150,7 +150,7 @@ void damage(const fs::path& file, const Sound& sound, std::span<const std::uint8
   fuzz::expect(*report == sound.report);
 }
 
-// Four runs: outcome and number of samples, then the numbers as bytes; many byte values stand for NaN or
+// Four runs: outcome and number of samples, then the numbers as bytes; many byte values are mapped to NaN or
 // infinity.
 void fill(const fs::path& file, const Sound& sound, std::span<const std::uint8_t> script) {
   const auto byte = [&]() -> std::uint8_t {

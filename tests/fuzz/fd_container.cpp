@@ -23,7 +23,7 @@ std::vector<Frame> packed(std::span<const Frame> frames) {
   canhil::FdPacker packer;
   std::vector<Frame> wire;
   for (const Frame& frame : frames) packer.pack(frame, [&](const Frame& out) { wire.push_back(out); });
-  // A frame of no container sends off what was begun.
+  // A frame that belongs to no container causes the started containers to be sent.
   packer.pack({.id = canhil::max_standard_id, .size = 1}, [&](const Frame& out) { wire.push_back(out); });
   wire.pop_back();
   return wire;

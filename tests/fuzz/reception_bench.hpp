@@ -24,7 +24,7 @@ struct Spoil {
   std::uint8_t flags = 0;
   std::uint8_t which = 0;  ///< the message of the group, modulo their number
   std::uint8_t place = 0;  ///< byte of its data, modulo their number
-  std::uint8_t bits = 0;   ///< turned over there, before counter and CRC are written
+  std::uint8_t bits = 0;   ///< these bits are inverted before counter and CRC are written
 
   static Spoil read(Script& script) {
     const std::uint8_t first = script.byte();
@@ -94,7 +94,7 @@ class Bench {
         break;
     }
   }
-  /// What comes to its aid, valid at another time.
+  /// Sends the estimator's aiding measurement, valid at another time.
   void aid(messages::Estimator estimator, const Spoil& spoil, std::int64_t valid_us, bool gps) {
     switch (estimator) {
       case messages::Estimator::transfer_alignment:

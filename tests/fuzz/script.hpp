@@ -18,7 +18,7 @@ class Script {
     rest_ = rest_.subspan(1);
     return first;
   }
-  /// As many bytes as there are.
+  /// Takes `count` bytes, or all that are left if fewer.
   std::span<const std::uint8_t> bytes(std::size_t count) {
     const auto taken = rest_.first(std::min(count, rest_.size()));
     rest_ = rest_.subspan(taken.size());

@@ -43,7 +43,7 @@ Prepared prepare() {
   return {std::move(*scenario), std::move(*truth)};
 }
 
-// As a session collects them.
+// The observations as a session collects them.
 checks::Observations collected(observe::Monitor& monitor, const observe::BusWatch& bus,
                                const observe::Intruders& intruders, const observe::LoadMeter& load,
                                const drive::Link& link) {

@@ -23,7 +23,7 @@ SUITES = sorted(file.parent for file in (ROOT / "bench/acceptance").glob("*/camp
 
 
 def failed_metrics(suite, seed, folder):
-    """([metric: measured; expected], how many had a bar) of one suite's campaign with a seed."""
+    """([metric: measured; expected], number of metrics with a limit) of a suite's campaign with this seed."""
     copy = Path(folder, "acceptance", suite.name)
     shutil.rmtree(copy, ignore_errors=True)
     shutil.copytree(suite, copy, ignore=shutil.ignore_patterns("reference"))

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 class DoesNotBuild(Exception):
-    """The first line of what the compiler said."""
+    """The first line of the compiler's error output."""
 
 
 def ask(folder, *words):
@@ -45,13 +45,14 @@ def compilations(folder):
 
 @functools.lru_cache(maxsize=None)
 def linking(folder):
-    """The words of the command that links the target."""
+    """The command line that links the target, as a list of words."""
     last = [line for line in ask(folder, "commands", "hil-target").splitlines() if "-o hil-target" in line][-1]
     return shlex.split(re.sub(r"^: && (.*?) && :$", r"\1", last))
 
 
 def source_again(place, file, source):
-    """What to compile in place of `source`: the file of `place`, or, of sources compiled as one, the list that names it."""
+    """The file to compile in place of `source`: the changed file in `place`, or, if sources are compiled as one, a changed
+    list that names it."""
     if Path(source) == ROOT / file:
         return place / file
     if "/Unity/" not in source:
@@ -88,7 +89,7 @@ def compile_again(folder, place, file, name):
 
 
 def linked(folder, place, file):
-    """The target in `place`, with the file of `place` in the project's place."""
+    """Builds the target in `place`, with the changed file from there in place of the project's file."""
     names = sorted(readers(folder).get(ROOT / file, ()))
     if not names:
         raise DoesNotBuild(f"{file}: no object of the target reads it")
@@ -97,7 +98,7 @@ def linked(folder, place, file):
     words = [str(again.pop(word)) if word in again else word for word in words]
     target = place / "hil-target"
     at = words.index("-o")
-    # What was compiled again comes before the libraries that hold the old ones: the linker takes what it meets first.
+    # The recompiled objects precede the libraries with the old ones, because the linker uses the first definition.
     words[at:at + 2] = [str(one) for one in again.values()] + ["-o", str(target)]
     finished = subprocess.run(words, cwd=folder, capture_output=True, text=True)
     if finished.returncode != 0:

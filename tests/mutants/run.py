@@ -43,7 +43,7 @@ LONGEST_S = 900  # of the suites together
 
 CAUGHT, SURVIVED, NO_BUILD = "caught", "survived", "does not build"
 
-# What takes the least time comes first; times come last, and by themselves.
+# The fastest suites come first. Timing suites come last and run alone.
 SINGLE_FLIGHTS = ("algorithms", "parameters", "flags and states", "protocol")
 CAMPAIGNS = ("errors", "honesty")
 TIMES = ("timing",)
@@ -51,11 +51,11 @@ SUITES = ("several", "transfer_alignment", "inflight_alignment", "los_rate", "wi
 
 
 class Failure(Exception):
-    """Nothing can be said about any mutant; one line that says why."""
+    """A reason, in one line, why no mutant can be judged."""
 
 
 class Progress:
-    """On a terminal one line that moves; elsewhere nothing."""
+    """Shows the progress in one line of a terminal; without a terminal it prints nothing."""
 
     def __init__(self):
         self.shown = sys.stdout.isatty()
@@ -87,7 +87,8 @@ def run(command, longest_s=None, **more):
 
 
 def accept(target, estimator, families, folder):
-    """(requirement, what was seen) of the first that the target does not meet; None: it meets all that were measured."""
+    """(requirement, observation) of the first requirement that the target violates; None: it meets all that were
+    measured."""
     report = Path(folder, "report.json")
     report.unlink(missing_ok=True)
     wanted = [word for family in families for word in ("--family", family)]
@@ -108,7 +109,8 @@ def accept(target, estimator, families, folder):
 
 
 def fly_suites(target, first, stages):
-    """As accept(), of all suites, stage by stage, that of the mutant's family right after the quick one."""
+    """Runs accept() for all suites, stage by stage. The quick suite is first, then that of the mutant's
+    family."""
     with tempfile.TemporaryDirectory() as folder:
         for families in stages:
             for estimator in sorted(SUITES, key=lambda name: (name != SUITES[0], name != first)):
@@ -119,7 +121,7 @@ def fly_suites(target, first, stages):
 
 
 def outcome_of(mutant, stages):
-    """What became of it, as its entry in the JSON file."""
+    """The result for a mutant, as its entry in the JSON file."""
     entry = {"family": mutant.family, "name": mutant.name, "file": mutant.file, "what": mutant.what}
     try:
         target = overlaid.build(BUILD, mutant.full_name, mutant.file, mutant.applied((ROOT / mutant.file).read_text()))
@@ -163,8 +165,8 @@ def print_table(table):
 
 
 def chosen(mutants, only, seed):
-    """Those that --only leaves, and of them a dozen where there is a seed: one of each family, then any. Of the dozen none only shows
-    in times: beside other tests these are not measured."""
+    """The mutants that --only selects. With a seed, a dozen of them are drawn: one of each family, then any. Mutants that only timing
+    can reveal are not drawn, because other tests running at the same time disturb timing."""
     left = [mutant for mutant in mutants if only.search(mutant.full_name)]
     if seed is None:
         return left
@@ -201,7 +203,7 @@ def options():
 
 
 def prepare(progress):
-    """Sees to it that the target passes as it is."""
+    """Checks that the unchanged target passes."""
     if not BENCH.exists():
         raise Failure(f"{BENCH}: is not there, expected the project built (cmake --preset default; cmake --build --preset default)")
     progress.say("the target as it is")
@@ -212,7 +214,8 @@ def prepare(progress):
 
 
 def fly(mutants, jobs, target_passes):
-    """Several at once by what is in virtual time; who survives that by times, one after the other: they disturb each other there."""
+    """Tests several mutants at once in virtual time. The survivors are then tested for timing one after the other, because in real
+    time they would disturb each other."""
     progress = Progress()
     start = time.monotonic()
     if not target_passes:

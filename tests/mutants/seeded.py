@@ -10,7 +10,7 @@ from dataclasses import dataclass
 HERE = pathlib.Path(__file__).resolve().parent
 KEYS = {"name", "file", "was", "is", "what"}
 
-# Of each family at least so many.
+# The least number of mutants in each family.
 FAMILIES = {"strapdown": 12, "imu_stream": 6, "transfer_alignment": 18, "inflight_alignment": 22, "los_rate": 14, "wind": 14,
             "device": 12, "timing": 4}
 AT_LEAST = 95
@@ -31,7 +31,7 @@ class Mutant:
         return f"{self.family}.{self.name}"
 
     def applied(self, text):
-        """The text of its file with the defect in it."""
+        """The file's text with the defect inserted."""
         times = text.count(self.was)
         if times != 1:
             raise ValueError(f"{self.full_name}: its text is {times} times in {self.file}, expected once")
@@ -39,7 +39,7 @@ class Mutant:
 
 
 def mutants_of(family, text):
-    """Those that the text of a family's file says, in its order."""
+    """The mutants in the text of a family's file, in the same order."""
     read = tomllib.loads(text)
     if set(read) != {"mutant"}:
         raise ValueError(f"{family}: holds {', '.join(sorted(read)) or 'nothing'}, expected tables [[mutant]] and nothing else")
@@ -59,5 +59,5 @@ def equivalents():
 
 
 def all_mutants():
-    """Of every family, in the order of FAMILIES."""
+    """The mutants of all families, in the order of FAMILIES."""
     return [mutant for family in FAMILIES for mutant in mutants_of(family, (HERE / f"{family}.toml").read_text())]

@@ -16,7 +16,7 @@ package=$(ls "$work"/*.deb)
 echo "package: $(basename "$package"), $(du -h "$package" | cut -f1)"
 dpkg-deb --field "$package" Package Version Depends
 
-# Mirror and proxy of this machine's own apt.
+# Uses the mirror and the proxy of this machine's apt.
 mirror=$( (grep -rhvE '^ *#' /etc/apt/sources.list /etc/apt/sources.list.d 2>/dev/null || true) | grep -oE '(https?|file)://[^ ]+/debian/?( |$)' | head -n 1 | tr -d ' ' || true)
 eval "$(apt-config shell http_proxy Acquire::http::Proxy https_proxy Acquire::https::Proxy)"
 export http_proxy https_proxy

@@ -29,16 +29,16 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SCENARIOS = ["transfer_alignment_quick", "inflight_quick", "los_quick", "wind_quick"]
 LONGEST_S = {"lockstep": 12, "real time": 3}  # of the flight
-# A host that keeps a program waiting for 0.4 s makes the target silent in real time, and one that does so to the bench for 0.25 s has the
-# bus drop it: that flight is flown again, the same one. A target that is silent by itself is so each time.
+# A busy host can suspend the target for 0.4 s, which looks like a silent target in real time, or the bench for 0.25 s, and then the bus
+# drops it. Such a flight is repeated unchanged. A target with a real defect is silent in every repetition.
 MOST_FLIGHTS = {"lockstep": 1, "real time": 4}
-# Faults that last for a stretch of time: they do not strike every so many samples (docs/faults.md).
+# Faults that last for a time. They do not affect single samples at intervals (docs/faults.md).
 STRETCHES = ["silent", "slow", "clock_step", "clock_drift", "restart", "stranger", "flood"]
 PATIENCE_S = 60  # a run that takes longer hangs
 
 
 class Contract:
-    """Messages of the bench's nodes and their signals, from the DBC; the kinds of faults, from the bench's own complaint."""
+    """Messages of the bench's nodes and their signals, from the DBC; kinds of faults, from the bench's own error message."""
 
     def __init__(self, bench, folder):
         self.messages = {}  # by node: {message: [(signal, least, most)]}
@@ -58,7 +58,7 @@ class Contract:
                 self.kinds.append(kind)
 
     def all_kinds(self, bench, probe):
-        """Those that the bench knows: it names them where it is told another."""
+        """The kinds of faults that the bench knows; its error message for an unknown kind lists them."""
         probe.write_text(scenario("transfer_alignment_quick", 1, 1, [{"kind": "?"}]))
         told = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True).stderr
         found = re.search(r"expected one of:? (.*)", told)
@@ -67,7 +67,7 @@ class Contract:
 
     @staticmethod
     def flies(bench, probe, fault):
-        """Whether the kind flies in process with these keys."""
+        """Whether a fault of this kind with these keys can be flown in process."""
         probe.write_text(scenario("transfer_alignment_quick", 1, 1, [timed(fault, 0.2, 0.5, 2)]))
         told = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True)
         return told.returncode != 2
@@ -116,7 +116,7 @@ def toml(value):
 
 
 def scenario(base, seed, duration_s, faults):
-    """A shipped scenario, shorter, with these faults, and no check but that something was answered."""
+    """A shipped scenario, shortened, with these faults; its only check is that something was answered."""
     text = (ROOT / f"bench/flights/{base}.toml").read_text().split("[[check]]")[0]
     text = re.sub(r"(?m)^duration_s = .*", f"duration_s = {duration_s}", text)
     text = re.sub(r"(?m)^seed = .*", f"seed = {seed}", text)
@@ -169,7 +169,7 @@ def descriptors(pid):
 
 
 def fly(command, environment, log):
-    """Exit code, what it said, peak of its resident memory [KiB], most descriptors."""
+    """Exit code, standard error, peak resident memory [KiB], largest number of open descriptors."""
     bench = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                              stderr=subprocess.PIPE, text=True)
     most, ended = [0], threading.Event()
@@ -196,7 +196,7 @@ def fly(command, environment, log):
 
 
 class Course:
-    """A number after each run, of runs of several sorts, and whether it grows with their number."""
+    """A number after each run, with the kind of that run, and whether it grows with the number of runs."""
 
     def __init__(self, name, unit, most_growth, why):
         self.name, self.unit, self.most_growth, self.why = name, unit, most_growth, why
@@ -206,7 +206,8 @@ class Course:
         self.values.append((sort, value))
 
     def settled(self):
-        """(place, value less the median of its sort), after a quarter of the runs: by then all has been done once."""
+        """(index, value minus the median of its kind of run), after the first quarter of the runs: by then every path
+        has been used once."""
         medians = {sort: statistics.median(v for s, v in self.values if s == sort) for sort, _ in self.values}
         all_of_them = [(i, value - medians[sort]) for i, (sort, value) in enumerate(self.values)]
         return all_of_them[len(all_of_them) // 4:]
@@ -217,7 +218,8 @@ class Course:
         return statistics.linear_regression(*zip(*points)).slope if len(points) > 2 else 0.0
 
     def growth(self):
-        """Of the medians of the first and the last third: a peak in one run is none."""
+        """Median of the last third minus median of the first third, so that a peak in one run does not
+        count."""
         values = [value for _, value in self.settled()]
         third = max(1, len(values) // 3)
         return statistics.median(values[-third:]) - statistics.median(values[:third])
@@ -283,7 +285,8 @@ def soak(arguments):
                 silent += 1
             runs += 1
             ended[how] = ended.get(how, 0) + 1
-            # Faults that leave no IMU sample for more than 200 ms end an alignment, and the target says why.
+            # A fault that leaves no IMU sample for more than 200 ms ends an alignment, and the target reports
+            # the reason.
             if (how != "completed" and "input_silent" not in how) or target.poll() is not None:
                 unexpected.append(f"run {runs}, {base}, {mode}, faults {faults}: {how}")
                 if target.poll() is not None:

@@ -31,7 +31,8 @@ def lines_of(notes):
 
 
 def table(files):
-    """Lines of text: each folder below a part, each part, all; the share, how many lines, of how many."""
+    """Lines of text, one for each folder below a part, each part, and all: the covered share, the number of
+    covered lines, and of all lines."""
     sums = defaultdict(lambda: [0, 0])
     for name, lines in files.items():
         part, folder, *_ = name.split("/")

@@ -109,7 +109,7 @@ PAGE = """{"suites": [{"requirements": [
 
 
 class Judging(unittest.TestCase):
-    """With a program in the bench's place that writes a report and ends with a code."""
+    """Replaces the bench by a program that writes a given report and ends with a given exit code."""
 
     def judged(self, code, page=None):
         with tempfile.TemporaryDirectory() as folder:
@@ -140,7 +140,7 @@ class Judging(unittest.TestCase):
 
 
 class Overlaying(unittest.TestCase):
-    """What is compiled in the place of a source, where sources are compiled one by one and as one."""
+    """The file that is compiled in place of a source, with sources compiled one by one and as one."""
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()

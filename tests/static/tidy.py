@@ -43,7 +43,7 @@ class Source:
 
 
 def sources_of(build):
-    """Each once; those of the project only, nothing generated."""
+    """Each source once, only those of the project, none that is generated."""
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         files = [entry["file"]]
@@ -84,7 +84,8 @@ class Cache:
         return self.hashes[path]
 
     def state_of(self, source):
-        """A file that is there when the source, as it is, was clean; None: not built, so nothing is known."""
+        """A file that exists if this version of the source was found clean before; None: the source is not
+        built."""
         files = self.includes.get(source.object)
         if files is None:
             return None
@@ -128,7 +129,8 @@ def write_joined(file, sources):
 
 
 def wrong_ones(file, sources, output):
-    """The sources that compiler errors are in, or in what they were the first to include."""
+    """The sources with compiler errors, either in the source or in a header that it was the first to
+    include."""
     found, number = set(), None
     for line in output.splitlines():
         stack = re.match(rf"In file included from {re.escape(str(file))}:(\d+):", line)
@@ -140,7 +142,7 @@ def wrong_ones(file, sources, output):
 
 
 def join(file, sources):
-    """Writes the file that includes those of the sources that can stand together; gives them."""
+    """Writes a file that includes the sources which can be compiled as one; returns these sources."""
     held, macros = [], {}
     for source in sources:
         if all(macros.setdefault(name, flag) == flag for name, flag in source.macros.items()):

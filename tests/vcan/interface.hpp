@@ -33,7 +33,7 @@ inline SendOutcome send_all(Port& port, const Frame& frame) {
   return outcome;
 }
 
-/// An interface of the test's own, gone at its end.
+/// A test's own interface, which is removed at its end.
 class Interface {
  public:
   Interface(std::string name, int mtu) : name_(std::move(name)), mtu_(mtu) { make(); }

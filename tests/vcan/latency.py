@@ -25,7 +25,8 @@ LIMIT_US = 2.0
 
 
 class Contract:
-    """What the DBC says of groups: by CAN id, the group of a message, what that answers, and how to decode."""
+    """The sample groups of the DBC: for each CAN id, its group, the group that this one answers, and how to
+    decode it."""
 
     def __init__(self, dbc):
         matrix = next(iter(canmatrix.formats.loadp(dbc).values()))
@@ -39,7 +40,7 @@ class Contract:
         return str(frame.attributes.get(name, "")).strip('"')
 
     def value(self, identifier, data, signal_name):
-        """The raw value of a signal; None where the message has none of that name."""
+        """The raw value of a signal; None: the message has no signal of that name."""
         frame = self.frames[identifier]
         if all(one.name != signal_name for one in frame.signals):
             return None
@@ -108,7 +109,7 @@ def fly(bench, scenario, folder):
 
 
 def disagreements(scenario, measured, reported, closing):
-    """Prints both; a line for each that differs."""
+    """Prints both measurements; returns one line for each difference."""
     wrong = []
     if set(measured) != set(reported):
         wrong.append(f"answering messages {sorted(measured)}, in the report {sorted(reported)}")

@@ -43,14 +43,16 @@ in_uml() {
   printf '#!/bin/sh\nexec sh %q %q %q\n' "$here/uml_init.sh" "$dir" "$PWD" >"$dir/init"
   chmod +x "$dir/init"
 
-  # The guest makes its descriptors non-blocking: pipes of its own keep that from the caller's stdout.
+  # The guest makes its descriptors non-blocking. It gets its own pipes, so the caller's stdout stays
+  # blocking.
   mkfifo "$dir/out" "$dir/err"
   cat "$dir/out" & out=$!
   cat "$dir/err" >&2 & err=$!
   limit=${CANHIL_VCAN_TIMEOUT_S:-600}
   say "user-mode Linux"
-  # On a busy host the guest, one kernel for both programs, would stall for longer than a target may be silent.
-  # On one processor, as it has one itself: its processes hand over to each other with every system call.
+  # The guest is one kernel for both programs: on a busy host without real-time priority it would stall for
+  # longer than a target may be silent. It is pinned to one processor, because the guest has only one: its
+  # processes hand over to each other with every system call.
   realtime="taskset -c $((RANDOM % $(nproc))) chrt -f 10"
   $realtime true 2>/dev/null || realtime="chrt -f 10"
   $realtime true 2>/dev/null || realtime=

@@ -55,7 +55,7 @@ std::uint64_t number_of(const Frame& frame) {
   return number;
 }
 
-/// What came of the numbers 0, 1, 2 ...
+/// Counts losses, repetitions and changes of order in the sequence 0, 1, 2 ...
 class Tally {
  public:
   void add(std::uint64_t number) {

@@ -31,7 +31,7 @@ for i in vcan0 vcan1; do
 done
 
 for line in /dev/ttyS0 /dev/ttyS1; do stty raw -echo <$line; done
-# By way of pipes, so that the command sees no terminal where its caller has none.
+# The output goes through pipes, so that the command has no terminal unless its caller has one.
 mkfifo /run/out /run/err
 cat /run/out >/dev/ttyS0 &
 cat /run/err >/dev/ttyS1 &

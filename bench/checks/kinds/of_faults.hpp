@@ -28,7 +28,7 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
 /// `fault`, or the time of a disturbance, `from_s`.
 Disturbance read_disturbance(scenario::Section& section, const scenario::CheckContext& context);
 
-/// `within_s` after a time. Error: the sum lies after the end of the run.
+/// Reads `within_s` and adds it to a time. Error: the sum lies after the end of the run.
 std::int64_t read_within(scenario::Section& section, const scenario::CheckContext& context,
                          std::int64_t after_us);
 

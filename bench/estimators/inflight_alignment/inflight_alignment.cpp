@@ -201,7 +201,7 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
 
 constexpr std::array closing{messages::FixVelocityD::info.name, messages::FixUpdate::info.name};
 
-// With two sources, the slower one: the filter may depend on it alone.
+// With two sources, the period of the slower one counts, because the filter may use that one only.
 Freshness freshness_of(const scenario::Scenario& scenario) {
   double longest_us = checks::longest_wait_us(0);
   for (const scenario::NodeSettings& node : scenario.nodes) {

@@ -26,7 +26,7 @@ inline constexpr Quantity velocity_down_over_sigma{
     .name = "velocity.down.over_sigma",
     .meaning = "error of the velocity down over the sigma that the target reports",
     .unit = plain};
-/// Of the covariance, since the start.
+/// The number of repairs of the covariance since the start.
 inline constexpr Quantity covariance_repairs{.name = "covariance.repairs",
                                              .meaning = "repairs of the covariance since the start",
                                              .unit = plain,
@@ -37,7 +37,7 @@ inline constexpr Quantity position_horizontal{.name = "position.horizontal",
                                               .unit = metres};
 inline constexpr Quantity position_norm{
     .name = "position.norm", .meaning = "magnitude of the error of the position", .unit = metres};
-/// Of a fix, NED.
+/// The innovation of a fix, NED.
 inline constexpr Quantity position_innovation_north{.name = "innovation.position.north",
                                                     .meaning = "innovation of a fix north",
                                                     .unit = metres,

@@ -25,7 +25,7 @@ inline constexpr Quantity los_rate_both{
     .unit = mradps,
     .once = "los_rate",
     .parts = los_rate_planes};
-/// As the target reports it; RMS of both planes.
+/// The sigma that the target reports; RMS of both planes.
 inline constexpr Quantity los_rate_sigma{
     .name = "los.rate.sigma",
     .meaning =
@@ -59,7 +59,7 @@ inline constexpr Quantity miss_distance{.name = "miss.distance",
                                         .of_whole_run = true,
                                         .once = "miss"};
 
-/// Of one update.
+/// The NIS of one update.
 inline constexpr Quantity los_nis{.name = "los.nis",
                                   .meaning = "normalised innovation squared of an update",
                                   .unit = plain,

@@ -14,7 +14,7 @@ inline constexpr Quantity attitude_nees{
     .nan_allowed = true,
     .once = "attitude_nees"};
 
-/// Of a velocity update, NED.
+/// The innovation of a velocity update, NED.
 inline constexpr Quantity velocity_innovation_north{.name = "innovation.velocity.north",
                                                     .meaning = "innovation of a velocity north",
                                                     .unit = mps,

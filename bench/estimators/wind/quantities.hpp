@@ -35,7 +35,7 @@ inline constexpr Quantity wind_nees{
     .unit = plain,
     .degrees_of_freedom = 3,
     .once = "wind_nees"};
-/// As the target reports it.
+/// The sigma that the target reports.
 inline constexpr Quantity wind_along_sigma{
     .name = "wind.along.sigma",
     .meaning = "sigma of the wind along the track as the target reports it",

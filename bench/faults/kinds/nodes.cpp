@@ -51,7 +51,7 @@ class SilentNode final : public BefallenNode {
       if (gone > 0 && !restarts_) ++tally().count;
       return;
     }
-    // Also if it was away so briefly that no sample was due.
+    // The counters restart even if the node was away so briefly that no sample was due.
     if (restarts_ && t_us > when_.to_us) {
       restarts_ = false;
       recount_.begin_at_zero();

@@ -14,7 +14,7 @@ struct Delayed : Frames {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// Sent after the next frame of its message.
+/// The frame is sent after the next frame of the same message.
 struct Reordered : Frames {
   static constexpr std::string_view kind = "reordered";
   static constexpr std::string_view meaning = "The frame comes after the next one of its message.";

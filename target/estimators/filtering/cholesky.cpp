@@ -10,11 +10,11 @@ namespace {
 struct Factor {
   const double* P;
   int N;
-  int stride;  // even_rows(N), of L
+  int stride;  // rows of L: even_rows(N)
 };
 
-// Column c of P minus the contribution of the first `done` columns of L; `rows` rows, from c (or one above
-// it) down. P is not padded if N is odd.
+// Column c of P minus the contribution of the first `done` columns of L. Computes the last `rows` rows, which
+// begin at row c or one row above it. P is not padded if N is odd.
 template <int rows>
 Vector<rows> column_left(const Factor& of, const double* L, int c, int done) {
   const int first = of.stride - rows;

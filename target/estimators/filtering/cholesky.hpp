@@ -9,9 +9,10 @@ namespace detail {
 
 inline constexpr int most_cholesky_rows = 20;
 
-// Columns of L for P [N x N] and for L [even_rows(N) x columns], both by columns.
+// Computes the first `columns` columns of L [even_rows(N) x columns] from P [N x N]; both are stored by
+// columns.
 bool cholesky_columns(const double* P, int N, double* L, int columns);
-// The lower triangle of `rest` [N - columns x N - columns].
+// Computes the lower triangle of `rest` [N - columns x N - columns].
 void cholesky_rest(const double* P, int N, const double* L, int columns, double* rest);
 
 }  // namespace detail
@@ -24,7 +25,8 @@ bool cholesky_columns(const Matrix<N, N>& P, Matrix<even_rows(N), K>& L) {
   return detail::cholesky_columns(P.data(), N, L.data(), K);
 }
 
-/// The Schur complement: P's lower right block minus the product of the factor's first K columns; symmetric.
+/// The Schur complement of P's leading block: P's lower right block minus the contribution of the first K
+/// columns of L; symmetric.
 template <int K, int N>
 Matrix<N - K, N - K> cholesky_rest(const Matrix<N, N>& P, const Matrix<even_rows(N), K>& L) {
   static_assert(K < N && N <= detail::most_cholesky_rows);

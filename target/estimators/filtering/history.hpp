@@ -1,7 +1,7 @@
 #pragma once
-// Applies late measurements. Keeps the last increments, each with the part of the state that it changes as it
-// was before. A measurement valid at an earlier epoch is applied at that epoch, and the increments since are
-// repeated. The result equals that of a measurement in time, bit for bit.
+// Applies late measurements. Keeps the last increments, and before each increment the part of the state that
+// increments change. A measurement valid at an earlier epoch is applied at that epoch, and the later
+// increments are repeated. The result equals the result without the delay, bit for bit.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace canhil::filtering {
 ///   step(state, increment, settings)
 ///   update(state, earlier, share, measurement, settings): for a measurement valid at the state's epoch minus
 ///     `share` of the increment that began with the ins `earlier` (null: at the epoch)
-///   keep_refusal(state, tried): copies what a refused update changes from the tried state
+///   keep_refusal(state, tried): copies from the tried state the members that a refused update changes
 ///   applied_at(t_us, now_us, settings): the epoch at which to apply a measurement valid at t_us
 /// A filter that also predicts between measurements (Predictions > 0: the largest number of predictions
 /// within the history) adds
@@ -133,7 +133,8 @@ class History {
     predictions_[prediction_count_++] = {state, t_us};
   }
 
-  // The state at an epoch: its ins, and the rest as it was before the first prediction after the epoch.
+  // The state at an epoch: `ins` at that epoch, and the other members as they were before the first later
+  // prediction.
   State state_at(const State& now, std::size_t epoch) {
     const State* then = &now;
     for (std::size_t i = prediction_count_; i > 0 && predictions_[i - 1].t_us > epoch_us(epoch); --i)

@@ -86,7 +86,7 @@ bool invert_positive_definite(const Matrix<M, M>& S, Matrix<M, M>& inverse) {
 /// (NIS).
 template <int N, int M>
 struct Correction {
-  bool positive_definite = false;  // S is; if false, nothing else is set
+  bool positive_definite = false;  // of S; if false, only S is set
   Vector<N> dx;
   Matrix<N, N> P;
   Matrix<N, M> K;

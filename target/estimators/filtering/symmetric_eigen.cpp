@@ -5,7 +5,8 @@
 namespace canhil::filtering {
 namespace {
 
-// A / scale = Q T Q' of a symmetric A, with its elements within +-1: no overflow, no underflow.
+// Tridiagonal form of a symmetric A: A / scale = Q T Q'. The scale limits the elements to +-1, which avoids
+// overflow and underflow.
 struct Tridiagonal {
   double scale;
   SquareMatrix packed;  // T's diagonals; below them the reflections whose product is Q

@@ -1,8 +1,8 @@
 #pragma once
 // The unscented transform (Julier, Uhlmann 2004) of a map that changes only the first K of N states. Sigma
 // points: x, and x +- sqrt(spread) times the columns of a root of P; weights: 1/(2 spread) each, the rest for
-// the centre. In differences to the centre's image the centre cancels, and each pair of points contributes by
-// its even and odd part.
+// the centre. Moments are computed relative to the image of the centre, so the centre does not contribute;
+// each pair of points contributes by its even and odd part.
 #include <cmath>
 
 #include "target/estimators/filtering/kalman.hpp"
@@ -19,15 +19,15 @@ Matrix<N, N> symmetric_root(const Matrix<N, N>& P) {
   return scaled.lazyProduct(vectors.transpose());
 }
 
-/// Half the sum (minus the centre's image) and half the difference of a map's images of x + d and x - d, for
-/// the K states that change.
+/// For the images of x + d and x - d under a map: half of their sum minus the centre's image, and half of
+/// their difference; only the K states that change.
 template <int K>
 struct Parts {
   Vector<K> even, odd;
 };
 
-/// Moments of the K changed states: mean minus the centre's image; second moment about the centre's image.
-/// The unchanged states follow below (all N rows, padded if N is odd).
+/// `shift`: the mean of the K changed states minus the centre's image. `about_central`: the second moments of
+/// all N states (rows, padded if N is odd) with the K changed ones (columns), about the centre's image.
 template <int N, int K>
 struct Moments {
   Vector<K> shift;

@@ -2,8 +2,9 @@
 // The common error model of the in-flight alignment filters: errors of the INS (INS - true), NED in the
 // computer frame c, over an interval T between fixes.
 //   dR+ = dR + (dV + dV+) T/2 - w_en x dR T
-//   dV+ = dV + (force term) - (2 w_ie + w_en) x dV T + dg T      (Kang, Kim, Park 2006, eq. (9), corrected:
-//   attitude by each filter; biases of sensors and fix constant          gravity error dg for an open loop)
+//   dV+ = dV + (force term) - (2 w_ie + w_en) x dV T + dg T      dg: gravity error, for an open loop
+// (Kang, Kim, Park 2006, eq. (9), corrected: gravity error). Each filter has its own attitude model; biases
+// of sensors and fixes are constant.
 // States: dR dV | attitude: psi (3) or tilts, sin, 1 - cos (4) | accelerometer, gyro [, fix] bias: 15 or 18,
 // and 16 or 19.
 #include <Eigen/Core>

@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t orthonormalisation_period = 50;  // steps
 
-// The tilts' sigma after levelling by the first sample, which mistakes the vehicle's acceleration for gravity
-// [rad].
+// The sigma of the tilts [rad] after levelling by the first sample: levelling mistakes the vehicle's
+// acceleration for gravity.
 double levelling_sigma(const Settings& settings) {
   return settings.start_acceleration_sigma / standard_gravity;
 }
@@ -86,8 +86,9 @@ Vector3d position_difference(const GeodeticPosition& ins, const GeodeticPosition
 
 enum class SensorBiases : std::uint8_t { stay, fed_back };
 
-// Corrects the INS by position, velocity, fix bias and, if `biases` says so, sensor biases, and zeroes their
-// states. C_pc: the attitude already removed from the states.
+// Corrects the INS by the estimated errors of position and velocity and by C_pc, the attitude error, and the
+// bias estimates by the errors of the fix bias and, with SensorBiases::fed_back, of the sensor biases. Zeroes
+// these states, except the attitude, which the caller zeroes.
 template <int N>
 void feed_back(State& state, Errors<N>& errors, const Matrix3d& C_pc, SensorBiases biases) {
   using At = Layout<N>;

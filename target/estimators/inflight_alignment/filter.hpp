@@ -28,10 +28,10 @@ struct GeodeticPosition {
 /// All that the filter keeps between two samples.
 struct State {
   Ins ins;
-  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  // estimates, subtracted from IMU [m/s^2],
-  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   // [rad/s]
-  Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();    // and fixes, NED [m]
-  std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of the INS; the filter
+  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  // estimate, subtracted from the IMU [m/s^2]
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   // estimate, subtracted from the IMU [rad/s]
+  Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();    // estimate, subtracted from fixes, NED [m]
+  std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of the INS; the filter sets N
   std::uint32_t updated_at = 0;                                         // step of the last update
   std::uint32_t rejected = 0;                                           // fixes gated in a row
   std::uint32_t repairs = 0;    // how often P lost its positive definiteness
@@ -39,13 +39,13 @@ struct State {
   bool handed_over = false;     // sin_cos: tilt and heading were fed back at the last fix
 };
 
-/// What became of a fix.
+/// How a fix was processed.
 enum class Outcome : std::uint8_t {
   ok,
   gated,                  // NIS above the gate
   no_interval,            // no IMU sample since the last update
   non_finite,             // a NaN or infinity in the fix or in the result
-  not_positive_definite,  // of the innovation covariance or of P's diagonal
+  not_positive_definite,  // innovation covariance or P's diagonal
   not_reached,            // History: valid after the newest IMU epoch
   out_of_order,           // History: valid before the last update
   older_than_history,     // History: valid before the oldest stored epoch
@@ -54,7 +54,7 @@ enum class Outcome : std::uint8_t {
 /// The result of an update. Unless outcome is ok, the update changed only the count of gated fixes.
 struct UpdateResult {
   Outcome outcome = Outcome::no_interval;
-  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // INS - fix, minus its prediction, NED [m]
+  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // INS - fix, minus its predicted value, NED [m]
   Eigen::Matrix3d innovation_covariance = Eigen::Matrix3d::Zero();  // [m^2]
   double nis = 0;                                                   // chi-squared of 3 if consistent
   GeodeticPosition position;  // best estimate at the fix's time of validity
@@ -69,7 +69,8 @@ State initial(const strapdown::NavState& nav, const Settings& settings);
 /// the filter when the interval without a fix reaches Settings::longest_interval.
 void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings);
 
-/// The parts of propagate(): mechanisation only; whether the filter must predict now; its prediction.
+/// The first part of propagate(): only the mechanisation. The other parts are prediction_is_due() and
+/// predict().
 void mechanise(State& state, const strapdown::ImuIncrement& imu);
 /// True if the interval without a fix has reached Settings::longest_interval.
 bool prediction_is_due(const State& state, const Settings& settings);
@@ -80,7 +81,7 @@ void predict(State& state, const Settings& settings);
 /// closed loop the correction of the INS.
 UpdateResult update(State& state, const GeodeticPosition& fix, const Settings& settings);
 
-/// update() with `ins`, the INS's position at the fix's time of validity, which the caller has interpolated.
+/// update() for a caller that has interpolated `ins`, the position of the INS at the fix's time of validity.
 UpdateResult update(State& state, const GeodeticPosition& ins, const GeodeticPosition& fix,
                     const Settings& settings);
 

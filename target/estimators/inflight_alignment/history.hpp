@@ -5,7 +5,7 @@
 
 namespace canhil::inflight_alignment {
 
-/// What filtering::History needs of this filter.
+/// The Model of filtering::History for this filter.
 struct HistoryModel {
   using State = inflight_alignment::State;
   using Settings = inflight_alignment::Settings;
@@ -42,7 +42,7 @@ struct HistoryModel {
   static std::int64_t applied_at(std::int64_t valid_us, std::int64_t now_us, const Settings& settings) {
     return settings.late_fixes == LateFixes::at_validity ? valid_us : now_us;
   }
-  /// Keeps the count of refused measurements of an update that was tried.
+  /// A refused update changes only the count of rejected fixes.
   static void keep_refusal(State& state, const State& tried) { state.rejected = tried.rejected; }
 };
 

@@ -10,9 +10,9 @@ namespace canhil::inflight_alignment {
 struct Trig {
   Eigen::Vector3d sin, cos;  // of psi_x, psi_y, psi_z
 
-  /// Of psi [rad].
+  /// Computes sines and cosines of psi [rad].
   explicit Trig(const Eigen::Vector3d& psi);
-  /// From sines and cosines that are known.
+  /// Takes sines and cosines that are already known.
   Trig(const Eigen::Vector3d& sine, const Eigen::Vector3d& cosine) : sin(sine), cos(cosine) {}
 };
 

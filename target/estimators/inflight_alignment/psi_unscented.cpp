@@ -8,8 +8,9 @@ namespace {
 
 constexpr double spread = 3;  // N + kappa
 
-// The lower root's columns beyond psi change only biases, and for a given psi the map is linear in the
-// biases: these points contribute G_c rest and G_c rest G_c'.
+// Adds the sigma points of the lower root's columns beyond psi in closed form. These points differ only in
+// the biases, in which the map is linear for a given psi. With `rest`, the covariance of these columns, they
+// add rest G_c' and G_c rest G_c' to the second moments.
 template <int N>
 void add_points_of_biases(const PsiMap& centre, filtering::Moments<N, 9>& moments,
                           const Matrix<N - 9, N - 9>& rest) {
@@ -27,8 +28,8 @@ void add_points_of_biases(const PsiMap& centre, filtering::Moments<N, 9>& moment
       attitude_gyro.lazyProduct(added.template middleRows<3>(3));
 }
 
-// Moments over the sigma points of the whole root; for a lower root the columns beyond psi in closed form.
-// Counts the repairs of P.
+// The moments over all sigma points; for a lower root the columns beyond psi are added in closed form. Counts
+// the repairs of P.
 template <int N>
 filtering::Moments<N, 9> moments_about(const PsiMap& centre, Matrix<N, N>& P, UkfRoot kind, int& repairs) {
   const auto parts = [&centre](const auto& d) { return centre.parts(d.template head<15>()); };
@@ -64,8 +65,8 @@ int predict_ukf(Errors<N>& errors, const Interval& interval, const Settings& set
   errors.x = moved<N>(errors.x, interval, centre.force_increment(), centre.attitude_increment());
   errors.x.template head<9>() += moments.shift;
   errors.P.template leftCols<9>() = moments.about_central.template topRows<N>();
-  // The second moment about the mean is the one about the centre's image minus the square of the shift, for
-  // any weight of the centre.
+  // Second moment about the mean = second moment about the centre's image - shift shift', for any weight of
+  // the centre.
   if (settings.ukf_covariance == UkfCovariance::about_mean)
     errors.P.template topLeftCorner<9, 9>().noalias() -= moments.shift.lazyProduct(moments.shift.transpose());
   filtering::mirror_lower<N>(errors.P);

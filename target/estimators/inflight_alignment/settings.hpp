@@ -55,8 +55,8 @@ struct Settings {
   double fix_bias_noise_density = 0;                      // random walk of the bias [m/sqrt(s)]
   double handover_sigma = 2 * rad_per_deg;  // sin_cos: heading sigma below which attitude is fed back
   double longest_interval = 1.5;            // after this time without a fix the filter predicts [s]
-  double gate_nis = 0;                      // fixes with a larger NIS are refused; 0: no gate
-  std::uint32_t gate_recovery = 5;          // ... but at most this many in a row
+  double gate_nis = 0;                      // the gate refuses fixes with a larger NIS; 0: no gate
+  std::uint32_t gate_recovery = 5;          // the gate refuses at most this many fixes in a row
 
   Eigen::Vector3d position_sigma_0 = Eigen::Vector3d::Constant(5);    // NED [m]
   Eigen::Vector3d velocity_sigma_0 = Eigen::Vector3d::Constant(0.1);  // NED [m/s]

@@ -21,7 +21,7 @@ struct Turned {
   double s, c;
   Vector3d force;  // Rz S
   Vector3d wT;     // Rz (w_ie + w_en) T
-  Matrix3d A;      // Rz A, of biases b; Rz A Rz' of biases Rz b
+  Matrix3d A;      // published: Rz A, for biases b; levelled: Rz A Rz', for b' = Rz b
 
   template <int N>
   Turned(const Errors<N>& errors, const Interval& interval)
@@ -51,7 +51,7 @@ Matrix<4, 4> attitude_covariance(const Errors<N>& errors) {
   return errors.P.template block<4, 4>(6, 6);
 }
 
-// Maps P to new attitude states: J times the old ones.
+// Maps P to new attitude states a_new = J a.
 template <int N>
 void map_attitude(Errors<N>& errors, const Matrix<4, 4>& J) {
   Matrix<N, N>& P = errors.P;

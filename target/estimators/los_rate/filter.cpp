@@ -165,8 +165,8 @@ void update(State& state, Plane measured, double dt, bool kalman, const Design& 
   }
 }
 
-// A closed gain does not suit an estimate that is much worse than its steady state: the Kalman filter starts
-// up.
+// While coasting, the estimate may become much worse than the steady state that a closed gain assumes; the
+// Kalman filter's start-up is then used again.
 void coast(State& state, double dt, const Sample& sample, const Settings& settings, UpdateResult& result) {
   result.outcome = Outcome::coasting;
   state.coasted_s += dt;
@@ -177,14 +177,16 @@ void coast(State& state, double dt, const Sample& sample, const Settings& settin
     state.start_up_s = settings.start_up;
 }
 
-// e + w dt less the antenna increment: the classical filter follows the LOS angle itself.
+// error+ = error + rate dt - antenna increment, turned by the roll: the classical filter tracks the LOS angle
+// itself.
 void predict_low_pass(State& state, double dt, Plane antenna_increment, double roll_increment) {
   const Plane half = std::polar(1.0, roll_increment / 2), whole = half * half;
   state.error = (state.error + state.rate * dt) * whole - antenna_increment * half;
   state.rate *= whole;
 }
 
-// The leg of the sample's own interval; without the antenna's increment it assumes that the antenna tracks.
+// The leg of the sample's own interval. If the antenna's increment is missing, the antenna is assumed to turn
+// at the LOS rate.
 Leg own_leg(const State& state, const Sample& sample, const Settings& settings) {
   const double dt = sample.interval;
   return {.dt = dt,
@@ -219,7 +221,8 @@ void advance(State& state, const Measurement& m, const Sample& sample, bool rang
         design, [&](auto plane) { return steady_covariance(settings, plane(settings.noise), begin); });
     state.covariance = true;
   }
-  // Extrapolated for long at the clamped range, the rate would grow without bound by 2 vc/r.
+  // A long extrapolation at the clamped range would let the rate grow without bound, by 2 vc/r: the closing
+  // speed is then taken as 0.
   const Geometry end{result.used.range, result.blind && !measured ? 0 : result.used.closing_speed};
   const bool covariance = !measured || kalman;
   if (sample.gap > 0) {

@@ -26,7 +26,7 @@ struct RangeSample {
   bool range_valid = false, closing_speed_valid = false;
 };
 
-/// Range and closing speed as they are believed, and the checks of the samples.
+/// The accepted range and closing speed, and the state of the checks of the samples.
 struct RangeTrack {
   Geometry now;            // the current estimate
   Geometry raw;            // the last sample that was finite and positive

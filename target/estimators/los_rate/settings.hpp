@@ -4,7 +4,7 @@
 
 namespace canhil::los_rate {
 
-/// Where the gain comes from.
+/// How the gain is computed.
 enum class Algorithm : std::uint8_t {
   switched_table,  // the paper's: P-bar tables for thermal and glint noise, switched where the two cross
   combined,        // one gain for the sum of all noises, tabulated in range and closing speed
@@ -19,7 +19,8 @@ struct Planes {
   bool operator==(const Planes&) const = default;
 };
 
-/// White noise of an error angle, 1 sigma a sample: R(r) = thermal^2 r^4 + glint^2 / r^2 + constant^2.
+/// White noise of an error angle, 1-sigma values; variance of a sample: R(r) = thermal^2 r^4 + glint^2 / r^2
+/// + constant^2.
 struct Noise {
   double thermal = 1e-10;  // of an active radar [rad/m^2]
   double glint = 0.5;      // [m]
@@ -32,12 +33,12 @@ struct Settings {
   Algorithm algorithm = Algorithm::combined;
   Planes<Noise> noise;
   double jerk_density = 300;     // q: PSD of the target's jerk [m^2/s^5]
-  double sample_period = 0.005;  // for which noise and gains are specified; a step may be longer [s]
+  double sample_period = 0.005;  // noise and gains refer to this period; a step may be longer [s]
 
   double rate_sigma_0 = 0.05;        // of the LOS rate at the start [rad/s]
   double acceleration_sigma_0 = 40;  // of the target at the start [m/s^2]
   double start_up = 2.5;             // time of the Kalman filter before a closed gain takes over [s]
-  double gap_limit = 0.05;           // after a longer coast the Kalman filter starts up again [s]
+  double gap_limit = 0.05;           // longest bridged gap; a longer coast restarts the Kalman filter [s]
   double longest_step = 0.5;         // longer steps are refused [s]
 
   double low_pass_bandwidth = 8;  // [rad/s]
@@ -45,11 +46,11 @@ struct Settings {
 
   double range_max = 10'000;           // end of the combined table [m]
   double closing_speed_max = 2000;     // end of both tables [m/s]
-  double blind_range = 50;             // below max(this, 3 range_sigma, 10 vc Ts) guidance must hold [m]
+  double blind_range = 50;             // guidance must hold below max(this, 3 range_sigma, 10 vc Ts) [m]
   double range_sigma = 15;             // of the range, bias included, near the blind range [m]
-  double range_gate = 100;             // larger jumps are refused ... [m]
-  double closing_speed_gate = 100;     // [m/s]
-  int relock_samples = 10;             // ... until so many samples in a row agree with one another
+  double range_gate = 100;             // a larger deviation from the extrapolation is a jump [m]
+  double closing_speed_gate = 100;     // likewise for the closing speed [m/s]
+  int relock_samples = 10;             // a jump is accepted after this many consecutive samples agree
   double range_unchanged_limit = 0.1;  // a range that does not change for longer is stale [s]
 
   double field_of_view = 0.15;              // largest error angle off the antenna's axis [rad]

@@ -43,8 +43,8 @@ MechanizationStep mechanize_reference(const NavState& nav, const ImuIncrement& i
 MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& previous,
                                        const ImuIncrement& imu) {
   const double dt = imu.dt;
-  // For w = a + b t, coning = a x b dt^3/12 and previous x current = a x b T dt (T + dt)/2 (T: previous
-  // sample time); 1/12 for equal samples. Sculling has the same factor.
+  // With T the previous sample time and w = a + b t: coning = a x b dt^3/12 and previous x current =
+  // a x b T dt (T + dt)/2. Their ratio is `factor` (1/12 for T = dt); sculling has the same factor.
   const double factor = previous.dt > 0 ? dt * dt / (6 * previous.dt * (previous.dt + dt)) : 0;
   const Eigen::Vector3d phi = imu.delta_theta + factor * previous.delta_theta.cross(imu.delta_theta);
   const Eigen::Vector3d turned = imu.delta_theta.cross(imu.delta_v);

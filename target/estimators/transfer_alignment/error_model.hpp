@@ -1,10 +1,10 @@
 #pragma once
 // The 12-state velocity and attitude error model of a slave INS; every error = computed - true.
-// x = [dV (NED), phi (NED), accelerometer bias error (body), gyro bias error (body)],  C_computed = exp(-[phi
-// x]) C_true:
-//   dV'  = -(2 w_ie + w_en) x dV + (C f) x phi + C df + white        (Yang, Shim, Park 2001, eqs. (1)-(5);
-//   corrected: phi' = -(w_ie + w_en) x phi - C dw + white                       blocks (1,1) and (2,2) of A
-//   are skew matrices)
+// x = [dV (NED), phi (NED), accelerometer bias error (body), gyro bias error (body)],
+// C_computed = exp(-[phi x]) C_true:
+//   dV'  = -(2 w_ie + w_en) x dV + (C f) x phi + C df + white
+//   phi' = -(w_ie + w_en) x phi - C dw + white
+// (Yang, Shim, Park 2001, eqs. (1)-(5); corrected: blocks (1,1) and (2,2) of A are skew matrices).
 #include <Eigen/Core>
 #include <array>
 

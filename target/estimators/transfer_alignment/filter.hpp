@@ -29,13 +29,13 @@ struct State {
   std::uint32_t rejected = 0;  // velocities gated in a row
 };
 
-/// What became of a velocity of the master.
+/// The outcome of an update by a velocity of the master.
 enum class Outcome : std::uint8_t {
   ok,
   gated,                  // NIS above the gate
   no_interval,            // no IMU sample since the last update
   non_finite,             // a NaN or infinity in the measurement or in the result
-  not_positive_definite,  // of the innovation covariance or of P's diagonal
+  not_positive_definite,  // innovation covariance or P's diagonal
   not_reached,            // History: valid after the newest IMU epoch
   out_of_order,           // History: valid before the last update
   older_than_history,     // History: valid before the oldest stored epoch
@@ -50,7 +50,7 @@ struct UpdateResult {
   StateVector dx = StateVector::Zero();                             // K innovation: the correction
   double alpha = 0;                                                 // H2 [m/s^2]
   double beta = 0;                                                  // H2; 0: a Kalman step without H2 terms
-  bool degraded = false;  // H2, Loop::invariant: its P exceeded the start's, so this was a Kalman step
+  bool degraded = false;  // H2 with Loop::invariant: a Kalman step, as P of the attitude exceeded P0
 };
 
 /// The state at the start of an alignment: the slave's own navigation state, with P0 from the settings.

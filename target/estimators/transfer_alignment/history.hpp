@@ -5,7 +5,7 @@
 
 namespace canhil::transfer_alignment {
 
-/// What filtering::History needs of this filter.
+/// The Model of filtering::History for this filter.
 struct HistoryModel {
   using State = transfer_alignment::State;
   using Settings = transfer_alignment::Settings;
@@ -27,7 +27,7 @@ struct HistoryModel {
   }
   /// The time at which a measurement is applied.
   static std::int64_t applied_at(std::int64_t valid_us, std::int64_t, const Settings&) { return valid_us; }
-  /// Keeps the count of refused measurements of an update that was tried.
+  /// A refused update changes only the count of rejected velocities.
   static void keep_refusal(State& state, const State& tried) { state.rejected = tried.rejected; }
 };
 

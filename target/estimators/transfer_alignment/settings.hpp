@@ -42,11 +42,11 @@ struct Settings {
   Loop loop = Loop::published;
   strapdown::Mechanization mechanization = strapdown::Mechanization::two_sample;
 
-  // Loop::invariant: velocities with a larger NIS are refused; 0: no gate. The NIS in a turn with a heading
-  // error of three sigmas of 30 deg, far beyond first order, must pass: with 250 one run of 200 became
-  // inconsistent (NEES).
+  // Loop::invariant: the gate refuses velocities with a larger NIS; 0: no gate. The NIS in a turn must pass
+  // even with a heading error of three sigmas, 90 deg, far beyond first order: with a gate of 250 one run of
+  // 200 became inconsistent (NEES).
   double gate_nis = 2000;
-  std::uint32_t gate_recovery = 5;  // ... but at most this many in a row
+  std::uint32_t gate_recovery = 5;  // the gate refuses at most this many velocities in a row
 
   double velocity_noise_density = 0.01;                   // of the master, R_k = this/dt [(m/s)^2 s]
   double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]

@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-// `value` clamped to the range; `outside`: it lay outside.
+// Clamps `value` to the range; `outside` becomes true if it was outside.
 double held(double value, const Range& range, bool& outside) {
   outside = !(value >= range.least && value <= range.most);
   return std::clamp(value, range.least, range.most);
@@ -90,7 +90,8 @@ Loads loads(const Flow& f, const Coefficients& c, const Air& air, const Airframe
 
 LoadsByPart loads_by_part(const Flow& f, const Deflection& fins, const Coefficients& c, const Air& air,
                           const Airframe& airframe) {
-  // The rate part of a coefficient is its change when the rates are set to zero; likewise the fin part.
+  // Rate part: the coefficient minus its value at zero rates. Fin part: the value at zero rates minus the
+  // value at zero rates and deflections.
   Flow steady = f;
   steady.rates.setZero();
   const Coefficients with_fins = coefficients(steady, fins, airframe);

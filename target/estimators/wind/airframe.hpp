@@ -30,7 +30,7 @@ struct Drag {
   double wave = 0, wave_mach = 1, wave_width = 1;
 };
 
-/// All that the model needs of an airframe.
+/// The airframe data that the model uses.
 struct Airframe {
   double mass = 1;                            // [kg]
   double Ixx = 1, Iyy = 1, Izz = 1, Ixz = 0;  // [kg m^2]
@@ -39,8 +39,9 @@ struct Airframe {
   Lateral side, roll, yaw;                    // CY, Cl, Cn
   Drag drag;                                  // CD
   double mach_squared = 0;                    // compressibility
-  Range alpha, beta;                          // [rad]; beyond these ranges the model is clamped and
-  Range speed;                                // the estimate flagged [m/s]
+  // Beyond these three ranges the model is clamped and the estimate flagged.
+  Range alpha, beta;  // [rad]
+  Range speed;        // [m/s]
   double mach_most = 0;
   Range altitude;              // [m], within the atmosphere's -2 to 20 km
   double pitch_most = 0;       // |pitch|, of the Euler angles [rad]

@@ -3,9 +3,9 @@
 // cause; the likelihood of the measurements weights them (multiple-model adaptive estimation: Magill 1965,
 // IEEE Trans. AC-10, 434-439).
 //
-//   J_i <- J_i exp(-dt/memory) + nu_i' S_i^-1 nu_i + ln det S_i        w_i = odds_i exp(-J_i/2), of sum 1
-//   x = sum w_i x_i                                                    P = sum w_i (P_i + (x_i - x)(x_i -
-//   x)')
+//   J_i <- J_i exp(-dt/memory) + nu_i' S_i^-1 nu_i + ln det S_i
+//   w_i = odds_i exp(-J_i/2), scaled to the sum 1
+//   x = sum w_i x_i,   P = sum w_i (P_i + (x_i - x)(x_i - x)')
 //
 // The memory is short, so that a filter regains weight soon after it was wrong. A bank with one filter equals
 // that filter, bit for bit.
@@ -23,15 +23,15 @@ inline constexpr std::size_t bank_most = 2;
 struct BankDesign {
   std::array<Design, bank_most> of;
   std::array<double, bank_most> odds{};  // prior weights
-  std::size_t count = 1;                 // of running filters
+  std::size_t count = 1;                 // number of running filters
 };
 
-/// All that a bank keeps between two samples.
+/// The state of a bank between two samples.
 struct Bank {
   std::array<State, bank_most> states;
   std::array<double, bank_most> surprise{};  // J
   std::array<double, bank_most> weight{};    // w, after the last sample
-  std::size_t count = 0;                     // of running filters
+  std::size_t count = 0;                     // number of running filters
   StateVector x = StateVector::Zero();       // the mixture; before the start only the wind is valid
   Covariance P = Covariance::Identity();
   bool started = false;
@@ -40,9 +40,9 @@ struct Bank {
 /// A bank with one filter; with ProcessNoise::likeliest one for each cause.
 BankDesign make_bank(const Settings& settings);
 
-/// Like initial() of a filter: without and with knowledge at release.
+/// The initial bank, without knowledge at release.
 Bank initial(const BankDesign& design);
-/// With knowledge at release.
+/// The initial bank, with the knowledge at release.
 Bank initial(const Start& start, const BankDesign& design);
 
 /// Processes one sample with each filter and mixes their states; returns the result of the likeliest filter.

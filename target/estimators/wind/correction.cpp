@@ -11,7 +11,8 @@ namespace {
 using Matrix6 = filtering::Matrix<6, 6>;
 using ByShare = Eigen::Matrix<double, 1, part_count>;
 
-// One scalar measurement h x at index `index`: Ph = P h', S = h P h' + R, residual = its innovation - h dx.
+// Updates by one scalar measurement h x, element `index` of the observation: Ph = P h', S = h P h' + R,
+// residual = innovation - h dx.
 void absorb(Correction& c, int index, const StateVector& Ph, double S, double residual) {
   const double scale = 1 / std::sqrt(S);
   const StateVector q = scale * Ph;  // the same vector as both factors: P stays symmetric to the last bit
@@ -64,8 +65,8 @@ double capped_theta(double theta, double cap, const Covariance& P, double rate_w
   filtering::Vector<6> root_S;
   root_S << 1, 1, 1, filtering::Vector<3>::Constant(std::sqrt(rate_weight));
   const Matrix6 B = root_S.asDiagonal() * P.topLeftCorner<6, 6>() * root_S.asDiagonal();
-  // A Cholesky factor of (cap/theta) I - B exists if and only if theta lambda_max < cap; it saves the
-  // eigenvalues.
+  // A Cholesky factor of (cap/theta) I - B exists if and only if theta lambda_max < cap, so that this case
+  // needs no eigenvalues.
   const Matrix6 margin = (cap / theta) * Matrix6::Identity() - B;
   if (Eigen::LLT<Matrix6>(margin).info() == Eigen::Success) return theta;
   return cap / filtering::largest_eigenvalue<6>(B);
@@ -75,7 +76,7 @@ void inflate(Correction& c, double theta, double rate_weight) {
   for (int j = 0; j < 6; ++j) {
     const double weight = theta * (j < 3 ? 1 : rate_weight);
     if (!(weight > 0)) continue;
-    // S = P_jj - 1/weight < 0: the update, written for the positive root of -S.
+    // The update by a negative noise variance: S = P_jj - 1/weight < 0, so the root is taken of -S.
     const StateVector p = c.P.col(j);
     const double scale = 1 / std::sqrt(1 / weight - p(j));
     const StateVector q = scale * p;

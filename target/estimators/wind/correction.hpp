@@ -9,8 +9,9 @@ namespace canhil::wind {
 struct Correction {
   StateVector dx = StateVector::Zero();
   Covariance P;
-  Observation normalised;  // whitened: each minus its prediction from those processed before it, over its
-                           // sigma; rates and angles are processed first, the velocity last
+  // The whitened innovation: each component minus its prediction from the components processed before it,
+  // over its sigma. The order is rates, angles, velocity.
+  Observation normalised;
   double nis = 0;  // innovation' S^-1 innovation, the sum of their squares: chi-squared of 9 if consistent
   double determinant = 1;  // of S, in the units of the innovation
 };

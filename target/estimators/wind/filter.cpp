@@ -85,7 +85,7 @@ void note_fins(const ActingFins& acting, const Settings& settings, Flags& flags)
   flags.fins_not_physical |= acting.not_physical;
 }
 
-// The altitude after dt, for the parts of a gap and for coasting: it falls with the downward velocity.
+// The altitude after dt, extrapolated with the downward velocity: for the parts of a gap and for coasting.
 double reckoned_altitude(const State& state, double dt) {
   const double down = C_bn(state.x.segment<3>(attitude_at)).row(2).dot(state.x.segment<3>(air_velocity_at)) +
                       state.x(wind_at + 2);
@@ -127,8 +127,8 @@ void advance(State& state, std::int64_t t_us, bool reckon, const FinHistory& fin
   state.sample_used = false;
 }
 
-// Adapts the process noise until the innovation statistic has its expected value: within a few samples if it
-// is far too large, as at release; slowly if it only scatters.
+// Adapts the process noise until NIS has its expected value: within a few samples if NIS is far too large, as
+// at release; slowly if NIS only scatters about its mean.
 void adapt(State& state, double nis, double gap, const Settings& settings) {
   const double excess = std::clamp(nis / 9 - 1, -1.0, 50.0);
   state.noise_factor = std::clamp(state.noise_factor * std::exp(excess * gap / settings.adaptation_time), 1.0,
@@ -263,7 +263,7 @@ UpdateResult step(State& state, const Navigation& navigation, const FinHistory& 
     state = next;
     return result;
   }
-  // Keeps the previous state, with its wind, if that is finite.
+  // Keeps the previous state, of which forget() leaves only the wind, if that state is finite.
   result.outcome = Outcome::non_finite;
   if (!is_sound(state)) state = initial(design);
   forget(state);

@@ -22,7 +22,7 @@ struct Navigation {
   bool valid = false;
 };
 
-/// All that a filter keeps between two samples.
+/// The state of a filter between two samples.
 struct State {
   StateVector x = StateVector::Zero();
   Covariance P = Covariance::Identity();
@@ -59,7 +59,7 @@ enum class Fault : std::uint8_t {
   jump,          // innovation beyond the gate
 };
 
-/// What limits the trust in an estimate.
+/// Reasons why the estimate is less reliable.
 struct Flags {
   RangeFlags outside;              // the range of the aerodynamic model, the atmosphere or the Euler angles
   bool fins_late = false;          // a deflection is missing or too old

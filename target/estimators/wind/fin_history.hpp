@@ -1,6 +1,6 @@
 #pragma once
-// The last deflections of the fins with their own times of validity, so that a step of the filter uses the
-// deflection during that step.
+// The last deflections of the fins with their times of validity, so that a step of the filter uses the
+// deflections during that step.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace canhil::wind {
 
-/// What became of a sample of the fins.
+/// The outcome of adding a sample of the fins.
 enum class FinOutcome : std::uint8_t {
   kept,
   out_of_order,  // not valid after the newest

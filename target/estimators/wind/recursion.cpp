@@ -20,7 +20,7 @@ Observation noise_variance(const Settings& s) {
   return R;
 }
 
-// Adds the effect of coefficients with relative errors of variance q on the air velocity and the rates.
+// Adds to P the effect of relative coefficient errors of variance q on the air velocity and the rates.
 void add_noise_of_coefficients(Covariance& P, double q, const LoadsByPart& loads, const Design& design) {
   const Eigen::Matrix<double, 3, part_count - force_part_count> turn =
       design.inertia_inverse.lazyProduct(loads.moment);

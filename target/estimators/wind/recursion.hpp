@@ -4,7 +4,7 @@
 
 namespace canhil::wind {
 
-/// Each density, raised to at least that of `least`.
+/// The densities, each raised to at least its value in `least`.
 Densities raised(Densities density, const Densities& least);
 
 /// Predicts x and P over dt [s] with constant inputs. `density` is the process noise; it is raised to

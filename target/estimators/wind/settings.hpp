@@ -56,7 +56,7 @@ struct Settings {
   double rate_weight = 1;      // of the rates in S; the air velocity has 1 [(m/s)^2/(rad/s)^2]
 
   double adaptation_time = 0.3;   // time constant of the adapted noise if NIS/9 is 2 [s]
-  double adaptation_limit = 1e4;  // of the factor on the variance of the adapted noise
+  double adaptation_limit = 1e4;  // upper limit of the factor on the variance of the adapted noise
 
   double gust_noise = 4;        // of the wind, for the bank's gust filter [m/s/sqrt(s)]
   double memory = 1;            // of the bank's likelihoods [s]
@@ -72,13 +72,13 @@ struct Settings {
   double longest_prediction = 0.025;                                    // longer steps are divided [s]
   double coast_limit = 2;           // longer times without navigation restart the filter [s]
   double stale_limit = 0.1;         // navigation that does not change for longer is stale [s]
-  double fins_late = 0.03;          // older deflections are flagged [s],
-  double fins_missing = 0.1;        // and beyond this age the model is unreliable [s]
-  double velocity_gate = 50;        // larger innovations are refused as jumps ... [m/s]
-  double attitude_gate = 0.5;       // [rad]
-  int jumps_limit = 25;             // ... until this many in a row: then the filter restarts
-  double ground_speed_most = 1000;  // beyond these a navigation sample is not physical [m/s]
-  double rate_most = 10;            // [rad/s]
+  double fins_late = 0.03;          // the estimate is flagged if deflections are older [s]
+  double fins_missing = 0.1;        // the model is unreliable if deflections are older [s]
+  double velocity_gate = 50;        // a larger innovation is refused as a jump [m/s]
+  double attitude_gate = 0.5;       // likewise [rad]
+  int jumps_limit = 25;             // the filter restarts at this many jumps in a row
+  double ground_speed_most = 1000;  // a faster navigation sample is not physical [m/s]
+  double rate_most = 10;            // likewise [rad/s]
 };
 
 /// True if the sigmas allow for constant coefficient errors. The H-infinity filter has its own method.

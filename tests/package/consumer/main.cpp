@@ -1,4 +1,5 @@
-// A program of somebody else: a recorded run, a contract of its own, the earth.
+// A program outside the project that uses the installed libraries: a recorded run, its own contract, the
+// earth.
 #include <cstdio>
 
 #include "dbc/logs/log.hpp"

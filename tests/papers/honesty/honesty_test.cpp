@@ -1,6 +1,6 @@
-// The sigmas of the filters that we recommend beyond the papers match their errors: runs the campaigns of
-// bench/monte_carlo/honesty. They are judged with 200 runs there, and with as many as CTest has time for
-// here.
+// Tests that the sigmas of the recommended filters match their errors, where these filters differ from the
+// papers. It flies the campaigns of bench/monte_carlo/honesty, which judge with 200 runs, with as many runs
+// as the time of CTest permits.
 #include "tests/papers/bars.hpp"
 
 namespace canhil::papers {

@@ -27,7 +27,7 @@ struct Truth {
 inline constexpr int update_count = 200;
 inline constexpr double update_interval = 0.1, imu_interval = 0.01;
 
-/// Of one filter in one run: heading error after each update [rad], mean NIS.
+/// One filter in one run: heading error after each update [rad], and mean NIS.
 struct RunResult {
   std::array<double, update_count> heading_error;
   double mean_nis = 0;

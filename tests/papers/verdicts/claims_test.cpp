@@ -54,7 +54,7 @@ TEST_F(LosClaims, NoStartUpIsNeeded) {
   EXPECT_FALSE(made_up_.holds("no_start_up"));
 }
 
-// Better than the best of three, before the manoeuvre and at its onset.
+// A smaller RMS than the best of three fixed bandwidths, before the manoeuvre and at its onset.
 TEST_F(LosClaims, BetterThanAFixedBandwidthByRms) {
   for (const char* window : {"RMS 3-2", "RMS 1-0.5"}) rms("combined", window, 0.999);
   EXPECT_TRUE(made_up_.holds("better_by_rms"));
@@ -127,7 +127,7 @@ TEST_F(WindClaims, NoneIsLostOnlyIfNoVariantLostARun) {
   }
 }
 
-// Limits that belong to no campaign, because they compare variants by figures of their own.
+// Limits that no campaign contains, because they compare variants by figures defined for this purpose.
 TEST(InflightClaims, ThatAreBarsFailThePage) {
   MadeUp made_up(papers.at(1));
   const auto heading = [&](const char* campaign, const std::string& variant, const char* figure,

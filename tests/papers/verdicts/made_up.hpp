@@ -63,7 +63,7 @@ inline campaign::RunSeries run_at(const campaign::Variant& variant, std::uint64_
   return series;
 }
 
-/// Values by variant; 1 for those that are not named.
+/// Values by variant; a variant that is not listed has the value 1.
 using Values = std::map<std::string, double>;
 
 inline campaign::Load load_at(const campaign::Campaign& campaign, const Values& values) {

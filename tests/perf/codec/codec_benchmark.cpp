@@ -87,7 +87,7 @@ dbc::Message at_run_time(std::string_view name) {
   return *dbc::find_message(database.value(), name);
 }
 
-// By names, with a plan of its own for each frame.
+// Access by name: each frame compiles its own plan.
 void decode_by_name(benchmark::State& state) {
   const dbc::Message message = at_run_time("FourSignals");
   const std::array<std::uint8_t, 8> bytes{0x12, 0x34, 0x56, 0x78, 0x9A, 0x1C, 0x2E, 0x30};

@@ -1,5 +1,5 @@
-// Calls pack and unpack as often as the argument states, each in a function of its own, in which callgrind
-// counts.
+// Calls pack and unpack as often as the argument states. Each is in a separate function, so that callgrind
+// counts it separately.
 #include <cstdlib>
 #include <span>
 

@@ -1,5 +1,5 @@
-// For callgrind: every measured call is in a function of its own, which is called once and whose instructions
-// are counted. A fix is the prediction over its interval plus the update.
+// For callgrind: each measured call is in its own function, which is called once; callgrind counts that
+// function's instructions. A fix is the prediction over its interval plus the update.
 #include <cstdio>
 
 #include "tests/perf/estimators/warm_inflight_filter.hpp"

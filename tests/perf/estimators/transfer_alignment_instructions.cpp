@@ -1,5 +1,5 @@
-// For callgrind: every measured call is in a function of its own, which is called once and whose instructions
-// are counted.
+// For callgrind: each measured call is in its own function, which is called once; callgrind counts that
+// function's instructions.
 #include <cstdio>
 
 #include "tests/perf/estimators/warm_filter.hpp"

@@ -37,7 +37,7 @@ def start(command, **options):
 
 
 class Pair:
-    """Two programs on an interface of their own."""
+    """Two programs on their own interface."""
 
     def __init__(self, interface, ping, echo):
         subprocess.run(f"ip link add dev {interface} type vcan && ip link set {interface} up", shell=True, check=True)

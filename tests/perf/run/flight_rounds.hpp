@@ -52,8 +52,8 @@ class RecordingPort final : public Port {
   std::size_t next_ = 0;
 };
 
-/// The rounds of run `run_index` of a scenario with another algorithm, from the reset of the target on. On
-/// error: one line.
+/// Records the rounds of run `run_index` of a scenario, from the reset of the target on. `algorithm` replaces
+/// the scenario's own. Error: one line.
 inline Result<std::vector<Round>> record_flight(const std::string& file, const std::string& algorithm,
                                                 std::uint64_t run_index) {
   auto scenario = scenario::read_file(file, drive::contract());

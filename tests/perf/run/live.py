@@ -51,7 +51,7 @@ class Side:
 
 
 def look_on(bench, side):
-    """As a page does, to the end."""
+    """Reads the live view to the end, as a page does."""
     view = WebSocket(bench.port)
     while (message := view.message()) is not None:
         side.messages += 1

@@ -1,5 +1,5 @@
-// Runs per second of the campaign engine, including the store, with one thread and with two. They alternate,
-// so that other load of the machine affects both equally.
+// Runs per second of the campaign engine, including the store, with one thread and with two. The two cases
+// alternate, so that other load of the machine affects both equally.
 #include <unistd.h>
 
 #include <algorithm>

@@ -16,7 +16,8 @@ SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, MONITOR = "sensor and truth", "pack", "wi
 LOOP = "device and run loop"
 STAGES = (SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, LOOP, MONITOR)
 GOALS = (("pack + wire + E2E + unpack", (PACK, WIRE, UNPACK), 10), (SENSOR, (SENSOR,), 25))
-# The first that is found in the path of a source file. None: pack or unpack, by the function that the line is in.
+# The stage of a source file: the first entry whose text occurs in the file's path. None: pack or unpack,
+# depending on the function that contains the line.
 FILES = (
     ("bench/world/", SENSOR), ("bench/nodes/", SENSOR),
     ("messages/canhil.hpp", None), ("dbc/wire/bits", None), ("dbc/wire/quantise", None), ("dbc/wire/message.hpp", None),
@@ -30,7 +31,8 @@ UNPACKS = {"unpack", "load_le", "load_be", "unsigned_bits", "signed_bits", "phys
 
 
 def here(file):
-    """The file of this tree and build: an object of a compiler cache may name those of another one."""
+    """The file in this tree and build; a compiler cache may return an object that names another tree's
+    files."""
     if "/build/" not in file:
         return pathlib.Path(file)
     below = file.split("/build/")[1].split("/", 1)[1]  # of the folder of the build
@@ -49,7 +51,7 @@ def definitions(file):
 
 
 def stage_of(file, line):
-    """Of a place in the project's code; None: it is not the project's."""
+    """The stage of a place in the project's code; None: the place is outside the project."""
     for part, stage in FILES:
         if part in file:
             if stage:
@@ -101,7 +103,8 @@ def shares_of(costs, calls, homes):
 
     @functools.cache
     def split_of(function):
-        """{stage: part} of what a library does in a function: its home's stage, or its callers', by what each called for."""
+        """{stage: share} of a library function's cost: all to the stage of its file, otherwise to the stages of its callers,
+        by the cost of each caller's calls."""
         stage = stage_of(homes.get(function, ""), 0)
         if stage:
             return {stage: 1.0}

@@ -71,7 +71,7 @@ class Accept : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_ + "/small");
     std::ofstream(folder_ + "/small/suite.toml") << suite;
-    // A flight of three seconds without limits: the suite judges it.
+    // A flight of three seconds whose scenario has no checks; the suite has the requirements.
     std::string flight = read(scenario("transfer_alignment_quick"));
     flight.resize(flight.find("[[check]]"));
     std::ofstream(folder_ + "/small/flight.toml")

@@ -66,7 +66,7 @@ class Pipeline(unittest.TestCase):
             os.chmod(path, 0o755)
 
     def run_steps(self, steps):
-        """The output; the exit code of the step that ended it."""
+        """The output, and the exit code of the step that ended the pipeline."""
         environment = {**os.environ, "PATH": f"{self.here}/bin:/usr/bin:/bin", "CI_API_V4_URL": "x", "CI_PROJECT_ID": "1",
                        "CI_DEFAULT_BRANCH": "main", "CI_JOB_TOKEN": "x"}
         output = ""
@@ -79,7 +79,8 @@ class Pipeline(unittest.TestCase):
         return output, 0
 
     def keep(self, change=None):
-        """What the system keeps of a run of main: where the next run finds it, whichever system it is."""
+        """Stores the reports as the CI system keeps them after a run of main, where the next run of either
+        system finds them."""
         for folder in ("kept", "last_good"):
             os.makedirs(f"{self.here}/{folder}", exist_ok=True)
             for bus in ("local", "vcan"):
@@ -97,7 +98,7 @@ class Pipeline(unittest.TestCase):
             xml.etree.ElementTree.parse(f"{self.here}/reports/{bus}.xml")
             self.assertTrue(os.path.exists(f"{self.here}/reports/{bus}.html"))
         self.assertNotIn("no worse", output, "nothing to compare with yet")
-        # A second run of the same is no worse; one whose target failed a check in place of passing it is.
+        # An equal second run is not worse. A run whose target fails a check that passed before is worse.
         compare = [step for step in steps if "hil-bench compare" in step]
         self.assertEqual(len(compare), 1)
         self.keep()
@@ -111,7 +112,7 @@ class Pipeline(unittest.TestCase):
             json.dump(report, file)
         output, code = self.run_steps(compare)
         self.assertEqual(code, 1, output)
-        # Of another scenario there is nothing to hold it against: that does not stop a merge.
+        # A report of another scenario cannot be compared; this does not block a merge.
         self.keep(lambda report: report["provenance"].update(scenario_hash="0"))
         output, code = self.run_steps(compare)
         self.assertEqual(code, 0, output)

@@ -9,11 +9,11 @@ import los_rate  # noqa: E402
 
 
 class Sound(canhil_target.Target):
-    """What all defects are made of."""
+    """The base of all defects."""
 
 
 class SlowBeat(Sound):
-    """A heartbeat every second while no bench is at work."""
+    """Sends a heartbeat every second while no bench is active."""
     beats = itertools.count()
 
     def send_heartbeat(self):
@@ -22,21 +22,21 @@ class SlowBeat(Sound):
 
 
 class AnyContract(Sound):
-    """Obeys whatever the hash of the contract."""
+    """Obeys without checking the hash of the contract."""
 
     def on_command(self, command):
         super().on_command({**command, "dbc_hash": canhil_target.DBC_HASH24})
 
 
 class AnyEstimator(Sound):
-    """Says nothing of an estimator that it does not have."""
+    """Does not reject an estimator that it does not have."""
 
     def reset(self, estimator, algorithm):
         super().reset(self.estimator.estimator, algorithm)
 
 
 class UnknownCommand(Sound):
-    """Takes a command that it does not know for none."""
+    """Treats an unknown command as the command `none`."""
 
     def on_command(self, command):
         known = ("reset", "start", "stop", "add", "none")
@@ -53,7 +53,7 @@ class NoStateNeeded(Sound):
 
 
 class HalfState(Sound):
-    """Takes an initial state whose last message is there for a whole one."""
+    """Treats an initial state as complete when its last message has arrived, even if others are missing."""
 
     def completed(self, group, place, counter, values):
         if group == "TargetInit" and place == len(canhil_target.GROUPS[group]) - 1:
@@ -62,7 +62,7 @@ class HalfState(Sound):
 
 
 class DeafToRepetition(Sound):
-    """Drops a command with the counter of the one before."""
+    """Drops a command whose counter equals the previous command's."""
 
     def receive(self, identifier, data):
         group = canhil_target.MESSAGES.get(identifier, ("",))[0]
@@ -88,7 +88,7 @@ class EarlyAnswers(Sound):
 
 
 class NoStop(Sound):
-    """Says that it has stopped, and goes on."""
+    """Reports that it has stopped, but continues."""
     flying = False
 
     def start(self):
@@ -214,7 +214,7 @@ class Disorder(Sound):
 
 
 class OwnCause(Sound):
-    """cause_counter is that of the next sample."""
+    """Sends the next sample's counter as cause_counter."""
 
     def send_group(self, group, values):
         if group == "LosRate":
@@ -237,7 +237,7 @@ class Chance(Sound):
 
 
 class NoWrap(Sound):
-    """Takes a time of validity as it is."""
+    """Uses a time of validity unchanged, without unwrapping it."""
 
     def unwrapped_us(self, group, value):
         return round(value)
@@ -264,7 +264,7 @@ class AnySize(Sound):
 
 
 class Repetitions(Sound):
-    """Does not see that a frame is repeated."""
+    """Does not detect that a frame is repeated."""
 
     def receive(self, identifier, data):
         if canhil_target.MESSAGES.get(identifier, ("",))[0] == "Seeker" and self.received.get(identifier) == data[1] & 0x0F:
@@ -280,7 +280,7 @@ class NoLosses(Sound):
 
 
 class HalfSamples(Sound):
-    """Takes a sample whose last message is there for a whole one."""
+    """Treats a sample as complete when its last message has arrived, even if others are missing."""
 
     def completed(self, group, place, counter, values):
         if group == "Seeker":
@@ -299,7 +299,7 @@ class EightBits(Sound):
 
 
 class Parrot(Sound):
-    """Reads back what was asked for."""
+    """Reads back the requested value, not the value in force."""
 
     def send_group(self, group, values):
         if group == "ParamAck" and values["status"] == "out_of_range":
@@ -312,7 +312,7 @@ class Parrot(Sound):
 
 
 class AnyParameter(Sound):
-    """Accepts a parameter that nobody knows."""
+    """Accepts an unknown parameter."""
 
     def send_group(self, group, values):
         if group == "ParamAck" and not isinstance(values["parameter"], str):

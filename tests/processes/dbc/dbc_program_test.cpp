@@ -104,7 +104,7 @@ TEST(DbcLint, BadInputIsOneLine) {
   expect_one_line(hil_bench("dbc"), "A subcommand is required");
   expect_one_line(hil_bench("dbc lint"), "FILE is required");
   expect_one_line(hil_bench("dbc lint /nowhere.dbc"), "/nowhere.dbc: cannot be read");
-  // Nothing of the first file either.
+  // Findings of the first file are not printed either.
   expect_one_line(hil_bench(fmt::format("dbc lint '{}' /nowhere.dbc", odd_file())),
                   "/nowhere.dbc: cannot be read");
   expect_one_line(hil_bench(fmt::format("dbc lint --json --sarif - {}", canhil_dbc)), "expected one of them");
@@ -170,7 +170,7 @@ TEST(DbcShow, BadInputIsOneLine) {
   expect_one_line(hil_bench("dbc show " SOURCE_DIR "/README.md"), "README.md:1:1: no section of a DBC file");
 }
 
-// A name in a DBC steers no terminal.
+// A name in a DBC must not send escape sequences to the terminal.
 TEST(DbcShow, PrintsNoControlCharacters) {
   const std::string path = scratch("escape.dbc");
   std::ofstream(path) << "BU_: A\nBO_ 291 M: 2 A\n SG_ s : 0|12@1+ (1,0) [0|0] \"\x1B[31m\" A\n"

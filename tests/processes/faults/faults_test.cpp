@@ -186,7 +186,7 @@ TEST(Faults, ShardsAndAKillGiveTheSameBytes) {
 }
 
 TEST(Faults, InterruptedIsNotMeasured) {
-  // As soon as a cell is there.
+  // Interrupts the command as soon as the first cell is stored.
   const Ended ended =
       shell(fmt::format("{0} faults {1} --runs 1000 --out {2} & "
                         "for i in $(seq 1000); do [ -s {2}/faults.jsonl ] && break; sleep 0.02; done; "

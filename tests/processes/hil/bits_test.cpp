@@ -99,7 +99,7 @@ TEST(Bits, AllFourAtOnceInProcessAndRealTimeAgree) {
   const auto real_time = target_frames(record_in_real_time("all_four.real_time.log", "all_four"));
   EXPECT_GT(in_process.size(), 30'000U);
   EXPECT_TRUE(in_process == real_time);
-  // What was judged on the way, apart from timing.
+  // All checks passed during the run. Timing is not considered.
   const auto report = read_json(scratch("all_four.real_time.log.json"));
   for (const auto& check : report["checks"]) {
     if (check["kind"] == "heartbeat") continue;

@@ -86,7 +86,7 @@ TEST_F(Golden, AScenarioOnCanFdIsFlownOnCanFd) {
   EXPECT_EQ(check().code, 0);
 }
 
-// Stored files that cannot be read are no failure of the target: no scenario failed, and none is flown.
+// Unreadable stored files are not a failure of the target: no scenario fails, and none is flown.
 TEST_F(Golden, AKeptScenarioThatIsBrokenIsBadInput) {
   change("transfer_alignment_quick", "velocity_noise_m2ps", "velocity_noise");
   expect_one_line(check(), "transfer_alignment_quick.toml:");

@@ -26,7 +26,7 @@ std::string liar(const std::string& lie) {
   return path;
 }
 
-/// A scenario of bench/flights with more behind it.
+/// A scenario of bench/flights with text appended.
 std::string with(const std::string& flight, const std::string& more) {
   std::string path = scratch(flight + "_and_more.toml");
   std::ofstream(path) << read(scenario(flight)) << more;

@@ -52,10 +52,10 @@ Ended hil_bench_whole(const std::string& arguments, const std::string& report);
 /// Bad input: exit code 2, one line on stderr that contains `what`, nothing on stdout.
 void expect_one_line(const Ended& ended, const std::string& what);
 
-/// Why the outputs of a run did not all pass, in words; empty: they did. Outputs are judged on any host; what
-/// a host that was late did to timing is the verdict's business, not a test's. So a check of timing may be
-/// not measured; it may have failed where the bench itself was once late for its deadlines by more than half
-/// of the check's bar: what held up the bench may hold up the target. Then alone may the verdict be 'fail'.
+/// The outputs that did not pass, in words; empty: all passed. Outputs must pass on any host, but a slow host
+/// may affect timing, which this does not test. So a timing check may be not measured. It may also have
+/// failed if the bench missed a deadline of its own by more than half of the check's bar, because the host
+/// may have delayed the target as much. Only in that case may the verdict be 'fail'.
 std::vector<std::string> output_complaints(const Ended& ended, const nlohmann::json& report);
 void expect_outputs_passed(const Ended& ended, const nlohmann::json& report);
 

@@ -58,7 +58,7 @@ TEST_F(Reports, TellWhichTargetWasTested) {
             std::filesystem::file_size(target["program"].get<std::string>()));
 }
 
-// sha256sum reads the same files; that of the built-in DBC is dbc/canhil.dbc's.
+// sha256sum of the same files must give the same hashes; the built-in DBC has the hash of dbc/canhil.dbc.
 TEST_F(Reports, NameEveryFileByItsHash) {
   const Ended run = hil_bench("run " + scenario("transfer_alignment_quick") + " --bus " + bus() +
                               " --lockstep --operator 'Ada L' --json " + scratch("signed.json"));

@@ -36,7 +36,8 @@ class Bench:
         return self
 
     def hurry(self):
-        """In a flight in real time the view's thread takes what others leave (SCHED_IDLE): on a busy machine that is nothing."""
+        """In real time the view's thread has the policy SCHED_IDLE, so on a busy machine it would never run: sets the normal
+        policy."""
         while self.hurried and self.process.poll() is None:
             for thread in os.listdir(f"/proc/{self.process.pid}/task"):
                 try:
@@ -80,7 +81,7 @@ def connect(port):
 
 
 def exchange(port, request):
-    """(status, headers, body) of what is answered to these bytes; status 0: nothing is."""
+    """(status, headers, body) of the answer to these bytes; status 0: no answer."""
     with connect(port) as one:
         one.sendall(request)
         answer = b""
@@ -122,7 +123,7 @@ class WebSocket:
             pass
 
     def message(self):
-        """The next one as JSON; None: the bench has closed the connection."""
+        """The next message as JSON; None: the bench has closed the connection."""
         while True:
             try:
                 head = self.file.read(2)

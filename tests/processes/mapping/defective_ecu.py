@@ -50,7 +50,7 @@ class FrozenCounter(own_ecu.Ecu):
 
 
 class Slow(own_ecu.Ecu):
-    """Takes 15 ms for each twentieth sample."""
+    """Needs 15 ms for every twentieth sample."""
 
     def __init__(self):
         super().__init__()
@@ -64,7 +64,7 @@ class Slow(own_ecu.Ecu):
 
 
 class Silent(own_ecu.Ecu):
-    """Answers no more after 5 s; its status still comes."""
+    """Stops answering after 5 s but continues to send its status."""
 
     def __init__(self):
         super().__init__()

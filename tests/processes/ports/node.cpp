@@ -57,7 +57,7 @@ void exchange(const Task& task) {
   }
 }
 
-/// Sends its stream and reads nothing.
+/// Sends its stream without ever reading from the bus.
 void babble(const Task& task) {
   const auto port = join(task, false);
   for (std::uint64_t sent = 0; sent < task.count;) {

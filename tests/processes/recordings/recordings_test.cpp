@@ -69,7 +69,7 @@ Ended others(const std::string& arguments) {
       fmt::format("/usr/bin/python3 {}/tests/processes/recordings/others.py {}", SOURCE_DIR, arguments));
 }
 
-// As others.py writes them.
+// The frames of a log in the text format of others.py.
 std::string frames_in_words(const std::string& log) {
   std::string text;
   for (const LogEntry& entry : entries_of(log)) {
@@ -301,7 +301,7 @@ TEST(LogCompare, TellsHowFarStampsAreApart) {
   EXPECT_EQ(json["outside"], 1);
 }
 
-// Content that comes again and again, of which one frame is lost on the way to a.
+// The same content is sent repeatedly, and one of these frames is lost on the way to a.
 TEST(LogCompare, PairsRepeatedFramesByTheirTimes) {
   std::string a, b;
   for (int i = 0; i < 20; ++i) {

@@ -41,7 +41,8 @@ cluster_start() {
   trap 'exit 129' HUP
   trap 'exit 130' INT
   trap 'exit 143' TERM
-  # Where the shell is killed and has no chance to tidy up, this does; it ends when the folder is gone.
+  # If the shell is killed without running its trap, this process stops the cluster. It ends when the folder
+  # is removed.
   setsid --fork bash -c 'source "$1"; cluster=$2
     while kill -0 "$3" && [[ -d "$cluster" ]]; do sleep 0.2; done; cluster_stop' \
     - "${BASH_SOURCE[0]}" "$cluster" $$ >/dev/null 2>&1 </dev/null

@@ -19,7 +19,7 @@ campaign=$root/bench/monte_carlo/quick.toml
 "$bench" campaign "$campaign" --threads 2 --out single.sqlite >single.out || [[ $? == 1 ]] || fail "the campaign in one process"
 "$bench" campaign merge single_merged.sqlite single.sqlite
 
-# From 3 in steps of 2: shards are counted from 0 all the same.
+# Slurm numbers these tasks 3, 5, 7, 9; the shards must be numbered from 0.
 export HIL_BENCH=$bench
 cluster_run timeout 200 sbatch --wait --array 3-9:2 --output "$cluster/task-%a.out" \
   "$root/docs/examples/slurm_array.sh" "$campaign" results || fail "the job array ended with $?"

@@ -10,7 +10,8 @@ from pathlib import Path
 CODE = ("dbc", "target", "bench")
 SKIPPED = {".git", "build", "runs", "__pycache__"}
 
-# Longest prefix wins: a file under KEY may include project headers under these prefixes; one that ends in .hpp is that file alone.
+# The longest prefix applies: a file under KEY may include project headers under these prefixes. An entry that ends in .hpp is that
+# file only.
 ESTIMATOR_SHARED = ("target/estimators/strapdown/", "target/estimators/filtering/")
 GENERATED = "messages/"  # dbcgen's headers, made from dbc/: whoever may include dbc/ may include them
 DEVICE = "target/device/device.hpp"  # the bench may hold a Device, through this header
@@ -27,14 +28,16 @@ MAY_INCLUDE = {
 # Out of reach even through other headers: a check judges decoded frames against the truth, and nothing else.
 NEVER_REACHES = {"bench/checks/": ("target/", "bench/nodes/")}
 
-# What works on quantities names no estimator (a folder of bench/estimators), not even as a word, and no message at all.
+# Code that works on quantities contains no estimator's name (a folder of bench/estimators), not even in a comment, and
+# no name of a message.
 ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/")
 
-# Where an estimator may be named: its folder and the registry; the papers, which are about one each; the seeker, which steers by what
-# it is answered; and the truth of the glide, whose table [wind] has an estimator's name.
+# Places that may name an estimator: its folder and the registry; the papers, each about one estimator; the seeker, which steers by
+# the answers of one; and the truth of the glide, whose table [wind] has an estimator's name.
 KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/nodes/seeker.", "bench/scenario/glide.")
 
-# Aim for 300. A long table or one long derivation may pass it; at a third more, a file has got a second subject.
+# The aim is 300 lines. A file with a long table or a long derivation may exceed it; a file that exceeds it by a
+# third has a second subject.
 MOST_LINES = 400
 VAGUE = {"util", "utils", "common", "manager", "helper", "helpers", "base"}
 TERMS = {"time_base"}  # terms of the field that hold such a word
@@ -44,7 +47,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*(.*)
 INCLUDED = re.compile(r'([<"])([^>"]+)[>"]')
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.S)
 STANDARD_HEADER = re.compile(r"[a-z_]+$")  # <cmath>, never <math.h>
-# A path that exists on one person's machine; behind a variable or in an address it is none.
+# A path that exists on one person's machine. It is permitted after a variable or in an address.
 MACHINE_PATH = re.compile(r"(?<![\w.~})\-])/(?:work|root|home/\w+|Users/\w+|builds)/")
 
 
@@ -88,7 +91,8 @@ def is_project(name):
 
 
 def part(name):
-    """The folder of the layout that a file belongs to: dbc/wire, bench/world, target/estimators/wind; inside it all is one."""
+    """The folder of the layout that contains a file: dbc/wire, bench/world, target/estimators/wind. Its subfolders belong to
+    it."""
     depth = 3 if name.startswith("target/estimators/") else 2
     return "/".join(name.split("/")[:-1][:depth])
 
@@ -177,7 +181,7 @@ def quantity_breaches(sources):
 
 
 def estimator_breaches(sources):
-    """Nobody but its folder and the registry names an estimator or a message of its answers; see KNOW_ESTIMATORS."""
+    """Only its own folder and the registry name an estimator or a message of its answers; see KNOW_ESTIMATORS."""
     own = {n: without_comments(t) for n, t in sources.items() if n.startswith("bench/estimators/")}
     estimators = {n.split("/")[2] for n in own if n.count("/") == 3}
     groups = re.findall(r"\b(?:Answer|Navigation)Group<([^<>;]*)>", " ".join(own.values()))
@@ -195,7 +199,7 @@ def estimator_breaches(sources):
 
 
 def node_breaches(sources, graph):
-    """A node is known to the registry alone: nobody else includes its header or names its settings, other nodes neither."""
+    """Only the registry includes a node's header or names its settings; other nodes must not either."""
     headers = {n for n, t in sources.items() if n.startswith("bench/nodes/") and re.search(r"\bextern const struct Kind \w+;", t)}
     settings = {s for n in headers for s in re.findall(r"\bstruct (\w+Settings) \{", sources[n])}
     named = re.compile(rf"\b({'|'.join(sorted(settings))})\b") if settings else None
@@ -235,7 +239,7 @@ def machine_path_breaches(texts):
                 yield f"{name}:{number}: '{match[0]}' is a path of one machine, expected a relative one"
 
 
-# Where a page names the tests that keep what it promises.
+# The page that names, for each promise, the test that proves it.
 PROVEN = "docs/duty.md"
 NAMED_TEST = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
 TEST = re.compile(r"\bTEST(?:_[FP])?\((\w+),\s*(\w+)\)")

@@ -1,4 +1,4 @@
-// How far the answers of a target may differ from the reference.
+// Tests the allowed deviation of a target's answers from the reference.
 #include "bench/accept/reference.hpp"
 
 #include <gmock/gmock.h>

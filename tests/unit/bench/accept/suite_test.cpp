@@ -1,4 +1,4 @@
-// Reading suites: those of the project, and wrong ones.
+// Reads the suites of the project, and invalid ones.
 #include "bench/accept/suite.hpp"
 
 #include <fmt/format.h>

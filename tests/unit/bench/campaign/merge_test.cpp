@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using Files = std::vector<std::filesystem::path>;
 
 Finished finished(const Key& key, double error = 1e-3) {
-  // As long as a real run: rows need overflow pages.
+  // The series is as long as in a real run, so that its row needs overflow pages.
   return {.variant = key.variant,
           .series = run_with(key.run, std::vector<double>(199, error * static_cast<double>(key.run + 1)))};
 }

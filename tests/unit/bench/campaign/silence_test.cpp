@@ -15,7 +15,7 @@ constexpr const Quantity& heading = quantities::attitude_heading;
 constexpr std::int64_t s_us = 1'000'000;
 constexpr std::int64_t end_us = 10 * s_us;
 
-/// The value 1 at every half second from 0.5 s on, except for a silence.
+/// The value 1 every half second from 0.5 s on, except during a silence.
 RunSeries run_silent(std::int64_t from_us, std::int64_t to_us, const Quantity& quantity = heading) {
   RunSeries series{.run = 0,
                    .ending = {},
@@ -194,7 +194,7 @@ TEST(Freshness, LetsPassTwoFixesInARowAndWhatIsLostOnPurpose) {
       << "nor is an outage";
 }
 
-// A's fixes cease at 1 s of 3.
+// The fixes of A end at 1 s of 3 s.
 TEST(Silence, MeetsNoBar) {
   for (const std::string metric :
        {"kind = 'value_at'\nat_s = 3.0\nat_most_mrad = 100\n",

@@ -128,7 +128,7 @@ TEST_F(Damaged, IsRefusedOrGivesTheSameReport) {
   EXPECT_GT(refused, copies / 4) << "the damage hit nothing";
 }
 
-// Valid rows are then in the place of other rows.
+// A page copied over another page puts valid rows where other rows should be.
 TEST_F(Damaged, WithAPageInThePlaceOfAnotherIsRefusedOrGivesTheSameReport) {
   constexpr std::size_t page = 4096;
   const std::size_t pages = bytes_.size() / page;

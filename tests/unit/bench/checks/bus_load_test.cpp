@@ -53,7 +53,7 @@ TEST(BusLoad, IsJudgedOnTheWireOfTheRunTooWhereItsDataRateAloneDiffers) {
   rule.data_bitrate = 2'000'000;
   rule.below = 0.05;
   EXPECT_EQ(found(rule, seen).expected, "< 5 % of 500 and 2000 kbit/s");
-  // Of classic frames no bit is of the data phase; without a data rate FD frames are as fast as the nominal.
+  // Classic frames have no data phase. Without a data rate, FD frames use the nominal rate throughout.
   seen.length_by_second = {{.nominal = 5'000}};
   rule.data_bitrate = 0;
   EXPECT_EQ(found(rule, seen).expected, "< 5 % of 500 kbit/s");

@@ -108,7 +108,7 @@ TEST_F(Handshake, TwoTargetsThatAcknowledgeEachStepAreNotTaken) {
     while (const auto one = port_.receive()) answers.push_back(*one);
     for (const Received& one : answers) {
       port_.give(one);
-      port_.give(one);  // the other's, whose counters started with the same command
+      port_.give(one);  // from a second target, whose counters are the same
     }
   };
   const auto done = configure();

@@ -182,7 +182,7 @@ TEST_P(Containers, KeepTheirBoundsAndTheirTimesAddUp) {
     nearest = std::max(nearest, static_cast<double>(bound.longest_ns) / static_cast<double>(*bound.bound_ns));
   }
   EXPECT_GT(nearest, GetParam().empty() ? 0.45 : 0.8) << "the bounds bind nothing";
-  // Every group was whole: a container of each.
+  // Each group arrived complete, because it was sent in one container.
   EXPECT_EQ(timing.responses[message_index<messages::SlaveImuDeltaTheta>()].count,
             run.seen.stimuli.at("SlaveImu").count);
   EXPECT_EQ(timing.responses[message_index<messages::SeekerAntenna>()].count,
@@ -281,8 +281,8 @@ TEST(InProcessWire, ADeviceThatIsOffTheBusWaitsForItsReturn) {
     }
   }
   ASSERT_GT(at_ns.size(), 64U);
-  // From the error flag of the 32nd error on: 12 bits of flags, 11, 128 times 11, and the first bit of the
-  // next attempt.
+  // Bits from the error flag of the 32nd error on: 12 bits of flags, 11, 128 times 11, and the first bit of
+  // the next attempt.
   EXPECT_EQ(at_ns[32] - at_ns[31], (12 + 11 + 128 * 11 + 1) * 1'000'000);
 }
 

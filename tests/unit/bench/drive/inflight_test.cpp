@@ -72,7 +72,7 @@ TEST(InFlight, AlignsFromNinetyDegreesOff) {
             0);
 }
 
-// The S path goes east by some 60 m in 30 s: across the line within the first seconds.
+// On the S path the vehicle moves about 60 m east within 30 s, so it crosses the line in the first seconds.
 TEST(InFlight, GoesOnAcrossTheDateLineAsAnywhereElse) {
   for (const std::string aiding : {"0", "1"}) {  // ssbl, gps
     const auto at = [&](const std::string& longitude_deg) {

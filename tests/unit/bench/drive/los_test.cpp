@@ -85,7 +85,8 @@ TEST(Los, EveryAlgorithmSeesTheSameFlight) {
 }
 
 TEST(Los, WithoutNoiseTheErrorIsThatOfTheBus) {
-  // The remaining error is that of a filter that expects noise; without a manoeuvre it has nothing to follow.
+  // A filter designed for noise lags behind a manoeuvre. Without one there is no lag, so only the error of
+  // the bus remains.
   const Flown quiet =
       fly("los_quick", {set("seeker.thermal_noise_radpm2", "0"), set("seeker.glint_noise_m", "0"),
                         set("seeker.gyro_noise_mradps", "0"), set("seeker.gyro_bias_sigma_mradps", "0"),

@@ -76,7 +76,7 @@ TEST(AttitudeNees, TakesTheFirstAnswerThatKnewOfTheUpdate) {
       {.cause_us = 100, .navigation_us = 100, .attitude_sigma = Vector3::Ones()});
   EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors)[0].value, 25, 1e-9);
   seen.of<TransferAnswers>().filter[0].navigation_us =
-      120;  // the fix was 20 us late: those before knew nothing of it
+      120;  // this fix came 20 us late: earlier answers do not include it
   EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors)[0].value, 1, 1e-9);
   seen.of<TransferAnswers>().filter[0].navigation_us = 130;
   EXPECT_THAT(nees_of(seen.of<TransferAnswers>().filter, errors), SizeIs(0));

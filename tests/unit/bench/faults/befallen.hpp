@@ -73,7 +73,7 @@ struct Flight {
   }
   Flight(const Flight&) = delete;
 
-  /// Of one message.
+  /// The frames of one message.
   [[nodiscard]] Timed of(std::uint32_t id) const {
     Timed some;
     for (const auto& one : frames) {

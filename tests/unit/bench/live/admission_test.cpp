@@ -40,7 +40,7 @@ TEST(LiveAdmission, RefusesPagesOfOtherSites) {
     EXPECT_EQ(admit(here, socket("127.0.0.1:8460", origin)).status, 403U) << origin;
     EXPECT_EQ(admit(here, page("/", "127.0.0.1:8460", origin)).status, 403U) << origin;
   }
-  // Under a name that leads here by DNS, of which the browser then says that it is the same site.
+  // A foreign host name that resolves to this machine; the browser then regards the request as same-origin.
   EXPECT_EQ(admit(here, socket("evil.example:8460", "http://evil.example:8460")).status, 421U);
   EXPECT_EQ(admit(here, page("/", "127.0.0.1:80")).status, 421U);
   EXPECT_EQ(admit(here, page("/", "")).status, 400U);

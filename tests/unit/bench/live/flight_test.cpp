@@ -18,7 +18,8 @@ scenario::Scenario scenario(const std::string& name) {
   return std::move(*read);
 }
 
-// Looks on in the flight's own thread: each frame is looked at, each half second all is brought up to date.
+// Observes in the flight's own thread: it processes each frame, and updates the shown flight each half
+// second.
 class LooksOn final : public drive::Onlooker {
  public:
   explicit LooksOn(Flight& flight) : flight_(flight) {}
@@ -65,7 +66,7 @@ Result<drive::Run> fly(const scenario::Scenario& scenario, Flight* shown) {
   return drive::run(scenario, options, stop, [](std::int64_t) {});
 }
 
-// A window of ten seconds moves on in the longer ones.
+// The flight is longer than the live view's window of ten seconds, so the window has to move.
 class LiveFlight : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Estimators, LiveFlight,
                          testing::Values("transfer_alignment", "inflight_quick", "los_quick", "wind_quick"));
@@ -81,7 +82,7 @@ TEST_P(LiveFlight, ShowsTheNumbersOfTheReport) {
   for (std::size_t i = 0; i < report.series.size(); ++i) {
     const report::Series &live = shown.series[i], &end = report.series[i];
     EXPECT_EQ(live.quantity, end.quantity);
-    ASSERT_GE(live.points.size() + 2, end.points.size()) << end.quantity;  // a gap at the end is told there
+    ASSERT_GE(live.points.size() + 2, end.points.size()) << end.quantity;  // its end may add a gap
     std::size_t differing = 0;
     for (std::size_t k = 0; k < std::min(live.points.size(), end.points.size()); ++k) {
       const auto &a = live.points[k], &b = end.points[k];

@@ -28,7 +28,7 @@ Json series_of(const std::string& message) { return Json::parse(message)["flight
 TEST(LiveMessage, SaysWhatIsNew) {
   Sent sent;
   EXPECT_EQ(series_of(next_message(snapshot(3), sent))["from"], 0);
-  // The last point that was sent is sent again: it may have grown.
+  // The last point that was sent is sent again, because it may have changed.
   const Json next = series_of(next_message(snapshot(5), sent));
   EXPECT_EQ(next["from"], 2);
   EXPECT_EQ(next["t_s"], (std::vector<double>{2, 3, 4}));

@@ -11,7 +11,7 @@
 namespace canhil::live {
 namespace {
 
-// What was shown last. Of the view's thread until it is closed.
+// The last snapshot shown. Until the view is closed, only its thread uses it.
 struct Shown {
   Snapshot last;
   std::atomic<int> times = 0;

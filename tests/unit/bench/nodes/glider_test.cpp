@@ -23,7 +23,7 @@ const world::GlideRecord& glide() {
   return record;
 }
 
-// As long as the run.
+// A flight record as long as the run.
 const world::FlightRecord& flight() {
   static const world::FlightRecord record({.start = {}, .motion = world::Rest{}}, end_us, 10'000);
   return record;

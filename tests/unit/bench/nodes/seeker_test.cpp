@@ -13,7 +13,7 @@ namespace {
 
 using namespace messages;
 
-// As long as the run.
+// A flight record as long as the run.
 const world::FlightRecord& flight() {
   static const world::FlightRecord record({.start = {}, .motion = world::Rest{}}, 8'000'000, 10'000);
   return record;

@@ -94,7 +94,7 @@ TEST_F(OnAnFdWire, TheLatencyIsSplitIntoTheTimesOfContainers) {
   EXPECT_EQ(response<AlignVelocityD>().count, 0U);
 }
 
-// Nine messages: eight in a container, the ninth in a frame of its own, which is held back for 2 ms.
+// Nine messages: eight in a container; the ninth in a separate frame, which is held back for 2 ms.
 TEST_F(OnAnFdWire, TheFramesOfAnAnswerCountOneBehindTheOther) {
   bench_.send(MasterInsVelocityNE{}, MasterInsAttitude{}, MasterInsLatitude{}, MasterInsLongitude{},
               MasterInsVelocityD{.time_of_validity_us = 20'000});

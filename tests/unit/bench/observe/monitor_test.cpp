@@ -328,7 +328,7 @@ TEST_F(Watched, RemembersHowLateTheBenchWasAndWhenItBeganAndEnded) {
   EXPECT_EQ(seen().last_ns, 300);
 }
 
-// A stimulus that was due at 100 us, written 20 us late, on the bus 5 us later; answered.
+// The stimulus is due at 100 us, written 20 us late, and on the bus 5 us later. The target answers it.
 TEST_F(Watched, TakesTheTimesOfEveryMessageOfAnAnswer) {
   const auto stimulate = [&](std::int64_t valid_us, std::int64_t due_ns, std::int64_t late_ns) {
     echo(transmit(SlaveImuStatus{.time_of_validity_us = wrap_us(valid_us)}, due_ns + late_ns, late_ns),

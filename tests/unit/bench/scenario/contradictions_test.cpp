@@ -6,7 +6,7 @@
 namespace canhil::scenario {
 namespace {
 
-// In-flight alignment with what follows [slave_imu].
+// A scenario of in-flight alignment, with `aid` as the text after [slave_imu].
 std::string inflight(const std::string& aid, const std::string& parameters = "") {
   return with("[truth]", "[target.parameters]\n" + parameters + "[truth]",
               with("[slave_imu]", "[slave_imu]\n" + aid, with("transfer_alignment", "inflight_alignment")));

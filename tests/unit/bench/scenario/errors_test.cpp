@@ -21,7 +21,7 @@ TEST_P(ScenarioError, IsOneExactLine) {
   EXPECT_EQ(error_of(with(GetParam().from, GetParam().to)), "s.toml:" + GetParam().error);
 }
 
-/// In the order of reading: sections that depend on a truth come after it.
+/// The keys in the order in which they are read: sections that depend on a truth follow its section.
 std::string keys_of_a_file() {
   const auto nodes_of = [](TruthOf samples) {
     std::string keys;

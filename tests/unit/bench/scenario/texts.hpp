@@ -68,7 +68,7 @@ inline Scenario parsed(std::string_view text) {
   return {};
 }
 
-/// The rule of a check, which is of this kind.
+/// The rule of a check that is known to be of this kind.
 template <class Kind>
 Kind rule_of(const Check& check) {
   const auto* rule = dynamic_cast<const checks::RuleOf<Kind>*>(check.rule.get());

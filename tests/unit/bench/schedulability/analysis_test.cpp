@@ -84,8 +84,8 @@ TEST(SaeBenchmark, At125KilobitsPerSecond) {
                           19'280, 19'800, 20'320, 29'240, 29'760, 29'760));
 }
 
-// Tindell, Burns, Wellings 1995: at 125 kbit/s the benchmark misses no deadline of a control loop; at half
-// of it the bus is overloaded, and there is no bound for the messages at the end.
+// Tindell, Burns, Wellings 1995: at 125 kbit/s the benchmark meets all deadlines of the control loops. At
+// half of that bit rate the bus is overloaded, and the messages of the lowest priority have no bound.
 TEST(SaeBenchmark, AtHalfTheBitRateTheBusIsOverloaded) {
   const Bus bus{.rates = {.nominal = 62'500}};
   EXPECT_GT(utilisation(sae_benchmark(), bus.rates), 1);
@@ -123,9 +123,9 @@ TEST(Responses, ErrorsCostAnErrorFrameAndTheLongestRetransmission) {
   EXPECT_THAT(with({}), ElementsAre(190, 190));
   EXPECT_THAT(with({.burst = 1, .interval_ns = 10 * ms}), ElementsAre(190 + 161, 190 + 161));
   EXPECT_THAT(with({.burst = 3, .interval_ns = 10 * ms}), ElementsAre(190 + 3 * 161, 190 + 3 * 161));
-  // Every 200 us one more: 1 + ceil(t / 200) - 1 errors within t.
+  // One more error every 200 us: 1 + ceil(t / 200) - 1 errors within t.
   EXPECT_THAT(with({.burst = 1, .interval_ns = 200 * us}), ElementsAre(190 + 5 * 161, 190 + 5 * 161));
-  // More errors than the bus can make good.
+  // So many errors that the bus cannot recover.
   EXPECT_THAT(with({.burst = 1, .interval_ns = 100 * us}), ElementsAre(-1, -1));
 }
 

@@ -27,7 +27,7 @@ struct Sample {
   std::int64_t t_us = 0;
   double value[7] = {};
 };
-constexpr std::size_t many = 8 * Spool<Sample>::most_in_memory;  // 16 MiB: in a file, the most of them
+constexpr std::size_t many = 8 * Spool<Sample>::most_in_memory;  // 16 MiB, of which most is in a file
 
 Sample sample(std::size_t index) {
   return {.t_us = static_cast<std::int64_t>(index), .value = {1.0 / static_cast<double>(index + 1)}};

@@ -89,7 +89,7 @@ TEST(Motion, TheWeaveIsCoordinated) {
   EXPECT_GT(std::abs(kinematics(smooth, 3).angles.roll), 60 * deg) << "the turn is real";
 }
 
-// Against another simulation, a second at a time: its heading, and the increments of an IMU with 1 deg/h,
+// Compares one second at a time with another simulation: heading, and the increments of an IMU with 1 deg/h,
 // 0.3 deg/sqrt(h), 1000 ug and 50 ug/sqrt(Hz).
 TEST(Motion, TheSPathIsThatOfTheReference) {
   const Csv seconds(TEST_DATA_DIR "/s_path/seconds.csv");

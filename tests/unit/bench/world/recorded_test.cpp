@@ -70,8 +70,8 @@ RC_GTEST_PROP(RecordedPath, PassesThroughItsSamplesWithTheRatesOfItsCurve, ()) {
     RC_ASSERT(angle_between(truth.C_bn, states[i].C_bn) < 1e-14 * 100);
     RC_ASSERT(displacement_n(truth.position, *states[i].position).norm() < 12 * bend + 1e-6);
   }
-  // Central differences with steps of e err by e^2 times a third derivative; a spline's has jumps, as large
-  // as the step of its second derivative from one sample to the next.
+  // The error of central differences with steps of e is e^2 times a third derivative. That of a spline jumps
+  // by as much as its second derivative changes from one sample to the next.
   constexpr double e = 1e-5;
   for (double t = 0.3; t < 11; t += 0.777) {
     const Movement before = movement(again.motion, t - e), now = movement(again.motion, t),
@@ -128,8 +128,8 @@ TEST_P(RecordedEvery, StrapdownNavigationOfItsIncrementsReturnsToWhatWasRecorded
 
 INSTANTIATE_TEST_SUITE_P(Rates, RecordedEvery, testing::Values(10'000, 20'000, 40'000));
 
-// Rounded velocities, at times of no grid: the derivatives of their spline jump at each of them, and no
-// quadrature may step across. Sums of ten or of a hundred parts round to 1e-15 of 0.1 m/s and 2 mrad.
+// Rounded velocities at irregular times: the derivatives of their spline jump at each of them, so no
+// quadrature may step across one. Sums of ten or of a hundred parts agree to 1e-15 of 0.1 m/s and 2 mrad.
 TEST(RecordedPath, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
   const FlightRecord flown(turning, 4'000'000, 1'000);
   auto states = states_of(flown, 37'000);
@@ -147,8 +147,8 @@ TEST(RecordedPath, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
   }
 }
 
-// A navigation system with a wrong velocity and right positions: over a long flight the truth follows the
-// positions.
+// A navigation system reports a wrong velocity and correct positions: over a long flight the truth must
+// follow the positions.
 TEST(RecordedPath, FollowsThePositionsWhereTheVelocityIsBiased) {
   const FlightRecord flown(turning, 120'000'000, 10'000);
   auto states = states_of(flown, 20'000);
@@ -168,7 +168,8 @@ TEST(RecordedPath, FollowsThePositionsWhereTheVelocityIsBiased) {
   EXPECT_LT(worst_acceleration, 1e-3) << "[m/s^2], 100 ug";
 }
 
-// Positions rounded to a centimetre, as 1e-7 degrees are: a curve through them would accelerate by 25 m/s^2.
+// The positions are rounded to a centimetre, like values in 1e-7 degrees. A curve through them would have
+// accelerations of 25 m/s^2.
 TEST(RecordedPath, RoundingOfPositionsIsNoAcceleration) {
   const FlightRecord flown(turning, 60'000'000, 10'000);
   auto states = states_of(flown, 20'000);

@@ -49,7 +49,7 @@ Moments moments(const SeekerErrorModel& model, double range,
   return {.mean = sum / samples, .variance = squares / samples - sum * sum / samples / samples};
 }
 
-// 5 sigma of the estimate of a variance.
+// Five standard errors of an estimated variance.
 void expect_sigma(const Moments& found, double sigma) {
   EXPECT_NEAR(found.variance, sigma * sigma, 5 * sigma * sigma * std::sqrt(2.0 / samples));
 }

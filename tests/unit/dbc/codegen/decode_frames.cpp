@@ -37,7 +37,7 @@ nlohmann::json values_json(const Planned& planned, const std::vector<std::uint8_
                            const std::vector<double>& values) {
   nlohmann::json json = nlohmann::json::object();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    // As text: nan and inf too.
+    // Values are printed as text, because JSON has neither nan nor inf.
     if (planned.plan.is_present(i, data))
       json[planned.message->signals[i].name] = fmt::format("{}", values[i]);
   }

@@ -32,7 +32,7 @@ def disagree(where, kind, example):
 
 
 def raw_limits(signal):
-    """The raw values that the signal's bits and its minimum and maximum allow; canmatrix fills in limits that are not given."""
+    """The raw values that the signal's bits, minimum and maximum allow; canmatrix adds limits that the DBC does not define."""
     lowest, highest = (-(1 << signal.size - 1), (1 << signal.size - 1) - 1) if signal.is_signed else (0, (1 << signal.size) - 1)
     low, high = sorted((bound - signal.offset) / signal.factor for bound in (signal.min, signal.max))
     if not (signal.min == signal.max == 0):
@@ -81,7 +81,8 @@ def compare_values(where, line, ours, theirs):
             continue
         signal = decoded.signal
         ours_value, theirs_value = float(ours[name]), float(decoded.phys_value)
-        # canmatrix computes in decimals and rounds at the end; one rounding of each operation separates us.
+        # canmatrix computes in decimals and rounds at the end, so the results may differ by the rounding of
+        # each operation.
         close = math.isclose(ours_value, theirs_value, rel_tol=1e-12, abs_tol=abs(float(signal.factor)) * 1e-9)
         if not close and not (math.isnan(ours_value) and math.isnan(theirs_value)):
             disagree(f"{where}.{name}", "value", f"{line}: canhil {ours_value}, canmatrix {theirs_value}")

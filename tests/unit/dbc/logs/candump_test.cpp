@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-/// A file of this test, gone at its end.
+/// A file that is removed at the end of the test.
 class Log : public ::testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(path_); }

@@ -134,7 +134,7 @@ TEST(Formats, AFullDiskIsToldByEach) {
   }
 }
 
-// As Vector's tools and python-can write them.
+// Logs in the form in which Vector's tools and python-can write them.
 TEST(Asc, OfOthersIsRead) {
   const std::string path = path_of("others.asc");
   std::ofstream(path)

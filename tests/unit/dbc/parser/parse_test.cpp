@@ -278,8 +278,8 @@ double seconds_to_parse(const std::string& text) {
   return least;
 }
 
-// Sixteen times the messages take sixteen times as long, and a little more; loops within loops take 256
-// times.
+// 16 times as many messages take about 16 times as long. Nested loops over all messages would take 256 times
+// as long.
 TEST(Parse, TakesAsLongAsTheTextIs) {
   const double few_s = seconds_to_parse(text_of_messages(1'500));
   EXPECT_LT(seconds_to_parse(text_of_messages(24'000)), 64 * few_s);

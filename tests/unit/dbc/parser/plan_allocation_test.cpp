@@ -13,7 +13,7 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-// Not inlined, because GCC would report a mismatch for free() in them.
+// Not inlined, because GCC would otherwise report a mismatched free() in these functions.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;

@@ -40,7 +40,8 @@ TEST(BitErrors, AFrameIsHitAsOftenAsItsBitsSayAndAnywhere) {
   }
   const double share = 1 - std::pow(1 - p, bits);
   EXPECT_NEAR(hits, tries * share, 5 * std::sqrt(tries * share * (1 - share)));
-  // Uniform but for a slope of p n / 12 of the length, here 1 %: the first of several hits counts.
+  // The first of several hits counts, so the distribution is not quite uniform: its mean is off by p n / 12
+  // of the length, here 1 %.
   EXPECT_NEAR(mean / hits / bits, 0.5, 0.01 + 5 * std::sqrt(1. / 12 / hits));
   EXPECT_EQ(first_ns, bit_ns);
   EXPECT_EQ(last_ns, static_cast<std::int64_t>(bits) * bit_ns);

@@ -255,7 +255,7 @@ TEST_F(LocalBus, TheEndOfTheHubClosesNodesAfterTheirLastFrame) {
   auto hub = host();
   const auto node = join(*hub);
   hub->send(frame_of(3));
-  node->send(frame_of(4));  // unread by the hub: its end is then a connection reset
+  node->send(frame_of(4));  // the hub has not read it, so the connection is reset at its end
   hub.reset();
   EXPECT_TRUE(wait(*node, WaitFor::frame, 0));
   EXPECT_EQ(node->receive()->frame.id, 3U);

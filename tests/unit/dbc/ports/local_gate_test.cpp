@@ -158,7 +158,7 @@ class AnotherUser : public LocalGate {
   void TearDown() override {
     if (::geteuid() == 0) LocalGate::TearDown();
   }
-  /// As if only the credentials kept other users away.
+  /// Opens the bus's files to all users, so that only the credentials keep other users out.
   void open_to_all() const {
     for (const std::string& path : {runtime_, directory(), directory() + "/x.classic"})
       ::chmod(path.c_str(), 0777);

@@ -87,7 +87,7 @@ TEST_F(Several, ABusThatIsNotThereIsNamed) {
   EXPECT_THAT(missing.error().message, HasSubstr("local:nobody-hosts-this"));
 }
 
-// A controller with a clock of its own, that has one frame.
+// A controller with a separate clock that delivers one frame.
 class Controller final : public Port {
  public:
   explicit Controller(std::int64_t hardware_ns) {

@@ -148,7 +148,7 @@ TEST(SimulatedWire, AfterSixteenErrorsASenderIsPassiveAndLetsOthersGoFirst) {
   ASSERT_TRUE(first);
   EXPECT_EQ(first->start_ns, 16 * error_ns + 8 * bit_ns);  // suspended for 8 bits
   EXPECT_EQ(wire.transmit_errors(0), 127);
-  EXPECT_EQ(wire.state(0), NodeState::error_active);  // that success was the one it took
+  EXPECT_EQ(wire.state(0), NodeState::error_active);  // one success was enough
   EXPECT_EQ(wire.next(long_enough)->start_ns, first->end_ns);
 }
 
@@ -189,7 +189,7 @@ TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
   while (wire.state(0) != NodeState::bus_off) ASSERT_TRUE(wire.next(long_enough));
   for (int i = 0; i < 126; ++i) ASSERT_TRUE(wire.next(long_enough));
   EXPECT_EQ(wire.state(0), NodeState::bus_off);
-  ASSERT_TRUE(wire.next(long_enough));  // with the one that went as it was off already: 128
+  ASSERT_TRUE(wire.next(long_enough));  // the 128th, with the one sent when it was off already
   EXPECT_EQ(wire.state(0), NodeState::error_active);
 }
 

@@ -43,7 +43,7 @@ TEST(Crc, AgreesWithTheTableDrivenOnesOfBoost) {
   EXPECT_EQ(with(boost::crc_32_type()), ours("CRC-32/ISO-HDLC"));
 }
 
-/// Division of polynomials, bit by bit and on the right: the definition, without the register of 64 bits.
+/// The definition: polynomial division bit by bit, right-aligned, without the 64-bit register.
 std::uint64_t by_division(const Crc& crc, std::span<const std::uint8_t> bytes) {
   std::uint64_t rest = crc.start;
   for (const std::uint8_t byte : bytes) {

@@ -62,7 +62,7 @@ TEST(Counters, SharedBySeveralMessagesGoUpWithEach) {
   }
 }
 
-// Against the list of what may be sent, in its order.
+// Compares with an explicit list of the permitted counters, in ascending order.
 RC_GTEST_PROP(Counters, GapsAreCountedAtModuloAndSkips, ()) {
   const auto modulo = *rc::gen::inRange<std::uint64_t>(2, 257);
   auto skipped = *rc::gen::container<std::set<std::uint64_t>>(rc::gen::inRange<std::uint64_t>(0, modulo));

@@ -90,7 +90,7 @@ RC_GTEST_PROP(BitLength, LiesBetweenTheBareAndTheWorst,
   Frame frame{
       .id = extended ? id & 0x1FFF'FFFFU : id & 0x7FFU, .extended = extended, .fd = fd, .brs = fd && brs};
   frame.size = static_cast<std::uint8_t>(*rc::gen::elementOf(sizes));
-  // Bytes with long runs as often as any.
+  // Random bytes, half of which contain long runs of equal bits.
   for (std::size_t i = 0; i < frame.size; ++i)
     frame.data.at(i) =
         *rc::gen::oneOf(rc::gen::arbitrary<std::uint8_t>(),

@@ -12,7 +12,7 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-// Not inlined, because GCC would report a mismatch for free() in them.
+// Not inlined, because GCC would otherwise report a mismatched free() in these functions.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
@@ -33,7 +33,7 @@ std::atomic<std::size_t> allocations = 0;
 namespace canhil::target {
 namespace {
 
-/// What shows that a session went its way to the end.
+/// Evidence that a session ran to its end.
 struct Session {
   std::size_t answers_above;
   bool running;  ///< at the end

@@ -149,8 +149,8 @@ TEST(Device, AnswersEachMasterGroupWithSigmasAndInnovation) {
 }
 
 TEST(Device, AppliesALateFixAtItsTimeOfValidity) {
-  // The same fixes, one stream in time, one 60 ms late: once both have everything, the answers agree bit for
-  // bit.
+  // The same fixes, in one stream in time and in the other 60 ms late: when both targets have received
+  // everything, their answers agree bit for bit.
   const auto last_answer = [](int delay_samples) {
     BenchSide bench;
     bench.start();

@@ -204,7 +204,7 @@ std::vector<Parameter> own_parameters() {
   return own;
 }
 
-// A value without a limit of its own: the default is inside of every range.
+// For a value without its own limit: the default lies inside every range.
 TEST(LosRateParameters, AreReadBackRefusedOutsideTheirRangeAndWhileRunning) {
   ASSERT_EQ(own_parameters().size(), 25U);
   for (const Parameter parameter : own_parameters()) {
@@ -275,7 +275,7 @@ TEST(LosRateParameters, SettingsReachTheEstimator) {
 // At the ends of the ranges, in random combinations, all designs and gains stay finite.
 TEST(LosRateParameters, TheEndsOfTheRangesKeepTheEstimatorWhole) {
   std::mt19937_64 engine(1);
-  // Largest and smallest accepted of a rough scan.
+  // The largest and the smallest value that is accepted, found by a rough scan.
   std::vector<std::array<float, 2>> ends;
   for (const Parameter parameter : own_parameters()) {
     BenchSide bench;

@@ -66,7 +66,7 @@ class Missile : public BenchSide {
     send(sample.motion);
     send(sample.range);
   }
-  /// The next group, as `spoil` leaves it.
+  /// Sends the next group after `spoil` has changed it.
   void fly(const std::function<void(SeekerSample&)>& spoil = [](SeekerSample&) {}) {
     SeekerSample sample = next();
     spoil(sample);
@@ -91,7 +91,7 @@ class Missile : public BenchSide {
   [[nodiscard]] const los_rate::Truth& truth() const { return engagement_.truth(); }
   [[nodiscard]] messages::LosRateEstimate estimate() const { return *last<messages::LosRateEstimate>(); }
   [[nodiscard]] messages::LosRateSigma sigma() const { return *last<messages::LosRateSigma>(); }
-  /// Of both planes, against the truth [rad/s].
+  /// The error of both planes against the truth [rad/s].
   [[nodiscard]] double rate_error() const {
     const los_rate::Plane rate{estimate().los_rate_yaw_radps, estimate().los_rate_pitch_radps};
     return std::abs(rate - truth().rate);

@@ -230,7 +230,7 @@ struct Untimely {
 
 class UntimelyGroups : public testing::TestWithParam<Untimely> {};
 
-// Answered and counted, without an effect on later answers.
+// These samples are answered and counted, but do not affect later answers.
 TEST_P(UntimelyGroups, AreAnsweredCountedAndLeaveNoTrace) {
   const auto flight = [&](bool untimely) {
     Missile missile;
@@ -290,7 +290,7 @@ TEST(SeekerLoss, BlindnessOutlivesAnUntimelyGroup) {
   EXPECT_EQ(missile.estimate().blind, 1);
 }
 
-// After the pass: target and range gone, for ten seconds.
+// After the pass, target and range are lost for ten seconds.
 TEST(SeekerLoss, AfterThePassTheSigmasGrowToTheirLimit) {
   Missile missile;
   while (!missile.over()) missile.fly();

@@ -66,7 +66,7 @@ TEST(SensorLoss, ALostGroupIsBridgedAndFlaggedOnce) {
   bench.imu(30'000);
   EXPECT_EQ(bench.last<AlignAttitude>()->coasting, 1);
   EXPECT_EQ(bench.last<AlignVelocityD>()->cause_time_us, 30'000U);
-  // The specific force of the missing sample was not left out: the vertical velocity stays near zero.
+  // The specific force of the missing sample was bridged, so the vertical velocity stays near zero.
   EXPECT_NEAR(bench.last<AlignVelocityD>()->velocity_down_mps, 0, 0.01);
   bench.imu(40'000);
   EXPECT_EQ(bench.last<AlignAttitude>()->coasting, 0);

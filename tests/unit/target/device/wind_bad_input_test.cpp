@@ -36,7 +36,8 @@ double undisturbed_error() {
   return error;
 }
 
-// All frames sent are valid: no value at the end of its range, as NaN would give; the target still runs.
+// All frames sent contain valid values: none is at the end of its range, to which NaN would be converted. The
+// target still runs.
 void expect_sound(const Glider& bench) {
   for (const auto& w : bench.winds()) ASSERT_LT(w.cwiseAbs().maxCoeff(), 190);
   for (const auto& a : bench.all<WindAirVelocity>()) ASSERT_LT(std::abs(a.air_velocity_x_mps), 600);

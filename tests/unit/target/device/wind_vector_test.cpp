@@ -68,8 +68,8 @@ Misses replayed(Algorithm algorithm, const std::string& name) {
   return worst;
 }
 
-// A steady elevator off by half a step, 0.01 deg, is 0.3 % of the lift and so 0.16 % of 250 m/s: the filter
-// of this run believes its model.
+// A steady elevator error of half a step, 0.01 deg, is 0.3 % of the lift and so 0.16 % of 250 m/s. The filter
+// of this run trusts its model, so this error remains.
 constexpr Misses allowed{.air_velocity = 0.4, .attitude_deg = 0.01, .wind = 0.4, .wind_sigma = 0.005};
 
 void expect_within(const Misses& worst) {

@@ -45,7 +45,7 @@ void* __wrap_aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 }
 
-// Not inlined, because GCC would report a mismatch for free() in them.
+// Not inlined, because GCC would otherwise report a mismatched free() in these functions.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size)) return memory;
   std::abort();

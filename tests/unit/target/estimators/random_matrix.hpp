@@ -7,7 +7,7 @@
 
 namespace canhil {
 
-/// Of the standard normal distribution, filled by columns.
+/// A matrix of standard normal numbers, filled by columns.
 Dense random_dense(int rows, int columns, std::mt19937_64& engine);
 /// Symmetric, smallest eigenvalue at least 1.
 Dense random_covariance_dense(int size, std::mt19937_64& engine);

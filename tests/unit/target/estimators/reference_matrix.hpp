@@ -62,7 +62,7 @@ bool operator==(const Dense& a, const Dense& b);
 std::ostream& operator<<(std::ostream& out, const Dense& m);
 
 double dot(const Dense& a, const Dense& b);
-/// Of all entries: the root of the sum of squares, and the largest size.
+/// norm: the root of the sum of squares of all entries; largest: the largest magnitude of an entry.
 double norm(const Dense& m);
 double largest(const Dense& m);
 inline double largest_difference(const Dense& a, const Dense& b) { return largest(a - b); }
@@ -79,7 +79,7 @@ double spectral_radius(const Dense& m);
 double determinant(const Dense& m);
 /// L of m = L L', upper triangle zero.
 Dense lower_cholesky(const Dense& m);
-/// By its series in extended precision: for matrices of size up to about 10.
+/// The exponential by its power series in extended precision, for matrices of size up to about 10.
 Dense matrix_exponential(const Dense& m);
 
 }  // namespace canhil

@@ -87,8 +87,8 @@ TEST(Glide, MomentumFollowsForceAndMoment) {
   }
 }
 
-// The equations of the estimator, which has the air velocity as a state, hold along the truth, which does not
-// have it.
+// The truth must satisfy the estimator's equations, which have the air velocity as a state, although the
+// truth does not.
 TEST(Glide, ObeysTheTargetsEquations) {
   const GlideRecord record = flown(in_steady_wind({20, 40, 0}), 10);
   const wind::Design design = wind::make_design({});

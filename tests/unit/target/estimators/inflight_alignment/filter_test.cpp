@@ -49,7 +49,7 @@ constexpr Case cases[] = {{Algorithm::ekf, Aiding::ssbl},     {Algorithm::ekf, A
                           {Algorithm::ukf, Aiding::ssbl},     {Algorithm::ukf, Aiding::gps},
                           {Algorithm::sin_cos, Aiding::ssbl}, {Algorithm::sin_cos, Aiding::gps}};
 
-// Bar D. The one variance of sin_cos that may be zero is that of k once the heading is handed over.
+// Bar D. In sin_cos only the variance of k may be zero, after the heading was handed over.
 TEST(InflightFilter, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
   for (const auto [algorithm, aiding] : cases) {
     for (const double start_deg : {90.0, 170.0}) {
@@ -133,8 +133,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   }
 }
 
-// The vehicle's acceleration of 1 m/s^2 tilts the levelling of the first sample by 6 deg, so a start that is
-// better known is not levelled.
+// The vehicle accelerates by 1 m/s^2, so levelling by the first sample would tilt it by 6 deg. A start with
+// smaller sigmas must not be levelled.
 TEST(InflightFilter, OnlyAnUnknownTiltIsLevelled) {
   Settings settings = recorded_settings(Algorithm::sin_cos, Aiding::ssbl);
   const RecordedRun& from = inputs(Aiding::ssbl);
@@ -210,8 +210,7 @@ TEST(InflightFilter, AFixBeyondTheGateIsRefusedUntilTooManyAre) {
   }
 }
 
-// z = dR - rho: a fix to the north means that the INS is too far south, or that the fix is biased to the
-// north.
+// z = dR - rho: if the fix is north of the INS, the INS is too far south, or the fix is biased to the north.
 TEST(InflightFilter, AFixMovesPositionAndBiasTowardsItself) {
   for (const auto [algorithm, aiding] : cases) {
     const Settings settings = recorded_settings(algorithm, aiding);
@@ -246,7 +245,7 @@ TEST(InflightFilter, AFixAcrossTheDateLineIsNear) {
   EXPECT_NEAR(result.innovation.y(), -2e-7 * 6.38e6 * std::cos(fix.latitude), 1.0);
 }
 
-// Without fixes the filter predicts by itself, so that its steps stay short.
+// Without fixes the filter predicts at its own intervals, so that the steps stay short.
 TEST(InflightFilter, PredictsByItselfWithoutFixes) {
   Settings settings = recorded_settings(Algorithm::sin_cos, Aiding::gps);
   settings.longest_interval = 0.995;
@@ -261,7 +260,7 @@ TEST(InflightFilter, PredictsByItselfWithoutFixes) {
   EXPECT_EQ(update(state, from.fixes[19], settings).outcome, Outcome::ok);
 }
 
-// Its mean, carried to the present, is what the INS would be corrected by.
+// The mean of the prediction, propagated to the present, must equal the correction of the INS.
 TEST(InflightFilter, TheEstimateBetweenFixesIsThePredictionsMean) {
   for (const auto [algorithm, aiding] : cases) {
     const Settings settings = recorded_settings(algorithm, aiding);
@@ -337,7 +336,8 @@ TEST(InflightHistory, BetweenEpochsThePositionIsInterpolated) {
   };
   const Vector3d a = innovation(160'000), b = innovation(180'000), m = innovation(165'000);
   EXPECT_GT((b - a).norm(), 0.03);
-  // The prediction's mean belongs to the later epoch: its errors' difference is of the order of 1e-9.
+  // Between epochs the innovation is interpolated. Only the prediction's mean is that of the later epoch,
+  // which changes the result by about 1e-9.
   EXPECT_LT((m - (a + 0.25 * (b - a))).norm(), 1e-6);
 }
 
@@ -354,7 +354,8 @@ TEST(InflightHistory, RefusesWhatItCannotReach) {
     return history->update(state, from.fixes[0], t_us, settings).outcome;
   };
   EXPECT_EQ(outcome(2'000'001), Outcome::not_reached);
-  // Of the predictions at every 0.1 s four are kept, to 1.7 s; before the one at 1.6 s nothing is known.
+  // The last four predictions of 0.1 s are kept. The oldest one runs from 1.6 s to 1.7 s, so an earlier fix
+  // is too old.
   EXPECT_EQ(outcome(1'580'000), Outcome::older_than_history);
   EXPECT_EQ(outcome(-1), Outcome::out_of_order);
   EXPECT_TRUE(same_bits(state, before));

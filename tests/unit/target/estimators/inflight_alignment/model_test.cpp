@@ -20,7 +20,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using strapdown::NavState;
 
-// From the paper's eq. (8) the first row lacks its minus sign: not a rotation.
+// The printed eq. (8) lacks the minus sign of the first row, so it is not a rotation.
 TEST(PsiAngle, PlatformToComputerIsTheRotationByRollPitchYaw) {
   const Vector3d psi(0.3, -0.2, 1.2);
   const Matrix3d C = platform_to_computer(psi);
@@ -65,7 +65,7 @@ Truth errors_of(const NavState& ins, const NavState& truth) {
           ins.v_eb_n - C_tc * truth.v_eb_n};
 }
 
-// A tenth of a second of a turning vehicle: an INS without errors, and one that starts with each of them.
+// A vehicle turns for a tenth of a second, with an INS without errors and an INS that starts with all errors.
 struct Flight {
   Vector3d accel_bias{0.05, -0.03, 0.04};   // [m/s^2]
   Vector3d gyro_bias{2e-4, -3e-4, 1.5e-4};  // [rad/s]
@@ -100,8 +100,9 @@ struct Flight {
   }
 };
 
-// Tolerances: the model is of first order in T. What each term of it adds here is larger: Coriolis 1e-3 m/s,
-// gravity error 8e-5 m/s, turning of the frame 7e-4 m, earth's rate seen through C_pc 7e-6 rad, E 1e-7 rad.
+// Tolerances: the model is of first order in T. Each of its terms changes the result by more than the
+// tolerance: Coriolis 1e-3 m/s, gravity error 8e-5 m/s, turning of the frame 7e-4 m, earth's rate seen
+// through C_pc 7e-6 rad, E 1e-7 rad.
 TEST(PsiAngle, PredictsTheErrorsOfAnIns) {
   const Flight flight(0.01);
   Vector<15> x;
@@ -120,7 +121,7 @@ Vector<4> states(const Matrix3d& C_pc) {
   return {phi.x(), phi.y(), std::sin(psi), 1 - std::cos(psi)};
 }
 
-// In the levelled form biases are turned with the heading error.
+// In the levelled form, biases are rotated by the heading error.
 Errors<16> errors_at_the_start(const Flight& flight, SinCosForm form) {
   Errors<16> errors;
   errors.form = form;
@@ -143,8 +144,8 @@ TEST(SinCos, PredictsTheErrorsOfAnIns) {
   }
 }
 
-// Tilts of 10 and 15 deg: 0.48 m/s^2 of the vertical force is of second order in them, 0.048 m/s in the
-// interval. Left are 8e-4 m/s, of higher order.
+// With tilts of 10 and 15 deg, 0.48 m/s^2 of the vertical force is of second order in the tilts: 0.048 m/s in
+// the interval. Terms of higher order amount to 8e-4 m/s.
 TEST(SinCos, LevelledPredictsTheVerticalVelocityToTheSecondOrderOfTheTilts) {
   const Flight flight(10 * rad_per_deg);
   const auto off = [&](SinCosForm form) {
@@ -155,8 +156,8 @@ TEST(SinCos, LevelledPredictsTheVerticalVelocityToTheSecondOrderOfTheTilts) {
   EXPECT_LT(off(SinCosForm::levelled), 0.002);
 }
 
-// A level vehicle with tilts of which only the sigma is known: mean and variance of the vertical velocity
-// error after 1 s are those of g phi^2 / 2 with two normal tilts.
+// A level vehicle whose tilts are unknown apart from their sigma: the predicted mean and variance of the
+// vertical velocity error after 1 s must equal those of g phi^2 / 2 for two normally distributed tilts.
 TEST(SinCos, LevelledKnowsWhatUnknownTiltsDoToTheVertical) {
   Interval interval;
   interval.duration = 1;
@@ -185,7 +186,7 @@ TEST(PsiAngle, JacobianIsThatOfCentralDifferences) {
   const Flight flight(0.01);
   Vector<18> x;
   x << flight.start.dR, flight.start.dV, flight.psi, flight.accel_bias, flight.gyro_bias, 1, -2, 3;
-  // With E = I, as the filter takes it: the Euler rates are turned back into rotation rates.
+  // The filter uses E = I, so here the predicted Euler rates are converted back into rotation rates.
   const auto without_E = [&](const Vector<18>& at) {
     Vector<18> next = predicted<18>(at, flight.interval);
     const Vector3d psi = at.segment<3>(6), rates = next.segment<3>(6) - psi;
@@ -198,7 +199,7 @@ TEST(PsiAngle, JacobianIsThatOfCentralDifferences) {
   EXPECT_LT((G - expected).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-// Of first order: exact where tilts and biases are zero, at any heading.
+// First-order terms: exact for zero tilts and biases, at any heading.
 TEST(SinCos, JacobianIsThatOfCentralDifferences) {
   const Flight flight(0.01);
   for (const SinCosForm form : {SinCosForm::published, SinCosForm::levelled}) {
@@ -231,8 +232,9 @@ TEST(SinCos, JacobianOfTheVerticalForceHoldsWithTilts) {
   EXPECT_LT((G.block<1, 4>(5, 6) - expected.block<1, 4>(5, 6)).norm(), 1e-8);
 }
 
-// Whatever the heading error, what was taken out of the states and what remains of them are the same
-// attitude. Errors of (s, k) move both alike: P of what remains is that of its differences.
+// At any heading error, the attitude taken out of the states and the remaining states together equal the
+// attitude before. An error of (s, k) changes both parts, so the new P must be the covariance of the
+// remaining part's error.
 TEST(SinCos, TiltTakenOutLeavesTheSameAttitude) {
   Errors<19> errors;
   const Vector3d platform_tilt(0.12, -0.07, 0);
@@ -273,7 +275,7 @@ TEST(SinCos, TiltIsTakenOutBeforeTheHeadingIsKnown) {
   EXPECT_LT(left.norm(), 1e-12);
 }
 
-// As above for the biases: turned by the heading error, they become those of the body.
+// As above for the biases: rotated by the heading error, they become the biases in body axes.
 TEST(SinCos, BiasesTurnedBackAreThoseOfTheBody) {
   Errors<16> errors;
   const double psi = 1.9, d_psi = 1e-5;
@@ -302,8 +304,9 @@ TEST(SinCos, BiasesTurnedBackAreThoseOfTheBody) {
             1e-17);
 }
 
-// An error of the estimate before its attitude is taken out, as a covariance of rank one, is afterwards that
-// of the attitude that remains. With the tilts of 2 deg left as they are (published) that is wrong by 3.5 %.
+// The covariance is of rank one: a single error of the estimate. After the attitude is taken out, it must
+// equal the error of the remaining attitude. If the tilts of 2 deg are not taken out (as published), it is
+// wrong by 3.5 %.
 TEST(SinCos, AttitudeTakenOutLeavesTheCovarianceOfWhatRemains) {
   Errors<19> errors;
   const double psi = 1.9, d_psi = 1e-5;

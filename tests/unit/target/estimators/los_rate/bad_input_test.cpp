@@ -119,7 +119,7 @@ TEST(BadInput, IsNamedCoastedOverAndRecoveredFrom) {
   }
 }
 
-// A coast's sigma must be true: over 60 lost samples errors and sigmas agree on average.
+// The sigma must be correct during a coast: over 60 lost samples, errors and sigmas agree on average.
 TEST(BadInput, SigmasOfACoastAreConsistent) {
   for (const Algorithm algorithm : {Algorithm::kalman, Algorithm::combined}) {
     double ratio = 0;
@@ -168,7 +168,7 @@ TEST(BadInput, AJumpOfRangeIsRefusedAndBelievedOnlyWhenItLasts) {
   // Wild samples never agree with one another.
   for (int k = 0; k < 40; ++k)
     EXPECT_EQ(drive.sample(drive.range + 600 + 300 * (k % 2), 900).fault, Fault::range_jump);
-  // A new range that lasts is the range.
+  // If a range differs from the expected one for long enough, it is accepted as the new range.
   int refused = 0;
   while (drive.sample(drive.range + 2000, 900).fault == Fault::range_jump) ASSERT_LT(++refused, 30);
   EXPECT_EQ(refused, drive.design.settings.relock_samples);
@@ -238,7 +238,8 @@ TEST(BadInput, AResultThatOverflowsIsRefused) {
   EXPECT_NE(drive.sample(drive.range, 900).outcome, Outcome::non_finite) << "and the next one serves";
 }
 
-// The transition has 1/r, the switched thermal gain would be unstable: below the least range both are held.
+// The transition divides by r and the switched thermal gain would be unstable, so both use the least range
+// below it.
 TEST(BlindRange, RangeIsClampedAndSaidSo) {
   for (const Algorithm algorithm : algorithms) {
     EngagementSetup setup;

@@ -60,7 +60,7 @@ TEST(Riccati, SolvesItsEquationWhateverTheRatioOfSpeedToNoise) {
     const Dense size =
         entrywise_sizes(A * P) + P_size * transposed(A) + P_size.column(0) * P_size.row(0) / s2 + Q;
     EXPECT_LT(largest(entrywise_quotient(residual, size)), 1e-12) << x;
-    // Stabilising, of all solutions: (A - k C)' stable for every x.
+    // Of all solutions, takes the stabilising one: (A - k C)' is stable for every x.
     const double c1 = P(0, 0) / s2 - 4.5 * v;
     EXPECT_GT(c1, 0);
     EXPECT_GT(determinant(P), 0);
@@ -76,8 +76,9 @@ TEST(Riccati, WithoutProcessNoiseMirrorsThePoles) {
 
 class DifferentialRiccati : public testing::TestWithParam<double> {};
 
-// An integration that starts on the closed form stays on it: worst relative difference of the gains from 5 km
-// to 50 m. `transform` is the paper's operation on P-bar, right or as printed.
+// Integrates from the closed form's covariance, which must stay equal to the closed form. Returns the worst
+// relative difference of the gains from 5 km to 50 m. `transform` is the paper's operation on P-bar,
+// corrected or as printed.
 double worst_gain_error(const Noise& noise, double vc, const Matrix3d& P0, double r_from,
                         const std::function<Vector3d(double)>& gain) {
   double worst = 0;
@@ -105,7 +106,8 @@ TEST_P(DifferentialRiccati, GlintStartedOnTheClosedFormStaysThere) {
   EXPECT_LT(worst_gain_error(glint, vc, generic_start(), 5000 - 3 * vc, gain), 1e-3);
 }
 
-// Eq. (9) as printed, K3 = P3bar/(s2 r^3): no limit on an RMS detects this error, so this comparison must.
+// Eq. (9) as printed, K3 = P3bar/(s2 r^3), is wrong. No limit on an RMS detects that error, so this
+// comparison of gains must detect it.
 TEST_P(DifferentialRiccati, CatchesPrintedEquation9) {
   const double vc = GetParam();
   const Covariance p_bar = riccati(q, thermal_psd, vc);

@@ -59,8 +59,8 @@ TEST(LowPass, HasItsPolesAndItsNoise) {
   }
 }
 
-// Gain by gain: the combined table against the full Kalman filter, 100 to 500 Hz, after 2.2 s, to 0.05 s to
-// go.
+// Compares the combined table with the full Kalman filter, gain by gain, at 100 to 500 Hz, from 2.2 s after
+// the start to 0.05 s to go.
 TEST(ClosedGain, CombinedTableIsWithinThreePercentOfTheKalmanFilter) {
   for (const double T : {0.01, 0.005, 0.002}) {
     for (const double vc : {600.0, 900.0, 1200.0}) {
@@ -79,7 +79,7 @@ TEST(ClosedGain, CombinedTableIsWithinThreePercentOfTheKalmanFilter) {
         const ClosedGain closed = closed_gain(design.combined.pitch, {r, vc});
         worst = std::max({worst, std::abs(closed.K.e / K.e - 1), std::abs(closed.K.w / K.w - 1),
                           std::abs(closed.K.a / K.a - 1)});
-        // Sigmas of the closed forms are of continuous time, between prediction and update.
+        // The closed forms give sigmas in continuous time, which lie between those of prediction and update.
         EXPECT_NEAR(closed.sigma.rate / std::sqrt(P.ww), 1, 0.08) << T << " " << vc << " " << r;
         EXPECT_NEAR(closed.sigma.error / std::sqrt(P.ee), 1, 0.12) << T << " " << vc << " " << r;
         EXPECT_NEAR(closed.sigma.acceleration / std::sqrt(P.aa), 1, 0.05) << T << " " << vc << " " << r;
@@ -149,7 +149,7 @@ TEST(Statistics, NisAndSigmasAreConsistent) {
       });
     }
     EXPECT_NEAR(nis / count, 1, 0.05) << static_cast<int>(algorithm);
-    // Errors are correlated over about 1/W: some 40 * 2.8 * 8 independent ones.
+    // Errors are correlated over about 1/W, so there are about 40 * 2.8 * 8 independent ones.
     EXPECT_NEAR(ratio / count, 1, 0.15) << static_cast<int>(algorithm);
   }
 }

@@ -16,7 +16,8 @@ namespace {
 constexpr std::array algorithms{Algorithm::switched_table, Algorithm::combined, Algorithm::kalman,
                                 Algorithm::low_pass};
 
-// Started on the truth, without noise, an exact prediction leaves nothing to correct: Euler steps would.
+// The filter starts at the truth, without noise. An exact prediction then needs no correction, unlike Euler
+// steps.
 TEST(LosRate, PredictionIsExactForConstantClosingSpeed) {
   EngagementSetup setup = setup_of(Algorithm::kalman);
   setup.target = {0, 40};
@@ -114,8 +115,8 @@ TEST(TwoPlanes, WithoutTheRollTermTheEstimateIsLost) {
   EXPECT_GT(sum_without, 1000 * sum_with);
 }
 
-// The 6-state Kalman filter of section 5 of the notes, roll in its transition: with equal noises its
-// covariance is two equal blocks and its estimate this filter's.
+// The 6-state Kalman filter of section 5 of the notes, with the roll in its transition. With equal noises its
+// covariance must have two equal blocks, and its estimate must equal this filter's.
 TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -161,8 +162,8 @@ TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
     Matrix6 Q6 = Matrix6::Zero();
     Q6.topLeftCorner<3, 3>() = Q6.bottomRightCorner<3, 3>() = Q;
     x = Phi * x;
-    // Input during the turn: Phi's last columns would rotate it by the whole turn, so it is rotated by half
-    // of it.
+    // An input during the turn: the last columns of Phi would rotate it by the whole turn, although on
+    // average it must be rotated by half.
     x += u;
     P = Phi * P * Phi.transpose() + Q6;
     Eigen::Matrix<double, 2, 6> H = Eigen::Matrix<double, 2, 6>::Zero();

@@ -108,8 +108,8 @@ TEST(Gaps, TheGainAfterOneIsThatOfTheLongerStep) {
   }
 }
 
-// The motion of antenna or missile is unknown in a gap that ends with a sample without it. The variance of
-// the angle grows by that of the whole step, as in a gap that is too long.
+// The motion of antenna or missile in a gap is unknown if the sample that ends the gap lacks it. The variance
+// of the angle then grows for the whole step, as in a gap that is too long.
 TEST(Gaps, BeforeAnUnknownMotionAreNotBridged) {
   auto [setup, design, engagement, state] = flown(Algorithm::combined, 2.4);
   const Measurement whole = next_after(engagement, 4);

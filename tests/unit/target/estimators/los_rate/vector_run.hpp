@@ -40,7 +40,7 @@ inline constexpr Noise vector_noise{.thermal = 1e-10, .glint = 0.5, .constant = 
 inline constexpr Noise thermal_part{.thermal = 1e-10, .glint = 0, .constant = 0};
 inline constexpr Noise glint_part{.thermal = 0, .glint = 0.5, .constant = 0};
 
-/// Continuous gain of x by the noise that a rule picks.
+/// The continuous gain of x for the noise that a rule selects.
 inline Gain exact_gain(const Noise& noise, Geometry at) {
   return polar(steady_state(vector_q, displacement_noise(noise, at, vector_T)).d, at);
 }

@@ -19,8 +19,8 @@ double largest(const std::string& name) {
 
 double relative(double value, double reference) { return std::abs(value / reference - 1); }
 
-// Every row of a run against the columns of `name`: gains 1e-9 relative, estimates 1e-9 + 1e-8 of the
-// largest.
+// Compares every row of a run with the columns of `name`. Limits: gains 1e-9 relative, estimates 1e-9 + 1e-8
+// of the largest.
 void expect_published(const std::vector<Point>& points, const std::string& name) {
   const Csv& csv = vector_file();
   const double e_bar = 1e-9 + 1e-8 * largest(name + "_e"), w_bar = 1e-9 + 1e-8 * largest(name + "_w");
@@ -115,8 +115,8 @@ TEST(Vector, TablesThroughTheWholeStep) {
   EXPECT_LE(worst_rate(combined, "comb_w", 0, 6), 1e-3 * largest("comb_w"));
 }
 
-// Rows changed as a wrong sign in a driver or in the filter would, through the same comparison: nearly right
-// from 3 to 1 s to go, so judged at the start and near the end.
+// Rows are changed as a wrong sign in a driver or in the filter would change them, and must fail the same
+// comparison. They are nearly right from 3 to 1 s to go, so they are judged at the start and near the end.
 using Change = void (*)(Row&);
 double wrong_over_right(Change change, double from, double to) {
   std::vector<Row> rows = vector_rows();
@@ -168,7 +168,7 @@ TEST(SignTraps, TruthTellsRightFromWrongNearTheEnd) {
   EXPECT_GT(rms_error([](Row& row) { row.am = 0; }), 3 * right);
 }
 
-// Printed (9) and (11) through the comparison of gains with the vector's.
+// The printed equations (9) and (11) must fail the comparison of gains with the vector.
 TEST(PrintedEquations, NineAndElevenFailTheGainComparison) {
   const Csv& csv = vector_file();
   const std::vector<Row> rows = vector_rows();

@@ -26,7 +26,7 @@ Vector3d rotation_by(double angle, std::mt19937_64& engine) {
   return (angle / norm(axis) * axis).fixed<3, 1>();
 }
 
-// 0.1 rad is where the series hands over to the closed form.
+// At 0.1 rad the implementation changes from the series to the closed form.
 TEST(Attitude, ExpIsTheMatrixExponential) {
   std::mt19937_64 engine(1);
   for (const double angle : {0.0, 1e-9, 1e-3, 0.0999999, 0.1000001, 0.7, 3.0}) {
@@ -54,7 +54,8 @@ TEST(Attitude, MisalignmentHasTheErrorModelsSign) {
 TEST(Attitude, EulerAnglesAreHeadingPitchRoll) {
   const Euler e{0.3, -1.2, 2.9};
   const Matrix3d C = dcm_from_euler(e);
-  // x forward: its north, east, down components are those of a vector at this heading, pitched up by e.pitch.
+  // The x axis points forward: its north, east, down components are those of a unit vector at this heading
+  // with the pitch e.pitch.
   const Vector3d forward(std::cos(e.pitch) * std::cos(e.heading), std::cos(e.pitch) * std::sin(e.heading),
                          -std::sin(e.pitch));
   EXPECT_LT(norm(Dense(C).column(0) - forward), 1e-15);

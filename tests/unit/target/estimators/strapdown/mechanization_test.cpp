@@ -105,7 +105,7 @@ TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   EXPECT_NEAR(nav.latitude / (2 * amplitude / omega / earth.meridian_radius), 1, 0.01);
 }
 
-// The quantities that a filter takes from a step: the velocity change is that of the specific force plus
+// The quantities that a filter uses from a step: the velocity change must equal the specific force plus
 // gravity and Coriolis terms.
 TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
   NavState nav;
@@ -178,8 +178,8 @@ TEST(Mechanization, TwoSamplesFollowSculling) {
   EXPECT_NEAR(two.velocity / (theta * A / 2 * std::pow(x, 4) / 30 * duration), 1, 0.1);
 }
 
-// Specific force turned by half of the rotation: of second order in a turn, where without it the velocity
-// would be off by 0.5 |omega| dt |f| t.
+// The specific force must be turned by half of the rotation during the step. Then the error is of second
+// order in that rotation; otherwise the velocity would be off by 0.5 |omega| dt |f| t.
 TEST(Mechanization, OneSampleFollowsATurnAtConstantRate) {
   const double rate = 0.3;
   const Motion turn{
@@ -194,7 +194,8 @@ TEST(Mechanization, OneSampleFollowsATurnAtConstantRate) {
   const Errors errors = fly(turn, Mechanization::one_sample, 20, 0.02);
   // Its free-air gradient, 2 g/a, differs from the test's by 1e-8 1/s^2, at 1000 m for 20 s.
   EXPECT_LT(errors.velocity, 5e-4);
-  // Earth's rate is taken in the body axes of the step's start: half a step's turn, 3e-3 rad, of 1.5e-3 rad.
+  // The step uses the earth's rate in the body axes of its start. The error is half a step's turn, 3e-3 rad,
+  // of 1.5e-3 rad.
   EXPECT_LT(errors.attitude, 5e-6);
   EXPECT_LT(fly(turn, Mechanization::two_sample, 20, 0.02).velocity, errors.velocity);
 }

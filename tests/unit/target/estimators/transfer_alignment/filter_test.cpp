@@ -87,7 +87,7 @@ TEST(TransferAlignment, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
       ASSERT_TRUE(filtering::is_positive_definite<state_count>(state.P));
       smallest = std::min(smallest, symmetric_eigenvalues(state.P)[0]);
     });
-    // The gyro biases hardly move from (3 deg/h)^2 = 2.1e-10; the reference saw 1.6e-10.
+    // The variance of the gyro biases stays near (3 deg/h)^2 = 2.1e-10; in the reference it falls to 1.6e-10.
     EXPECT_GT(smallest, 1.4e-10);
   }
 }

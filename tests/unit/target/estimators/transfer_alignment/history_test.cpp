@@ -99,7 +99,7 @@ TEST_F(HistoryOfOneSecond, RefusesWhatIsOlderThanTheLastUpdate) {
   expect_same_bits(state, before);
 }
 
-// Between epochs: the innovation is of the velocity interpolated to the time of validity.
+// Between epochs the innovation must use the velocity interpolated to the time of validity.
 TEST_F(HistoryOfOneSecond, InterpolatesBetweenEpochs) {
   State at_epoch = state, earlier = state, between = state;
   History<capacity> copy_1 = history, copy_2 = history;

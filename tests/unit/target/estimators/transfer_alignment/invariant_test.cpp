@@ -141,7 +141,8 @@ TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
       EXPECT_EQ(state.P, before.P) << k;
       EXPECT_EQ(state.ins.nav.v_eb_n, before.ins.nav.v_eb_n) << k;
     }
-    // That of k = 10, and those from k = 13 on but the sixth, with which the INS goes where the master is.
+    // Gated are the wrong update of k = 10 and, from k = 13 on, every wrong update except the sixth. That one
+    // is accepted, so the INS takes over the master's wrong velocity.
     EXPECT_EQ(gated, loop == Loop::invariant ? 7 : 0);
     EXPECT_GT(state.ins.nav.v_eb_n.z() - truth.v_eb_n.z(), 30);
   }

@@ -34,8 +34,9 @@ Covariance small_covariance(std::mt19937_64& engine) {
   return (1e-4 * random_covariance_dense(state_count, engine)).fixed<state_count, state_count>();
 }
 
-// Chat <- exp(+[phi x]) Chat, phi in n axes and from the left: what dx holds is what the misalignment loses.
-// A heading of 100 deg tells body from navigation axes.
+// The correction Chat <- exp(+[phi x]) Chat has phi in n axes and multiplies from the left. It must reduce
+// the misalignment by exactly the attitude part of dx. At a heading of 100 deg, body and navigation axes
+// cannot be confused.
 TEST(Traps, CorrectionRemovesTheEstimatedError) {
   const Settings settings;
   std::mt19937_64 engine(5);
@@ -48,7 +49,8 @@ TEST(Traps, CorrectionRemovesTheEstimatedError) {
   ASSERT_EQ(result.outcome, Outcome::ok);
   const Dense phi = three(result.dx, attitude_state);
   ASSERT_GT(norm(phi), 1e-4);
-  // Of the INS before the correction, relative to the corrected one: exactly the estimated errors.
+  // The INS before the correction, relative to the corrected INS, must differ by exactly the estimated
+  // errors.
   EXPECT_LT(norm(Dense(strapdown::misalignment(before.nav.C_bn, state.ins.nav.C_bn)) - phi), 1e-14);
   EXPECT_LT(norm(Dense(before.nav.v_eb_n) - state.ins.nav.v_eb_n - three(result.dx, velocity_state)), 1e-13);
   EXPECT_EQ(Dense(state.ins.accel_bias), Dense(before.accel_bias) + three(result.dx, accel_bias_state));
@@ -105,7 +107,7 @@ TEST(Traps, MeasurementNoiseIsADensity) {
   }
 }
 
-// lmax(P N'N P) takes all 12 rows of P's attitude columns, the posterior's.
+// lmax(P N'N P) must use all 12 rows of the attitude columns of the posterior P.
 TEST(Traps, BetaUsesAllRowsOfThePosterior) {
   std::mt19937_64 engine(6);
   for (const H2Case h2_case : {H2Case::one, H2Case::two, H2Case::three, H2Case::four}) {
@@ -149,7 +151,8 @@ TEST(Traps, CovarianceStepIsTheDenseH2Recursion) {
   EXPECT_LT(largest_difference(state.P, expected.P), 1e-14);
 }
 
-// alpha = |dC| |f| or an uncapped sqrt(tr P_phi) lets the heading variance run away in cruise.
+// With alpha = |dC| |f|, or with an uncapped sqrt(tr P_phi), the heading variance would diverge in the
+// cruise.
 TEST(Traps, AlphaIsCapped) {
   Settings settings;
   State state = flown(settings, 10);
@@ -167,8 +170,8 @@ TEST(Traps, AlphaOfAHeadingErrorVanishesInLevelFlight) {
   EXPECT_NEAR(uncertainty_size(settings, P, Vector3d(5, 0, -9.8)), 0.5, 1e-12);
 }
 
-// Chat f is averaged over the interval: where in it the step of the specific force falls must not matter
-// much, and the last sample's alone would differ by half of it.
+// Chat f is averaged over the interval, so the instant at which the specific force steps within it must
+// hardly matter. With the last sample's Chat f alone, the result would differ by half.
 TEST(Traps, SpecificForceIsAveragedOverTheInterval) {
   Settings settings;
   settings.algorithm = Algorithm::kalman;

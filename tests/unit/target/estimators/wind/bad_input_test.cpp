@@ -27,7 +27,8 @@ void expect_sound(const Flown& flown) {
   }
 }
 
-// Recovered: the last samples are used without an error, and the wind is known as well as without the fault.
+// Recovered: the last samples are used and have no error flag, and the wind is as accurate as without the
+// fault.
 void expect_recovered(const Flown& flown, double margin = 0.5) {
   static const double undisturbed = fly(recorded(), Settings()).mean_error(900, 1001);
   for (std::size_t k = 900; k < 1001; ++k) {
@@ -220,7 +221,8 @@ TEST(WindBadInput, MissingFinsWidenTheUncertainty) {
   expect_recovered(flown);
 }
 
-// No fins from the start: flagged at every step, and the other input still gives a wind of the right size.
+// There are no fins from the start. This is flagged at every step, and the other input must still give a wind
+// of the right magnitude.
 TEST(WindBadInput, NoFinsAtAll) {
   const Flown flown =
       fly(recorded(), Settings(), [](std::size_t, Navigation&, FinFrame& fins) { fins.arrives = false; });

@@ -176,7 +176,7 @@ TEST(WindCorrection, ThetaIsProportionalToTheInterval) {
   }
 }
 
-// A cap that would let theta lambda_max reach 1 is bounded: P~ would not exist.
+// A cap that would allow theta lambda_max = 1 is reduced, because P~ would not exist.
 TEST(WindCorrection, NoSettingMakesTheInflationSingular) {
   const RecordedRun run;
   Settings settings = run.settings;

@@ -47,7 +47,7 @@ TEST(WindFilter, StepIsPredictionThenUpdate) {
   EXPECT_EQ(state.altitude, run.altitude[1]);
 }
 
-// The published P0 is that of a wind which follows from air velocity, attitude and ground velocity.
+// The published P0 assumes that the wind is computed from air velocity, attitude and ground velocity.
 TEST(WindFilter, StartIsThePublishedOne) {
   const RecordedRun run;
   Start start;
@@ -106,7 +106,8 @@ TEST(WindFilter, AdaptiveNoiseMakesTheStatisticConsistent) {
   for (const State& state : tight.states) EXPECT_EQ(state.noise_factor, 1);
 }
 
-// A gap is predicted over in parts, each with its own fins: nearly what an update less would have given.
+// A gap is predicted in parts, each with its own fins. The result is nearly the same as if only the update
+// had been missing.
 TEST(WindFilter, LostNavigationIsBridged) {
   const RecordedRun run;
   const Settings settings;

@@ -329,8 +329,9 @@ TEST(WindModel, CovariancePredictionIsThatOfTheDenseTransition) {
             1e-12 * expected.cwiseAbs().maxCoeff());
 }
 
-// A filter whose model has one part of one coefficient wrong, on samples of the right model without noise: it
-// errs by the sensitivity times the share. In short steps: at 20 ms the second order of Phi costs 6 %.
+// A filter has an error in one part of one coefficient; its samples come from the right model without noise.
+// Its estimation error must be the sensitivity times the coefficient error. The steps are short because at 20
+// ms the second order of Phi causes 6 %.
 TEST(WindModel, SensitivityIsWhatAWrongShareDoesToTheFilter) {
   struct Part {
     int column;
@@ -347,7 +348,7 @@ TEST(WindModel, SensitivityIsWhatAWrongShareDoesToTheFilter) {
     SCOPED_TRACE(part.column);
     constexpr double share = 1e-3;
     Design wrong = right;
-    // The drag polar is of the right lift: its induced part has a share of its own.
+    // Both models have no induced drag: it depends on the lift, but its error is a part of its own.
     part.scale(wrong.airframe, 1 + share);
     wrong.airframe.drag.lift_squared = 0;
     Design truth = right;

@@ -28,7 +28,7 @@ struct RecordedRun {
     return Eigen::Map<const Eigen::Vector3d>(csv.from(k, "true_wn"));
   }
 
-  /// Row k as the bus would bring it.
+  /// Row k as the filter receives it from the bus.
   static std::int64_t t_us(std::size_t k) { return static_cast<std::int64_t>(k) * 20'000; }
   Navigation navigation(std::size_t k) const {
     return {.t_us = t_us(k),
