@@ -28,7 +28,7 @@ class TargetProcess {
   std::optional<std::string> ended();
   /// True while it is stopped by a signal such as SIGSTOP.
   [[nodiscard]] bool stopped() const;
-  /// If it is still running.
+  /// Sends a signal if the process is still running.
   void send_signal(int signal);
   /// Kills it immediately.
   void kill_it();
