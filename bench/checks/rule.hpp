@@ -1,4 +1,4 @@
-// A rule of a scenario: the parts of a kind of check.
+// A rule of a scenario, and the parts of a kind of check.
 //
 // A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), its fields, and
 //   static Kind read(scenario::Section&, const scenario::CheckContext&)
