@@ -34,8 +34,8 @@ Description* Describing::current() { return described_now; }
 DescribedKey described_number(std::string_view type, const Limits& limits, std::optional<double> fallback) {
   return {.type = std::string(type),
           .range = range_of(limits),
-          .fallback =
-              fallback && holds(limits, *fallback) ? fmt::format("{}", *fallback) : "",  // else another key's
+          .fallback = fallback && holds(limits, *fallback) ? fmt::format("{}", *fallback)
+                                                           : "",  // else of another key
           .required = !fallback,
           .sample = fmt::format("{}", fallback.value_or(some_value(limits)))};
 }
