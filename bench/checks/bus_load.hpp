@@ -12,7 +12,7 @@ namespace canhil::checks {
 /// Fractions of the time in which the bus is busy: 1 is a full bus.
 struct Load {
   double mean = 0;
-  double busiest = 0;  ///< in the busiest second
+  double busiest = 0;  ///< load in the busiest second
 };
 
 /// The load over time: one value for each second; in a long run, the busiest second of each stretch.

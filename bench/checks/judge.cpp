@@ -51,7 +51,7 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
   return tracks;
 }
 
-// Why a rule cannot be judged for lack of truth; empty: it can.
+// Why a rule cannot be judged for lack of truth; empty: it can be judged.
 std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule& rule,
                          const Evidence& evidence) {
   const std::vector<std::string> held = rule.held_against_truth();

@@ -23,7 +23,7 @@ bool is_implied(std::string_view kind);
 std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks,
                                        std::span<const MessageInfo> messages = messages::all_messages);
 
-/// Every kind of check that a scenario may have: those of this folder and those of the estimators.
+/// Every kind of check that a scenario may have: kinds of this folder and kinds of the estimators.
 std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* const> estimators);
 /// Former kinds, each with its replacement.
 std::vector<scenario::FormerCheckKind> former_kinds(std::span<const estimators::Estimator* const> estimators);

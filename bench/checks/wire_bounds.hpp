@@ -1,4 +1,4 @@
-// Measured bus response times of a run beside their theoretical bounds.
+// Measured bus response times of a run, with their theoretical bounds.
 #pragma once
 
 #include <optional>

@@ -66,7 +66,7 @@ class Link {
   std::vector<observe::Observer*> observers_;
   bool up_ = true;
   std::uint64_t late_in_queue_ = 0;
-  std::uint64_t overflowed_ = 0;  // at the last check
+  std::uint64_t overflowed_ = 0;  // the port's count at the last check
   observe::Backlog backlog_;
   std::optional<observe::Shares> while_waiting_;  // frames received while waiting for room in the queue
   std::string crowd_;

@@ -74,7 +74,7 @@ struct Run {
   ClockKind clock = ClockKind::real_time;
   bool in_process = false;                   ///< the target was the bench's own device
   std::string timing_unfit{};                ///< why no timing of the run is judged; empty: timing is judged
-  std::optional<realtime::Standing> host{};  ///< of the bench, in real time
+  std::optional<realtime::Standing> host{};  ///< the bench's, in real time
   std::vector<RunFile> files{};      ///< the files that the run depended on, as they were at its start
   std::vector<Adapter> adapters{};   ///< adapter of the run's bus, then the adapters of the nodes' buses
   double wall_s = 0;                 ///< from the start of the estimator to the end

@@ -20,7 +20,7 @@ enum class LoadBy : std::uint8_t {
   time_base,        ///< by the second of the last Sync: the same on every bus and in virtual time
   time_base_alone,  ///< the same without StepDone, which exists in lockstep only: the load of the same run on
                     ///< a bus
-  virtual_time,     ///< by the second of virtual time, if nobody sends Sync
+  virtual_time,     ///< by the second of virtual time, if no node sends Sync
   stamps  ///< by the second in which the frame left the wire, counted from the first stamp: a queued frame
           ///< does not count yet
 };

@@ -95,7 +95,7 @@ void Stopwatch::echoed(const Received& received, std::string_view group, std::in
     return std::ranges::equal(one.frame.payload(), received.frame.payload());
   });
   const std::optional<Frame> on_wire = closed_by(received.frame, echoes_);
-  std::optional<std::int64_t> on_bus_ns;  // of a pending frame
+  std::optional<std::int64_t> on_bus_ns;  // time on the bus of a pending frame
   if (pending != waiting.end()) {
     on_bus_ns = received.t_ns - pending->t_ns;
     record_.transmit[index].echoed.add(pending->late_ns + *on_bus_ns);

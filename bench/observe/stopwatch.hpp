@@ -64,8 +64,8 @@ class Stopwatch {
     std::int64_t wire_ns = 0;
     bool answered = false;
     std::bitset<MessagePlaces::most> answered_by{};  // the last message of each answer
-    std::int64_t latency_ns = 0;                     // of the last answer so far
-    std::int64_t reply_wire_ns = 0;                  // of all answers so far
+    std::int64_t latency_ns = 0;                     // latency of the last answer so far
+    std::int64_t reply_wire_ns = 0;                  // sum over all answers so far
   };
   struct Group {
     std::deque<Sent> sent{};

@@ -20,7 +20,7 @@ namespace canhil::quantities {
 struct TrackPoint {
   std::int64_t t_us = 0;
   double value = 0;  ///< the error (estimated - true); for a statistic or an innovation, the value itself
-  std::optional<double> sigma{};     ///< of the error; none: not reported in time
+  std::optional<double> sigma{};     ///< reported sigma of the error; none: not reported in time
   std::optional<double> estimate{};  ///< as reported; angles unwrapped
   std::optional<double> truth{};
 };

@@ -31,7 +31,7 @@ std::string folded(std::string_view summary, const std::vector<std::string>& hea
   return fmt::format("<details><summary>{}</summary>\n{}</details>", summary, table(head, rows, "figures"));
 }
 
-// Counts of events as rows of name and number, without those that are 0.
+// Counts of events as rows of name and number, without counts that are 0.
 void add_incidents(Rows& rows, const Json& object, std::string_view of) {
   for (const auto& [key, value] : object.items()) {
     if (value.is_number() && value.get<double>() != 0)

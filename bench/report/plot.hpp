@@ -26,7 +26,7 @@ struct HistogramPlot {
 /// An <svg> element; a line of text if there is nothing to show.
 std::string svg(const HistogramPlot& plot);
 
-/// The range of some values, ignoring those that are not finite.
+/// The range of some values, ignoring values that are not finite.
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();

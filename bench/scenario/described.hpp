@@ -1,4 +1,4 @@
-// Records which keys the readers ask for. The reference of keys (bench/reference) is generated from this
+// Records which keys the readers request. The reference of keys (bench/reference) is generated from this
 // record, so each range and default is written only once, in its reader.
 #pragma once
 

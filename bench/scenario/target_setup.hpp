@@ -15,10 +15,10 @@ class Section;
 
 /// The 1-sigma uncertainty of the initial state; the target receives both (TargetInit*).
 struct InitialSigma {
-  double velocity = 0;  ///< of each component [m/s]
-  double tilt = 0;      ///< of the misalignments about north and east [rad]
-  double heading = 0;   ///< of the misalignment about down [rad]
-  double position = 0;  ///< of each component [m]
+  double velocity = 0;  ///< each component [m/s]
+  double tilt = 0;      ///< misalignments about north and east [rad]
+  double heading = 0;   ///< misalignment about down [rad]
+  double position = 0;  ///< each component [m]
 };
 
 /// One ParamSet. The value keeps the unit in the parameter's name, because it is sent in this unit.
