@@ -13,11 +13,11 @@ inline constexpr std::string_view causes_kind = "causes";
 /// The implied check that fails when the messages of an answer group never form a whole group.
 inline constexpr std::string_view groups_kind = "answer_groups";
 
-/// By group: answers whose cause time matches no stimulus, and answers whose counter belongs to another
-/// stimulus than their time. One line; empty: none.
+/// For each group: answers whose cause time matches no stimulus, and answers whose counter and cause time
+/// belong to different stimuli. One line; empty: none.
 std::string wrong_causes(const Observations& seen);
 
-/// Groups whose messages arrived without ever forming a whole group, and the message to blame. One line;
+/// Groups whose messages arrived but never formed a whole group, and the message that prevented it. One line;
 /// empty: none.
 std::string broken_groups(const Observations& seen);
 

@@ -12,22 +12,22 @@ namespace canhil::checks {
 /// Fractions of the time in which the bus is busy: 1 is a full bus.
 struct Load {
   double mean = 0;
-  double busiest = 0;  ///< in the busiest second
+  double busiest = 0;  ///< load in the busiest second
 };
 
-/// The load over time: by second, of a long run the busiest of each stretch of several.
+/// The load over time: one value for each second; in a long run, the busiest second of each stretch.
 struct LoadLine {
-  std::size_t stretch_s = 0;  ///< 0: nothing was carried
+  std::size_t stretch_s = 0;  ///< 0: no frames
   std::vector<double> busiest{};
 };
 LoadLine load_line(std::span<const wire::BitLength> seconds, wire::BitRates rates);
 
-/// Bits on the bus in each second. The second in which the run ended is incomplete and left out, unless it is
-/// the only one.
+/// Bits on the bus in each second. The second in which the run ended is incomplete, so it is left out unless
+/// it is the only one.
 std::span<const wire::BitLength> whole_seconds(std::span<const wire::BitLength> seconds);
 std::span<const wire::BitLength> whole_seconds(const Observations& seen);
 
-/// Over the whole_seconds() of a run, at a bit rate [bit/s].
+/// The load over the whole_seconds() of a run, at a bit rate [bit/s].
 Load bus_load(std::span<const wire::BitLength> whole_seconds, wire::BitRates rates);
 Load bus_load(const Observations& seen, wire::BitRates rates);
 

@@ -1,5 +1,5 @@
-// Errors that a target reports besides its answers: error bits of its heartbeat and its counters, and
-// stretches without a heartbeat.
+// Errors that a target reports in addition to its answers: error bits of its heartbeat, its counters, and
+// intervals without a heartbeat.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace canhil::checks {
 
-/// Times are the bench's: the time of the last Sync.
+/// Times are on the bench's time base: the time of the last Sync.
 class Complaints {
  public:
   struct Said {
@@ -26,22 +26,22 @@ class Complaints {
   /// Ends the run: a silence at its end counts too.
   void end(std::int64_t now_us);
 
-  /// Error bits when they rise; the target keeps them set to the end. `degraded` with each heartbeat that has
-  /// it set.
+  /// Error bits, each when it rises; the target keeps them set to the end. `degraded`: each heartbeat in
+  /// which it is set.
   [[nodiscard]] const std::vector<Said>& of_heartbeats() const { return of_heartbeats_; }
   /// Counters when they increase.
   [[nodiscard]] const std::vector<Said>& of_counters() const { return of_counters_; }
   /// Stretches without a heartbeat longer than the limit (silence.hpp).
   [[nodiscard]] const std::vector<scenario::Window>& silences() const { return silences_; }
 
-  /// Every possible `what`.
+  /// All possible values of `what`.
   static std::vector<std::string_view> names();
 
  private:
   std::vector<Said> of_heartbeats_, of_counters_;
   std::vector<scenario::Window> silences_;
-  std::map<messages::Estimator, messages::TargetHeartbeat> beats_;  // the last of each estimator
-  std::optional<messages::TargetCounters> counters_;                // the last
+  std::map<messages::Estimator, messages::TargetHeartbeat> beats_;  // the last heartbeat of each estimator
+  std::optional<messages::TargetCounters> counters_;                // the last counters
   std::int64_t last_beat_us_ = 0;
 };
 

@@ -9,7 +9,7 @@ namespace {
 using quantities::TrackPoint;
 
 constexpr std::size_t fewest = 20;
-constexpr double least_s = -0.2, most_s = 1.0, step_s = 0.01;  // of the search
+constexpr double least_s = -0.2, most_s = 1.0, step_s = 0.01;  // limits and step of the search
 
 double seconds(std::int64_t t_us) { return 1e-6 * static_cast<double>(t_us); }
 
@@ -57,10 +57,10 @@ struct Point {
 
 // The fit for one delay, with the best offset.
 struct Fit {
-  double squares = 0;      // of the residuals
+  double squares = 0;      // sum of the squared residuals
   double step = 0;         // Gauss-Newton step towards a better delay
   double excitation = 0;   // sum of the squared rates about their mean
-  double correlation = 0;  // of successive residuals
+  double correlation = 0;  // correlation of successive residuals
 };
 
 Fit fit(const Curve& curve, const Spool<Point>& points, double delay) {

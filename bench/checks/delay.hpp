@@ -1,5 +1,5 @@
-// The delay of a reported quantity, estimated against the truth: answers without a cause allow no other
-// measurement.
+// The delay of a reported quantity, estimated by comparison with the truth. Answers without a cause allow no
+// other measurement of their delay.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace canhil::checks {
 
 struct Delay {
   double delay_s = 0;       ///< positive: the reported value belongs to an earlier time
-  double half_width_s = 0;  ///< of the 95 % interval
+  double half_width_s = 0;  ///< half-width of the 95 % interval
 };
 
 /// The delay d, with an offset b, for which estimate(t) = truth(t - d) + b fits best within a window, by

@@ -29,7 +29,7 @@ namespace canhil::estimators {
 /// The truth that answers are compared with.
 struct Truth {
   const world::FlightRecord& flight;
-  std::int64_t duration_us = 0;                         ///< of the run
+  std::int64_t duration_us = 0;                         ///< duration of the run
   const world::EngagementRecord* engagement = nullptr;  ///< null: not flown
   const world::GlideRecord* glide = nullptr;            ///< null: not flown
 };
@@ -49,11 +49,11 @@ struct OwnTrack {
 struct Estimator {
   std::string_view name;                                 ///< as in the DBC's value table Estimator
   scenario::EstimatorFacts facts;                        ///< facts that a scenario needs
-  const quantities::Layout& layout;                      ///< of its campaign samples
+  const quantities::Layout& layout;                      ///< layout of its campaign samples
   std::span<const quantities::Quantity* const> of_runs;  ///< quantities of its tracks in a run
   /// Assembles its answers during a run.
   std::unique_ptr<Reception> (*reception)() = nullptr;
-  /// The samples that a run contributes to a campaign; none where there is no truth.
+  /// The samples that a run contributes to a campaign; empty without truth.
   quantities::Samples (*samples)(const checks::Observations& seen, const Truth& truth) = nullptr;
   /// Calls the sink with each track of the run for which truth exists.
   void (*tracks)(const checks::Observations& seen, const Truth& truth,
@@ -63,11 +63,11 @@ struct Estimator {
   /// Marks that report normal events, such as an update or the start of the estimator. "answers" is not
   /// listed.
   std::span<const std::string_view> plain_marks{};
-  /// Result lines of a run for people. `algorithm`: the one that the target runs.
+  /// Result lines of a run for people. `algorithm`: the algorithm that the target runs.
   std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
                                      std::string_view algorithm) = nullptr;
   std::span<const std::string_view> closing;  ///< the last message of each group of its answers
-  /// The group that keeps its own interval where its stimuli come faster: output_interval_ms.
+  /// The group that keeps its own interval if its stimuli come faster: output_interval_ms.
   std::string_view of_own_interval{};
   std::span<const scenario::CheckKind> check_kinds{};  ///< checks that exist for this estimator only
   std::span<const scenario::FormerCheckKind>
@@ -77,8 +77,8 @@ struct Estimator {
   quantities::Freshness (*freshness)(const scenario::Scenario& scenario) = nullptr;
 };
 
-/// The tracks of an estimator over a run. If the truth of the flight is unknown they hold estimates only,
-/// without error and truth; tracks that consist of errors alone are then left out.
+/// The tracks of an estimator over a run. If the truth of the flight is unknown, tracks contain estimates
+/// only, and tracks that consist of errors alone are left out.
 void give_tracks(const Estimator& of, const checks::Observations& seen, const Truth& truth,
                  const quantities::TrackSink& give);
 

@@ -14,23 +14,23 @@ namespace canhil::checks {
 struct Evidence {
   const Observations& seen;
   estimators::Truth truth;
-  std::span<const estimators::Estimator* const> estimators{};  ///< whose answers may be judged
-  std::string ended_early{};   ///< why the run did not come to its end; empty: it did
-  std::string timing_unfit{};  ///< why timing cannot be judged; empty: it can
+  std::span<const estimators::Estimator* const> estimators{};  ///< the estimators whose answers may be judged
+  std::string ended_early{};   ///< why the run ended early; empty: it was completed
+  std::string timing_unfit{};  ///< why timing cannot be judged; empty: it can be judged
   std::vector<estimators::OwnTrack>
-      tracks{};  ///< of the quantities that the rules ask for; judge() fills them in
+      tracks{};  ///< tracks of the quantities that the rules use; judge() adds them
 };
 
-/// The tracks of a quantity, or of each of its parts, of an estimator; empty: there is no truth to compare
-/// with.
+/// The tracks of a quantity, or of each of its parts, of an estimator; empty: there is no truth for
+/// comparison.
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
                                                 const quantities::Quantity& quantity);
 
-/// Why timing with a bar [s] at a quantile cannot be judged; empty: it can. The bench must keep its own
-/// deadlines to judge those of the target.
+/// Why timing cannot be compared with a bar [s] at a quantile; empty: it can. The bench can judge the
+/// target's deadlines only if it keeps its own.
 std::string unfit(const Evidence& evidence, double quantile, double bar_s);
-/// The largest permitted lateness of the bench, as a fraction of the bar and at the bar's quantile. Beyond
-/// it, the host may have delayed the target as much.
+/// The largest permitted lateness of the bench, as a fraction of the bar and at the bar's quantile. Above
+/// this limit, the host may have delayed the target by the same amount.
 inline constexpr double lateness_share = 0.5;
 
 /// "max", "99 % quantile".

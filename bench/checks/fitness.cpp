@@ -9,8 +9,8 @@ namespace {
 // The bench sends a few hundred frames a second. If it waits for a CPU for more than this fraction of the
 // run, the machine has no room for the bench, and none for a target on the same machine.
 constexpr double most_waited = 0.05;
-// A machine that loses this fraction of its time to other guests loses it at instants that its own programs
-// cannot see.
+// If the hypervisor gives this fraction of the machine's time to other guests, the machine's own programs
+// cannot see when this happens.
 constexpr double most_stolen = 0.05;
 
 }  // namespace

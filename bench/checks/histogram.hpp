@@ -41,7 +41,7 @@ class Histogram {
 std::int64_t bucket_width_us(std::int64_t from_us);
 
 /// The largest value in each stretch of time. When the fixed number of stretches no longer covers the run,
-/// the length of each doubles.
+/// the length of each stretch doubles.
 class TimeLine {
  public:
   static constexpr std::size_t max_stretches = 512;

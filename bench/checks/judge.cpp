@@ -51,7 +51,7 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
   return tracks;
 }
 
-// Why a rule cannot be judged for lack of truth; empty: it can.
+// Why a rule cannot be judged for lack of truth; empty: it can be judged.
 std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule& rule,
                          const Evidence& evidence) {
   const std::vector<std::string> held = rule.held_against_truth();
@@ -111,7 +111,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
       finding.outcome = Outcome::not_measured;
       finding.measured = std::move(why);
     }
-    if (!evidence.ended_early.empty()) {  // evidence up to then proves nothing either way
+    if (!evidence.ended_early.empty()) {  // part of a run neither passes nor fails a check
       finding.outcome = Outcome::not_measured;
       finding.measured = "the run ended early";
     }

@@ -12,24 +12,24 @@
 
 namespace canhil::checks {
 
-/// Judges every check of the scenario. A run that ended early fails, whatever its checks say.
+/// Judges every check of the scenario. A run that ended early fails, regardless of its checks.
 Verdict judge(const scenario::Scenario& scenario, Evidence evidence);
 
-/// Whether judge() adds a check of this kind by itself when it does not pass.
+/// Whether judge() itself adds a check of this kind if the check does not pass.
 bool is_implied(std::string_view kind);
 
-/// The windows, each once, for which checks need the timing of a message: empty, to be filled by the
-/// stopwatch.
+/// The windows, without duplicates, for which checks need the timing of a message. They are empty; the
+/// stopwatch fills them.
 std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks,
                                        std::span<const MessageInfo> messages = messages::all_messages);
 
-/// Every kind of check that a scenario may have: those of this folder and those of the estimators.
+/// Every kind of check that a scenario may have: kinds of this folder and kinds of the estimators.
 std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* const> estimators);
 /// Former kinds, each with its replacement.
 std::vector<scenario::FormerCheckKind> former_kinds(std::span<const estimators::Estimator* const> estimators);
 
-/// Why no timing of this run can be judged, for example because frames of the target were lost. Empty: it
-/// can, provided that the bench kept its own deadlines, which each check examines with its own bar.
+/// Why no timing of this run can be judged, for example because frames of the target were lost. Empty: timing
+/// can be judged if the bench kept its own deadlines, which each check examines for its own bar.
 std::string unfit_for_timing(const Observations& seen);
 
 }  // namespace canhil::checks

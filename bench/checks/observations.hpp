@@ -42,7 +42,7 @@ struct Observations {
   explicit Observations(std::span<const MessageInfo> on_bus)
       : answers(on_bus.size()), from_target(on_bus.size()), timing(on_bus) {}
 
-  /// The answers of an estimator, in the type of its folder; created empty at first use.
+  /// The answers of an estimator, in the type that its folder defines; created empty at first use.
   template <class Answers>
   [[nodiscard]] Answers& of() {
     std::any& own = answered[typeid(Answers)];
@@ -55,7 +55,7 @@ struct Observations {
     const auto own = answered.find(typeid(Answers));
     return own == answered.end() ? none : *std::any_cast<Answers>(&own->second);
   }
-  std::map<std::type_index, std::any> answered;  ///< by type
+  std::map<std::type_index, std::any> answered;  ///< answers by their type
 
   std::map<std::string_view, StimulusCount> stimuli;  ///< by sample group; only groups that are answered
   std::vector<std::uint64_t> answers;                 ///< by index in timing.messages
@@ -63,20 +63,20 @@ struct Observations {
   /// The minimum interval [s] that answer groups keep where their stimuli come faster.
   std::map<std::string_view, double> own_interval_s{};
   std::int64_t first_ns = 0;            ///< stamp of the bench's first transmission
-  std::int64_t last_ns = 0;             ///< and of its last one
-  wire::BitRates bit_rates{};           ///< of the bus; nominal 0: unknown, or the bus has none
+  std::int64_t last_ns = 0;             ///< stamp of the bench's last transmission
+  wire::BitRates bit_rates{};           ///< bit rates of the bus; nominal 0: unknown, or none
   TimingRecord timing;                  ///< empty where no times are measured
   bool transmit_stamps_echoed = false;  ///< stamps of stimuli come from the bus, not from the bench
 
   std::optional<messages::TargetCounters> counters;  ///< the last one
   std::string target_version{};                      ///< "0.2" by its heartbeats; empty: none came
-  Complaints complaints;                             ///< of the target, beside its answers
-  ExpectedCounts expected_counts{};                  ///< for `counters`
+  Complaints complaints;                             ///< reported by the target besides its answers
+  ExpectedCounts expected_counts{};                  ///< limits for `counters`
   std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus; see observe::LoadMeter
-  std::uint32_t target_frames_lost = 0;              ///< by the E2E counters of the target's messages
+  std::uint32_t target_frames_lost = 0;              ///< lost frames of the target, by its E2E counters
   std::uint32_t target_bad_crc = 0;
   std::uint32_t receive_overflows = 0;  ///< frames that the bench's own port lost
-  std::uint16_t queue_max_us = 0;       ///< largest of TargetTiming; saturates at 8191
+  std::uint16_t queue_max_us = 0;       ///< largest queueing time in TargetTiming; saturates at 8191
   std::uint16_t compute_max_us = 0;
   bool target_timing_seen = false;
   BusRecord bus;

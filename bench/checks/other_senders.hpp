@@ -8,11 +8,11 @@
 
 namespace canhil::checks {
 
-/// The implied check that fails when they were not.
+/// The implied check that fails if other nodes sent these messages.
 inline constexpr std::string_view senders_kind = "senders";
 
 /// Reports, in one line, other nodes that sent frames of the bench or repeated answers of the target; empty:
-/// none. If there was one, the measurements may not be the target's.
+/// none. With such a node, the measurements may not describe the target.
 std::string other_senders(const Observations& seen);
 
 }  // namespace canhil::checks

@@ -1,5 +1,5 @@
-// Quantiles and bounds of distributions, from Boost.Math. One source includes it because it takes seconds to
-// compile.
+// Quantiles and bounds of distributions, from Boost.Math. Only one source file includes Boost.Math, because
+// it takes seconds to compile.
 #pragma once
 
 namespace canhil::checks {

@@ -16,7 +16,7 @@ struct Whole {
   std::span<const std::size_t> messages;  ///< indices in TimingRecord::messages
   std::int64_t cause_us = 0;              ///< time of validity of the cause
   std::string_view cause_group;
-  std::optional<std::uint8_t> cause_counter{};  ///< of the cause; none: the group does not carry it
+  std::optional<std::uint8_t> cause_counter{};  ///< counter of the cause; none: the group does not carry it
 };
 
 /// The reception of one run.
@@ -27,7 +27,7 @@ class Reception {
   Reception& operator=(const Reception&) = delete;
   virtual ~Reception() = default;
 
-  /// Whether it takes a message, by index in all_messages.
+  /// Whether the estimator's answers contain a message, by index in all_messages.
   [[nodiscard]] virtual bool takes(std::size_t message) const = 0;
   /// Takes a frame of such a message with a valid CRC. `now_us`: time of the last Sync. A completed answer is
   /// added to `seen`; none: the group is not complete yet.

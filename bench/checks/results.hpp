@@ -1,4 +1,4 @@
-// Results of a run for people and programs besides the checks: lines of figures.
+// Results of a run in addition to the checks: lines of figures, for people and programs.
 #pragma once
 
 #include <optional>

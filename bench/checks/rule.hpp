@@ -1,4 +1,4 @@
-// A rule of a scenario: the parts of a kind of check.
+// A rule of a scenario, and the parts of a kind of check.
 //
 // A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), its fields, and
 //   static Kind read(scenario::Section&, const scenario::CheckContext&)
@@ -8,7 +8,7 @@
 //   std::vector<Subject> subjects() const        the quantities that it uses
 //   std::vector<std::string> held_against_truth() const
 //                                                the estimators whose truth it needs; without this function:
-//                                                those of its subjects, innovations excepted
+//                                                the estimators of its subjects, except for innovations
 //   std::optional<Bar> bar() const               its limits, for pictures
 //   std::vector<Timed> timed() const             the messages whose times it needs, and when
 #pragma once

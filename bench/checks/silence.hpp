@@ -1,5 +1,5 @@
-// Silence never passes: the longest time to wait for an answer. The checks of a run and the metrics of a
-// campaign share this rule.
+// The longest wait for an answer; a longer wait is silence, and silence never passes. The checks of a run and
+// the metrics of a campaign share this rule.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace canhil::checks {
 
-/// This many fixes in a row may go unanswered.
+/// This many consecutive fixes may remain unanswered.
 inline constexpr int tolerated_fixes = 2;
 /// Seeker samples may be lost on purpose, but at least this fraction must be answered.
 inline constexpr double least_answered = 0.5;
@@ -22,9 +22,9 @@ constexpr double longest_wait_us(double period_us, double periods = 2) {
   return std::max(second_us + period_us, periods * period_us);
 }
 
-/// The first stretch of a window without an answer that is longer than `longest_us`; none: there is none.
-/// `times`: of the answers in the window, ascending [us]; `end_us`: after this time of the run no answers are
-/// expected.
+/// The first stretch of a window that is longer than `longest_us` and contains no answer; none: there is no
+/// such stretch. `times`: times of the answers in the window, ascending [us]; `end_us`: after this time of
+/// the run no answers are expected.
 template <class Times>
 std::optional<scenario::Window> silent_stretch(const Times& times, const scenario::Window& window,
                                                std::int64_t end_us, double longest_us) {

@@ -20,7 +20,7 @@ const AnswerTiming& timing_of(const Observations& seen, const MessageInfo& info)
   return seen.timing.answers[place_of(seen, info)];
 }
 
-// The stimuli that a message answers in this run: those of each group that was sent.
+// The stimuli that a message answers in this run, for each group that was sent.
 std::vector<StimulusCount> all_stimuli_of(const Observations& seen, const MessageInfo& info) {
   std::vector<StimulusCount> all;
   for (const std::string_view group : info.answers) {

@@ -35,13 +35,13 @@ const TimedWindow* find_window(const TimingRecord& timing, std::string_view mess
 /// True if the controller stamped every answer and every stimulus.
 bool stamped_by_hardware(const TimingRecord& timing);
 
-/// The number of answers of a message that never came: one is due for each stimulus of its groups, or one in
-/// each period where the message keeps its own period.
+/// The number of missing answers of a message. One answer is due for each stimulus of its groups, or one in
+/// each period if the message keeps its own period.
 std::size_t unanswered(const Observations& seen, std::string_view message);
 
 /// The quantile of |period - nominal| [s], and the number of periods. A gap in which n messages were missing
-/// counts n times, otherwise a quantile would ignore a long gap. `end_s`, the time from the last message to
-/// the end, counts where it exceeds the period.
+/// counts n times; otherwise a quantile would ignore a long gap. `end_s`: the time from the last message to
+/// the end; it counts if it exceeds the period.
 struct PeriodDeviation {
   double off_s = 0;
   std::uint64_t count = 0;
@@ -51,13 +51,13 @@ PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, dou
 /// The longest time [s] without a message, including the beginning and the end of the run.
 double longest_silence_s(const Observations& seen, std::string_view message);
 
-/// The period [s] that a message should have: that of its stimulus as sent, or the interval that its group
-/// keeps if that is longer; its cycle time in the DBC if it answers nothing; 0: none, because it answers
-/// groups of different rates.
+/// The period [s] that a message should have: the period of its stimulus as sent, or the longer interval that
+/// its group keeps; the cycle time in the DBC if it answers nothing; 0: undefined, because it answers groups
+/// of different rates.
 double nominal_period_s(const Observations& seen, std::string_view message);
 
-/// The time [s] from a message's last arrival to the last stimulus in the window; 0 or less for a message
-/// that continued to the end. Requires that the message came at all.
+/// The time [s] from a message's last arrival to the last stimulus in the window; 0 or less if the message
+/// continued to the end. Requires at least one arrival of the message.
 double ended_before_s(const Observations& seen, const TimedWindow& window);
 
 }  // namespace canhil::checks

@@ -40,27 +40,27 @@ constexpr std::int64_t elapsed_ns(const From& from, const To& to) {
 /// Timing of a message of the target.
 struct AnswerTiming {
   Histogram latency;  ///< from the last frame of the stimulus group to the answer, both on the bus
-  /// deviation| of the time between two arrivals from its nominal value: the time between the deadlines of
-  /// the two stimuli, or the cycle time of a message that answers nothing.
+  /// Magnitude of the deviation of the time between two arrivals from its nominal value: the time between the
+  /// deadlines of the two stimuli, or the cycle time of a message that answers nothing.
   Histogram jitter;
-  TimeLine latency_line;       ///< over the time of arrival
+  TimeLine latency_line;       ///< latency over the time of arrival
   std::uint64_t count = 0;     ///< arrivals
   std::uint64_t unpaired = 0;  ///< answers to stimuli that the bench did not send
   std::uint64_t repeated = 0;  ///< answers to stimuli that were answered before
   std::optional<std::int64_t>
       nearest_us{};  ///< for `unpaired`: the smallest difference between a cause's time and a stimulus
   std::uint64_t wrong_counter = 0;  ///< answers that name the time of one cause and the counter of another
-  std::uint8_t counter_told = 0, counter_sent = 0;  ///< of the first such answer
+  std::uint8_t counter_told = 0, counter_sent = 0;  ///< in the first such answer
   std::int64_t reply_wire_ns =
-      0;  ///< over all of `latency`: time on the wire of the answer's frames up to this one
-  std::optional<std::int64_t> last_ns{};  ///< its last arrival
-  std::int64_t longest_silence_ns = 0;    ///< before an arrival
+      0;  ///< sum over `latency`: time on the wire of the answer's frames up to this one
+  std::optional<std::int64_t> last_ns{};  ///< last arrival
+  std::int64_t longest_silence_ns = 0;    ///< longest wait before an arrival
 };
 
 /// Lateness of a message of the bench.
 struct TransmitTiming {
-  Histogram handed_over;  ///< when handed to the bus
-  Histogram echoed;       ///< when it had passed the bus; empty where the bus has no echo
+  Histogram handed_over;  ///< lateness at the hand-over to the bus
+  Histogram echoed;       ///< lateness at the end of the frame on the bus; empty if the bus has no echo
 };
 
 /// Time of a frame from being queued to its end on the bus. For a frame of the bench: from hand-over to echo.
@@ -72,8 +72,8 @@ struct WireResponse {
   std::int64_t max_ns = 0;
 };
 
-/// A message within a window of the run, by the time of validity of its cause, as a check requires. For a
-/// message that answers nothing the window is the whole run.
+/// A message within a window of the run that a check requires, by the time of validity of its cause. For a
+/// message that answers nothing, the window is the whole run.
 struct TimedWindow {
   std::size_t message = 0;  ///< index in TimingRecord::messages
   scenario::Window window{};
@@ -81,29 +81,29 @@ struct TimedWindow {
   Histogram period{};  ///< from one arrival to the next
   /// The time from the deadline of each stimulus until it was on the bus: the delay that the host causes.
   Histogram lateness{};
-  /// The bench's own deviation from the period that the message answers: by stimulus, the time between two on
-  /// the bus minus the time between their deadlines. A stimulus that stands for several due ones counts as
-  /// many times.
+  /// The bench's own deviation from the period that the message answers: for each stimulus, the time between
+  /// two stimuli on the bus minus the time between their deadlines. A stimulus that replaces n due stimuli
+  /// counts n times.
   Histogram stimulus_deviation{};
   std::optional<Arrival> last_arrival{};
-  std::optional<std::int64_t> last_stimulus_ns{};  ///< of the stimuli valid up to the end of the window
+  std::optional<std::int64_t> last_stimulus_ns{};  ///< last one valid up to the end of the window
 };
 
 /// TargetTiming saturates here [us]: such a value is a lower bound.
 inline constexpr std::uint16_t most_reported_us = 8191;
 
-/// The parts of the latency of answered stimuli. Sums over the stimuli, from the hand-over of a stimulus's
-/// last frame to the last frame that answers it.
+/// Sums over the answered stimuli: the parts of the time from the hand-over of a stimulus's last frame to the
+/// last frame that answers it.
 struct LatencyBreakdown {
   std::uint64_t stimuli = 0;           ///< answered stimuli
-  std::uint64_t echoed = 0;            ///< of those: stimuli whose echo was seen
-  std::int64_t to_echo_ns = 0;         ///< from the hand-over to the end of the frame on the bus
-  std::int64_t stimulus_wire_ns = 0;   ///< of that: the frame's own time on the wire
-  std::int64_t latency_ns = 0;         ///< from there to the end of the last frame of the answer
-  std::int64_t reply_wire_ns = 0;      ///< of that: the answer's own time on the wire
+  std::uint64_t echoed = 0;            ///< answered stimuli whose echo was seen
+  std::int64_t to_echo_ns = 0;         ///< from the hand-over to the end of the stimulus on the bus
+  std::int64_t stimulus_wire_ns = 0;   ///< part of to_echo_ns: the stimulus's own time on the wire
+  std::int64_t latency_ns = 0;         ///< from the end of the stimulus to the end of its answer's last frame
+  std::int64_t reply_wire_ns = 0;      ///< part of latency_ns: the answer's own time on the wire
   std::uint64_t accounted = 0;         ///< stimuli that the target accounted for (TargetTiming)
-  std::int64_t target_queue_ns = 0;    ///< for those: from the target's stamp to the start of its work
-  std::int64_t target_compute_ns = 0;  ///< and the computing
+  std::int64_t target_queue_ns = 0;    ///< for `accounted`: from the target's stamp to the start of its work
+  std::int64_t target_compute_ns = 0;  ///< for `accounted`: the target's computing time
   bool queue_clipped = false;  ///< some reported means were at most_reported_us: the true time is longer
   bool compute_clipped = false;
 };
@@ -136,13 +136,13 @@ struct TimingRecord {
   std::vector<AnswerTiming> answers;      ///< by index in `messages`
   std::vector<TransmitTiming> transmit;   ///< by index in `messages`
   std::vector<WireResponse> responses;    ///< by wire::Carrier::first
-  Histogram lateness;                     ///< of all messages of the bench when handed over
+  Histogram lateness;                     ///< lateness of all messages of the bench at the hand-over
   TimeLine lateness_line;                 ///< the same over time
   std::array<std::uint64_t, 5> stamps{};  ///< frames of the target by StampSource
   std::vector<TimedWindow> windows{};     ///< as the checks require
   LatencyBreakdown breakdown{};
   std::vector<GroupBreakdown> breakdown_by_group{};  ///< in the order of their first answers
-  SlowestAnswer slowest{};                           ///< of those that the target accounted for
+  SlowestAnswer slowest{};                           ///< among the answers that the target accounted for
   std::uint64_t stimuli_with_hardware_stamp = 0;
   std::uint64_t without_hardware_stamp = 0;  ///< stimuli and frames of the target
 };

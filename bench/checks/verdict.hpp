@@ -24,7 +24,7 @@ constexpr std::string_view name(Outcome outcome) {
   return "?";
 }
 
-/// Combines outcomes: fail if any failed; otherwise not measured if any was not measured or there is none;
+/// Combines outcomes: fail if any failed; otherwise not measured if any was not measured or there are none;
 /// otherwise pass.
 template <class Parts, class Projection>
 constexpr Outcome outcome_of(const Parts& parts, Projection projection) {
@@ -47,7 +47,7 @@ struct CheckResult {
   std::string expected;
 };
 
-/// The verdict of a whole run: fail if anything failed; otherwise not measured if anything was not; otherwise
+/// The verdict of a whole run: fail if a check failed; otherwise not measured if a check was not; otherwise
 /// pass.
 struct Verdict {
   Outcome outcome = Outcome::not_measured;

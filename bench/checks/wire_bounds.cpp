@@ -22,7 +22,7 @@ bool was_seen(const TimingRecord& timing, std::size_t index) {
   return timing.transmit[index].handed_over.count() > 0 || timing.answers[index].last_ns;
 }
 
-// The minimum period: the DBC's, or the observed one for messages that were sent faster.
+// The minimum period: the DBC's, or the observed period if messages were sent faster.
 std::int64_t period_ns(const Observations& seen, const MessageInfo& info) {
   const std::int64_t cycle_ns = info.cycle_time_us * 1000;
   double sent_s = nominal_period_s(seen, info.name);
@@ -36,7 +36,8 @@ std::int64_t period_ns(const Observations& seen, const MessageInfo& info) {
   return std::min(cycle_ns, sent_ns);
 }
 
-// How many frames of a message are queued together: each estimator of a target sends its own heartbeat.
+// The number of frames of a message that are queued together: each estimator of a target sends its own
+// heartbeat.
 std::int64_t together(const Observations& seen, const AnswerTiming& timing, std::int64_t period_ns) {
   const std::int64_t run_ns = seen.last_ns - seen.first_ns;
   if (timing.count == 0 || run_ns <= 0) return 1;

@@ -1,4 +1,4 @@
-// Measured bus response times of a run beside their theoretical bounds.
+// Measured bus response times of a run, with their theoretical bounds.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@ namespace canhil::checks {
 
 /// A message of the bus's DBC (on CAN FD a container), its longest response (see WireResponse) and its bound.
 /// The bound follows from the analysis for the order of the bus's queues and the observed messages, each at
-/// its observed rate or at the rate of the DBC, whichever is higher. Both begin when the frame is queued, so
-/// they contain neither the bench's lateness nor the target's computing.
+/// the higher of its observed rate and its rate in the DBC. Response and bound begin when the frame is
+/// queued, so they contain neither the bench's lateness nor the target's computing.
 struct WireBound {
   std::string_view message{};
   bool of_target = false;  ///< its response is a lower bound
@@ -26,7 +26,7 @@ struct WireBound {
 /// The bounds sorted by priority. Empty if the bit rate of the bus is unknown.
 std::vector<WireBound> wire_bounds(const Observations& seen);
 
-/// Why bounds are not valid for this run; empty: they are.
+/// Why bounds are not valid for this run; empty: they are valid.
 std::string no_bounds(const Observations& seen);
 
 }  // namespace canhil::checks

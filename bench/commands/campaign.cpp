@@ -79,7 +79,7 @@ std::string progress_text(const campaign::Progress& progress, double elapsed_s) 
   return text;
 }
 
-// --out is the file, or a folder for a file named after the campaign and the shard.
+// --out is the file, or the folder for a file named after the campaign and the shard.
 Result<fs::path> results_file(const Arguments& arguments, const campaign::Shard& shard) {
   const fs::path out = arguments.out;
   if (out == report::to_stdout) return failure("--out -: expected a folder or a file, not standard output");
@@ -307,7 +307,7 @@ void add_replay(command_line::Command campaign, int& code) {
   command.on_given([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
 }
 
-// Papers are a separate program.
+// Reproducing a paper is a separate program.
 int reproduce(const PaperArguments& paper, const Arguments& arguments) {
   std::vector<std::string> words{paper.paper};
   if (!arguments.out.empty()) words.insert(words.end(), {"--out", arguments.out});

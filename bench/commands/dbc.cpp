@@ -1,4 +1,4 @@
-// hil-bench dbc: checks and displays DBC files, including those of others.
+// hil-bench dbc: checks and displays DBC files of this or any other project.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ ExitCode lint(const LintArguments& arguments) {
   return std::ranges::any_of(files, is_refused) ? ExitCode::fail : ExitCode::pass;
 }
 
-// Warnings about the file that are not shown here must be mentioned.
+// Mentions the number of warnings, because this command does not list them.
 void say_warnings(const dbc::Inspection& inspection, const std::string& file) {
   const auto warnings =
       std::ranges::count(inspection.findings, dbc::Severity::warning,

@@ -17,7 +17,7 @@ constexpr ExitCode exit_code(checks::Outcome outcome) {
                                             : ExitCode::not_measured;
 }
 
-/// The same the other way round; a command that could not be done has not measured anything.
+/// The outcome that an exit code stands for. A command that could not run has measured nothing.
 constexpr checks::Outcome outcome_of(ExitCode code) {
   return code == ExitCode::pass   ? checks::Outcome::pass
          : code == ExitCode::fail ? checks::Outcome::fail

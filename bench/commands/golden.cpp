@@ -95,7 +95,7 @@ ExitCode record(const Arguments& arguments) {
   return ExitCode::pass;
 }
 
-// The first difference between the answers and the stored ones; empty: none.
+// The first difference between the answers and the stored answers; empty: there is none.
 std::string difference(const observe::Comparison& comparison) {
   if (!comparison.first) return {};
   const observe::Divergence& first = *comparison.first;

@@ -20,25 +20,26 @@ struct Live {
   [[nodiscard]] bool wanted() const { return port.has_value(); }
 };
 
-/// --live, --live-address, --live-hold. `live` must outlive parsing. Gives --live.
+/// Adds --live, --live-address, --live-hold. `live` must outlive parsing. Returns --live.
 command_line::Option add_live(command_line::Command command, Live& live);
 
-/// A live view that is open, or none: then its functions do nothing.
+/// An open live view, or none; without a view its functions do nothing.
 class OpenView {
  public:
-  /// Opens the page, says on stderr where it is, and shows what has begun, there and on `others`. Error: one
+  /// Opens the page, prints its URL on stderr, and shows `begun` on the page and on `others`. Error: one
   /// line.
   static Result<OpenView> open(const Live& live, live::Snapshot begun,
                                std::vector<std::unique_ptr<live::Display>> others = {});
 
-  /// Null: there is none.
+  /// Null: no view is open.
   [[nodiscard]] live::View* get() const { return view_.get(); }
-  /// The end has been shown: with --live-hold the page stays until the command is interrupted.
+  /// To be called after the end has been shown: with --live-hold the page stays until the command is
+  /// interrupted.
   void hold();
 
  private:
   std::unique_ptr<live::View> view_;
-  std::string held_;  // the URL; empty: it is not held
+  std::string held_;  // the page's URL; empty: the page is not held
 };
 
 }  // namespace canhil::commands

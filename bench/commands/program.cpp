@@ -51,7 +51,7 @@ std::string unknown_option(const Command& command, std::span<const std::string> 
   return {};
 }
 
-/// The error, and where to find help.
+/// The error message, with a hint where to find help.
 std::string complaint(const Program& program, std::span<const std::string> words, std::string_view error) {
   std::string path = "hil-bench";
   Command command = program;

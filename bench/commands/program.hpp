@@ -1,5 +1,5 @@
-// A program of the bench: its subcommands, its messages for unknown words, and the programs that continue it.
-// Single runs do not need campaigns with their statistics, and campaigns do not need the papers.
+// A program of the bench: its subcommands, its messages for unknown words, and the programs that it may
+// become. Single runs do not link campaigns and their statistics, and campaigns do not link the papers.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace canhil::commands {
 
-/// Adds a subcommand to the program; `code` is its exit code, once it has run.
+/// Adds a subcommand to the program. `code` receives the exit code when the subcommand has run.
 using AddCommand = void (*)(command_line::Command program, int& code);
 
 /// Runs the body of main. An exception, such as lack of memory, ends the program with one line and exit code

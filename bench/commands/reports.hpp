@@ -22,8 +22,8 @@ Result<void> check_outputs(const Reports& reports, std::vector<std::string> othe
 /// Removes reports of an earlier run, so that none can be mistaken for a report of this run, however it ends.
 void remove_earlier(const Reports& reports);
 
-/// A report on stdout replaces the text. If one cannot be written, the others still are. Error: the first
-/// one.
+/// A report on stdout replaces the text. If a report cannot be written, the others are still written. Error:
+/// the first one.
 Result<void> write_reports(const Reports& reports, const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::commands

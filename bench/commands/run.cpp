@@ -163,7 +163,7 @@ Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
       return failure(
           fmt::format("--bus-of '{}': is the bus of all others, expected another than --bus", text));
   }
-  // Two wires have no common order of frames: the answer to a step could come before a sample on the other
+  // Frames on two wires have no common order: the answer to a step could arrive before a sample on the other
   // wire.
   if (!arguments.bus_of.empty() && (arguments.lockstep || here))
     return failure("--bus-of: one step over two buses has no order, expected real time");
@@ -201,7 +201,8 @@ Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario
   return named;
 }
 
-// If bit rates differ or no other node is present, the controller's state explains why nothing is received.
+// If bit rates differ or no other node is present, the state of the controller explains why nothing is
+// received.
 Error with_controller(Error error, const std::string& bus) {
   const auto interface = doctor::find_interface(bus);
   if (!interface) return error;
@@ -225,7 +226,7 @@ Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& s
   return {};
 }
 
-// It stands on one line of the text, and in XML.
+// The name must fit one line of the text report, and XML.
 Result<void> check_operator(const std::string& name) {
   const bool plain =
       std::ranges::none_of(name, [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; });

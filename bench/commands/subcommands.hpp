@@ -26,7 +26,7 @@ void add_golden(command_line::Command app, int& code);
 void add_conformance(command_line::Command app, int& code);
 
 /// `hil-bench doctor --bus BUS`: reports what this machine and its interface can do, with remedies. Exit code
-/// 1 if something is bad.
+/// 1 if a finding is bad.
 void add_doctor(command_line::Command app, int& code);
 
 /// `hil-bench schedulability FILE.dbc`: worst-case response times of all messages. Exit code 1 if one can

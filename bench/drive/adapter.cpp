@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first line of an attribute; empty: there is none.
+// The first line of a sysfs attribute; empty: the attribute does not exist.
 std::string attribute(const fs::path& folder, const char* name) {
   std::ifstream file(folder / name);
   std::string line;
@@ -27,10 +27,10 @@ std::string name_behind(const fs::path& link) {
   return fs::read_symlink(link, unknown).filename().string();
 }
 
-// PCI writes 0x0c72, USB 0c72.
+// PCI ids have the prefix 0x (0x0c72), USB ids have none (0c72).
 std::string without_prefix(const std::string& id) { return id.starts_with("0x") ? id.substr(2) : id; }
 
-// An interface of a USB device lies in the folder of the device.
+// The folder of a USB device contains the folders of its interfaces.
 void add_usb(Adapter& adapter, const fs::path& of_interface) {
   for (fs::path folder = of_interface; folder.has_relative_path(); folder = folder.parent_path()) {
     adapter.vendor_id = attribute(folder, "idVendor");

@@ -13,15 +13,15 @@ struct Options;
 struct Adapter {
   std::string bus;        ///< "can0", "local:x"
   std::string kind;       ///< "usb", "pci", "spi", "platform" (in the SoC), "virtual", "unknown"
-  std::string driver{};   ///< "gs_usb", "vcan"; of a bus without an interface what it is, in words
-  std::string address{};  ///< where it is plugged in: "1-4:1.0", "0000:03:00.0"
-  std::string vendor_id{}, product_id{};  ///< hexadecimal digits: USB, PCI
-  std::string product{};                  ///< as the device names itself: USB
-  std::string serial{};                   ///< USB; empty: it has none
+  std::string driver{};   ///< "gs_usb", "vcan"; for a bus without an interface, a description
+  std::string address{};  ///< where it is connected: "1-4:1.0", "0000:03:00.0"
+  std::string vendor_id{}, product_id{};  ///< hexadecimal digits; USB and PCI only
+  std::string product{};                  ///< the device's own name for itself; USB only
+  std::string serial{};                   ///< USB only; empty: no serial number
   double usb_mbitps = 0;                  ///< 12: full speed; 0: not USB
 };
 
-/// The adapter of a kernel interface; a bus without an interface has none. `sys`: where sysfs is mounted.
+/// The adapter of a kernel interface; a bus without an interface is "virtual". `sys`: where sysfs is mounted.
 Adapter adapter_of(const std::string& bus, const std::filesystem::path& sys = "/sys");
 
 /// "can0: usb, gs_usb at 1-4:1.0, 1d50:606f 'candleLight', serial 0042"

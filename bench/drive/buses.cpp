@@ -12,7 +12,7 @@ namespace {
 
 static_assert(std::ranges::all_of(messages::all_messages, &MessageInfo::can_travel_unrounded));
 
-// Without a wire there is no bus, and frames are the same with both DBCs.
+// Without a simulated wire, the frames are the same with both DBCs.
 Result<std::unique_ptr<Port>> open_in_process(const BusName& bus, BusFormat format) {
   const bool wireless = bus.rounding == Rounding::none || (bus.wire && bus.wire->rates.nominal == 0);
   if (wireless) return std::make_unique<InProcessPort>(bus.rounding);

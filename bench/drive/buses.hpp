@@ -17,7 +17,7 @@ inline constexpr std::string_view in_process_bus = "in-process";
 /// The same with unrounded frames.
 inline constexpr std::string_view unrounded_bus = "in-process?unrounded";
 
-/// A bus as given on the command line, parsed and ready to open. Its properties are those of its port.
+/// A bus as given on the command line, parsed and ready to open. Its port reports its properties.
 struct BusName {
   explicit BusName(std::string name = {})
       : text(std::move(name)),
@@ -26,22 +26,22 @@ struct BusName {
         wire(wire_settings(text)) {}
 
   std::string text;           ///< as given to --bus
-  bool in_process;            ///< no bus: the device is in this process
-  Rounding rounding;          ///< of its frames
+  bool in_process;            ///< no bus: the device runs in this process
+  Rounding rounding;          ///< rounding of its frames
   Result<WireSettings> wire;  ///< the part after '?'
 };
 
-/// Nodes of the DBC with buses of their own.
+/// Nodes of the DBC that have their own bus: (node, bus).
 using BusOf = std::vector<std::pair<std::string, std::string>>;
 
 struct OpenBuses {
   std::shared_ptr<std::vector<std::string>>
-      notes;                   ///< peers that the bench as a host turned away, one line each
+      notes;                   ///< peers that the bench rejected as host of the bus, one line each
   std::unique_ptr<Port> port;  ///< combines all buses
 };
 
-/// A frame is sent on the bus of its sender. The bench hosts a local bus unless another program already does.
-/// Error: one line.
+/// Each frame is sent on the bus of its sender. The bench hosts a local bus unless another program already
+/// does. Error: one line.
 Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format);
 
 }  // namespace canhil::drive

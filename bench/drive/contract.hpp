@@ -15,8 +15,9 @@ namespace canhil::drive {
 /// Value tables and messages of the built-in DBC.
 scenario::DbcVocabulary contract();
 
-/// Reads a scenario with its vocabulary: that of the mapping in its [target], or that of canhil's own DBC.
-/// Like scenario::parse() and read_file(). `folder`: see scenario::parse(). `read`: loads mapping and DBC.
+/// Reads a scenario with the vocabulary of the mapping in its [target], or else of canhil's own DBC.
+/// Otherwise like scenario::parse() and read_file(). `folder`: see scenario::parse(). `read`: loads mapping
+/// and DBC.
 Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
                                           std::span<const scenario::Setting> settings = {},
                                           std::optional<std::string> folder = {},

@@ -26,7 +26,7 @@ struct Setting {
   Flight& flight;
   std::uint64_t run_index = 0;
   bool in_process = false;    ///< the target is the device in this process
-  bool virtual_time = false;  ///< time advances in steps that the target completes
+  bool virtual_time = false;  ///< time advances in steps; the target completes each step
   Rounding rounding = Rounding::as_on_the_bus;
   BusFormat format = BusFormat::classic;
   WireFacts wire{};
@@ -44,18 +44,18 @@ class Dialect {
   /// `faults`: the faults of the run.
   virtual std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) = 0;
   virtual std::unique_ptr<observe::Watcher> watcher(bool with_times) = 0;
-  /// Whether watchers may be in other threads: they look at nothing but frames.
+  /// Whether watchers may run in other threads: they depend on frames only.
   [[nodiscard]] virtual bool watches_frames_alone() const = 0;
-  /// `alone`: nobody else can be on the bus.
+  /// `alone`: no other node can be on the bus.
   virtual std::unique_ptr<observe::TargetWatch> target_watch(bool alone) = 0;
-  /// Configures the target. `gone`: why waiting is pointless, if it is. Error: one line.
+  /// Configures the target. `gone`: returns why waiting is pointless, if it is. Error: one line.
   virtual Result<void> configure(Link& link, nodes::Transmission& out,
                                  const std::function<std::optional<std::string>()>& gone) = 0;
-  /// The run is over.
+  /// Stops the target after the run.
   virtual void stop(Link& link, nodes::Transmission& out) = 0;
   /// Remarks on the run besides its observations, one line each.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
-  /// In real time, a target that is silent for longer counts as gone.
+  /// In real time, a target that is silent for longer than this counts as gone.
   [[nodiscard]] virtual std::int64_t silence_limit_ns() const = 0;
 };
 

@@ -99,7 +99,8 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
     if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
     if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
   }
-  // The initial state is checked for every run; draws are checked run by run.
+  // The initial state without drawn errors must fit for every run; make_flight() checks the drawn state of
+  // each run.
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream none(0, 0, "none");
     const auto start = initial_solution(truth.epochs().front(), world::InitialErrorModel{}, none);

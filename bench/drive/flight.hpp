@@ -20,7 +20,7 @@ namespace canhil::drive {
 /// one line, if no run of the scenario can be flown.
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 
-/// Truth that differs from run to run, because errors are drawn or the answers steer the flight.
+/// Truth that differs from run to run, because errors are drawn or guidance uses the answers.
 struct PerRunTruth {
   std::optional<world::EngagementRecord>
       engagement{};                           ///< none: not in the scenario; filled during the flight
@@ -28,11 +28,11 @@ struct PerRunTruth {
   bool glide_is_sampled = true;               ///< false: its nodes send a recording of another glide
 };
 
-/// The complete truth, for comparison with answers. `duration_us`: of the run.
+/// The complete truth, for comparison with answers. `duration_us`: duration of the run.
 estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth& own,
                            std::int64_t duration_us);
 
-/// What is drawn for a run before it begins.
+/// The random draws for a run, made before it begins.
 struct Flight {
   PerRunTruth per_run_truth;
   /// The initial state for each estimator of the target: the truth with the errors drawn for this run, the
@@ -45,13 +45,13 @@ struct Flight {
 Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index);
 
-/// The initial state for each estimator at a time of the run, with the errors of the start.
+/// The initial state for each estimator at a time of the run, with the initial errors drawn for the run.
 std::vector<InitialState> initial_states(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                          const PerRunTruth& per_run_truth, std::uint64_t run_index,
                                          std::int64_t t_us);
 
-/// The nodes of run `run_index` in order of precedence. Everything but the index must outlive the schedule.
-/// `faults`: of the run; null: the faults of the scenario that need nothing but frames.
+/// The nodes of run `run_index` in order of precedence. The referenced objects must outlive the schedule.
+/// `faults`: faults of the run; null: the scenario's faults that act on frames only.
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                        PerRunTruth& per_run_truth, std::uint64_t run_index, bool lockstep,
                        Rounding rounding = Rounding::as_on_the_bus,

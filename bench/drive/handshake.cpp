@@ -21,7 +21,7 @@ TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {
   return {.command = what, .estimator = estimator, .algorithm = algorithm, .dbc_hash = dbc_hash24};
 }
 
-// For hil-target; another target may accept another range.
+// The range in hil-target; another target may accept another range.
 std::string range_of(Estimator estimator, Parameter parameter) {
   const auto range = target::Device().range(estimator, parameter);
   if (!range) return "a value in its range";
@@ -43,7 +43,7 @@ std::string algorithms_of(Estimator estimator) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// The reason, the expectation, and the value that stays in force.
+// Why the target refused a parameter, the expected value, and the value that stays in force.
 std::string refusal(const ParamAck& ack, Estimator estimator) {
   const auto in_force = static_cast<double>(ack.value);
   switch (ack.status) {
@@ -112,7 +112,7 @@ Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) 
   return {};
 }
 
-// Selects an estimator, either by a reset, which removes all others, or in addition to them, and configures
+// Selects an estimator, either by a reset, which removes all others, or in addition to them; then configures
 // it.
 Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selection,
                      const scenario::TargetSetup& setup, const InitialState& initial) {

@@ -17,8 +17,8 @@ namespace canhil::drive {
 
 /// Waits for the target's heartbeat and checks its DBC hash; selects each estimator, sets and reads back its
 /// parameters, sends its initial state with sigmas; then starts all estimators. Each step is repeated until
-/// it is acknowledged. A target that answers in another format than the bus's `format` is reported. `initial`
-/// is in the order of `estimators`. `gone`: why waiting is pointless, if it is ("target: exited with 1").
+/// it is acknowledged. Reports a target that answers in a format other than `format`. `initial` is in the
+/// order of `estimators`. `gone`: returns why waiting is pointless, if it is ("target: exited with 1").
 /// Error: one line.
 Result<void> configure(Link& link, nodes::Transmission& out,
                        std::span<const scenario::TargetSetup> estimators,

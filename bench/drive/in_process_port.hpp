@@ -35,7 +35,7 @@ class InProcessPort final : public Port {
     ++counters_.received;
     return Received{.frame = answers_[next_++], .t_ns = now_ns_, .source = StampSource::virtual_time};
   }
-  /// Everything to receive arrived during send().
+  /// All frames to receive arrived during send().
   bool wait_for_frame(std::int64_t /*deadline_ns*/) override { return true; }
   [[nodiscard]] int descriptor() const override { return -1; }
   [[nodiscard]] RoomWait room_wait() const override { return {}; }
@@ -57,7 +57,7 @@ class InProcessPort final : public Port {
   target::Device device_;
   Rounding rounding_;
   std::vector<Frame> answers_;
-  std::size_t next_ = 0;  // the first of answers_ that has not been received
+  std::size_t next_ = 0;  // index of the first answer that has not been received
   std::int64_t now_ns_ = 0;
   PortCounters counters_;
   std::string name_;

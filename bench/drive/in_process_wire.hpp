@@ -53,10 +53,10 @@ class InProcessWire final : public Port {
   WireFacts facts_;
   SimulatedWire wire_;
   target::Device device_;
-  FdPacker packer_;            // for the device's frames
-  std::deque<Frame> waiting_;  // of the device, waiting for room on the wire
+  FdPacker packer_;            // packs the device's frames
+  std::deque<Frame> waiting_;  // frames of the device that wait for room on the wire
   std::int64_t now_ns_ = 0;
-  std::int64_t idle_heartbeat_due_ns_ = 0;  // until a bench sends
+  std::int64_t idle_heartbeat_due_ns_ = 0;  // used until a bench sends
   std::deque<Received> ready_;
   PortCounters counters_;
 };

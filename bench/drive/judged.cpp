@@ -7,8 +7,8 @@ namespace canhil::drive {
 
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario) {
-  // A changed value may make an estimator refuse a group that is otherwise valid, a changed order may make it
-  // late, and after a time in the future everything up to that time is late.
+  // A changed value may make an estimator refuse a group that is otherwise valid; a changed order may make a
+  // group late; after a time of validity in the future, every group up to that time is late.
   const faults::Tally befallen = faults.tally();
   seen.expected_counts.most.bad_group += befallen.changed * scenario.targets.size();
   seen.expected_counts.most.late += befallen.overtaken * scenario.targets.size();

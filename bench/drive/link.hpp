@@ -23,9 +23,9 @@ class Link {
   void attach(observe::Observer& observer) { observers_.push_back(&observer); }
   void detach(observe::Observer& observer) { std::erase(observers_, &observer); }
 
-  /// Sends a frame. While the bus has no room or its interface is down, it receives, for up to `patience_ns`;
-  /// then it returns `congested` or `down`. `due_ns`: the frame's deadline, if any; waiting for room makes
-  /// the frame late.
+  /// Sends a frame. While the bus is full or its interface is down, it receives frames for up to
+  /// `patience_ns`; then it returns `congested` or `down`. `due_ns`: the frame's deadline, if any; waiting
+  /// for room makes the frame late.
   LinkState send(const Frame& frame, std::int64_t patience_ns,
                  std::optional<std::int64_t> due_ns = std::nullopt);
 
@@ -35,10 +35,11 @@ class Link {
   LinkState drain();
   static constexpr int most_at_once = 256;  ///< several groups of the target; less than a millisecond of work
 
-  /// After `congested`: the frames that arrived meanwhile, as observe::Shares::to_text(); empty: none.
+  /// After `congested`: the frames that arrived meanwhile, as observe::Shares::to_text(); empty: no frames.
   [[nodiscard]] const std::string& crowd() const { return crowd_; }
 
-  /// The longest time for which frames came faster than they could be processed; none: never.
+  /// The longest interval in which frames came faster than they could be processed; none: there was no such
+  /// interval.
   [[nodiscard]] const std::optional<observe::Flood>& flood() const { return backlog_.flood(); }
 
   /// The current time on the clock of all deadlines: Port::monotonic_ns().
@@ -65,9 +66,9 @@ class Link {
   std::vector<observe::Observer*> observers_;
   bool up_ = true;
   std::uint64_t late_in_queue_ = 0;
-  std::uint64_t overflowed_ = 0;  // at the last check
+  std::uint64_t overflowed_ = 0;  // the port's count at the last check
   observe::Backlog backlog_;
-  std::optional<observe::Shares> while_waiting_;  // for room in the queue
+  std::optional<observe::Shares> while_waiting_;  // frames received while waiting for room in the queue
   std::string crowd_;
 };
 

@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
 constexpr std::int64_t poll_ns = 20'000'000;
 
-// Sends nothing, because the bench keeps no time base on this bus. It only makes the run last to its end.
+// Sends nothing, because the bench sends no time base on this bus; it only makes the run last to its end.
 class EndOfRun final : public nodes::Node {
  public:
   explicit EndOfRun(std::int64_t end_us) : end_us_(end_us) {}
@@ -31,8 +31,8 @@ class EndOfRun final : public nodes::Node {
   bool over_ = false;
 };
 
-// Any message of the target shows that it is present; in virtual time the echo of a play shows that the
-// target has processed it.
+// Any message of the target shows that it is present. In virtual time, the echo of a played message shows
+// that the target has processed that message.
 class MappedWatch final : public observe::TargetWatch {
  public:
   explicit MappedWatch(const mapping::Conversation& conversation)
@@ -139,7 +139,7 @@ class MappedDialect final : public Dialect {
     return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
                                       Rounding::as_on_the_bus, std::move(faults));
   }
-  // What was played is looked up in the conversation, which the player changes.
+  // Watchers look up played messages in the conversation, which the player changes.
   [[nodiscard]] bool watches_frames_alone() const override { return false; }
   std::unique_ptr<observe::Watcher> watcher(bool /*with_times*/) override {
     WireFacts wire = of_.wire;
@@ -161,7 +161,7 @@ class MappedDialect final : public Dialect {
     const auto& hears = conversation_.mapping.hears;
     const bool speaks_first =
         std::ranges::any_of(hears, [](const mapping::Hear& hear) { return !hear.answers; });
-    bool there = !speaks_first;  // a target that only answers is silent so far
+    bool there = !speaks_first;  // a target that only answers is silent before the run
     const std::int64_t settled_ns = link.now_ns() + start_.settle_us * 1000;
     const std::int64_t limit_ns = std::max(settled_ns, link.now_ns() + find_limit_ns);
     while (link.now_ns() < settled_ns || !there) {

@@ -18,13 +18,13 @@ namespace canhil::drive {
 struct Departure {
   const scenario::Scenario& scenario;
   const world::FlightRecord& truth;
-  const PerRunTruth& per_run_truth;  ///< its engagement grows, in the thread of the flight
+  const PerRunTruth& per_run_truth;  ///< its engagement grows during the flight, in the flight's thread
   bool real_time = false;
   BusFormat format = BusFormat::classic;
   WireFacts wire{};
   observe::LoadBy load_by = observe::LoadBy::stamps;
-  /// Another watcher of the flight's frames, without times or with them. None: what the flight's own watcher
-  /// looks at beside the frames changes in the thread of the flight.
+  /// Makes another watcher of the flight's frames, with or without times. None: the flight's own watcher
+  /// depends on more than frames, and the flight's thread changes that data.
   std::function<std::unique_ptr<observe::Watcher>(bool with_times)> watcher{};
 };
 

@@ -16,7 +16,7 @@ constexpr std::int64_t outage_limit_ns =
     5'000'000'000;  // for an interface that goes down and up, or a restart after bus-off
 constexpr std::int64_t progress_period_us = 100'000;
 
-// A bus that was busy all the time is full; the message then says whose frames fill it.
+// A bus that was busy all the time is full; the message then names the frames that fill it.
 std::string took_none(const Link& link, std::int64_t due_us) {
   return fmt::format("the bus took no frame since t={:.3f} s{}{}", static_cast<double>(due_us) * 1e-6,
                      link.crowd().empty() ? "" : " and carried ", link.crowd());
@@ -35,8 +35,8 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
   const Attached bus_attached(link, bus);
   std::int64_t progress_due_us = 0;
 
-  // While the bus is away or a fault stops the target, and for the usual limit afterwards, silence has no
-  // meaning.
+  // While the bus is down or a fault stops the target, and for the usual limit afterwards, the target's
+  // silence has no meaning.
   const auto excused_until_ns = [&] {
     if (watch.heard()) heard_ns = link.now_ns();
     if (bus.outage()) return bus.outage()->since_ns + outage_limit_ns;

@@ -60,15 +60,15 @@ class Frames {
   std::optional<LogEntry> next_;
 };
 
-// How the run was flown, derived from its frames.
+// The clock and the format of the recorded run, derived from its frames.
 struct Manner {
   bool lockstep = false;
   bool in_process = false;
   BusFormat format = BusFormat::classic;
 };
 
-// The first Sync shows whether it was in lockstep; a CAN FD frame shows that the DBC's messages were packed
-// in containers.
+// The first Sync shows whether the run was in lockstep; a CAN FD frame shows that messages were packed in
+// containers.
 Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scenario) {
   auto reader = LogReader::open(log);
   if (!reader) return tl::unexpected(reader.error());
@@ -79,7 +79,8 @@ Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scena
     const auto entry = reader->next();
     if (!entry) return tl::unexpected(entry.error());
     if (!*entry) {
-      // A mapping has no such Sync: it was virtual time if it ran faster than the clock of the stamps.
+      // A mapped target has no such Sync: the run was in virtual time if it ran faster than the clock of the
+      // stamps.
       const std::int64_t span_ns = last_ns - first_ns.value_or(0);
       if (scenario.foreign != nullptr) manner.lockstep = span_ns < scenario.duration_us * 1000 / 2;
       return manner;

@@ -12,7 +12,7 @@
 
 namespace canhil::drive {
 
-/// The kernel's facts about an interface, and whether the bench may set it up and down.
+/// The kernel's data about an interface, and whether the bench may set it up and down.
 struct InterfaceFacts {
   faults::Place::Interface kind = faults::Place::Interface::none;
   bool may_set = false;

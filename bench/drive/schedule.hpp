@@ -13,12 +13,12 @@
 
 namespace canhil::drive {
 
-/// The nodes of a bus in order of precedence: of nodes due at the same time the earlier one transmits first.
-/// Faults of bus and target act before the nodes at that time.
+/// The nodes of a bus in order of precedence: among nodes due at the same time, the earlier one transmits
+/// first. Faults of bus and target act before the nodes at that time.
 class Schedule final : public observe::Observer {
  public:
-  /// `keeper` closes every step, so it is the last of the nodes due at the same time; the schedule ends when
-  /// it ends. `faults`: of the run; null: none.
+  /// `keeper` closes every step, so it transmits last among nodes due at the same time; the schedule ends
+  /// when it ends. `faults`: faults of the run; null: none.
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
            Rounding rounding = Rounding::as_on_the_bus, std::unique_ptr<faults::Faults> faults = nullptr)
       : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)) {
@@ -57,7 +57,7 @@ class Schedule final : public observe::Observer {
     return frames_;
   }
 
-  /// The time until which a fault explains that the target is silent.
+  /// The time until which a fault explains the target's silence.
   [[nodiscard]] std::int64_t silent_until_us() const {
     std::int64_t until_us = std::numeric_limits<std::int64_t>::min();
     for (const auto& injector : injectors_) until_us = std::max(until_us, injector->silent_until_us());
@@ -100,7 +100,7 @@ class Schedule final : public observe::Observer {
   std::vector<Frame> frames_;
   std::unique_ptr<faults::Faults> faults_;
   std::span<const std::unique_ptr<faults::Injector>> injectors_;
-  std::int64_t injected_us_ = nodes::never_us;  // time of the first of them
+  std::int64_t injected_us_ = nodes::never_us;  // time of the first injector
 };
 
 }  // namespace canhil::drive

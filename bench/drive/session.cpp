@@ -152,12 +152,12 @@ class Session {
 
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
-  // The error, plus what flooded the bus or was turned away from it, which may be the cause.
+  // The error, plus the frames that flooded the bus or a peer that was rejected, which may be the cause.
   [[nodiscard]] std::string explained(const std::string& what) const {
     if (link_.flood()) return fmt::format("{}; {}", what, to_text(*link_.flood()));
     return notes_->empty() ? what : fmt::format("{}; {}", what, notes_->front());
   }
-  // Why no timing can be judged; empty: it can.
+  // Why timing cannot be judged; empty: it can.
   [[nodiscard]] std::string timing_unfit(const checks::Observations& seen) const {
     if (clock_ == ClockKind::lockstep) return "virtual time";
     return link_.flood() ? to_text(*link_.flood()) : checks::unfit_for_timing(seen);

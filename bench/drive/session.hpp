@@ -22,7 +22,7 @@
 
 namespace canhil::drive {
 
-/// simulated_wire: virtual time in which frames take the time of a wire.
+/// simulated_wire: virtual time with simulated frame times.
 enum class ClockKind : std::uint8_t { real_time, lockstep, simulated_wire };
 /// The clock of a run on a bus; `lockstep`: as requested.
 ClockKind clock_of(BusTime time, bool lockstep);
@@ -37,14 +37,14 @@ struct Options {
   WireFacts controller{};  ///< properties of the interface's controller, if the kernel reports them
   bool lockstep = false;   ///< instead of real time
   std::optional<std::string> log_path;        ///< candump log of every frame from the first command on
-  std::optional<realtime::Request> realtime;  ///< for the bench; the target has its own arguments
-  std::vector<std::string> target_arguments;  ///< besides --bus, and --dbc, which follows from the format
+  std::optional<realtime::Request> realtime;  ///< settings of the bench; the target has its own arguments
+  std::vector<std::string> target_arguments;  ///< besides --bus and --dbc; the format determines --dbc
   std::optional<int> target_cpu;              ///< none: the bench's CPUs before it was pinned
-  std::string operator_name{};                ///< who runs it, for the report; empty: not given
+  std::string operator_name{};                ///< the operator's name for the report; empty: not given
   std::int64_t spin_ns = 0;      ///< time before each deadline in which the bench polls instead of sleeping
   std::uint64_t run_index = 0;   ///< in a campaign: selects the random numbers together with the seed
   Onlooker* onlooker = nullptr;  ///< also receives every frame of the flight; null: none
-  bool for_verdict = true;  ///< false: only the target's frames are observed, not times, load, bus and host
+  bool for_verdict = true;       ///< false: observes only the target's frames, not times, load, bus and host
 };
 
 /// The format of a scenario's bus unless another is requested.
@@ -74,9 +74,9 @@ struct Run {
   ClockKind clock = ClockKind::real_time;
   bool in_process = false;                   ///< the target was the bench's own device
   std::string timing_unfit{};                ///< why no timing of the run is judged; empty: timing is judged
-  std::optional<realtime::Standing> host{};  ///< of the bench, in real time
+  std::optional<realtime::Standing> host{};  ///< the bench's, in real time
   std::vector<RunFile> files{};      ///< the files that the run depended on, as they were at its start
-  std::vector<Adapter> adapters{};   ///< of its bus, then of the buses of nodes
+  std::vector<Adapter> adapters{};   ///< adapter of the run's bus, then the adapters of the nodes' buses
   double wall_s = 0;                 ///< from the start of the estimator to the end
   std::int64_t started_s = 0;        ///< since 1970, UTC; 0: unknown
   std::optional<Error> log_error{};  ///< see Collected

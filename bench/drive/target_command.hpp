@@ -11,8 +11,8 @@
 namespace canhil::drive {
 
 /// The words of a target's command: "python3 my_target.py --gain 3". Blanks separate words, as in a shell;
-/// '...' and "..." keep a word together, and \ takes the next character literally. There are no variables and
-/// no patterns. Error: one line; no word, or a quote without its end.
+/// '...' and "..." keep a word together, and \ takes the next character literally. Variables and patterns are
+/// not expanded. Error, one line: there is no word, or a quote is not closed.
 Result<std::vector<std::string>> target_words(const std::string& command);
 
 /// Quotes a path as one word of such a command.

@@ -34,10 +34,10 @@ class Mailbox final : public observe::Observer {
     heartbeat.reset();
     beats_ = {};
   }
-  std::optional<messages::TargetHeartbeat> heartbeat;  ///< the last one
-  std::optional<messages::ParamAck> acknowledgement;   ///< for this step
-  bool foreign_heartbeat = false;                      ///< in another format than this bus's
-  bool other_bench = false;                            ///< another bench keeps the time base
+  std::optional<messages::TargetHeartbeat> heartbeat;  ///< the latest one
+  std::optional<messages::ParamAck> acknowledgement;   ///< received in the current step
+  bool foreign_heartbeat = false;  ///< a heartbeat came in a format that this bus does not use
+  bool other_bench = false;        ///< another bench keeps the time base
 
  private:
   std::array<std::optional<messages::TargetHeartbeat>, 8> beats_;  // by the three bits of the estimator

@@ -1,4 +1,4 @@
-// The parameters of the device, from which the bench learns those of hil-target.
+// The parameters of the device, from which the bench learns the parameters of hil-target.
 #pragma once
 
 #include <string>

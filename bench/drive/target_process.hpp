@@ -13,7 +13,7 @@ namespace canhil::drive {
 /// A started target; it is terminated with this object, and by the kernel if the bench dies.
 class TargetProcess {
  public:
-  /// Starts `COMMAND --bus BUS` with further arguments on the given CPUs (empty: those of the bench). The
+  /// Starts `COMMAND --bus BUS` with further arguments on the given CPUs (empty: the bench's CPUs). The
   /// command is split by target_words(). Error: the program cannot be started.
   static Result<TargetProcess> start(const std::string& command, const std::string& bus,
                                      const std::vector<std::string>& more = {},
@@ -24,11 +24,11 @@ class TargetProcess {
   TargetProcess& operator=(const TargetProcess&) = delete;
   ~TargetProcess();
 
-  /// How the process ended, if it has: one phrase for people.
+  /// How the process ended, as a phrase for people; none: it is running.
   std::optional<std::string> ended();
   /// True while it is stopped by a signal such as SIGSTOP.
   [[nodiscard]] bool stopped() const;
-  /// If it is still running.
+  /// Sends a signal if the process is still running.
   void send_signal(int signal);
   /// Kills it immediately.
   void kill_it();

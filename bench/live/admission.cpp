@@ -10,7 +10,7 @@
 namespace canhil::live {
 namespace {
 
-// Compares in a time that does not depend on where the texts differ.
+// Compares in a time that is independent of the position of the first difference.
 bool same(std::string_view a, std::string_view b) {
   unsigned differing = a.size() == b.size() ? 0 : 1;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)

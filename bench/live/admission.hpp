@@ -1,4 +1,4 @@
-// Which requests are answered: the rules of the page's server, apart from its sockets.
+// Decides which requests the page's server answers. Contains no sockets.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 namespace canhil::live {
 
 struct Admission {
-  std::string address;  ///< that the server listens on
+  std::string address;  ///< address or host name in the URL
   bool loopback = true;
   std::uint16_t port = 0;
-  std::string token{};  ///< that a URL has to carry; empty: none
+  std::string token{};  ///< required in the URL; empty: no token is required
 
   [[nodiscard]] std::string query() const { return token.empty() ? "" : "?token=" + token; }
   [[nodiscard]] std::string url() const;
@@ -20,7 +20,7 @@ struct Admission {
 /// A request. Fields that were not sent are empty.
 struct Asked {
   std::string_view method, target, host, origin;
-  bool upgrade = false;  ///< to a WebSocket
+  bool upgrade = false;  ///< the request upgrades to a WebSocket
 };
 
 struct Answer {
@@ -28,12 +28,12 @@ struct Answer {
   std::string_view what{};  ///< status 200: the requested path; otherwise the reason
 };
 
-/// The name of the WebSocket's resource.
+/// The path of the WebSocket in its URL.
 inline constexpr std::string_view socket_path = "/live";
 
-/// Decides whether to answer a request. A page of another site in the same browser can make the browser send
-/// requests here, even under its own host name (DNS rebinding). It cannot choose the origin that the browser
-/// states, so that origin is checked.
+/// Decides whether to answer a request. A page of another site, open in the same browser, can make the
+/// browser send requests to this server, even under that site's host name (DNS rebinding). The page cannot
+/// choose the origin that the browser states, so admit() checks the origin.
 Answer admit(const Admission& admission, const Asked& asked);
 
 /// 128 random bits in hexadecimal.

@@ -1,4 +1,4 @@
-// From the thread of the flight to that of the view: a queue that never makes the flight wait.
+// A queue from the flight's thread to the view's thread. It never blocks the flight.
 #pragma once
 
 #include <atomic>
@@ -16,11 +16,11 @@ struct Event {
   Kind kind = Kind::transmitted;
   bool up = false;
   std::int64_t t_ns = 0, late_ns = 0;
-  Received received{};  ///< of `transmitted` the frame alone
+  Received received{};  ///< for `transmitted`, only the frame is set
 };
 
-/// One thread puts in, another takes out. Putting in neither waits, nor allocates, nor calls the system: what
-/// finds no room is dropped and counted.
+/// One thread writes, another thread reads. Writing does not wait, allocate or make a system call; an event
+/// that does not fit is dropped and counted.
 class Feed final : public observe::Observer {
  public:
   static constexpr std::size_t frames = 32'768;  // 4 MiB; more than ten seconds of a full bus of 1 Mbit/s
@@ -28,8 +28,8 @@ class Feed final : public observe::Observer {
 
   explicit Feed(std::size_t room = frames) : events_(room), epochs_(epochs) {}
 
-  /// The engagement that the flight adds to, whose epochs are copied; null: there is none. To be called
-  /// before the first frame.
+  /// The record to which the flight adds epochs; the feed copies the epochs. Null: the flight has no
+  /// engagement. Must be called before the first frame.
   void follow(const world::EngagementRecord* engagement) {
     engagement_ = engagement;
     followed_ = 0;
@@ -48,8 +48,7 @@ class Feed final : public observe::Observer {
   }
 
   /// Removes the events that are queued now and passes them on in order, then copies the engagement's epochs.
-  /// An epoch is queued before the frames that belong to it, so none is missing. Returns the number of
-  /// events.
+  /// An epoch is queued before its frames, so no epoch is missing. Returns the number of events.
   std::uint64_t drain(observe::Observer& to, world::EngagementRecord* engagement);
 
   [[nodiscard]] std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }

@@ -16,13 +16,13 @@ namespace canhil::live {
 namespace {
 
 constexpr std::int64_t window_us = 10'000'000;
-// The answers to the end of a stretch have come by then.
+// The age at which values are final: all answers, even to a late fix, have arrived.
 constexpr std::int64_t settled_us = 1'500'000;
 
 double us(double ns) { return ns * 1e-3; }
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
-// Shown are errors and statistics; if the truth of the flight is unknown, estimates instead of errors.
+// Shows errors and statistics; if the truth of the flight is unknown, estimates instead of errors.
 bool is_shown(report::Series::Kind kind, bool known) {
   using enum report::Series::Kind;
   return kind == statistic || kind == (known ? error : estimate);
@@ -164,7 +164,7 @@ void FlightInProgress::interface_changed(bool up, std::int64_t t_ns) {
   each_watcher([&](observe::Observer& to) { to.interface_changed(up, t_ns); });
 }
 
-// The newer watcher has also seen the frames since the last update, so no frame is lost in the change.
+// The newer watcher has also seen all frames since the last update, so the change loses no frame.
 void FlightInProgress::move_window() {
   window_since_us_ = now_us();
   if (!recent_) return;
@@ -228,8 +228,8 @@ void FlightInProgress::take(std::string_view estimator, const quantities::Track&
   known->shown = estimates || !track.only_if_judged || !series.bars.empty();
 }
 
-// Checks whose last value has arrived are judged together in one pass over the whole flight. So there are at
-// most as many passes as checks, however long the flight is.
+// Judges all checks whose last value has arrived, in one pass over the whole flight. The number of passes
+// never exceeds the number of checks, however long the flight is.
 void FlightInProgress::judge_what_is_over(Flight& flight) {
   const scenario::Scenario& scenario = departure_.scenario;
   std::vector<std::size_t> due;

@@ -1,4 +1,4 @@
-// A flight as the view shows it: from the frames that have passed so far, and, once it is over, from the run.
+// A flight as the view shows it: from the frames so far and, after the end, from the finished run.
 #pragma once
 
 #include <memory>
@@ -16,14 +16,14 @@ namespace canhil::live {
 /// The facts about a flight that are known before it begins.
 Flight flight_of(const scenario::Scenario& scenario, const drive::Options& options);
 
-/// The flight when it is over: the numbers of its report.
+/// The finished flight, with the numbers of its report.
 Flight flight_of(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// Looks at the frames of a flight while it goes on, with the watchers, tracks and checks that judge it at
-/// its end. Its memory does not grow with the flight, nor does the work for one update.
+/// Observes the frames of a flight in progress, with the watchers, tracks and checks that judge the flight at
+/// its end. Neither the memory nor the work for one update grows with the flight.
 class FlightInProgress final : public observe::Observer {
  public:
-  /// What the departure refers to must outlive it.
+  /// The objects that the departure refers to must outlive this object.
   explicit FlightInProgress(const drive::Departure& departure);
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
@@ -35,8 +35,8 @@ class FlightInProgress final : public observe::Observer {
   /// The record that receives epochs of the engagement; null: the flight has no engagement.
   [[nodiscard]] world::EngagementRecord* engagement() { return engagement_ ? &*engagement_ : nullptr; }
 
-  /// Brings a flight up to now. `all_seen`: no frame was missed, so checks may be judged. Series end 1.5 s
-  /// ago, as a late fix brings the sigma of its time; with `landed` they end now.
+  /// Updates a flight to the current time. `all_seen`: no frame was missed, so checks may be judged. Series
+  /// end 1.5 s in the past, because a late fix brings the sigma of its time; with `landed` they end now.
   void update(Flight& flight, bool all_seen, bool landed = false);
 
  private:
@@ -57,15 +57,15 @@ class FlightInProgress final : public observe::Observer {
   [[nodiscard]] estimators::Truth truth() const;
 
   drive::Departure departure_;
-  std::optional<world::EngagementRecord> engagement_{};  // a copy of what the flight adds to
+  std::optional<world::EngagementRecord> engagement_{};  // a copy of the record that the flight extends
   observe::LoadMeter load_;
-  std::unique_ptr<observe::Watcher> whole_;  // of the whole flight, for times and checks
-  // Watchers of the last one to two window_us, for tracks: after each window_us the younger one replaces the
-  // older one.
+  std::unique_ptr<observe::Watcher> whole_;  // for the whole flight: times and checks
+  // Watchers of the last one to two window_us, for tracks: after each window_us the newer watcher replaces
+  // the older one.
   std::unique_ptr<observe::Watcher> recent_, next_recent_;
   std::int64_t window_since_us_ = 0;
   std::vector<Known> known_{};
-  std::vector<std::int64_t> judged_at_us_;  // by check of the scenario
+  std::vector<std::int64_t> judged_at_us_;  // for each check of the scenario
   std::optional<std::int64_t> first_ns_{};
   std::int64_t last_ns_ = 0;
   std::optional<std::int64_t> told_ns_{};

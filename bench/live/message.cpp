@@ -23,7 +23,7 @@ Json outcome(const std::optional<checks::Outcome>& outcome) {
 
 std::string key_of(const report::Series& series) { return series.estimator + '/' + series.quantity; }
 
-// The points from one on. The last one that was sent may have grown since.
+// The points from index `from` on. The last point that was sent may have changed since.
 Json object(const report::Series& series, std::size_t from) {
   constexpr std::array<std::string_view, 4> kinds{"estimate", "error", "innovation", "statistic"};
   Json json{{"key", key_of(series)},

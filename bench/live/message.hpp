@@ -9,10 +9,10 @@
 
 namespace canhil::live {
 
-/// The number of points of each series that were sent already; the next message contains only newer points.
+/// The number of points of each series that were already sent; the next message contains only newer points.
 using Sent = std::map<std::string, std::size_t>;
 
-/// All of it.
+/// The complete snapshot.
 std::string whole_message(const Snapshot& snapshot);
 /// The changes since `sent`, which is updated. At the end of a flight the message contains everything.
 std::string next_message(const Snapshot& snapshot, Sent& sent);

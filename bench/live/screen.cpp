@@ -53,13 +53,14 @@ class Screen {
   }
 
  private:
-  // Names may be UTF-8: no character is cut, and what would steer the terminal is left out.
+  // Names may be UTF-8: never splits a character. Control characters, which would control the terminal,
+  // become '?'.
   [[nodiscard]] std::string shortened(std::string text) const {
     std::size_t shown = 0, end = 0;
     for (; end < text.size(); ++end) {
       auto& byte = reinterpret_cast<unsigned char&>(text[end]);
       if (byte < 0x20 || byte == 0x7f) byte = '?';
-      const bool begins = static_cast<signed char>(byte) >= -64;  // else it goes on with a character
+      const bool begins = static_cast<signed char>(byte) >= -64;  // otherwise a continuation byte
       if (begins && shown++ == columns_) break;
     }
     text.resize(end);

@@ -10,11 +10,11 @@ namespace canhil::live {
 
 struct ScreenLine {
   enum class Look : std::uint8_t { plain, heading, good, bad, open };
-  std::string text;  ///< in ASCII, but for names
+  std::string text;  ///< ASCII except in names
   Look look = Look::plain;
 };
 
-/// The most important first: at most so many lines, none longer than there are columns.
+/// The most important lines first: at most `rows` lines, none longer than `columns`.
 std::vector<ScreenLine> screen_of(const Snapshot& snapshot, std::size_t rows, std::size_t columns,
                                   bool paused);
 

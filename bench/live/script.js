@@ -1,4 +1,4 @@
-// The page of the live view: takes messages from the bench, keeps the newest, shows it unless paused.
+// The page of the live view: receives messages from the bench, keeps the newest, shows it unless paused.
 "use strict";
 
 const by_id = id => document.getElementById(id);
@@ -8,7 +8,7 @@ const charts = new Map(); // by key
 
 const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-// --- numbers as people read them
+// --- numbers for people
 
 function figure(value) {
   if (value === null || value === undefined || !isFinite(value)) return "–";
@@ -31,7 +31,7 @@ function element(tag, style, text) {
 }
 function set_text(node, text) { if (node.textContent !== text) node.textContent = text; }
 
-// rows: arrays of [text, style]; only cells that differ are touched.
+// rows: arrays of [text, style]; only cells that differ are changed.
 function fill(table, rows) {
   const body = table.tBodies[0], labels = [...table.tHead.rows[0].cells].map(cell => cell.textContent);
   while (body.rows.length > rows.length) body.deleteRow(-1);
@@ -75,7 +75,7 @@ function line(points, border, more) {
     fill: false, tension: 0, parsing: false, normalized: true}, more);
 }
 
-// A figure in the place of `parent`, made when it is first shown.
+// The chart of a key inside `parent`; created at first use.
 function chart_of(parent, key) {
   let one = charts.get(key);
   if (one) return one;
@@ -174,7 +174,7 @@ function draw_load(flight, from, to) {
   one.box.dataset.points = points.length;
 }
 
-// --- what a message says
+// --- the contents of a message
 
 function show_flight(message) {
   const flight = message.flight, checks = flight.checks;
@@ -290,7 +290,7 @@ function connect() {
     connected = false;
     if (model.message && !paused) show();
     if (!model.message) { set_text(by_id("state"), "no connection"); }
-    setTimeout(connect, 2000); // the next run may come to the same port
+    setTimeout(connect, 2000); // the next run may use the same port
   };
 }
 
@@ -310,7 +310,7 @@ function change_range() {
 for (const [id, action] of [["pause", pause], ["range", change_range]])
   by_id(id).onclick = event => {
     action();
-    if (event.detail > 0) event.target.blur(); // clicked: the keys stay the page's
+    if (event.detail > 0) event.target.blur(); // a mouse click: return the keyboard to the page
   };
 document.addEventListener("keydown", event => {
   if (event.ctrlKey || event.altKey || event.metaKey || event.repeat || event.target instanceof HTMLButtonElement) return;

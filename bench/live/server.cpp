@@ -38,7 +38,7 @@ constexpr auto request_time = 5s, answer_time = 10s, slowest_message = 10s;
 
 using Text = std::shared_ptr<const std::string>;
 
-// A program that this one starts must not hold the port, nor a connection.
+// Child processes must not inherit the port or a connection.
 template <class Socket>
 void close_on_exec(Socket& socket) {
   fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
@@ -61,7 +61,7 @@ std::string page_with(const std::string& query) {
   return page;
 }
 
-// What the server's connections share.
+// State that the server's connections share.
 struct Site {
   Admission admission;
   std::string page;
@@ -69,7 +69,7 @@ struct Site {
   std::size_t connections = 0;
 };
 
-// Counts while it lives.
+// Counts a connection during its lifetime.
 class Place {
  public:
   explicit Place(Site& site) : site_(&site) { ++site.connections; }
@@ -83,7 +83,7 @@ class Place {
   Site* site_;
 };
 
-// A connected browser. It receives one message at a time; when that one is sent, the newest follows.
+// A connected browser. The server sends one message at a time; after each message, the newest one follows.
 class Spectator : public std::enable_shared_from_this<Spectator> {
  public:
   Spectator(tcp::socket socket, Place place) : place_(std::move(place)), stream_(std::move(socket)) {}
@@ -104,7 +104,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
 
   [[nodiscard]] bool open() const { return open_; }
   [[nodiscard]] bool busy() const { return message_ != nullptr; }
-  [[nodiscard]] bool follows() const { return follows_; }  // it has seen every message since a whole one
+  [[nodiscard]] bool follows() const { return follows_; }  // no message missed since a whole one
 
   void send(Text message) {
     message_ = std::move(message);
@@ -123,7 +123,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
   }
 
  private:
-  // The page never sends data on the WebSocket. A client that sends any is not our page, and is disconnected.
+  // The page never sends data on the WebSocket; a client that does is not our page and is disconnected.
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
       static_cast<void>(error);
@@ -227,7 +227,7 @@ class BeastServer final : public Server {
     acceptor_.bind(endpoint);
     acceptor_.listen();
     const tcp::endpoint local = acceptor_.local_endpoint();
-    // If the server listens on every address of the machine, a browser elsewhere needs the host name.
+    // If the server listens on every address of the machine, remote browsers need the host name.
     site_.admission = {
         .address = local.address().is_unspecified() ? asio::ip::host_name() : local.address().to_string(),
         .loopback = local.address().is_loopback(),
@@ -250,7 +250,7 @@ class BeastServer final : public Server {
   void show(const Snapshot& snapshot) override {
     if (!accepting_) accept();
     std::erase_if(spectators_, [](const auto& one) { return !one->open(); });
-    // With no spectators nothing is written; a spectator that connects later receives the whole snapshot.
+    // No message is written without spectators; a spectator that connects later receives the whole snapshot.
     last_ = std::nullopt;
     whole_ = nullptr;
     if (spectators_.empty()) sent_.clear();

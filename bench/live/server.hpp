@@ -1,4 +1,4 @@
-// The page over HTTP and WebSocket. Boost.Beast does the work, behind this header.
+// The page over HTTP and WebSocket; the implementation uses Boost.Beast.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace canhil::live {
 
-/// Limits of the load by browsers: the number of connections, and one message under way for each. A slower
-/// browser misses the snapshots in between. One that accepts no data for ten seconds is disconnected.
+/// Limits on the load that browsers cause: the number of connections, and one message in transit on each. A
+/// slower browser misses the snapshots in between; one that accepts no data for ten seconds is disconnected.
 inline constexpr std::size_t most_connections = 16;
 inline constexpr std::uint16_t usual_port = 8460;
 inline constexpr const char* loopback_address = "127.0.0.1";
 
-/// Opens the page. Port 0: any free port. On an address other than loopback, the URL contains a token. Error:
-/// one line; the address does not belong to this machine, or the port is in use.
+/// Opens the page. Port 0: any free port. On an address other than loopback, the URL contains a token. Error,
+/// one line: the address does not belong to this machine, or the port is in use.
 class Server : public Display {
  public:
   static Result<std::unique_ptr<Server>> open(const std::string& address, std::uint16_t port);

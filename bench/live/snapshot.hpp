@@ -15,7 +15,7 @@ namespace canhil::live {
 
 struct CheckLine {
   std::string name;
-  std::optional<checks::Outcome> outcome{};  ///< none: it is judged at the end
+  std::optional<checks::Outcome> outcome{};  ///< none: not judged yet
   std::string measured{}, expected{};
 };
 
@@ -26,9 +26,9 @@ struct TimingLine {
   double p50_us = 0, p99_us = 0, max_us = 0;
   std::uint64_t jitter_count = 0;
   double jitter_p99_us = 0, jitter_max_us = 0;
-  /// The slowest answer of each stretch of time; not filled for messages that do not end an answer.
+  /// The slowest answer in each stretch of time; empty for messages that do not end an answer.
   double stretch_s = 0;
-  std::vector<double> slowest_us{};  ///< NaN: there was none
+  std::vector<double> slowest_us{};  ///< NaN: no answer in this stretch
 };
 
 struct FaultLine {
@@ -36,37 +36,37 @@ struct FaultLine {
   double from_s = 0, to_s = 0;
 };
 
-/// A flight as far as it has come.
+/// The state of a flight so far.
 struct Flight {
   std::string title{}, scenario{}, bus{}, clock{};
   double t_s = 0, duration_s = 0;
-  std::optional<checks::Outcome> outcome{};  ///< none: it goes on
+  std::optional<checks::Outcome> outcome{};  ///< none: still running
   std::string reason{};
   std::vector<CheckLine> checks{};
   std::vector<report::Series> series{};
-  std::string no_timing{};  ///< why no times are shown; empty: they are
+  std::string no_timing{};  ///< why no times are shown; empty: times are shown
   std::vector<TimingLine> timing{};
   std::string bit_rate{};
-  double load_now = 0;  ///< of the last whole second; shares of the bus
+  double load_now = 0;  ///< fraction of the bus capacity in the last whole second
   checks::Load load{};
   checks::LoadLine load_line{};
   std::vector<FaultLine> faults{};
-  std::string no_tracks{};  ///< why nothing is shown of quantities and times before the end; empty: it is
+  std::string no_tracks{};  ///< why quantities and times are not shown before the end; empty: they are shown
 };
 
-/// A campaign or a matrix of faults as far as it has come.
+/// The state so far of a campaign or a matrix of faults.
 struct Batch {
   struct Line {
     std::string name, result;
     bool failed = false;
   };
-  std::string title, of;  ///< "runs", "flights"
+  std::string title, of;  ///< `of`: "runs", "flights"
   std::uint64_t done = 0, total = 0, failed = 0;
-  std::string failed_means{};  ///< "ended early", "violations"
+  std::string failed_means{};  ///< meaning of `failed`: "ended early", "violations"
   double rate_per_s = 0;
-  std::optional<checks::Outcome> outcome{};  ///< none: it goes on
+  std::optional<checks::Outcome> outcome{};  ///< none: still running
   std::string reason{};
-  std::deque<Line> latest{};  ///< the newest first
+  std::deque<Line> latest{};  ///< newest first
   static constexpr std::size_t most_latest = 40;
   void add(Line line) {
     if (latest.size() == most_latest) latest.pop_back();
@@ -77,9 +77,9 @@ struct Batch {
 struct Snapshot {
   std::optional<Flight> flight{};
   std::optional<Batch> batch{};
-  std::string ended{};  ///< why nothing was flown; empty: it is, or was
+  std::string ended{};  ///< why nothing was flown; empty: a flight runs or has run
   std::uint64_t frames = 0;
-  std::uint64_t dropped = 0;  ///< frames that the view missed, as it was too slow
+  std::uint64_t dropped = 0;  ///< frames that the view missed because it was too slow
 
   [[nodiscard]] bool over() const {
     return !ended.empty() || (flight && flight->outcome) || (batch && batch->outcome);

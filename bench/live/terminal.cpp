@@ -15,7 +15,7 @@
 namespace canhil::live {
 namespace {
 
-// Standard error, kept in a file: it would be written across the screen.
+// Keeps standard error in a file; the text would otherwise be written across the screen.
 class HeldErrors {
  public:
   HeldErrors() : before_(dup(STDERR_FILENO)), file_(std::tmpfile()) {
@@ -44,7 +44,7 @@ class HeldErrors {
 class Terminal final : public Display {
  public:
   explicit Terminal(SCREEN* screen) : screen_(screen) {
-    cbreak();  // Ctrl-C stays a signal
+    cbreak();  // Ctrl-C still sends a signal
     noecho();
     curs_set(0);
     nodelay(stdscr, TRUE);
@@ -98,7 +98,7 @@ class Terminal final : public Display {
 
 Result<std::unique_ptr<Display>> open_terminal() {
   if (isatty(STDOUT_FILENO) == 0) return failure("--tui: standard output is no terminal, expected one");
-  std::setlocale(LC_CTYPE, "");  // names may be UTF-8; numbers stay as they are
+  std::setlocale(LC_CTYPE, "");  // names may be UTF-8; number formats do not change
   SCREEN* screen = newterm(nullptr, stdout, stdin);
   if (screen == nullptr)
     return failure("--tui: TERM names no terminal that can be drawn on, expected one such as xterm");

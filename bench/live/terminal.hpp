@@ -1,4 +1,4 @@
-// One screen of a terminal, by ncurses, behind this header.
+// The live view on a terminal; the implementation uses ncurses.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace canhil::live {
 
-/// Takes the terminal of standard output until the display is destroyed. Text written to standard error
-/// meanwhile is printed then. Error: one line; standard output is not a terminal.
+/// Takes over the terminal of standard output until the display is destroyed. Text written to standard error
+/// meanwhile is printed afterwards. Error, one line: standard output is not a terminal.
 Result<std::unique_ptr<Display>> open_terminal();
 
 }  // namespace canhil::live

@@ -18,14 +18,14 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto look_every = 25ms;      // at frames: the queue must not fill
-constexpr auto show_every = 250ms;     // at the most often
-constexpr int rest = 9;                // pause / work: the view works for a tenth of its time at most
-constexpr auto longest_farewell = 1s;  // waits so long until viewers have received the end
+constexpr auto look_every = 25ms;   // interval between reads of the queue, which must not fill up
+constexpr auto show_every = 250ms;  // shortest interval between updates of the displays
+constexpr int rest = 9;             // ratio of pause to work: the view works for at most a tenth of the time
+constexpr auto longest_farewell = 1s;  // longest wait until viewers have received the end
 constexpr int low_nice = 10;
 
 void run_below_others() {
-  // The nice value of this thread only: Linux has one for each thread.
+  // Linux has a nice value for each thread: this changes only the current thread's value.
   static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), low_nice));
 }
 void run_when_idle() {
@@ -37,7 +37,7 @@ void run_when_idle() {
 
 View::View(std::vector<std::unique_ptr<Display>> displays, Snapshot begun)
     : displays_(std::move(displays)), snapshot_(std::move(begun)) {
-  // Signals are for the thread that flies: it looks at them at once.
+  // Signals go to the thread that flies, which handles them at once.
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -62,14 +62,15 @@ void View::Tap::departs(const drive::Departure& departure) {
   view_.asked_ = true;
 }
 
-// The objects that the departure refers to are destroyed after this call, so it waits until the view no
+// After this call, the objects that the departure refers to are destroyed, so it waits until the view no
 // longer uses them.
 void View::Tap::landed() {
   std::unique_lock lock(view_.mutex_);
   view_.feed_.follow(nullptr);
   view_.requests_.landing = true;
   view_.asked_ = true;
-  // The flight waits for the view now: where that is permitted the view is no longer the last of all.
+  // The flight now waits for the view, so the view's thread returns to normal scheduling, if that is
+  // permitted.
   const sched_param parameters{};
   static_cast<void>(pthread_setschedparam(view_.thread_.native_handle(), SCHED_OTHER, &parameters));
   view_.landed_.wait(lock, [&] { return !view_.requests_.landing || view_.gave_up_; });

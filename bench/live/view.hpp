@@ -26,12 +26,12 @@ class View {
 
   /// Pass this to Options::onlooker. It follows one flight after another, and must not outlive the view.
   [[nodiscard]] drive::Onlooker& onlooker() { return onlooker_; }
-  /// Shows this in place of what it showed of the batch; of a flight when it is over. Any thread may call.
+  /// Replaces the displayed batch, or a finished flight. Any thread may call.
   void show(Batch batch);
   void show(Flight flight);
-  /// Nothing was flown, and why.
+  /// Shows that nothing was flown, and why.
   void show_ended(std::string why);
-  /// Shows the end to the viewers, for a second at most, and stops. The destructor calls this too.
+  /// Shows the end to the viewers for at most a second, and stops. The destructor calls this too.
   void close();
 
  private:

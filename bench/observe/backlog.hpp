@@ -28,10 +28,10 @@ class Shares {
   std::map<std::pair<std::uint32_t, bool>, std::uint64_t> by_id_;  // the flag: an extended id
 };
 
-/// A time in which frames were waiting almost continuously.
+/// An interval in which frames were waiting almost continuously.
 struct Flood {
   std::int64_t duration_ns = 0;
-  std::string whose{};  ///< the frames processed in it: Shares::to_text()
+  std::string whose{};  ///< the frames processed in this interval: Shares::to_text()
 };
 
 /// "the bus was flooded by id 0C0: 900 of 1000 frames in 0.41 s".
@@ -43,16 +43,15 @@ class Backlog {
   void add(const Frame& frame) {
     if (since_ns_) shares_.add(frame);
   }
-  /// The bench turns to something else at `now_ns`. `more`: frames may still be waiting. `overflowed`: the
-  /// port has lost frames since the last pause, so frames were waiting all the time, even if the bench had no
-  /// CPU.
+  /// The bench stops reading frames at `now_ns`. `more`: frames may still be waiting. `overflowed`: the port
+  /// has lost frames since the last pause, so frames were waiting all the time, even if the bench had no CPU.
   void pause(bool more, bool overflowed, std::int64_t now_ns);
   /// The last pause left frames waiting.
   [[nodiscard]] bool more() const { return more_; }
   /// Frames were waiting a moment ago, so pause() must be called after each frame.
   [[nodiscard]] bool stands() const { return since_ns_.has_value(); }
 
-  /// The longest flood so far, longer than any backlog of the bench's own making.
+  /// The longest flood so far. A backlog that the bench itself caused is shorter and does not count.
   [[nodiscard]] const std::optional<Flood>& flood() const { return longest_; }
 
  private:

@@ -1,4 +1,4 @@
-// Records error frames and outages of the bus in a run; nobody's silence is blamed for them.
+// Records error frames and outages of the bus in a run. Silence during an outage is excused.
 #pragma once
 
 #include <optional>

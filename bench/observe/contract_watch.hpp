@@ -1,5 +1,5 @@
-// Watches a target with canhil's own DBC: any of its messages shows that it is present, its heartbeat that it
-// gave up, StepDone that it finished the step that Sync closed.
+// Watches a target that uses canhil's own DBC: any of its messages shows that it is present, its heartbeat
+// shows a fault, StepDone shows the end of the step that Sync closed.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace canhil::observe {
 
 class ContractWatch final : public TargetWatch {
  public:
-  /// `alone`: nobody else can be on the bus, so no check for a second target.
+  /// `alone`: no other node can be on the bus, so there is no check for a second target.
   explicit ContractWatch(bool alone = false) : alone_(alone) {}
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override {

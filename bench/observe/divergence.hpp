@@ -15,7 +15,7 @@ struct Divergence {
   std::optional<LogEntry> a;  ///< none: this run has no further frame
   std::optional<LogEntry> b;
   double t_s = 0;        ///< bench time of the last Sync before it
-  std::string signal{};  ///< "FixUpdate.nis is 3.21 in one, 3.18 in the other"; empty: the messages differ
+  std::string signal{};  ///< "FixUpdate.nis is 3.21 in one, 3.18 in the other"; empty: different messages
 };
 
 struct Comparison {
@@ -23,10 +23,10 @@ struct Comparison {
   std::optional<Divergence> first;
 };
 
-/// Compares the target's frames in two logs, from the first Sync on. Time stamps are ignored, and so are
-/// frames about the host (TargetTiming) and frames that exist in virtual time only (StepDone). `steps`:
-/// allowed difference of a signal in steps of its resolution, not applied to whole numbers, states and flags;
-/// 0: all bits must be equal. Error: a log cannot be read.
+/// Compares the target's frames in two logs, from the first Sync on. Ignores time stamps, frames about the
+/// host (TargetTiming) and frames that exist in virtual time only (StepDone). `steps`: allowed difference of
+/// a signal in steps of its resolution, not applied to whole numbers, states and flags; 0: all bits must be
+/// equal. Error: a log cannot be read.
 Result<Comparison> compare(const std::string& log_a, const std::string& log_b, double steps = 0);
 
 /// A frame as text: message and signals with units.

@@ -27,13 +27,13 @@ class ClockSteps {
   std::int64_t largest_ns_ = 0;
 };
 
-/// CPU times from the kernel for this process and the machine, since their start.
+/// CPU times of this process and of the machine, each since its start, from the kernel.
 struct CpuAccount {
-  std::int64_t run_ns = 0;   ///< of this process
-  std::int64_t wait_ns = 0;  ///< of this process, ready to run
+  std::int64_t run_ns = 0;   ///< this process was running
+  std::int64_t wait_ns = 0;  ///< this process was ready to run but had no CPU
   std::uint64_t preempted = 0;
-  std::uint64_t all_ticks = 0;     ///< of all CPUs
-  std::uint64_t stolen_ticks = 0;  ///< of them
+  std::uint64_t all_ticks = 0;     ///< sum over all CPUs
+  std::uint64_t stolen_ticks = 0;  ///< part of all_ticks that the hypervisor gave to other guests
 };
 /// Parses /proc/self/schedstat and /proc/stat; missing values are 0.
 CpuAccount cpu_account(std::string_view schedstat, std::string_view stat);

@@ -18,21 +18,21 @@ namespace canhil::observe {
 /// How a frame is assigned to a second, and which frames count.
 enum class LoadBy : std::uint8_t {
   time_base,        ///< by the second of the last Sync: the same on every bus and in virtual time
-  time_base_alone,  ///< the same without StepDone, which exists in lockstep only: the load that the run would
-                    ///< have on a bus
-  virtual_time,     ///< by the second of virtual time, if nobody sends Sync
-  stamps  ///< by the second, from the first stamp on, in which the frame left the wire: a queued frame is no
-          ///< load yet
+  time_base_alone,  ///< the same without StepDone, which exists in lockstep only: the load of the same run on
+                    ///< a bus
+  virtual_time,     ///< by the second of virtual time, if no node sends Sync
+  stamps  ///< by the second in which the frame left the wire, counted from the first stamp: a queued frame
+          ///< does not count yet
 };
 
-/// Adds up the exact length of every frame, of the bench and of others, by second. On CAN FD it counts frames
-/// on the wire: observers see the messages within containers, which are packed into the same containers
-/// again.
+/// Adds up the exact length of every frame, sent by the bench or by others, for each second. On CAN FD it
+/// counts frames on the wire: observers see the messages within containers, so it packs them into the same
+/// containers again.
 class LoadMeter final : public Observer {
  public:
   LoadMeter(BusFormat format, LoadBy by) : format_(format), by_(by) {}
   void transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) override {
-    if (by_ == LoadBy::stamps) return;  // its echo counts
+    if (by_ == LoadBy::stamps) return;  // its echo is counted
     if (by_ != LoadBy::virtual_time && frame.id == messages::Sync::info.id)
       second_ = static_cast<std::size_t>(from_frame<messages::Sync>(frame).time_us / 1'000'000);
     take(frame, own_);
@@ -52,8 +52,8 @@ class LoadMeter final : public Observer {
   }
   /// The length of all frames in each second, from time 0 on.
   [[nodiscard]] const std::vector<wire::BitLength>& lengths() const { return lengths_; }
-  /// If the bus had more to carry so far than it can: a phrase that explains why nothing is received; empty:
-  /// the reason is another.
+  /// If the bus had to carry more than its capacity so far: a phrase that explains why nothing is received;
+  /// otherwise empty.
   [[nodiscard]] std::string full_wire(std::int64_t now_ns, const wire::BitRates& rates) const {
     constexpr double full = 0.9;
     if (rates.nominal == 0 || now_ns <= 0) return {};

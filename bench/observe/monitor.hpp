@@ -17,9 +17,9 @@
 
 namespace canhil::observe {
 
-/// The needs of a verdict besides the answers.
+/// What a verdict needs in addition to the answers.
 struct Asked {
-  std::vector<checks::TimedWindow> windows{};  ///< of the checks, for timing
+  std::vector<checks::TimedWindow> windows{};  ///< windows of the checks that judge timing
   WireFacts wire{};
   Takers takers{};
   std::map<std::string_view, double> own_interval_s{};  ///< see Observations

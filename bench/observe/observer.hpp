@@ -7,7 +7,7 @@
 
 namespace canhil::observe {
 
-/// Receives every frame of a run. Times are of the port's stamp clock [ns].
+/// Receives every frame of a run. Times are on the port's stamp clock [ns].
 class Observer {
  public:
   Observer() = default;

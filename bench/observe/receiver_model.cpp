@@ -18,7 +18,7 @@ constexpr Routes bench_messages([](const MessageInfo& info) {
   return info.sender != TargetHeartbeat::info.sender;
 });
 
-// A group need not be used if it arrives later than this after its time of validity, or earlier than this
+// An estimator may drop a group that arrives later than this after its time of validity, or earlier than this
 // before it.
 constexpr std::int64_t promised_us = 200'000;
 constexpr std::size_t syncs_of_a_period =
@@ -58,8 +58,8 @@ ReceiverModel::ReceiverModel(const Takers& takers) {
   }(std::type_identity<AllMessages>{});
 }
 
-// A damaged frame or one of another size does not advance the receiver's counter: it is counted as damaged
-// and, at the next frame, as lost.
+// A damaged frame, or one of the wrong size, does not advance the receiver's counter: it counts as damaged
+// and, at the next frame, also as lost.
 void ReceiverModel::sent(const Frame& frame, std::optional<std::int64_t> valid_us, std::int64_t now_us) {
   const std::size_t index = bench_messages(frame);
   if (index == Routes::nowhere) return;

@@ -1,5 +1,5 @@
-// Models the counters of a receiver that keeps the protocol, from the frames that the bench hands over:
-// frames show by themselves what nodes withheld and faults damaged.
+// Models the counters of a receiver that follows the protocol. The input is the frames that the bench hands
+// over: they show what nodes withheld and faults damaged.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace canhil::observe {
 
-/// For each sample group, the number of the target's estimators that use it: each counts the groups that it
-/// drops.
+/// For each sample group, the number of the target's estimators that use it: each estimator counts the groups
+/// that it drops.
 using Takers = std::map<std::string_view, std::uint64_t>;
 
 class ReceiverModel {
@@ -50,7 +50,7 @@ class ReceiverModel {
   struct Place {
     Group* group = nullptr;  // null: a single message, or one that no estimator uses
     unsigned bit = 0;
-    std::uint64_t validity_bits = 0;  // of the payload: all 1 if the sensor vouches for the sample
+    std::uint64_t validity_bits = 0;  // in the payload: all 1 if the sensor declares the sample valid
   };
 
   void put(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us, std::int64_t now_us);

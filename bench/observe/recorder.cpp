@@ -44,7 +44,7 @@ void Recorder::received(const Received& received) {
   }
 }
 
-// Not part of a run, but possibly the reason why it does not begin.
+// Frames in a foreign format are not part of a run, but may be the reason why the run does not begin.
 void Recorder::foreign(const Received& received) {
   if (!started_) keep_early(received);
 }

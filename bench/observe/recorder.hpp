@@ -43,7 +43,7 @@ class Recorder final : public Observer {
   LogWriter writer_;
   std::string path_;
   const Port& port_;
-  std::int64_t to_realtime_ns_;  // from the port's stamp clock
+  std::int64_t to_realtime_ns_;  // offset from the port's stamp clock to real time
   std::vector<Received> early_;  // received before the first transmission
   bool started_ = false;
   bool closed_ = false;

@@ -12,7 +12,7 @@
 
 namespace canhil::observe {
 
-/// Counts a frame with the id of a message by its defect; true: it has none.
+/// Counts a frame with the id of a message by its defect. True: the frame has no defect.
 bool look_at(const Frame& frame, const MessageInfo& message, checks::Sighting& sighting);
 
 class Sightings final : public Observer {

@@ -13,7 +13,7 @@ namespace {
 using checks::Stimulus;
 using checks::TimedWindow;
 
-// The deviation of the time between two stimuli from the time between their deadlines.
+// Adds the time between two stimuli minus the time between their deadlines.
 void add_deviation(TimedWindow& window, const Stimulus& from, const Stimulus& to) {
   const std::int64_t period_ns = elapsed_ns(from, to);
   const std::int64_t due_ns = to.due_ns - from.due_ns;
@@ -35,7 +35,7 @@ void add(checks::WireResponse& response, std::int64_t ns) {
 
 }  // namespace
 
-/// The index of a message that the bench sends; nowhere: it sends no such frame.
+/// The index of a message that the bench sends; nowhere: the bench does not send this frame.
 std::size_t Stopwatch::of_bench(const Frame& frame) const {
   const std::size_t index = places_(frame);
   const bool targets = index != MessagePlaces::nowhere &&
@@ -48,7 +48,7 @@ bool Stopwatch::answers(std::size_t index, std::string_view group) const {
   return std::ranges::find(groups, group) != groups.end();
 }
 
-/// The frame on the wire that ends with this message; none: more messages follow in it.
+/// The frame on the wire that ends with this message; none: the frame contains later messages.
 std::optional<Frame> Stopwatch::closed_by(const Frame& message, FdPacker& packer) const {
   if (!record_.wire.fd || record_.messages.data() != messages::all_messages.data()) return message;
   if (packer.due_before(message)) packer.clear();  // sent without its last message
@@ -60,9 +60,9 @@ std::int64_t Stopwatch::on_wire_ns(const Frame& frame) const {
   return rates.nominal == 0 ? 0 : wire::duration_ns(wire::bit_length(frame), rates);
 }
 
-/// The part of a container's time on the wire that is not between its hand-over and its echo: the stamp comes
-/// before the intermission. For the last frame of a classic group this time includes the intermission of the
-/// previous frame instead.
+/// The intermission of a container: it belongs to the container's time on the wire, but not to the time from
+/// hand-over to echo, because the stamp comes before the intermission. For the last frame of a classic group,
+/// the time from hand-over to echo includes the intermission of the previous frame instead.
 std::int64_t Stopwatch::no_intermission_ns() const {
   return record_.wire.fd ? wire::duration_ns({.nominal = wire::intermission_bits}, record_.wire.rates) : 0;
 }
@@ -95,7 +95,7 @@ void Stopwatch::echoed(const Received& received, std::string_view group, std::in
     return std::ranges::equal(one.frame.payload(), received.frame.payload());
   });
   const std::optional<Frame> on_wire = closed_by(received.frame, echoes_);
-  std::optional<std::int64_t> on_bus_ns;  // of a pending frame
+  std::optional<std::int64_t> on_bus_ns;  // time on the bus of a pending frame
   if (pending != waiting.end()) {
     on_bus_ns = received.t_ns - pending->t_ns;
     record_.transmit[index].echoed.add(pending->late_ns + *on_bus_ns);
@@ -255,8 +255,8 @@ void Stopwatch::finish() {
   }
 }
 
-// The newest first: an answer comes soon or never. If several are valid at the same time, the one with the
-// right counter.
+// Searches from the newest stimulus, because an answer comes soon or never. Among stimuli that are valid at
+// the same time, takes the one with the right counter.
 Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us,
                                  std::optional<std::uint8_t> counter) {
   const auto group = groups_.find(name);

@@ -50,8 +50,8 @@ class Stopwatch {
   void finish();
 
  private:
-  // Frames handed over and not yet echoed, the oldest first: beyond `on_their_way` of a message the oldest
-  // counts as lost.
+  // Frames handed over and not yet echoed, the oldest first. If a message has more than `on_their_way` of
+  // them, the oldest counts as lost.
   struct Pending {
     Frame frame;
     std::int64_t t_ns = 0;
@@ -64,18 +64,18 @@ class Stopwatch {
     std::int64_t wire_ns = 0;
     bool answered = false;
     std::bitset<MessagePlaces::most> answered_by{};  // the last message of each answer
-    std::int64_t latency_ns = 0;                     // of the last answer so far
-    std::int64_t reply_wire_ns = 0;                  // of all answers so far
+    std::int64_t latency_ns = 0;                     // latency of the last answer so far
+    std::int64_t reply_wire_ns = 0;                  // sum over all answers so far
   };
   struct Group {
     std::deque<Sent> sent{};
-    std::optional<checks::Stimulus> before{};  // the last one that was forgotten
+    std::optional<checks::Stimulus> before{};  // the stimulus that was removed last
   };
   struct Last {
     checks::Arrival arrival;
     std::int64_t due_ns = 0;  // deadline of its cause
   };
-  // Since the last TargetTiming of the target.
+  // Data since the target's last TargetTiming.
   struct PendingWindow {
     std::uint64_t stimuli = 0;
     checks::SlowestAnswer slowest{};
@@ -103,7 +103,7 @@ class Stopwatch {
   std::vector<std::vector<Pending>> pending_;
   std::map<std::string_view, Group> groups_;
   std::vector<checks::Arrival> newest_;
-  std::vector<std::int64_t> wire_ns_;  // of received frames, by Carrier::first
+  std::vector<std::int64_t> wire_ns_;  // time on the wire of received frames, by Carrier::first
   std::vector<std::optional<Last>> last_;
   std::optional<std::int64_t> first_ns_;
   PendingWindow pending_window_;

@@ -11,11 +11,11 @@ namespace canhil::observe {
 
 class TargetWatch : public Observer {
  public:
-  /// Whether any of its frames arrived since the last call.
+  /// Whether any frame of the target arrived since the last call.
   virtual bool heard() = 0;
   /// Why the run is over; none: it goes on.
   [[nodiscard]] virtual std::optional<std::string> fault() const = 0;
-  /// Whether a frame that is about to be sent closes a step; the end of that step is then awaited.
+  /// Whether a frame that is about to be sent closes a step; the watch then waits for the end of that step.
   virtual bool closes_step(const Frame& frame) = 0;
   /// Whether the awaited step is done.
   [[nodiscard]] virtual bool step_done() const = 0;

@@ -16,7 +16,8 @@ constexpr Routes answers([](const MessageInfo& info) {
          info.id != messages::TargetTiming::info.id && info.id != messages::StepDone::info.id;
 });
 
-// Calls visit.operator()<Message>() for the message of a frame; no call if the frame is not a message.
+// Calls visit.operator()<Message>() for the message of a frame; makes no call if the frame matches no
+// message.
 template <class Visit>
 void as_message(const Frame& frame, Visit visit) {
   const auto try_one = [&]<class Message>(std::type_identity<Message>) {

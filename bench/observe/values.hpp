@@ -19,12 +19,12 @@ struct Value {
 /// For people: 12 digits, or the enumerator.
 std::string to_text(const Value& value);
 
-/// The signals of a frame, without those of its protection, in the order of the DBC; empty: not a message.
+/// The signals of a frame except counter and checksum, in the order of the DBC; empty: not a message.
 std::vector<Value> values_of(const Frame& frame);
 /// The name of the frame's message; empty: not a message.
 std::string_view message_of(const Frame& frame);
 
-/// The signals of a message in the DBC, without those of its protection.
+/// The signals of a message in the DBC, except counter and checksum.
 std::vector<const SignalInfo*> signals_of(const MessageInfo& message);
 /// Null: the message has no such signal.
 const SignalInfo* signal_of(const MessageInfo& message, std::string_view name);

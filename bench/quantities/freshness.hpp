@@ -8,9 +8,9 @@ namespace canhil::quantities {
 
 /// The same for all runs of a variant. By default samples never become stale.
 struct Freshness {
-  /// An older sample is stale: from then on its quantities count as missing.
+  /// The age limit: quantities of an older sample count as missing.
   std::int64_t age_limit_us = std::numeric_limits<std::int64_t>::max();
-  std::int64_t end_us = std::numeric_limits<std::int64_t>::min();  ///< of the flight
+  std::int64_t end_us = std::numeric_limits<std::int64_t>::min();  ///< end of the flight
   /// For samples by time to go: the beginning of the flight, and the time between samples; 0: unknown.
   std::int64_t begin_us = 0, sample_us = 0;
 };

@@ -41,7 +41,7 @@ inline constexpr Quantity heading_over_sigma{
     .unit = plain,
     .once = "heading_over_sigma"};
 
-/// For each update: taken from the first navigation answer that includes the update.
+/// One value for each update, from the first navigation answer that includes the update.
 inline constexpr Quantity heading_nees{
     .name = "attitude.heading.nees",
     .meaning = "error of the heading over the sigma that the target reports, squared",

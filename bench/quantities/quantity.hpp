@@ -25,10 +25,10 @@ struct Quantity {
   std::string_view name;       ///< "attitude.heading"
   std::string_view meaning;    ///< for people, without a full stop
   Unit unit{};                 ///< for reports
-  int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: for any other quantity
+  int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: another quantity
   bool white = false;          ///< an innovation or its square: successive values are independent
   bool nan_allowed = false;    ///< NaN is not an error: it means that the sample has no such value
-  bool of_whole_run = false;   ///< the same in all samples; never becomes stale
+  bool of_whole_run = false;   ///< the same value in all samples of a run; never becomes stale
   std::string_view once{};     ///< its former name in files; empty: none
   /// The components, each with its own track; empty: the quantity itself.
   std::span<const Quantity* const> parts{};

@@ -30,8 +30,8 @@ struct Layout {
   /// to go at the start of the stretch, so the closest approach is at 0. If 0, a sample is one answer at its
   /// time of validity.
   std::int64_t to_go_stretch_us = 0;
-  const Quantity* end_known_by = nullptr;  ///< NaN in the last sample: the end of the flight is unknown
-  bool answers_untold = false;             ///< a sample without a quantity is an answer that did not need it
+  const Quantity* end_known_by = nullptr;  ///< NaN in the last sample: unknown end of the flight
+  bool answers_untold = false;             ///< an answer may omit a quantity that it does not need
 };
 
 /// Whether samples of a layout contain a quantity.

@@ -19,8 +19,8 @@ namespace canhil::quantities {
 /// One answer, at the time of validity of its cause. SI.
 struct TrackPoint {
   std::int64_t t_us = 0;
-  double value = 0;  ///< the error (estimated - true); for a statistic or an innovation its value
-  std::optional<double> sigma{};     ///< of the error; none: not reported in time
+  double value = 0;  ///< the error (estimated - true); for a statistic or an innovation, the value itself
+  std::optional<double> sigma{};     ///< reported sigma of the error; none: not reported in time
   std::optional<double> estimate{};  ///< as reported; angles unwrapped
   std::optional<double> truth{};
 };
@@ -31,13 +31,13 @@ struct Track {
   const Quantity* quantity = nullptr;
   Kind kind = Kind::error;
   Unit unit{};                   ///< for pictures
-  std::string title{};           ///< of a picture of the values: "attitude error about north"
-  std::string estimate_title{};  ///< of a picture of estimate and truth; empty: none is drawn
+  std::string title{};           ///< title of a picture of the values: "attitude error about north"
+  std::string estimate_title{};  ///< title of a picture of estimate and truth; empty: no picture
   Unit estimate_unit{};          ///< for this picture
   bool only_if_judged = false;   ///< drawn only if a check has a bar for it
   Spool<TrackPoint> points{};    ///< in order of time
-  /// Describes where due answers are missing between two times, ends included [us]; empty: nowhere. Not set:
-  /// a gap is any wait longer than longest_wait_us.
+  /// Describes where due answers are missing between two times, ends included [us]; empty: nowhere. If not
+  /// set, any wait longer than longest_wait_us is a gap.
   std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
   double longest_wait_us = 0;       ///< the longest time between answers that does not count as silence
   std::int64_t answers_end_us = 0;  ///< no answers are expected after it
@@ -55,7 +55,7 @@ struct Track {
 using TrackSink = std::function<void(Track track)>;
 
 /// The time from which |value_of(item)| of a time series (t_us) stays within a band to the end [us]; none: it
-/// is outside at the end.
+/// is outside the band at the end.
 template <class Series, class ValueOf>
 std::optional<std::int64_t> entered_for_good_us(const Series& series, double within, ValueOf value_of) {
   const auto outside = std::find_if(series.rbegin(), series.rend(), [&](const auto& item) {

@@ -13,11 +13,12 @@ namespace {
 using scenario::DescribedKey;
 using scenario::Description;
 
-using Settings = std::map<std::string, std::string>;  // keys with their tables, and TOML
+using Settings = std::map<std::string, std::string>;  // key with its tables -> TOML value
 
-/// How far branches go: a word, a key beside it, and one within that.
+/// The maximum number of settings in one text: a word, a key that depends on it, and a key that depends on
+/// both.
 constexpr std::size_t most_settings = 3;
-/// The value that is tried for a key of which only the name is known.
+/// The value that is tried for a key if only its name is known.
 constexpr std::string_view any_value = "1";
 
 std::string path_of(const DescribedKey& key) {
@@ -37,7 +38,7 @@ std::string toml_of(const std::string& given, const Settings& settings) {
 /// A run of the reader.
 struct Tried {
   Settings settings;
-  std::set<std::size_t> asked;  // of the keys found
+  std::set<std::size_t> asked;  // indices in found_
 };
 
 class Explorer {
@@ -90,12 +91,12 @@ class Explorer {
   }
 
   void wait(Settings settings, const std::string& path, const std::string& value) {
-    if (given_.find(path + " = ") != std::string::npos) return;  // TOML has no key twice
+    if (given_.find(path + " = ") != std::string::npos) return;  // TOML does not allow a key twice
     settings[path] = value;
     waiting_.push_back(std::move(settings));
   }
 
-  /// The index in found_ of this key, which is added if it is new; none: nothing new was learnt about it.
+  /// The index of this key in found_, after adding a new key; none: the key brings no new information.
   std::optional<std::size_t> place_of(const DescribedKey& key, bool is_there,
                                       const Description& description) {
     const auto same = [&](const DescribedKey& one) {
@@ -107,7 +108,7 @@ class Explorer {
     };
     const auto any = std::ranges::find_if(found_, same);
     const auto found = std::ranges::find_if(found_, alike);
-    // A reader may ask for a key that is present in more detail. Its entry from before stays, except that a
+    // If a key is present, a reader may request it in more detail. The earlier entry stays, except that a
     // missing meaning is filled in.
     if (is_there && any != found_.end()) {
       if (any->meaning.empty() && !key.meaning.empty()) {
@@ -127,7 +128,7 @@ class Explorer {
     return found_.size() - 1;
   }
 
-  /// The settings of the runs that asked for a key, without the key's own.
+  /// The settings of the runs in which the reader requested a key, without the key's own setting.
   [[nodiscard]] std::vector<Settings> asked_with(std::size_t place) const {
     std::vector<Settings> all;
     for (const Tried& tried : tried_) {
@@ -139,7 +140,8 @@ class Explorer {
     return all;
   }
 
-  /// The key, if its permitted words are worth trying one by one: at least two, but not a long list of names.
+  /// The key, if its permitted words should be tried one by one: at least two words, but not a long list of
+  /// names.
   [[nodiscard]] const DescribedKey* word_key(const std::string& path) const {
     constexpr std::size_t most_words = 12;
     const auto found = std::ranges::find_if(found_, [&](const DescribedKey& key) {
@@ -158,7 +160,7 @@ class Explorer {
     return fmt::format("`{}`", text ? toml.substr(1, toml.size() - 2) : toml);
   }
 
-  /// "`trajectory` `weave` or `rest`" of words of one key.
+  /// "`trajectory` `weave` or `rest`" from the words of one key.
   static std::string words_of(const std::string& path, const std::vector<std::string>& words) {
     std::vector<std::string> all;
     for (const std::string& word : words) all.push_back(quoted(word));
@@ -189,7 +191,7 @@ class Explorer {
     return conditions.empty() ? "" : fmt::format("Only with {}.", fmt::join(conditions, ", or "));
   }
 
-  /// For a key that is read from an empty text: the words of other keys that make the reader ignore it.
+  /// For a key that the reader requests from an empty text: the words of other keys with which it is ignored.
   [[nodiscard]] std::string not_with(std::size_t place) const {
     std::map<std::string, std::vector<std::string>> words;
     for (const Tried& tried : tried_) {
@@ -219,7 +221,7 @@ class Explorer {
     return keys;
   }
 
-  /// Whether some word of a key goes with another key and some do not.
+  /// Whether the reader requests a key with some value of `path`; the caller has found a value without it.
   [[nodiscard]] bool words_differ(const std::string& path, std::size_t place) const {
     return std::ranges::any_of(tried_, [&](const Tried& tried) {
       return tried.settings.size() == 1 && tried.settings.contains(path) && tried.asked.contains(place);

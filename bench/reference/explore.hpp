@@ -1,5 +1,5 @@
-// Finds the keys that a reader asks for by running it: first with an empty text, then with each key on which
-// something depends. So keys that are read only beside others are found too.
+// Finds the keys that a reader requests by running it: first with an empty text, then with each key on which
+// other keys may depend. So keys that are read only together with other keys are found too.
 #pragma once
 
 #include <functional>
@@ -11,14 +11,14 @@
 
 namespace canhil::reference {
 
-/// A key and, in words, the condition under which it is read: "Only with `trajectory` `weave`."
+/// A key and the condition, in words, under which it is read: "Only with `trajectory` `weave`."
 struct AskedKey {
   scenario::DescribedKey key;
   std::string only;                     ///< empty: it does not depend on other keys
-  std::vector<std::string> in_place{};  ///< keys beside which a required one is not required
+  std::vector<std::string> in_place{};  ///< keys that make a required key unnecessary
 };
 
-/// Reads a TOML text. It may reject the text: only the keys that it asked for are evaluated.
+/// Reads a TOML text. It may reject the text: only the keys that it requested are evaluated.
 using Read = std::function<void(std::string_view text)>;
 
 enum class Depth : std::uint8_t { as_it_is, every_branch };

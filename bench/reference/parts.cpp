@@ -24,9 +24,9 @@ namespace {
 using scenario::Section;
 
 constexpr std::int64_t longest_run_us = 86'400'000'000;
-constexpr std::string_view file = "reference";  // in messages that nobody sees
+constexpr std::string_view file = "reference";  // file name in messages that are not shown
 
-/// The keys that a reader of one section asks for.
+/// The keys that a reader of one section requests.
 template <class ReadSection>
 std::vector<AskedKey> keys_of(ReadSection read, const std::string& given = "") {
   return explore(
@@ -37,7 +37,7 @@ std::vector<AskedKey> keys_of(ReadSection read, const std::string& given = "") {
       given);
 }
 
-/// The keys of one table, without the tables in it.
+/// The keys of one table, without its nested tables.
 std::vector<AskedKey> in_table(const std::vector<AskedKey>& keys, std::string_view table) {
   std::vector<AskedKey> own;
   std::ranges::copy_if(keys, std::back_inserter(own), [&](const AskedKey& one) {
@@ -79,7 +79,7 @@ Part target_part(const scenario::DbcVocabulary& contract) {
            .about = "A target that has a DBC of its own.",
            .keys = in_table(own, "target")}}};
   for (Table& table : part.tables)
-    for (AskedKey& one : table.keys) one.only.clear();  // they name values of another DBC
+    for (AskedKey& one : table.keys) one.only.clear();  // the conditions name values of another DBC
   return part;
 }
 

@@ -1,4 +1,4 @@
-// The sections of scenario and campaign files with all their keys, as the readers ask for them.
+// The sections of scenario and campaign files with all keys that their readers request.
 #pragma once
 
 #include <string>

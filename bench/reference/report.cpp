@@ -42,7 +42,7 @@ std::string meaning_of(const AskedKey& one) {
   return one.only.empty() ? one.key.meaning : fmt::format("{} {}", one.key.meaning, one.only);
 }
 
-/// A bar within a sentence would end its cell.
+/// Escapes '|', which would end the table cell.
 std::string cell(std::string_view text) {
   std::string safe;
   for (const char c : text) safe += c == '|' ? "&#124;" : std::string(1, c);
@@ -60,7 +60,7 @@ std::string rows(const std::vector<std::string>& all) {
                      fmt::join(all, ""));
 }
 
-/// The rows that are equal in many tables of a part.
+/// The rows that occur in many tables of a part.
 std::vector<std::string> shared_rows(const Part& part) {
   std::vector<std::pair<std::string, std::size_t>> counts;
   for (const Table& table : part.tables) {

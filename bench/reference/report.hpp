@@ -10,8 +10,8 @@ namespace canhil::reference {
 
 /// A page of Markdown: docs/scenario-reference.md.
 std::string markdown(const std::vector<Part>& parts);
-/// {"parts": [{"title", "tables": [{"name", "about", "keys": [...]}]}]}, each key with all that is known of
-/// it.
+/// {"parts": [{"title", "tables": [{"name", "about", "keys": [...]}]}]}, each key with all its known
+/// properties.
 std::string json(const std::vector<Part>& parts);
 
 }  // namespace canhil::reference

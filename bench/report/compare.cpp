@@ -19,9 +19,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // All of these conditions must hold for a latency to count as worse.
-constexpr double largest_p = 0.01;  // of a test, divided by the number of tests
+constexpr double largest_p = 0.01;  // of one test, divided by the number of tests
 constexpr double least_us = 2;      // increase of p50 or p99, larger than the resolution of two stamps
-// Conditions with one run per side, which does not show the scatter between runs:
+// Further conditions with one run per side, which does not show the scatter between runs:
 constexpr double least_effect = 0.64;  // a 'medium' effect of Vargha and Delaney (2000)
 constexpr double tail_times = 2;       // factor for the fraction beyond the 99 % quantile
 constexpr double least_share = 1;      // increase of p50 or p99 as a fraction of itself
@@ -39,7 +39,7 @@ struct Named {
   const char* name;
 };
 
-// Must be equal for a comparison.
+// These values must be equal for a comparison.
 constexpr std::array<Named, 3> same{{{"/provenance/scenario_hash", "scenario"},
                                      {"/provenance/contract", "contract"},
                                      {"/provenance/clock", "clock"}}};
@@ -135,8 +135,8 @@ class Comparer {
            report.at("latency_s").at(message).at("count") > 0;
   }
 
-  // The last message of each answer group that occurs in all runs of the first side; the other messages come
-  // just before it.
+  // The last message of each answer group that occurs in all runs of the first side; the other messages of
+  // the group arrive just before it.
   [[nodiscard]] std::vector<std::string> answered_before() const {
     std::vector<std::string> messages;
     if (!before_[0].contains("latency_s")) return messages;

@@ -20,7 +20,7 @@ struct Compared {
 using Reports = std::vector<nlohmann::ordered_json>;
 
 /// Compares reports made by document(), `after` with `before`, at least one on each side. Error: one line
-/// about what a report lacks or contains that is unknown.
+/// about what a report lacks, or about an unknown value in it.
 Result<Compared> compare(const Reports& before, const Reports& after);
 
 }  // namespace canhil::report

@@ -13,13 +13,13 @@ namespace canhil::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Facts = std::vector<std::pair<std::string, std::string>>;  // by the way to it, in the report's order
+using Facts = std::vector<std::pair<std::string, std::string>>;  // (path, value) in the report's order
 
 struct Worded {
   std::string_view path, words;
 };
 
-// A way that is not here is its own name.
+// A path without an entry here is its own name.
 constexpr std::array<Worded, 28> worded{
     {{"dbc_hash", "DBC"},
      {"latency_stamps", "latency stamps"},
@@ -50,8 +50,8 @@ constexpr std::array<Worded, 28> worded{
      {"bitrate_bitps", "bit rate of the wire"},
      {"data_bitrate_bitps", "data bit rate of the wire"}}};
 
-// What must be the same for a comparison, or is compared by another key, or is another in each run. The
-// kernel's preemption is that of the process too.
+// Left out: values that must be equal for a comparison, are compared under another path, or differ in every
+// run. The kernel's preemption is already compared as `preemption`.
 constexpr std::array<std::string_view, 10> left_out_of_it{
     "scenario",       "scenario_hash", "contract",  "clock",        "date",
     "files.scenario", "files.DBC",     "files.log", "adapters.bus", "bench_process.preemption"};
@@ -66,7 +66,7 @@ std::string in_words(const std::string& path) {
   return path;
 }
 
-// The bus that a bench made for itself has its process in its name: that is another in each run.
+// A bus that the bench made for itself has the bench's process id in its name, which differs in every run.
 bool is_own_bus(std::string_view name) {
   constexpr std::string_view own = "local:canhil-";
   return name.starts_with(own) && name.size() > own.size() &&
@@ -99,7 +99,7 @@ void add(Facts& facts, const std::string& path, const Json& value) {
   }
 }
 
-// Several values with the same path, as of two adapters, are joined into one.
+// Several values with the same path, such as values of two adapters, are joined into one.
 Facts facts_of(const Json& report) {
   Facts all, facts;
   add(all, "", report.at("provenance"));
@@ -122,7 +122,7 @@ std::vector<Facts> facts_of_each(const std::vector<Json>& reports) {
   return each;
 }
 
-// Each of a side's values once, in the order of its runs.
+// The values of a side without duplicates, in the order of its runs.
 std::vector<std::string> values_of(const std::vector<Facts>& side, const std::string& path) {
   std::vector<std::string> values;
   for (const Facts& facts : side) {

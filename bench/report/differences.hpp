@@ -1,4 +1,5 @@
-// How runs differ in their conditions rather than in their measurements; this may explain why one is slower.
+// Differences between runs in their conditions rather than in their measurements; a difference may explain
+// why one run is slower.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,9 +8,10 @@
 
 namespace canhil::report {
 
-/// Compares provenance and wire of all reports of one side with those of the other. One line for each thing,
-/// "differs  seed: 7 -> 8"; a side whose runs differ among themselves lists its values: "7 and 9 -> 8". Left
-/// out is what differs between any two runs: dates, folders of files, the bus that a bench made for itself.
+/// Compares provenance and wire of all reports of one side with those of the other side. One line for each
+/// difference, "differs  seed: 7 -> 8"; if the runs of a side differ among themselves, the line lists their
+/// values: "7 and 9 -> 8". Values that differ between any two runs are left out: dates, folders of files, the
+/// bus that a bench made for itself.
 std::string differences(const std::vector<nlohmann::ordered_json>& before,
                         const std::vector<nlohmann::ordered_json>& after);
 

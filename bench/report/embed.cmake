@@ -1,5 +1,5 @@
-# cmake -DHEADER=... -DNAMESPACE=... -DFOLDER=... -DTEXTS=name=a.toml,b.toml;other=c.css -DOUT=... -P embed.cmake: text files
-# as string literals, in lists of report::EmbeddedFile that HEADER declares. A file is known by its name without its ending.
+# Writes text files as string literals, in lists of report::EmbeddedFile that HEADER declares. The name of a file omits its
+# extension. cmake -DHEADER=... -DNAMESPACE=... -DFOLDER=... -DTEXTS=name=a.toml,b.toml;other=c.css -DOUT=... -P embed.cmake
 set(out "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\nnamespace {\n")
 foreach(list IN LISTS TEXTS)
   string(REGEX MATCH "^([^=]+)=(.*)$" matched "${list}")

@@ -10,7 +10,7 @@
 
 namespace canhil::report {
 
-/// Stands for standard output in place of a file's name.
+/// In place of a file's name, stands for standard output.
 inline constexpr std::string_view to_stdout = "-";
 
 /// Writes to standard output immediately. Error: one line.
@@ -20,15 +20,15 @@ Result<void> write_stdout(std::string_view content);
 using Sink = std::function<void(std::string_view part)>;
 
 /// Writes a file under a temporary name and renames it. Error: one line; an existing file is then unchanged.
-/// `content` passes the content part by part, so that a large one is not held in memory.
+/// `content` passes its parts one by one, so a large content is never held in memory as a whole.
 Result<void> write_file(const std::string& path, const std::function<void(const Sink&)>& content);
 Result<void> write_file(const std::string& path, std::string_view content);
 
 /// Writes to standard output or a file, depending on `path`.
 Result<void> write(const std::string& path, std::string_view content);
 
-/// Whether a file can be written, to be checked before a long run: its folder is writable, and an existing
-/// one is a regular file. Error: one line, also for "-".
+/// Checks whether a file can be written, before a long run: its folder is writable, and an existing file is a
+/// regular file. Error: one line, also for "-".
 Result<void> check_writable(const std::string& path);
 
 /// Whether all non-empty paths name different files. Error: one line with the path given twice.

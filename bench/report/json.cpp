@@ -128,7 +128,7 @@ Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   return json;
 }
 
-// The tested program and its version, as far as the bench knows it; its files are among those of the run.
+// The tested program and its version, if known. The program's file is among the files of the run.
 Json target(const drive::Run& run) {
   Json json{{"program", target_program(run)}};
   if (!run.seen.target_version.empty()) json["version"] = run.seen.target_version;

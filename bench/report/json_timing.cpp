@@ -19,7 +19,7 @@ double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-// count, min, p50, p90, p99, p999, max [s], and buckets_us: [from, count] of the non-empty buckets.
+// count, min, p50, p90, p99, p999, max [s], and buckets_us: [from, count] for each non-empty bucket.
 Json object(const checks::Histogram& histogram) {
   const checks::Distribution d = checks::distribution_s(histogram);
   Json json{{"count", d.count}, {"min", d.min},   {"p50", d.p50}, {"p90", d.p90},
@@ -82,7 +82,7 @@ Json wire_of(const checks::Observations& seen) {
   return json;
 }
 
-// The budget of each latency figure, influence by influence.
+// The uncertainty budget of each latency figure: one entry for each influence.
 Json uncertainty_of(const std::vector<UncertainLatency>& latencies, const StampConditions& conditions) {
   Json json{{"method", "GUM type B, rectangular: u = a / sqrt(3), of two stamps u = a sqrt(2 / 3); U = k u"},
             {"k", coverage_factor},

@@ -9,10 +9,11 @@ namespace canhil::report {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds latency, jitter and lateness of all observed messages. Not in lockstep, where time is virtual.
+/// Adds latency, jitter and lateness of all observed messages; adds nothing in lockstep, where time is
+/// virtual.
 void add_timing(Json& page, const scenario::Scenario& scenario, const drive::Run& run);
 
-/// The host's influence on the run, and why timing is not judged, if it is not.
+/// The host's influence on the run and, if timing is not judged, the reason.
 Json timing_judged(const drive::Run& run);
 
 }  // namespace canhil::report

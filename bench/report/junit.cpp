@@ -37,7 +37,7 @@ std::string junit_suite(std::string_view name, const std::vector<CheckResult>& c
   for (const CheckResult& check : cases) {
     page += fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", escaped(check.kind),
                         escaped(check.name));
-    // Properties show a value that approaches its bar before the check fails.
+    // Properties let a reader see a value approach its bar before the check fails.
     page += "      <properties>";
     if (!check.requirement.empty()) page += property("requirement", check.requirement);
     page += property("measured", check.measured) + property("expected", check.expected);
@@ -53,7 +53,7 @@ std::string junit_suite(std::string_view name, const std::vector<CheckResult>& c
 
 namespace {
 
-// Who ran what, where: as in the JSON's provenance.
+// Operator, program and machine, as in the provenance of the JSON report.
 Properties properties_of(const drive::Run& run) {
   Properties properties{{"version", std::string(version_text())}, {"revision", std::string(revision())}};
   if (!run.options.operator_name.empty()) properties.emplace_back("operator", run.options.operator_name);

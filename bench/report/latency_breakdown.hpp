@@ -10,21 +10,21 @@
 
 namespace canhil::report {
 
-/// How exactly a time is known.
+/// Whether a time is exact or a bound.
 enum class Bound : std::uint8_t { exact, at_least, at_most };
 
 /// A part of the time from the hand-over of a stimulus's last frame to the last frame of its answer.
 struct BreakdownPart {
-  std::string_view key{};          ///< in the JSON
-  std::string_view what{};         ///< for people
+  std::string_view key{};          ///< key in the JSON report
+  std::string_view what{};         ///< label for people
   std::optional<double> mean_s{};  ///< none: unknown on this bus, or not reported by the target
-  Bound bound = Bound::exact;      ///< the target's values saturate at checks::most_reported_us
+  Bound bound = Bound::exact;      ///< a bound if the target's values saturate at checks::most_reported_us
 };
 
 /// In order of time; the known parts add up to total_s().
 std::vector<BreakdownPart> parts(const checks::TimingRecord& timing);
-/// For the stimuli of one group. The target does not account for single groups, so its time is in the last
-/// part.
+/// The parts for the stimuli of one group. The target does not report times for single groups, so its time is
+/// in the last part.
 std::vector<BreakdownPart> group_parts(const checks::TimingRecord& timing,
                                        const checks::LatencyBreakdown& breakdown);
 /// The label of a part; the key itself if it has none.

@@ -8,7 +8,7 @@
 namespace canhil::report {
 namespace {
 
-// The number of values in the buckets after that one.
+// The number of values in the buckets after the given one.
 double count_beyond(const Buckets& sample, std::int64_t from_us) {
   double beyond = 0;
   for (const auto& bucket : sample)
@@ -81,7 +81,7 @@ RunTest run_test(std::span<const double> a_us, std::span<const double> b_us) {
   RunTest test{.later_us = mean_b - mean_a, .p = 1};
   const double freedom = m + n - 2;
   if (freedom < 1) return test;
-  // Quantiles have a resolution of 1 us, so runs that agree by chance still have at least this variance.
+  // Quantiles have a resolution of 1 us, so even runs with equal quantiles have at least this variance.
   constexpr double rounding = 1.0 / 12;
   const double variance = (squares_about(a_us, mean_a) + squares_about(b_us, mean_b)) / freedom + rounding;
   test.p = checks::student_t_above(freedom, test.later_us / std::sqrt(variance * (1 / m + 1 / n)));

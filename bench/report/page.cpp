@@ -14,7 +14,7 @@ namespace {
 
 constexpr int most_depth = 32;  // a report has 6
 
-// A plot needs one value for each time. Empty: the lengths agree.
+// A plot needs one value for each time. Returns which lengths differ; empty: none.
 std::string length_differs(const Json& report) {
   for (const Json& series : report.at("series")) {
     const std::size_t times = series.at("t_s").size();

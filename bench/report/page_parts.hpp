@@ -21,7 +21,7 @@ inline std::string text_in(const Json& value) {
   return escaped(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
-/// The appearance of an outcome, not by colour alone.
+/// The appearance of an outcome; colour is not the only difference.
 struct Look {
   const char* style;
   const char* sign;
@@ -56,7 +56,8 @@ std::string estimate(const Json& series);
 // The sections.
 
 std::string checks_section(const Json& report);
-/// Latency, jitter and lateness, and what is missing. In virtual time only the reason why there is none.
+/// Latency, jitter and lateness, and missing answers. In virtual time, only the reason why there are no
+/// times.
 std::string timing_section(const Json& report);
 /// Load, drops and errors.
 std::string bus_section(const Json& report);

@@ -22,7 +22,7 @@ std::vector<double> numbers(const Json& array, std::size_t size) {
   return values;
 }
 
-// The indices of a part of a course; the last one is excluded.
+// The indices of a part of a course; `last` is excluded.
 struct Part {
   std::size_t first = 0, last = 0;
 };
@@ -38,7 +38,7 @@ LinePlot cut(LinePlot plot, const Part& part) {
   return plot;
 }
 
-// For an error around zero, the range includes zero.
+// A plotted course. For an error around zero, its range includes zero.
 struct Course {
   LinePlot plot;
   bool around_zero = false;
@@ -53,8 +53,8 @@ struct Course {
 
 constexpr double hidden = 0.1;  // as a fraction of the picture's height
 
-// The part of a course that stays so close to its late values that a picture of the whole hides them; none:
-// there is no such part. A bar that would be hidden counts as a late value.
+// The part of a course that stays so close to the late values that a picture of the whole hides it; none:
+// there is no such part. A bar that the whole picture would hide counts as a late value.
 std::optional<Part> late_course(const Course& course) {
   constexpr double shown_times = 2.5;  // range of the second picture relative to the late values
   const std::vector<double>& t_s = course.plot.t_s;
@@ -84,8 +84,8 @@ std::optional<Part> late_course(const Course& course) {
   return Part{.first = first, .last = t_s.size()};
 }
 
-// The part of a course whose bars a picture of the whole hides; none: a picture of this part would hide them
-// too.
+// The part of a course whose bars a picture of the whole hides; none: a picture of this part would also hide
+// them.
 std::optional<Part> judged_course(const Course& course) {
   constexpr double finer = 0.5;
   const LinePlot& plot = course.plot;
@@ -126,7 +126,7 @@ std::string beyond_words(const LinePlot& plot) {
   return shown == 0 ? " (beyond this picture)" : " (some beyond this picture)";
 }
 
-// Describes the lines of any kind of series.
+// Describes the lines of a series of any kind.
 std::string lines(const Json& series, LinePlot& plot) {
   const std::size_t size = plot.t_s.size();
   if (series.contains("truth")) {

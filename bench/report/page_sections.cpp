@@ -13,7 +13,7 @@
 namespace canhil::report {
 namespace {
 
-// The percentiles of a distribution, as cells after a first one.
+// The percentiles of a distribution, as cells after the first cell.
 std::vector<std::string> percentiles(std::string first, const Json& distribution) {
   std::vector<std::string> cells{std::move(first), distribution.at("count").dump()};
   const bool none = distribution.at("count").get<std::uint64_t>() == 0;
@@ -31,7 +31,7 @@ std::string folded(std::string_view summary, const std::vector<std::string>& hea
   return fmt::format("<details><summary>{}</summary>\n{}</details>", summary, table(head, rows, "figures"));
 }
 
-// Counts of events as rows of name and number, without those that are 0.
+// Counts of events as rows of name and number, without counts that are 0.
 void add_incidents(Rows& rows, const Json& object, std::string_view of) {
   for (const auto& [key, value] : object.items()) {
     if (value.is_number() && value.get<double>() != 0)
@@ -71,7 +71,7 @@ std::string ms_or_none(const Json& seconds) {
   return seconds.is_null() ? "not known" : fmt::format("{:.3f}", seconds.get<double>() * 1e3);
 }
 
-// "&ge; " or "&le; " if the part is known only as a bound.
+// "&ge; " or "&le; " if only a bound of the part is known.
 const char* bound_of(const Json& breakdown, const std::string& part) {
   const auto listed = [&](const char* key) {
     return breakdown.contains(key) &&
@@ -80,7 +80,8 @@ const char* bound_of(const Json& breakdown, const std::string& part) {
   return listed("at_least") ? "&ge; " : listed("at_most") ? "&le; " : "";
 }
 
-// The same by group of stimuli, because the mean over all hides groups that are answered rarely.
+// The same for each group of stimuli, because the mean over all stimuli hides groups that are answered
+// rarely.
 std::string group_table(const Json& breakdown) {
   if (!breakdown.contains("groups") || breakdown.at("groups").size() < 2) return "";
   std::vector<std::string> head{"part, by stimulus"};

@@ -10,7 +10,7 @@
 namespace canhil::report {
 namespace {
 
-// The size of the drawing in its own units; the width is that of a phone's column.
+// The size of the drawing in its own units; the width suits the column of a phone.
 constexpr double width = 440, height = 230;
 constexpr double left = 66, right = 428, top = 24, bottom = 192;
 

@@ -26,7 +26,7 @@ struct HistogramPlot {
 /// An <svg> element; a line of text if there is nothing to show.
 std::string svg(const HistogramPlot& plot);
 
-/// The range of some values, ignoring those that are not finite.
+/// The range of some values, ignoring values that are not finite.
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -48,9 +48,9 @@ struct LinePlot {
   std::string title;
   std::string unit;
   std::vector<double> t_s;
-  std::vector<double> low, high;  ///< of the quantity, as many as times; not finite: a gap
-  std::vector<double> limit{};    ///< dashed at plus and minus this; as many, or none; not finite: a gap
-  std::vector<double> truth{};    ///< a dotted line; as many, or none; not finite: a gap
+  std::vector<double> low, high;  ///< range of the quantity, one for each time; not finite: a gap
+  std::vector<double> limit{};    ///< dashed at plus and minus this; one each, or none; not finite: a gap
+  std::vector<double> truth{};    ///< dotted line; one value for each time, or none; not finite: a gap
   std::vector<double> levels{};   ///< dashed horizontal lines
   std::vector<Bar> bars{};        ///< heavy lines with marks at both ends
   bool from_zero = false;         ///< the axis begins at 0: for a quantity without sign

@@ -1,4 +1,4 @@
-// The origin of a report: place, program, time.
+// The origin of a report: machine, kernel, CPU, time.
 #pragma once
 
 #include <cstdint>

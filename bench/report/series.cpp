@@ -26,7 +26,7 @@ Series::Kind kind_of(const Track& track) {
                                                 : Series::Kind::error;
 }
 
-// A stretch as times of the run; none: the flight has no samples there.
+// Converts a stretch to times of the run; none: the flight has no samples in the stretch.
 std::optional<scenario::Window> window_of(const checks::Stretch& stretch, const Track& track) {
   if (!stretch.to_go_s) return stretch.window;
   std::optional<scenario::Window> window;

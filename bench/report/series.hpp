@@ -25,9 +25,9 @@ struct Series {
   };
   /// The limit that a check sets for the absolute value.
   struct Bar {
-    std::string check;           ///< its name
-    std::string_view statistic;  ///< of the values in its window: max, mean, rms
-    double below = 0;            ///< in the series' unit
+    std::string check;           ///< name of the check
+    std::string_view statistic;  ///< statistic of the values in the check's window: max, mean, rms
+    double below = 0;            ///< in the unit of the series
     double from_s = 0, to_s = 0;
   };
   std::string estimator;
@@ -40,16 +40,16 @@ struct Series {
   std::vector<Bar> bars{};
 };
 
-/// A series that is put together while its track grows: into stretches of equal length, with a gap where
-/// nothing came for too long.
+/// A series that grows with its track. It has stretches of equal length, and a gap where no answer came for
+/// too long.
 class GrowingSeries {
  public:
-  /// `estimates`: the estimates beside the truth, rather than the values. `scenario` must outlive it.
+  /// `estimates`: show estimates and truth instead of the values. `scenario` must outlive this object.
   GrowingSeries(std::string_view estimator, const quantities::Track& track, bool estimates,
                 const scenario::Scenario& scenario);
-  /// Takes the values of a track that are later than the last one taken, up to a time of validity [us].
+  /// Adds the values of a track that are later than the last added value, up to a time of validity [us].
   void take(const quantities::Track& track, std::int64_t until_us = std::numeric_limits<std::int64_t>::max());
-  /// The run is over: if answers are missing at its end that is a gap too.
+  /// Ends the series after the run: if answers are missing at the end, adds a gap.
   void end(const quantities::Track& track);
   [[nodiscard]] const Series& series() const { return series_; }
 
@@ -61,10 +61,10 @@ class GrowingSeries {
   const scenario::Scenario& scenario_;
   const quantities::Unit unit_;
   Series series_;
-  std::int64_t last_us_ = std::numeric_limits<std::int64_t>::min();  // of the last value
+  std::int64_t last_us_ = std::numeric_limits<std::int64_t>::min();  // time of the last value
 };
 
-/// Takes a track of the estimator of this name.
+/// Receives a track and the name of its estimator.
 using TrackOf = std::function<void(std::string_view estimator, const quantities::Track& track)>;
 /// Passes on the tracks of the scenario's estimators, one estimator after another.
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give);

@@ -58,7 +58,7 @@ std::vector<Judged> judged_in(const Json& report) {
 
 // The results of one check in the runs of a side.
 struct Tally {
-  std::array<std::size_t, said.size()> saying{};  // number of runs, by Says
+  std::array<std::size_t, said.size()> saying{};  // number of runs for each result, by Says
   std::string measured;  // from the first run that failed it, otherwise from the last run
   [[nodiscard]] std::size_t runs() const {
     return std::accumulate(saying.begin(), saying.end(), std::size_t{0});

@@ -18,8 +18,9 @@ struct UnknownOutcome {
   std::string what;  ///< one line
 };
 
-/// A check got worse if it fails in a run now and in none before, or in most runs now and not in most before.
-/// In virtual time, where timing is never judged, a check that no run measured does not count as unknown.
+/// A check got worse if it fails in a run of `after` and in none of `before`, or in most runs of `after` and
+/// not in most of `before`. In virtual time, timing is never judged, so a check that no run measured does not
+/// count as unknown.
 ChecksCompared compare_checks(const std::vector<nlohmann::ordered_json>& before,
                               const std::vector<nlohmann::ordered_json>& after, bool virtual_time);
 

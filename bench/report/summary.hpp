@@ -1,4 +1,4 @@
-// Contents of every report of a run, apart from its checks.
+// The contents that every report of a run has in addition to its checks.
 #pragma once
 
 #include <string>
@@ -28,14 +28,14 @@ std::string_view clock_name(const drive::Run& run);
 /// The source of the time stamps of latencies.
 std::string_view stamp_source(const drive::Run& run);
 
-/// The last message of each answer group of the estimators in use.
+/// The last message of each answer group of the running estimators.
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario);
 
-/// True for messages that the estimators in use must send.
+/// Whether the running estimators must send a message.
 bool is_due(const scenario::Scenario& scenario, const MessageInfo& message);
 
-/// The bit rates at which reports show the bus load: that of the bus or, if it has none, 500 kbit/s and 1
-/// Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.
+/// The bit rates at which reports show the bus load: the bit rate of the bus or, if the bus has none, 500
+/// kbit/s and 1 Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.
 std::vector<wire::BitRates> load_rates(wire::BitRates known, BusFormat format);
 std::vector<wire::BitRates> load_rates(const drive::Run& run);
 

@@ -75,7 +75,7 @@ std::string load_words(const drive::Run& run) {
   return lines;
 }
 
-// Latency of the last message of each group; first those without any.
+// Latency of the last message of each group; messages without a latency come first.
 std::string latency_words(const scenario::Scenario& scenario, const checks::Observations& seen,
                           bool virtual_time) {
   std::string none, lines;
@@ -101,7 +101,7 @@ std::string latency_words(const scenario::Scenario& scenario, const checks::Obse
   return none + lines;
 }
 
-// The parts of the mean latency, and the slowest answer with the target's report for that time.
+// The parts of the mean latency, and the slowest answer with the target's report for the same time.
 std::string split_words(const checks::TimingRecord& timing) {
   if (timing.breakdown.stimuli == 0) return "";
   std::string lines = fmt::format("  from stimulus to answer       mean {:.3f} ms of {} stimuli, of it\n",
@@ -127,7 +127,7 @@ std::string split_words(const checks::TimingRecord& timing) {
   return lines;
 }
 
-// The bus response time of each message relative to its bound: those beyond it, otherwise the nearest.
+// The bus response times relative to their bounds: all messages beyond the bound, otherwise the nearest one.
 std::string wire_words(const checks::Observations& seen) {
   if (seen.bit_rates.nominal == 0) return "";
   if (const std::string why = checks::no_bounds(seen); !why.empty())

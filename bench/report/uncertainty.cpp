@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kernel_stamp_s = 1e-9;       // SCM_TIMESTAMPNS
 constexpr double hardware_stamp_s = 1e-6;     // the coarsest counter of the drivers in use
-constexpr double kernel_clock_rate = 500e-6;  // what adjusting the clock may do to it, adjtimex(2)
+constexpr double kernel_clock_rate = 500e-6;  // largest rate error of an adjusted clock, adjtimex(2)
 constexpr double crystal_rate = 100e-6;
 
 struct Quantile {
@@ -28,7 +28,7 @@ constexpr std::array<Quantile, 5> quantiles{{{"p50", &checks::Distribution::p50,
                                              {"p999", &checks::Distribution::p999, false},
                                              {"max", &checks::Distribution::max, true}}};
 
-// USB moves data once a millisecond at full speed, and every 125 us from high speed on.
+// USB moves data once a millisecond at full speed, and every 125 us at high speed or above.
 double poll_s(double usb_mbitps) { return usb_mbitps <= 0 ? 0 : usb_mbitps < 480 ? 1e-3 : 125e-6; }
 
 }  // namespace
@@ -55,8 +55,9 @@ std::array<double, 5> half_widths_s(const StampConditions& conditions, double la
   const double resolution_s =
       conditions.hardware ? hardware_stamp_s : std::max(kernel_stamp_s, conditions.usb_poll_s);
   const double rate = conditions.hardware ? crystal_rate : kernel_clock_rate;
-  // Each of the two stamps is delayed by 0 up to the bench's own lateness, so their difference is off by at
-  // most that lateness in either direction. Controllers and simulated wires stamp without the host.
+  // Each of the two stamps is late by between 0 and the bench's own lateness, so their difference has an
+  // error of at most this lateness in either direction. Controllers and simulated wires stamp without the
+  // host.
   const double host_s = conditions.hardware || computed ? 0 : lateness_s;
   return {resolution_s / 2, rate * latency_s, host_s, conditions.bit_s, bucket_s / 2};
 }

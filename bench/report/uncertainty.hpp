@@ -11,7 +11,7 @@
 
 namespace canhil::report {
 
-/// U = k u: of a normal distribution about 95 % lie within.
+/// U = k u. With k = 2, a normal distribution has about 95 % of its values within U.
 inline constexpr double coverage_factor = 2;
 
 /// The sources of uncertainty of a latency.
@@ -19,32 +19,32 @@ enum class Influence : std::uint8_t {
   stamps,  ///< resolution of the two stamps
   clock,   ///< rate of the clock of both stamps
   host,    ///< delay until the kernel or the bench stamps a frame
-  wire,    ///< the bit within which two nodes see the end of a frame
-  figure,  ///< bucket of the distribution that the quantile was taken from
+  wire,    ///< two nodes see the end of a frame up to one bit apart
+  figure,  ///< width of the bucket that the quantile comes from
 };
 inline constexpr std::array<std::string_view, 5> influence_names{"stamps", "clock", "host", "wire", "figure"};
 
-/// How the stamps of a run came to be.
+/// How the stamps of a run were taken.
 struct StampConditions {
-  bool hardware = false;        ///< the controller stamped both ways
+  bool hardware = false;        ///< the controller stamped stimuli and answers
   bool simulated_wire = false;  ///< stamps are computed, not read
-  double usb_poll_s = 0;        ///< between two looks at a USB adapter; 0: it is none, or hardware stamped
-  double bit_s = 0;             ///< 0: no wire, or its bit rate is not known
-  bool wire_unknown = false;    ///< there is a wire, and its bit rate is not known
+  double usb_poll_s = 0;        ///< interval between polls of a USB adapter; 0: no USB, or hardware stamps
+  double bit_s = 0;             ///< duration of a bit; 0: no wire, or unknown bit rate
+  bool wire_unknown = false;    ///< there is a wire, but its bit rate is unknown
   bool echoed = true;           ///< the stimulus was stamped on the bus, not by the bench
 };
 StampConditions stamp_conditions(const drive::Run& run);
 
-/// Half-widths [s] by Influence, for a latency [s] of this size; `lateness_s`: of the bench at the same
-/// quantile; `bucket_s`: the width of the figure's bucket, 0 for an exact one.
+/// Half-widths [s] by Influence, for a latency [s]. `lateness_s`: the bench's lateness at the same quantile.
+/// `bucket_s`: the width of the bucket of the figure; 0: an exact figure.
 std::array<double, 5> half_widths_s(const StampConditions& conditions, double latency_s, double lateness_s,
                                     double bucket_s);
-/// u of one influence [s]. The half-width of `stamps` is that of one stamp of two.
+/// u of one influence [s]. For `stamps`, the half-width is that of one of the two stamps.
 double standard_s(Influence influence, double half_width_s);
 /// The combined uncertainty: the root of the sum of the squares.
 double combined_s(const std::array<double, 5>& half_widths_s);
 
-/// A latency with its budget.
+/// A figure of a latency, with its uncertainty budget.
 struct UncertainFigure {
   std::string_view name;  ///< "p50"
   double value_s = 0;
@@ -59,7 +59,7 @@ struct UncertainLatency {
 /// The uncertainties of the messages that close a group of answers. Empty unless the run was in real time.
 std::vector<UncertainLatency> uncertainties(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// Known influences that the budget does not include, one line each; empty: none is known.
+/// Known influences that the budget does not include, one line each; empty: no such influence is known.
 std::vector<std::string> left_out(const StampConditions& conditions);
 
 /// The part of the text report with a line for each message; empty: there are no such messages.

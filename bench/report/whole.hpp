@@ -6,7 +6,8 @@
 
 namespace canhil::report {
 
-/// Empty: it does; otherwise the error: "key 'latency_s.A.p50': is null, expected a number".
+/// Returns why a report is incomplete: "key 'latency_s.A.p50': is null, expected a number"; empty: it is
+/// complete.
 std::string why_not_whole(const nlohmann::ordered_json& report);
 
 }  // namespace canhil::report

@@ -17,7 +17,7 @@ namespace canhil::scenario {
 class Section;
 struct DbcVocabulary;
 
-/// Part of a run, ends included, by the time of validity that an answer names as its cause.
+/// Part of a run, ends included, by the time of validity of an answer's cause.
 struct Window {
   std::int64_t from_us = 0;
   std::int64_t to_us = 0;
@@ -32,7 +32,7 @@ struct FaultWindow {
 struct Check {
   std::string name;         ///< unique in the scenario; by default kind and subject: "error attitude.heading"
   std::string requirement;  ///< id for the reports; may be empty
-  int line = 0;             ///< of the scenario file
+  int line = 0;             ///< line in the scenario file
   std::string kind;
   std::shared_ptr<const checks::Rule> rule;
 };
@@ -41,9 +41,9 @@ struct Check {
 struct CheckContext {
   std::int64_t duration_us = 0;
   const DbcVocabulary& contract;
-  std::span<const std::string> estimators;  ///< those that run
-  std::span<const FaultWindow> faults{};    ///< up to the end of the run
-  std::int64_t latency_us = 0;              ///< the longest time from validity to transmission over all nodes
+  std::span<const std::string> estimators;  ///< the estimators that run
+  std::span<const FaultWindow> faults{};    ///< cut at the end of the run
+  std::int64_t latency_us = 0;  ///< over all nodes: the longest time from validity to transmission
 };
 
 /// A rule, and its subject if a scenario may have several checks of the kind; otherwise empty.

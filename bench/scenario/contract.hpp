@@ -1,6 +1,6 @@
 // The names that a scenario may use because the DBC defines them, and the tables of the nodes that the bench
-// can emulate. They are passed in, so that this folder does not depend on a particular bus or its nodes: they
-// can come from the generated header or from a DBC read at run time.
+// can emulate. The caller passes them in, from the generated header or from a DBC read at run time, so this
+// folder does not depend on a particular bus or its nodes.
 #pragma once
 
 #include <functional>
@@ -30,11 +30,11 @@ struct DbcVocabulary {
   std::vector<std::string> algorithms;  ///< value table Algorithm
   std::vector<std::string> parameters;  ///< value table Parameter
   std::vector<std::string> messages;    ///< names of all messages
-  std::vector<std::string> answers;     ///< of those that answer a sample group
+  std::vector<std::string> answers;     ///< names of the messages that answer a sample group
   std::vector<CheckKind> check_kinds{};
   std::span<const estimators::Estimator* const> known{};  ///< the estimators known to the bench
   std::vector<FormerCheckKind> former_check_kinds{};
-  /// For each message, the estimator that sends it. Absent: every target sends it, or none.
+  /// The estimator that sends a message, by message. Absent: every target sends it, or none.
   std::map<std::string, std::string, std::less<>> sent_by{};
   std::map<std::string, EstimatorFacts, std::less<>> facts{};  ///< by estimator
   std::vector<const NodeTable*> nodes{};                       ///< in the order in which they are read

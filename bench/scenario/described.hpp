@@ -1,4 +1,4 @@
-// Records which keys the readers ask for. The reference of keys (bench/reference) is generated from this
+// Records which keys the readers request. The reference of keys (bench/reference) is generated from this
 // record, so each range and default is written only once, in its reader.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace canhil::scenario {
 
 /// The name of a key, and its meaning in one sentence.
 struct Key {
-  // NOLINTBEGIN(google-explicit-constructor): most keys are asked for by their name alone
+  // NOLINTBEGIN(google-explicit-constructor): most keys are requested by name alone
   Key(const char* its_name) : name(its_name) {}
   Key(const std::string& its_name) : name(its_name) {}
   Key(std::string_view its_name) : name(its_name) {}
@@ -24,29 +24,29 @@ struct Key {
 
   std::string_view name;
   std::string_view meaning;
-  std::string_view shown;  ///< in the reference, where the name itself depends on another key's value
+  std::string_view shown;  ///< the name in the reference, if it depends on another key's value
 };
 
-/// A key as a reader asked for it.
+/// A key as a reader requested it.
 struct DescribedKey {
-  std::string table{};  ///< path of the table that it is in; empty: the file itself
+  std::string table{};  ///< path of the table that contains it; empty: the file itself
   std::string name{};
-  std::string shown{};  ///< in the reference
+  std::string shown{};  ///< the name in the reference
   std::string meaning{};
   std::string type{};   ///< "number", "text", "table" ...
   std::string range{};  ///< in words, in the key's unit; empty: any
   std::string fallback{};
   bool required = false;
-  std::vector<std::string> words{};  ///< of which it is one
-  std::string sample{};              ///< a value that it may have, as TOML
+  std::vector<std::string> words{};  ///< the permitted words
+  std::string sample{};              ///< a permitted value, as TOML
 };
 
 struct Description {
   std::vector<DescribedKey> keys;
-  std::set<std::string> looked_for;  ///< paths of the keys that something depends on being there
+  std::set<std::string> looked_for;  ///< paths of keys whose presence affects the reader
 };
 
-/// During its lifetime, records what is asked for in sections that this thread creates.
+/// During its lifetime, records the keys that are requested from sections that this thread creates.
 class Describing {
  public:
   explicit Describing(Description& description);
@@ -54,7 +54,7 @@ class Describing {
   Describing(const Describing&) = delete;
   Describing& operator=(const Describing&) = delete;
 
-  /// Null: nothing is described.
+  /// Null: nothing is recorded.
   static Description* current();
 
  private:

@@ -10,20 +10,20 @@
 
 namespace canhil::scenario {
 
-/// The initial state that the target receives.
+/// Which initial state the target receives.
 enum class Start : std::uint8_t {
   navigation,     ///< the carrier's state, with the errors of [initial_error]
-  per_run_truth,  ///< the state of its own truth, with errors of its own
+  per_run_truth,  ///< the state of the estimator's own truth, with its own errors
   nothing         ///< the estimator uses no initial state
 };
 
 struct EstimatorFacts {
   std::span<const std::string_view> parameters{};  ///< for suggestions when a name is misspelt; empty: any
   std::span<const std::string_view> nodes{};       ///< required tables
-  std::optional<TruthOf> truth{};                  ///< the truth whose table is required
+  std::optional<TruthOf> truth{};                  ///< this truth's table is required
   Start start = Start::navigation;
-  std::string_view start_errors{};  ///< the table of initial errors for its own truth
-  std::string_view aided_by{};      ///< its parameter that selects whose fixes it uses; empty: it uses none
+  std::string_view start_errors{};  ///< the table of initial errors for the estimator's own truth
+  std::string_view aided_by{};      ///< parameter that selects the source of its fixes; empty: no fixes
 };
 
 }  // namespace canhil::scenario

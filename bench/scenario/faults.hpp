@@ -24,7 +24,7 @@ struct Fault {
   std::string name{};  ///< unique in the scenario; by default kind and subject
   std::string kind{};
   std::int64_t from_us = 0, to_us = std::numeric_limits<std::int64_t>::max();  ///< times of transmission
-  std::string where{};  ///< "file:line: key 'fault[1]'", for people
+  std::string where{};  ///< for messages: "file:line: key 'fault[1]'"
   std::shared_ptr<const faults::Rule> rule{};
 };
 
@@ -32,7 +32,7 @@ struct Fault {
 struct FaultContext {
   std::int64_t duration_us = 0;
   const DbcVocabulary& contract;
-  std::span<const NodeSettings> nodes;  ///< those on the bus
+  std::span<const NodeSettings> nodes;  ///< the nodes on the bus
 };
 
 /// A rule, the time when it is active, and its subject, which distinguishes faults of one kind.
@@ -48,11 +48,11 @@ struct FaultKind {
   FaultRead (*read)(Section& section, const FaultContext& context) = nullptr;
 };
 
-/// Indices (from 0) of some [[fault]] tables in a file: those of one row in a set, which may be named by the
-/// key `together`.
+/// Indices (from 0) of some [[fault]] tables in a file: the tables of one row in a set, which the key
+/// `together` may name.
 using FaultPlaces = std::vector<std::size_t>;
 
-/// Appends the faults of a file, or some of them.
+/// Appends all faults of a file, or some of them.
 void read_faults(Section& root, const FaultContext& context, std::vector<Fault>& faults,
                  const FaultPlaces* some = nullptr);
 

@@ -24,10 +24,10 @@ struct Glide {
   ReleaseError release;
 };
 
-/// The tables of its truth.
+/// The tables of the glider's truth.
 inline constexpr std::array<std::string_view, 3> glide_tables{"glide", "wind", "airframe"};
 
-/// `root`: the file; `section`: its [glide]. [wind] is required, [airframe] is optional.
+/// `root`: the whole file; `section`: its table [glide]. [wind] is required, [airframe] is optional.
 Glide read_glide(Section& root, Section& section);
 
 }  // namespace canhil::scenario

@@ -5,8 +5,8 @@
 namespace canhil::scenario {
 namespace {
 
-// The delimiter at the beginning of a quoted text, which also ends it: " or ', or three of either, which may
-// span lines.
+// The delimiter at the start of a quoted text, which is also its end: " or ', or three of either. A text in
+// triple quotes may span lines.
 std::string_view quote_at(std::string_view text) {
   if (text.starts_with("\"\"\"") || text.starts_with("'''")) return text.substr(0, 3);
   return text.substr(0, 1);

@@ -1,4 +1,4 @@
-// A node of the bench as scenarios see it: a table with a name. Only the node's own file in bench/nodes knows
+// A node of the bench as scenarios see it: a table with a name. Only the node's own file in bench/nodes reads
 // the contents of the table.
 #pragma once
 
@@ -18,13 +18,14 @@ namespace canhil::scenario {
 class NodeSettings;
 class Section;
 
-/// The truth that a node samples: [truth], [glide] or [engagement]. The latter two require their nodes.
+/// The truth that a node samples: [truth], [glide] or [engagement]. [glide] and [engagement] require their
+/// nodes.
 enum class TruthOf : std::uint8_t { navigation, glide, engagement };
 
 /// The properties of a node's fixes for an aided estimator.
 struct Aid {
-  double aiding = 0;  ///< the value of the estimator's parameter (EstimatorFacts::aided_by) that selects them
-  /// The fraction that is lost at random on purpose: the longer wait does not count as silence.
+  double aiding = 0;  ///< value of EstimatorFacts::aided_by's parameter that selects these fixes
+  /// The fraction that is lost at random on purpose: the resulting longer wait does not count as silence.
   double (*lost)(const NodeSettings& node) = nullptr;
 };
 
@@ -44,13 +45,13 @@ struct Increment {
 
 /// Facts about a kind of node for scenarios.
 struct NodeTable {
-  std::string_view key;       ///< of its table: "gps"
+  std::string_view key;       ///< key of the node's table: "gps"
   const MessageInfo& closes;  ///< the last message of its sample group, which comes at the DBC's cycle time
   TruthOf samples;
   /// Reads the table; unknown keys are detected afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
   std::optional<Aid> aid{};
-  // What a recording may lack or contain besides the signals of the group, by their names in the DBC.
+  // Signals that a recording may lack or may contain in another form, by their names in the DBC.
   std::span<const Assumed> assumed{};
   std::span<const Increment> increments{};
 };
@@ -68,14 +69,14 @@ class NodeSettings {
   }
 
   [[nodiscard]] const NodeTable& table() const { return *table_; }
-  /// The node sends a recording; its own type is then not that of an emulated node.
+  /// The node sends a recording; own() then has another type than for an emulated node.
   [[nodiscard]] bool is_recorded() const { return is_recorded_; }
   [[nodiscard]] std::int64_t latency_us() const { return schedule_->latency_us; }
   [[nodiscard]] std::int64_t period_us() const {
     return schedule_->period_us.value_or(table_->closes.cycle_time_us);
   }
 
-  /// The settings in its table; null: it is a node of another kind.
+  /// The settings of this type; null: the node has another type.
   template <class Own>
   [[nodiscard]] const Own* own() const {
     const auto* shared = std::any_cast<std::shared_ptr<const Own>>(&own_);

@@ -18,7 +18,7 @@ struct Unit {
 };
 
 namespace units = world::units;
-// The first one that fits.
+// The first unit whose suffix matches is used.
 constexpr std::array table{Unit{"_deg", units::deg, "deg"},
                            Unit{"_mrad", units::mrad, "mrad"},
                            Unit{"_mradps", units::mrad, "mrad/s"},

@@ -11,7 +11,7 @@ namespace canhil::scenario {
 /// numbers.
 double factor_of(std::string_view key);
 
-/// The unit that a key's name ends in, as people write it; empty: a plain number.
+/// The unit in a key's suffix, as people write it; empty: the key has no unit.
 std::string_view unit_of(std::string_view key);
 
 /// The limits of a number, in the unit of its key.

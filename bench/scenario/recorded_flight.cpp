@@ -19,7 +19,7 @@ namespace {
 
 using world::units::deg;
 
-// No vehicle turns or accelerates more than this; a wrong row does.
+// No vehicle turns or accelerates faster than this, but a wrong row does.
 constexpr double most_turn_rate = 1000 * deg;    // [rad/s]
 constexpr double most_acceleration = 1000;       // [m/s^2]
 constexpr double most_turn_of_a_row = 45 * deg;  // beyond this the direction of the turn is ambiguous
@@ -29,7 +29,7 @@ constexpr double usual_agreement_m = 5;
 enum Place : std::size_t { time, latitude, longitude, height, north, east, down, roll, pitch, heading };
 struct Quantity {
   std::string_view name;
-  Limits limits{};  // in the unit of its name
+  Limits limits{};  // in the unit of the name's suffix
 };
 // Limits of a position as in read_position(). Angles may exceed their range by up to a full turn.
 const std::array<Quantity, 10> quantities{{{"t_s", {}},

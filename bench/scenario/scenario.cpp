@@ -14,7 +14,7 @@
 namespace canhil::scenario {
 namespace {
 
-/// The keys of a truth, followed by those of the nodes that sample it.
+/// The keys of a truth, followed by the keys of the nodes that sample it.
 std::vector<std::string_view> keys_of(TruthOf truth, const DbcVocabulary& contract,
                                       std::vector<std::string_view> keys) {
   for (const NodeTable* node : contract.nodes) {
@@ -111,8 +111,8 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Db
   return checks;
 }
 
-/// The carrier's flight. It may be absent if there is an engagement or a glide; then nothing that depends on
-/// it is allowed.
+/// Reads the carrier's flight. It may be absent if there is an engagement or a glide; then no table that
+/// depends on the flight is allowed.
 void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
   if (root.has("truth") || !(scenario.engagement || scenario.glide)) {
     Section truth = root.table("truth");
@@ -125,7 +125,8 @@ void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& con
   }
 }
 
-/// With an unknown flight, the target receives the state exactly as the scenario gives it, without errors.
+/// With an unknown flight, the target receives the initial state exactly as the scenario gives it, without
+/// errors.
 void refuse_errors_of_start(Section& root, const Scenario& scenario) {
   const bool own = std::ranges::any_of(
       scenario.targets, [](const TargetSetup& target) { return target.initial_error.has_value(); });
@@ -135,8 +136,8 @@ void refuse_errors_of_start(Section& root, const Scenario& scenario) {
                 "no 'initial_error'");
 }
 
-/// An aided estimator uses the fixes of one aid, by default the first, or as its parameter selects, and
-/// refuses those of others; other estimators use none.
+/// An aided estimator uses the fixes of one aid: the first, or the one that its parameter selects. It refuses
+/// fixes of other aids. An estimator that is not aided uses no fixes.
 void expect_aid(Section& root, const Scenario& scenario, const DbcVocabulary& contract) {
   const auto target = std::ranges::find_if(scenario.targets, [&](const TargetSetup& one) {
     return !facts_of(contract, one.estimator).aided_by.empty();
@@ -245,7 +246,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
 Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
                         const DbcVocabulary& contract, const FaultPlaces* some) {
   Section root = Section::parse(text, name);
-  if (!root.has("fault")) root.tables("fault");  // it contains nothing else
+  if (!root.has("fault")) root.tables("fault");  // the file contains only faults
   read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},
               scenario.faults, some);
   root.finish();

@@ -2,9 +2,9 @@
 // criteria.
 //
 // Values in the file have the unit in their key (heading_deg); the structs use SI and radians, times in us.
-// Each section of the file is a struct with its own reader; those of nodes are in bench/nodes and come with
-// the DbcVocabulary. Reading is strict: an unknown key, a wrong type, a value out of range or a missing key
-// ends it with one line, "file:line: key 'slave_imu.period_ms': what is wrong, expected what".
+// Each section of the file is a struct with its own reader; the readers of nodes are in bench/nodes and come
+// with the DbcVocabulary. Reading is strict: an unknown key, a wrong type, a value out of range or a missing
+// key is an error of one line, "file:line: key 'slave_imu.period_ms': what is wrong, expected what".
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ struct Scenario {
   std::string file;  ///< as named by the user
   std::vector<InputFile> inputs{};
   std::uint64_t hash = 0;  ///< FNV-1a of text, settings and recordings: provenance in reports and campaigns
-  std::uint64_t recordings_hash = 0;  ///< of the recordings alone; 0: it uses none
+  std::uint64_t recordings_hash = 0;  ///< hash of the recordings alone; 0: no recordings
   std::string title;
   std::int64_t duration_us = 0;
   std::uint64_t seed = 0;
@@ -49,10 +49,10 @@ struct Scenario {
 
   std::shared_ptr<const Foreign> foreign;  ///< null: the target uses canhil's own DBC
   std::vector<TargetSetup> targets;        ///< one for each estimator that the target runs
-  world::Flight truth;                     ///< at rest if nothing navigates
+  world::Flight truth;                     ///< at rest if no estimator navigates
   world::InitialErrorModel
-      initial_error;  ///< of the initial state that the target receives, relative to the truth at the start
-  std::optional<Glide> glide;  ///< the truth of a glider, in addition to the navigation's
+      initial_error;  ///< errors of the initial state for the target, relative to the truth at the start
+  std::optional<Glide> glide;  ///< truth of a glider, in addition to `truth`
   std::optional<world::EngagementPlan> engagement;
   std::vector<NodeSettings> nodes;  ///< the nodes on the bus
   std::vector<Fault> faults;
@@ -63,7 +63,7 @@ struct Scenario {
   [[nodiscard]] bool runs(std::string_view estimator) const {
     return std::ranges::find(targets, estimator, &TargetSetup::estimator) != targets.end();
   }
-  /// The node of this table name; null: it is not on the bus.
+  /// The node with this table name; null: it is not on the bus.
   [[nodiscard]] const NodeSettings* node(std::string_view key) const {
     const auto found = std::ranges::find(nodes, key, [](const NodeSettings& one) { return one.table().key; });
     return found == nodes.end() ? nullptr : &*found;
@@ -74,7 +74,7 @@ struct Scenario {
 Result<Scenario> read_file(const std::filesystem::path& path, const DbcVocabulary& contract);
 
 /// Reads a scenario's text; `name` is the file's name in messages. Settings replace values of the text and
-/// are validated in the same way. Files that it names are in `folder`, by default the folder of `name`.
+/// are validated in the same way. Files that the text names are in `folder`, by default the folder of `name`.
 Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVocabulary& contract,
                        std::span<const Setting> settings = {}, std::optional<std::string> folder = {});
 
@@ -85,8 +85,8 @@ Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_v
 /// Size limit of a scenario or campaign file.
 inline constexpr std::size_t most_toml_bytes = std::size_t{1} << 20U;
 
-/// Why the answers of an estimator, which may run without nodes, have no truth to compare with; empty: they
-/// have.
+/// Why the answers of an estimator, which may run without nodes, have no truth for comparison; empty: truth
+/// exists.
 std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts);
 
 }  // namespace canhil::scenario

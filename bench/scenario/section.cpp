@@ -24,7 +24,7 @@ struct Section::State {
   std::vector<std::string> asked;
   std::vector<std::pair<std::string, std::string>> missing;  // key, expected value
 
-  /// For the reference: how a key is asked for.
+  /// Records for the reference how a key is requested.
   void describe(const Key& key, DescribedKey as) const {
     if (file->description == nullptr) return;
     as.table = path;
@@ -37,7 +37,7 @@ struct Section::State {
     if (std::ranges::find(asked, key) == asked.end()) asked.emplace_back(key);
     return table == nullptr ? nullptr : table->get(key);
   }
-  /// The same for a key that counts as missing if absent, unless it may be absent.
+  /// The same, but an absent key counts as missing unless `may_be_absent` is set.
   const toml::node* ask(std::string_view key, std::string_view expected, bool may_be_absent = false) {
     const toml::node* node = ask(key);
     if (node == nullptr && !may_be_absent) missing.emplace_back(key, expected);
@@ -362,7 +362,7 @@ void Section::missing(std::string_view key, std::string_view expected) {
 
 void Section::finish(std::string_view unasked) {
   if (state_->table == nullptr) return;
-  // The first in the file, because the table itself is sorted by key.
+  // The first unknown key in the file; the table itself is sorted by key.
   const toml::node* unknown = nullptr;
   std::string unknown_key;
   for (const auto& [key, node] : *state_->table) {

@@ -28,18 +28,18 @@ class Section {
   static Section parse(std::string_view text, std::string_view file_name,
                        std::span<const Setting> settings = {});
 
-  /// Changes the folder for files that it names.
+  /// Changes the folder that contains the files named in this file.
   void look_in(std::string folder);
 
   [[nodiscard]] bool has(std::string_view key) const;
   [[nodiscard]] int line() const;
-  /// The key with the path of the tables around it.
+  /// The key, preceded by the path of its tables.
   [[nodiscard]] std::string path(std::string_view key) const;
 
   /// "file:line" of a key, or "file" if a setting put it there.
   [[nodiscard]] std::string where(std::string_view key) const;
 
-  /// Accepts a key without using its value.
+  /// Accepts a key and ignores its value.
   void optional(std::string_view key);
 
   // Each of these requests a key. Without a fallback (in the key's unit) a missing key is an error.
@@ -71,7 +71,7 @@ class Section {
   std::optional<std::string> read_beside(const Key& key, std::string_view kind, std::size_t most_bytes);
   /// FNV-1a of all files read this way; 0: none.
   [[nodiscard]] std::uint64_t& files_hash();
-  /// Their paths, in the order in which they were read.
+  /// The paths of these files, in the order in which they were read.
   [[nodiscard]] std::vector<std::string>& files();
 
   /// An array of some of these names; absent: empty.
@@ -79,17 +79,16 @@ class Section {
   /// Arrays; absent: empty.
   std::vector<std::string> texts(const Key& key);
   std::vector<std::int64_t> integers(const Key& key, std::int64_t least);
-  /// The keys of the table, in their order.
+  /// The keys of the table, in the table's order.
   [[nodiscard]] std::vector<std::string> keys() const;
   [[nodiscard]] bool holds_text(std::string_view key) const;
-  /// All values of this table, whatever their keys: settings for another file. Nested tables become keys with
-  /// dots.
+  /// All values of this table, with any keys: settings for another file. Nested tables become keys with dots.
   std::vector<Setting> settings();
 
-  /// A table; if it is missing, one in which all keys are absent without an error.
+  /// A table; if it is missing, a table in which all keys are absent without an error.
   Section table(const Key& key);
   std::optional<Section> optional_table(const Key& key);
-  /// An array of tables, at least one; its paths count from 1: check[1].
+  /// An array of tables, at least one. Their paths count from 1: check[1].
   std::vector<Section> tables(std::string_view key);
 
   /// A table, or an array of tables.
@@ -97,14 +96,14 @@ class Section {
 
   /// Reports an error in the value of a key, present or missing.
   void reject(std::string_view key, std::string_view what, std::string_view expected);
-  /// The same for an error within what the key names, in one line.
+  /// The same for an error in the file or text that the key names, in one line.
   void reject(std::string_view key, const Error& error);
-  /// Reports that a key, or one of several, is missing; an unknown key is reported first.
+  /// Reports that a key, or one of several keys, is missing; an unknown key is reported first.
   void missing(std::string_view key, std::string_view expected);
   /// Rejects a key that is present but has no effect together with others.
   void refuse(std::string_view key, std::string_view what, std::string_view expected);
   /// Must be called after all keys have been requested: reports a key that was not requested, with the given
-  /// reason, or else a missing one.
+  /// reason, or otherwise a missing key.
   void finish(std::string_view unasked = "is unknown");
 
   /// The first error of the whole file.
@@ -114,7 +113,7 @@ class Section {
   struct State;
   struct File;
   std::optional<std::int64_t> whole_number(const Key& key, std::int64_t least, bool required);
-  /// For the reference: a key that may be missing, and is then not asked for.
+  /// Records for the reference a key that may be missing and is then not requested.
   void describe_optional(const Key& key, std::string_view type, const Limits& limits);
   explicit Section(std::shared_ptr<State> state) : state_(std::move(state)) {}
 

@@ -45,7 +45,7 @@ inline std::size_t line_of(const toml::node& node) { return node.source().begin.
 struct Section::File {
   std::string name;
   std::string folder;                // folder of the files that it names
-  std::uint64_t files_hash = 0;      // of the files that were read
+  std::uint64_t files_hash = 0;      // hash of the files that were read
   std::vector<std::string> files{};  // the files that were read
   toml::table root;
   std::optional<Error> error;

@@ -7,10 +7,10 @@
 namespace canhil::scenario {
 
 struct Setting {
-  std::string key;                    ///< with the tables around it: "master_ins.period_ms"
+  std::string key;                    ///< including the tables around it: "master_ins.period_ms"
   std::string value;                  ///< as TOML text
-  std::vector<std::string> elements;  ///< of an array, each as TOML text
-  int line = 0;                       ///< where it is written
+  std::vector<std::string> elements;  ///< elements of an array, each as TOML text
+  int line = 0;                       ///< line of its definition
 };
 
 }  // namespace canhil::scenario

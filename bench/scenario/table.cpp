@@ -21,7 +21,7 @@ constexpr std::array<Endings, 6> of_one_dimension{{{"_s", "_ms", "_us"},
                                                    {"_mps2", "_g", "_ug"},
                                                    {"_m"}}};
 
-/// The name with each unit that it may have, its own unit first.
+/// The column's name with each permitted unit, its own unit first.
 std::vector<std::string> names_of(std::string_view name) {
   std::vector<std::string> names{std::string(name)};
   for (const Endings& endings : of_one_dimension) {
@@ -68,7 +68,7 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-/// Shows a user's text on one line as far as possible.
+/// Formats a user's text to fit one line as far as possible.
 std::string shown(std::string_view text) {
   constexpr std::size_t most = 40;
   std::string part(text.substr(0, most));

@@ -1,10 +1,8 @@
-// A recording as numbers by column name. Any converter from another format to a Table (such as a log with a
-// mapping of its signals) makes that format usable like a CSV file.
-//
-// A CSV file has a first line of names, and one row of numbers per line, separated by commas. A name has its
-// unit as suffix, as keys of a scenario have; any unit of the quantity is accepted: roll_deg, roll_rad or
-// roll_mrad. Columns that are not requested may contain anything. Columns that nobody asks for may hold
-// anything.
+// A recording as numbers by column name. A converter from another format to a Table (such as a log with a
+// mapping of its signals) makes that format usable like a CSV file. A CSV file has a first line of names,
+// then one row of numbers per line, separated by commas. A name has its unit as suffix, like the keys of a
+// scenario. Any unit of the quantity is accepted: roll_deg, roll_rad or roll_mrad. Columns that are not
+// requested may contain anything.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +19,9 @@ namespace canhil::scenario {
 struct Table {
   std::string file;                ///< its name in messages
   std::vector<std::string> asked;  ///< requested names, each with the unit of the values here
-  std::vector<std::string> found;  ///< for each of them the column's own name; empty: absent
-  std::vector<double> values;      ///< row by row, one for each name; 0 for an absent column
-  std::vector<std::size_t> lines;  ///< for each row its line in the file
+  std::vector<std::string> found;  ///< for each requested name, the column's name in the file; empty: absent
+  std::vector<double> values;      ///< row by row, one value for each requested name; 0 for an absent column
+  std::vector<std::size_t> lines;  ///< for each row, its line in the file
 
   [[nodiscard]] std::size_t rows() const { return lines.size(); }
   [[nodiscard]] bool has(std::size_t index) const { return !found[index].empty(); }
@@ -52,7 +50,7 @@ struct Rows {
 Result<Rows> covering(const Table& table, std::size_t index, std::span<const std::int64_t> t_us,
                       std::int64_t end_us, std::int64_t gap_us);
 
-/// The median of the steps between these times; at least two times.
+/// The median of the differences between successive times; needs at least two times.
 std::int64_t median_step(std::span<const std::int64_t> ascending);
 
 /// Size limit of a recording.

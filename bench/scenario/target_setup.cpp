@@ -53,7 +53,7 @@ std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& con
   return parameters;
 }
 
-/// Without a handshake the target receives nothing, so nothing can be set.
+/// Without a handshake the target receives no parameters or initial state, so none can be set.
 TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
   static const std::vector<std::string> none{"none"};
   section.one_of({"handshake", "With `mapping`: the target gets no commands."}, none, none.front());
@@ -86,7 +86,8 @@ TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
   target.algorithm = section.one_of(
       {"algorithm", "Algorithm of that estimator, of the DBC's value table Algorithm."}, contract.algorithms);
   target.algorithm_where = fmt::format("{}: key '{}'", section.where("algorithm"), section.path("algorithm"));
-  // Every target receives an initial state at the start; an estimator that does not navigate ignores it.
+  // Every target receives an initial state at the start; an estimator that does not navigate ignores this
+  // state.
   const EstimatorFacts facts = facts_of(contract, target.estimator);
   if (facts.start != Start::nothing || section.has("initial_sigma"))
     target.initial_sigma = read_initial_sigma(section.table("initial_sigma"), target);

@@ -13,24 +13,24 @@ namespace canhil::scenario {
 
 class Section;
 
-/// The 1-sigma uncertainty of the initial state, which the target receives with it (TargetInit*).
+/// The 1-sigma uncertainty of the initial state; the target receives both (TargetInit*).
 struct InitialSigma {
-  double velocity = 0;  ///< of each component [m/s]
-  double tilt = 0;      ///< of the misalignments about north and east [rad]
-  double heading = 0;   ///< of the misalignment about down [rad]
-  double position = 0;  ///< of each component [m]
+  double velocity = 0;  ///< each component [m/s]
+  double tilt = 0;      ///< misalignments about north and east [rad]
+  double heading = 0;   ///< misalignment about down [rad]
+  double position = 0;  ///< each component [m]
 };
 
-/// One ParamSet. Parameters are sent in the unit of their name, so they stay in it here.
+/// One ParamSet. The value keeps the unit in the parameter's name, because it is sent in this unit.
 struct Parameter {
   std::string name;
   double value = 0;
   std::string where{};  ///< in the scenario, for messages: "my.toml:31: key 'target.parameters.h2_case'"
 };
 
-/// For a target that receives nothing at the start (DbcVocabulary::foreign).
+/// Settings for a target that receives nothing at the start (DbcVocabulary::foreign).
 struct OwnStart {
-  std::int64_t settle_us = 0;   ///< from the start of target or bench to the first sample
+  std::int64_t settle_us = 0;   ///< time from the start of target or bench to the first sample
   std::int64_t silence_us = 0;  ///< a target silent for longer counts as gone
   std::string before, after;    ///< shell commands around the run: power, relays; empty: none
 };
@@ -40,9 +40,9 @@ struct TargetSetup {
   std::string algorithm;          ///< a name of Algorithm
   std::string algorithm_where{};  ///< in the scenario, for messages: "my.toml:9: key 'target.algorithm'"
   InitialSigma initial_sigma;
-  std::optional<world::InitialErrorModel> initial_error{};  ///< replaces the scenario's
+  std::optional<world::InitialErrorModel> initial_error{};  ///< replaces the scenario's initial_error
   std::vector<Parameter> parameters;                        ///< in the DBC's order
-  std::optional<OwnStart> own_start{};                      ///< none: configured by canhil's handshake
+  std::optional<OwnStart> own_start{};                      ///< none: the handshake configures the target
 };
 
 /// All estimators of the target: at least one, without duplicates.

@@ -1,5 +1,5 @@
-// Reads [truth]: where the carrier starts and how it moves. A new motion needs a reader in truth.cpp and a
-// line in its table; a recorded or unknown flight is in recorded_flight.cpp.
+// Reads [truth]: the start and the motion of the carrier. A new motion needs a reader and a line in the table
+// of truth.cpp; recorded_flight.cpp reads a recorded or an unknown flight.
 #pragma once
 
 #include "bench/world/motion.hpp"

@@ -21,8 +21,8 @@ int open_in(const std::string& folder) {
   return named;
 }
 
-// -1: not possible. The blocks are allocated at once: otherwise a page fault on a full disk would kill the
-// program.
+// Returns -1 if no file can be made. The blocks are allocated at once: otherwise a page fault on a full disk
+// would kill the program.
 int open_file(std::size_t bytes) {
   const char* folder = std::getenv("TMPDIR");
   const int file = open_in(folder != nullptr && *folder != '\0' ? folder : "/var/tmp");

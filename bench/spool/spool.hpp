@@ -1,4 +1,4 @@
-// Append-only series of values in bounded memory: what a run collects.
+// Append-only series of values in bounded memory, for the data that a run collects.
 //
 // The first two megabytes are in memory. The rest is in an unnamed mapped file: pages are loaded on access
 // and released behind the reader, so a pass over a day needs no more memory than a pass over a minute.

@@ -13,7 +13,7 @@ namespace {
 
 std::string at(std::int64_t t_us) { return fmt::format("{:g} s", static_cast<double>(t_us) * 1e-6); }
 
-// The first value or sigma that is not a number; empty: there is none.
+// The first value or sigma that is not finite; empty: all are finite.
 std::string no_number(const Evidence& evidence, const std::vector<Subject>& subjects) {
   for (const Subject& subject : subjects) {
     for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity)) {

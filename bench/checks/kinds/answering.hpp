@@ -1,5 +1,5 @@
-// A target keeps answering whatever its inputs do: answers and heartbeats without gaps, finite values, whole
-// frames.
+// Checks that a target keeps answering, whatever its inputs do: answers and heartbeats without gaps, finite
+// values, whole frames.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"
@@ -11,7 +11,7 @@ struct Answering {
   static constexpr std::string_view meaning =
       "Passes when answers and heartbeats come without a gap, all values are numbers, and no frame of the "
       "target is damaged.";
-  std::vector<Subject> judged;  ///< reported with every answer
+  std::vector<Subject> judged;  ///< quantities that are reported with every answer
   /// Windows in which answers may be missing: faults of the scenario, which may leave no input to answer.
   std::vector<scenario::Window> excused;
 

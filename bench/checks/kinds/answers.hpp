@@ -13,7 +13,7 @@ struct Answers {
   struct Count {
     std::string mark;  ///< one of the estimator's marks
     std::optional<std::int64_t> at_least{}, at_most{};
-    std::optional<std::int64_t> before_us{};  ///< the first must come earlier than this
+    std::optional<std::int64_t> before_us{};  ///< the first such answer must come earlier than this
   };
   std::string estimator;
   scenario::Window window;

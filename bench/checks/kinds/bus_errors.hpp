@@ -5,14 +5,14 @@
 
 namespace canhil::checks {
 
-/// Limits; an absent one is not judged.
+/// Limits; an absent limit is not judged.
 struct BusErrorLimits {
   static constexpr std::string_view kind = "bus_errors";
   static constexpr std::string_view meaning = "Passes when each count of bus errors stays within its bound.";
   std::int64_t bus_off_at_most = 0;
-  std::int64_t down_at_most = 0;  ///< of the bench's interface
+  std::int64_t down_at_most = 0;  ///< outages of the bench's interface
   std::optional<std::int64_t> passive_at_most{}, warning_at_most{}, error_frames_at_most{};
-  std::optional<std::int64_t> late_in_queue_at_most{};  ///< frames of the bench
+  std::optional<std::int64_t> late_in_queue_at_most{};  ///< frames of the bench that were late in the queue
 
   static BusErrorLimits read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] Finding judge(const Evidence& evidence) const;

@@ -5,14 +5,14 @@
 
 namespace canhil::checks {
 
-/// Judged for the bus of the rule, and also for the run's own bus if its rate differs.
+/// Judged for the bit rates of the rule, and also for the run's own bus if its rates differ.
 struct BusLoad {
   static constexpr std::string_view kind = "bus_load";
   static constexpr std::string_view meaning =
       "Passes when all frames, by their exact length, keep the bus busy for less than that share of each "
       "whole second.";
   std::int64_t bitrate = 0;       ///< [bit/s]
-  std::int64_t data_bitrate = 0;  ///< of the data phase of FD frames [bit/s]; 0: the nominal rate
+  std::int64_t data_bitrate = 0;  ///< bit rate of the data phase of FD frames [bit/s]; 0: the nominal rate
   double below = 0;               ///< fraction: 0.5 is 50 %
 
   static BusLoad read(scenario::Section& section, const scenario::CheckContext& context);

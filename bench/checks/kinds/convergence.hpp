@@ -14,7 +14,7 @@ struct Convergence {
   double within = 0;  ///< [SI]
   quantities::Unit unit{};
   std::int64_t before_us = 0;
-  std::int64_t end_us = 0;  ///< of the run
+  std::int64_t end_us = 0;  ///< end of the run
 
   static Convergence read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return judged.text; }

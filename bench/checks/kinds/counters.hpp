@@ -7,7 +7,7 @@
 
 namespace canhil::checks {
 
-/// Limits; an absent one is not judged.
+/// Limits; an absent limit is not judged.
 struct Counters {
   static constexpr std::string_view kind = "counters";
   static constexpr std::string_view meaning =

@@ -24,7 +24,8 @@ Finding DetectedWithin::judge(const Evidence& evidence) const {
                   seconds_of(within_us), disturbance.to_text());
   const std::vector<Sign> signs = signs_of(evidence, disturbance, by);
   const std::int64_t onset_us = disturbance.window.from_us;
-  // The time of a cause may precede the onset: its sample was measured before and sent after.
+  // The cause of a sign may be valid before the onset: its sample was measured before and sent after the
+  // onset.
   const auto first = first_in(signs, disturbance.valid_from_us, evidence.truth.duration_us);
   if (!first) return {Outcome::fail, "no sign", expected};
   const std::int64_t after_us = std::max<std::int64_t>(first->t_us - onset_us, 0);

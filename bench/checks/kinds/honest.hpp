@@ -1,5 +1,4 @@
-// No answer is both confident and wrong: unless it reports degraded or blind, its error is not far beyond its
-// sigma.
+// Every answer either reports degraded or blind, or has an error within a multiple of its sigma.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"

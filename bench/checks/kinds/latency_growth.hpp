@@ -5,7 +5,7 @@
 
 namespace canhil::checks {
 
-/// The median latency of the window's last third divided by that of its first.
+/// The median latency in the window's last third, divided by the median latency in its first third.
 struct LatencyGrowth {
   static constexpr std::string_view kind = "latency_growth";
   static constexpr std::string_view meaning =

@@ -12,20 +12,20 @@
 
 namespace canhil::checks {
 
-/// A stretch of the run with trouble: a fault of the scenario, or times that the check gives.
+/// A disturbed interval of the run: a fault of the scenario, or times given in the check.
 struct Disturbance {
   std::string fault;        ///< its name; empty: the check gives times
   scenario::Window window;  ///< by time of transmission
-  /// The earliest time of validity that it can affect: nodes send later than they measure.
+  /// The earliest time of validity that the disturbance can affect: nodes measure before they send.
   std::int64_t valid_from_us = 0;
   [[nodiscard]] std::string to_text() const;  ///< "fault 'NAME'", "10 s"
 };
 
-/// The fault of the scenario that `fault` names; none: the key is absent. Error: an unknown name, with the
-/// known ones.
+/// The fault that the key `fault` names; none: the key is absent. Error: an unknown name; the message lists
+/// the known names.
 std::optional<Disturbance> read_fault(scenario::Section& section, const scenario::CheckContext& context);
 
-/// `fault`, or the time of a disturbance, `from_s`.
+/// Reads `fault`, or the time of a disturbance, `from_s`.
 Disturbance read_disturbance(scenario::Section& section, const scenario::CheckContext& context);
 
 /// Reads `within_s` and adds it to a time. Error: the sum lies after the end of the run.
@@ -46,8 +46,8 @@ std::vector<const estimators::Estimator*> running(const scenario::CheckContext& 
 /// answer.
 std::vector<Subject> always_reported(const estimators::Estimator& estimator);
 
-/// Which quantity is silent in a stretch, and when; empty: none. A stretch no longer than the longest regular
-/// wait for an answer contains no silence.
+/// The quantity that is silent in a stretch, and the time; empty: none. A stretch no longer than the longest
+/// regular wait for an answer contains no silence.
 std::string silence_of(const Evidence& evidence, const std::vector<Subject>& subjects,
                        const scenario::Window& window);
 

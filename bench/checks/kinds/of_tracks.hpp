@@ -12,8 +12,8 @@
 
 namespace canhil::checks {
 
-/// `quantity`, and `estimator` where several running estimators report it. Error: no running estimator
-/// reports it, or this kind of check cannot use it.
+/// Reads `quantity`, and `estimator` if several running estimators report the quantity. Error: no running
+/// estimator reports it, or this kind of check cannot use it.
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
                      const std::function<bool(const quantities::Quantity&)>& wanted);
 /// The estimator that `estimator` names, or the only candidate.
@@ -48,7 +48,8 @@ using Places = Spool<std::size_t>;
 /// The points within a stretch.
 Places inside(const quantities::Track& track, const Stretch& stretch);
 
-/// Where answers are missing in a stretch; empty: nowhere. `part`: the indices of the points within it.
+/// Describes where answers are missing in a stretch; empty: nowhere. `part`: the indices of the points in the
+/// stretch.
 std::string silence(const quantities::Track& track, const Stretch& stretch, const Places& part);
 
 }  // namespace canhil::checks

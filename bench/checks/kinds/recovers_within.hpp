@@ -16,7 +16,7 @@ struct RecoversWithin {
   std::optional<Subject> error{};  ///< the quantity whose error must be below `below` again
   double below = 0;                ///< [SI]
   quantities::Unit unit{};
-  std::vector<Subject> answering;  ///< silence of these quantities is not recovery
+  std::vector<Subject> answering;  ///< these quantities must be answered: silence is not recovery
 
   static RecoversWithin read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const;

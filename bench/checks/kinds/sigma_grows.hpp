@@ -12,7 +12,7 @@ struct SigmaGrows {
   Subject judged;
   std::string fault;  ///< empty: the check gives the window
   scenario::Window window;
-  double by = 1;  ///< the factor that it must exceed
+  double by = 1;  ///< sigma must grow by more than this factor
 
   static SigmaGrows read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return judged.text; }

@@ -43,7 +43,7 @@ Finding WireResponseRule::judge(const Evidence& evidence) const {
   constexpr double bar_s = 1e-3;
   Finding finding = against_bounds(evidence.seen);
   if (finding.outcome != Outcome::fail) return finding;
-  // A host that stops a program between two frames delays them without any fault of the bus.
+  // If the host stops a program between two frames, the frames are late although the bus has no fault.
   if (auto why = unfit(evidence, 1, bar_s); !why.empty())
     return {Outcome::not_measured, std::move(why), std::move(finding.expected)};
   return finding;
