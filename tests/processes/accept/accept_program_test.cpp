@@ -164,8 +164,8 @@ TEST_F(Accept, BadInputIsOneLine) {
   expect_one_line(accept("--tolerance 0"), "--tolerance");
   expect_one_line(accept("--html /no/such/folder/a.html"), "/no/such/folder/a.html");
   expect_one_line(hil_bench("accept --suites /no/such/folder"), "/no/such/folder: has no suites");
-  expect_one_line(accept(judged),
-                  "reference/one.txt: cannot be read");  // the reference has not been recorded yet
+  // The reference has not been recorded yet.
+  expect_one_line(accept(judged), "reference/one.txt: cannot be read");
   change("suite.toml", "family = \"errors\"", "family = \"error\"");
   expect_one_line(accept("--record"), "small/suite.toml:7: key 'requirement[1].family'");
 }

@@ -125,8 +125,7 @@ TEST(Killed, AndResumedItLosesAndRepeatsNothing) {
   EXPECT_GT(killed, kills / 2) << "the campaign was over too early to be killed";
   expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));
   EXPECT_TRUE(merged(at) == merged(calm));
-  expect_done(
-      hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));  // all runs are finished already
+  expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));  // all runs are done
 }
 
 TEST(Interrupted, KeepsWhatItHasAndSaysHowToGoOn) {
@@ -393,7 +392,7 @@ std::string hil_bench_of_nobody() {
   return "setpriv --reuid=65534 --regid=65534 --clear-groups " + scratch("hil-bench");
 }
 
-// It is a separate program, which may not be built.
+// hil-bench campaign starts a separate program, which may not have been built.
 TEST(CampaignBadInput, WithoutItsProgramIsOneLineThatSaysHowItIsMade) {
   const std::string alone = folder("alone") + "/hil-bench";
   fs::copy_file(HIL_BENCH, alone);

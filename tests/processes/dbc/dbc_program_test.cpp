@@ -57,8 +57,8 @@ TEST(DbcLint, ExitCodeSaysWhetherEveryFileIsTaken) {
               HasSubstr("error unreadable-message: unexpected ':', expected the name of the message; "
                         "the file is refused\n"));
   EXPECT_THAT(refused.out, HasSubstr("refused.dbc: refused, 1 error\n"));
-  EXPECT_THAT(refused.out,
-              HasSubstr("1 message, 1 signal, 2 warnings, 1 note\n"));  // the next file is checked too
+  // The next file is checked too.
+  EXPECT_THAT(refused.out, HasSubstr("1 message, 1 signal, 2 warnings, 1 note\n"));
 }
 
 TEST(DbcLint, WritesJson) {

@@ -215,8 +215,8 @@ TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
   double sum_s = 0;
   for (const auto& [part, mean] : page["split"]["parts_s"].items()) {
     ASSERT_TRUE(mean.is_number()) << part;
-    const bool is_rest =
-        part == "not_explained";  // may be negative: bench and target average over different stimuli
+    // The rest may be negative: bench and target average over different stimuli.
+    const bool is_rest = part == "not_explained";
     EXPECT_TRUE(is_rest || mean.get<double>() >= 0) << part;
     sum_s += mean.get<double>();
   }

@@ -38,8 +38,8 @@ TEST(Bars, OfTimeWithin) {
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\n"), std::nullopt);
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 0.2\n"), true);
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 0.19\n"), false);
-  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 9.0\n", 1),
-            false);  // B never comes within 3 mrad
+  // B never comes within 3 mrad.
+  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 9.0\n", 1), false);
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 0.3\n"), false);
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 0.2\n"), true);
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 9.0\n", 1), true);
@@ -48,10 +48,8 @@ TEST(Bars, OfTimeWithin) {
 TEST(Bars, OfLead) {
   EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 8.5\nother = 'B'\nat_least_s = 0.0\n"), true);
   EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 8.5\nother = 'B'\nat_least_s = 0.1\n"), false);
-  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'B'\nat_least_s = 5.0\n"),
-            true);  // B never comes within 3 mrad
-  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'A'\nat_least_s = 0.0\n"),
-            false);  // A compared with A
+  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'B'\nat_least_s = 5.0\n"), true);   // B never
+  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'A'\nat_least_s = 0.0\n"), false);  // itself
 }
 
 TEST(Bars, OfValuesWindowsPairsAndDivergence) {

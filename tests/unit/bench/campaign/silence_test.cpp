@@ -109,8 +109,8 @@ TEST(LostFixes, AreNoUpdatesOfAWindow) {
 }
 
 TEST(LostFixes, TooManyInARowAreASilence) {
-  const std::vector runs{run_silent(end_us, end_us),
-                         run_silent(2 * s_us, 4 * s_us)};  // silent for 2 s, age limit 1 s
+  // One run is silent for 2 s; the age limit is 1 s.
+  const std::vector runs{run_silent(end_us, end_us), run_silent(2 * s_us, 4 * s_us)};
   EXPECT_EQ(value_at(rms_curve(runs, heading), 3 * s_us)->missing, 0U);
   EXPECT_EQ(value_at(rms_curve(runs, heading), 7 * s_us / 2)->missing, 1U);
   EXPECT_EQ(window_statistics(runs, heading, 0, end_us).missing, 1U);

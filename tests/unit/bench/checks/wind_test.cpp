@@ -114,8 +114,8 @@ TEST_F(Winds, NeesTakesTheCorrelationIn) {
 
 TEST_F(Winds, ACovarianceThatIsNoneExplainsNothing) {
   seen_.of<WindAnswers>()[0].wind_n += Vector3(1, -1, 0);
-  seen_.of<WindAnswers>()[0].correlation = {
-      0.9, 0.9, -0.9};  // not positive definite: no three quantities have these correlations
+  // Not positive definite: no three quantities have these correlations.
+  seen_.of<WindAnswers>()[0].correlation = {0.9, 0.9, -0.9};
   EXPECT_TRUE(std::isinf(nees_of(seen_.of<WindAnswers>(), glide_)[0].value));
   EXPECT_EQ(consistency(quantities::wind_nees, MeanBetween{.low = 0, .high = 1e9}).outcome, Outcome::fail);
 }

@@ -63,8 +63,8 @@ TEST_F(OnTheWire, TheBoundIsOfTheMessagesThatWereSeen) {
 
 TEST_F(OnTheWire, TheBoundIsThatOfTheOrderInWhichNodesSend) {
   heartbeats(4);
-  seen_.timing.wire.urgent_first =
-      true;  // a heartbeat can be on the wire, but none is queued before the answer
+  // A heartbeat can be on the wire, but none is queued before the answer.
+  seen_.timing.wire.urgent_first = true;
   EXPECT_EQ(bound_of("SlaveImuStatus"), 2 * frame_ns);
   EXPECT_EQ(bound_of("AlignAttitude"), 3 * frame_ns);
 }

@@ -241,8 +241,8 @@ TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
   const auto back = std::ranges::find(bus.incidents, BusEvent::restarted, &checks::BusIncident::event);
   ASSERT_TRUE(off < back && back != bus.incidents.end());
   EXPECT_GE(back->t_ns - off->t_ns, 128 * 11 * 2'000);
-  ASSERT_NE(find_check(run, "bus_errors"),
-            nullptr);  // this check is implied if the scenario does not contain it
+  // This check is implied if the scenario does not contain it.
+  ASSERT_NE(find_check(run, "bus_errors"), nullptr);
   EXPECT_EQ(find_check(run, "bus_errors")->outcome, checks::Outcome::fail);
 
   checks::BusErrorLimits limits;

@@ -315,8 +315,8 @@ TEST_F(GuidedSeeker, TheSameFlightHoweverEarlyAnswersAreHeard) {
   Bench at_once(exact(), guided()), in_pairs(exact(), guided());
   const double first = miss(at_once, truthful);
   const double second = miss(in_pairs, [](Bench& bench, const world::EngagementTruth& epoch) {
-    if (epoch.t_us % 10'000 != 0)
-      return;  // the answers to the samples of 5 and 10 ms arrive together after 10 ms
+    // The answers to the samples of 5 and 10 ms arrive together after 10 ms.
+    if (epoch.t_us % 10'000 != 0) return;
     const auto& epochs = bench.record().epochs;
     if (epochs.size() > 1) truthful(bench, epochs[epochs.size() - 2]);
     truthful(bench, epoch);

@@ -115,8 +115,8 @@ TEST(Engagement, LosRatesObeyTheFiltersEquations) {
                                .yaw = mean(before.los_rate.yaw, after.los_rate.yaw)};
         const double a_z = mean(before.target.pitch, after.target.pitch) - increment.mean_acceleration.z();
         const double a_y = mean(before.target.yaw, after.target.yaw) - increment.mean_acceleration.y();
-        const double tolerance =
-            2e-5 + 0.02 * std::abs(growth * w.pitch);  // the error angle e times the terms along the LOS
+        // The tolerance allows for the error angle e times the terms along the LOS.
+        const double tolerance = 2e-5 + 0.02 * std::abs(growth * w.pitch);
         ASSERT_NEAR((after.los_rate.pitch - before.los_rate.pitch) / dt,
                     growth * w.pitch - a_z / r + 3 * w.yaw, tolerance)
             << r;

@@ -70,8 +70,8 @@ double random_value(std::mt19937_64& random, const SignalInfo& info) {
     case 4:
       return std::bit_cast<double>(random());
     case 5:
-      return info.offset +
-             (std::floor(inside(random) / info.scale) + 0.5) * info.scale;  // close to a rounding tie
+      // Close to a rounding tie.
+      return info.offset + (std::floor(inside(random) / info.scale) + 0.5) * info.scale;
     default:
       return inside(random);
   }

@@ -135,8 +135,8 @@ TEST(SimulatedWire, AnErrorPassiveReceiverDisturbsNobody) {
   const auto carried = wire.next(long_enough);
   ASSERT_TRUE(carried);
   EXPECT_EQ(carried->attempts, 16);  // 15 times 9 are 135, above 127
-  EXPECT_EQ(wire.receive_errors(1),
-            119);  // after a frame without error, a passive receiver continues from 119
+  // After a frame without error, a passive receiver continues from 119.
+  EXPECT_EQ(wire.receive_errors(1), 119);
   EXPECT_EQ(wire.state(1), NodeState::error_active);
 }
 

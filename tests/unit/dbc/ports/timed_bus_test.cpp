@@ -68,8 +68,8 @@ TEST_F(TimedBus, TheHostHearsItsOwnFrameWhenItIsOver) {
   const auto echo = next_frame(*hub);
   ASSERT_TRUE(echo);
   EXPECT_TRUE(echo->own);
-  EXPECT_GE(echo->t_ns, before_ns + duration_ns(frame_of(5, {1}), rates) -
-                            300'000);  // the stamp excludes the intermission
+  // The stamp excludes the intermission.
+  EXPECT_GE(echo->t_ns, before_ns + duration_ns(frame_of(5, {1}), rates) - 300'000);
   const auto there = next_frame(*node);
   ASSERT_TRUE(there);
   EXPECT_EQ(there->t_ns, echo->t_ns);

@@ -76,8 +76,8 @@ TEST(InflightAlignment, AnswersEachFixNamingItsCause) {
   const auto position = bench.all<FixPositionLatitude>()[0];
   EXPECT_GT(position.latitude_deg, latitude_deg + 1 / metres_per_degree);
   EXPECT_LT(position.latitude_deg, latitude_deg + 3 / metres_per_degree);
-  EXPECT_NEAR(bench.all<FixPositionSigma>()[0].position_sigma_north_m, 2,
-              0.1);  // prior sigma 10 m, fix sigma 2 m
+  // Prior sigma 10 m, fix sigma 2 m.
+  EXPECT_NEAR(bench.all<FixPositionSigma>()[0].position_sigma_north_m, 2, 0.1);
   EXPECT_GT(bench.all<FixAttitudeSigma>()[0].heading_sigma_deg, 20);
   EXPECT_NEAR(bench.all<FixAttitudeSigma>()[0].tilt_sigma_east_deg, 1, 0.05);
   EXPECT_NEAR(bench.all<FixAccelBiasSigma>()[0].accel_bias_sigma_x_ug, 1000, 10);

@@ -101,9 +101,8 @@ TEST_P(BadNavigation, IsNamedCoastedOverAndForgotten) {
     const auto sigmas = bench.all<WindSigma>();
     ASSERT_EQ(status.size(), rows);
     const std::size_t noticed = GetParam().fault == WindFault::stale ? bad_from + 6 : bad_from;
-    const std::size_t last = GetParam().fault == WindFault::jump
-                                 ? bad_from + 20
-                                 : bad_to;  // a persistent jump is accepted after 20 samples
+    // A persistent jump is accepted after 20 samples.
+    const std::size_t last = GetParam().fault == WindFault::jump ? bad_from + 20 : bad_to;
     for (std::size_t k = noticed; k < last; ++k) {
       ASSERT_EQ(status[k].outcome, WindOutcome::coasting) << k;
       ASSERT_EQ(status[k].fault, GetParam().fault) << k;
