@@ -1,4 +1,4 @@
-// hil-bench accept as a user starts it, with a small suite of its own and with those of the project.
+// hil-bench accept as a user starts it, with a small suite for this test and with the suites of the project.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -104,7 +104,7 @@ TEST_F(Accept, ATargetThatMeetsEveryRequirementPasses) {
   const auto report = read_json(json);
   EXPECT_EQ(report["outcome"], "pass");
   const std::size_t asked = report["suites"][0]["requirements"].size();
-  EXPECT_GT(asked, 20U);  // its own, and those of the protocol
+  EXPECT_GT(asked, 20U);  // the suite's own requirements and those of the protocol
   EXPECT_THAT(ended.out,
               HasSubstr(fmt::format("transfer_alignment: pass: {0} of {0} requirements met", asked)));
   EXPECT_EQ(shell("xmllint --noout " + junit).code, 0);
@@ -132,7 +132,7 @@ TEST_F(Accept, AMoveToTheOtherSideFails) {
 }
 
 TEST_F(Accept, AFaultThatDoesNotComeFails) {
-  change("suite.toml", "from_s = 1.0", "from_s = 2.95");  // too late to be a silence
+  change("suite.toml", "from_s = 1.0", "from_s = 2.95");  // too late to be detected as a silence
   ASSERT_EQ(accept("--family protocol").code, 0);
   const Ended ended = accept("--family 'flags and states'");
   EXPECT_EQ(ended.code, 1);
@@ -164,12 +164,13 @@ TEST_F(Accept, BadInputIsOneLine) {
   expect_one_line(accept("--tolerance 0"), "--tolerance");
   expect_one_line(accept("--html /no/such/folder/a.html"), "/no/such/folder/a.html");
   expect_one_line(hil_bench("accept --suites /no/such/folder"), "/no/such/folder: has no suites");
-  expect_one_line(accept(judged), "reference/one.txt: cannot be read");  // not recorded
+  // The reference has not been recorded yet.
+  expect_one_line(accept(judged), "reference/one.txt: cannot be read");
   change("suite.toml", "family = \"errors\"", "family = \"error\"");
   expect_one_line(accept("--record"), "small/suite.toml:7: key 'requirement[1].family'");
 }
 
-// Each suite without its long parts: the unchanged target passes.
+// The unchanged target passes each suite, here without its long parts.
 TEST(Suites, ProtocolAndStatesOfTheTargetPass) {
   const Ended ended = hil_bench("accept --family protocol --family parameters --estimator los_rate");
   EXPECT_EQ(ended.code, 0) << ended.out;

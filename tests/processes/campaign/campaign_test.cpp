@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-/// Two variants of the quick flight, with a sweep.
+/// Two variants of the quick flight, each with a sweep.
 std::string campaign_file(int runs = 30) {
   std::string file = scratch(fmt::format("campaign{}.toml", runs));
   std::ofstream(file) << fmt::format(R"(title = "Short"
@@ -115,7 +115,7 @@ TEST(Killed, AndResumedItLosesAndRepeatsNothing) {
   expect_done(hil_bench(fmt::format("campaign {} --out {}", file, calm)));
   const auto whole = std::chrono::steady_clock::now() - start;
 
-  // Times of kills spread over the whole campaign, including starts and commits.
+  // Kills spread over the whole duration of the campaign, including starts and commits.
   std::mt19937_64 random(20010101);
   int killed = 0;
   for (int i = 0; i < kills; ++i) {
@@ -125,7 +125,7 @@ TEST(Killed, AndResumedItLosesAndRepeatsNothing) {
   EXPECT_GT(killed, kills / 2) << "the campaign was over too early to be killed";
   expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));
   EXPECT_TRUE(merged(at) == merged(calm));
-  expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));  // nothing left to do
+  expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));  // all runs are done
 }
 
 TEST(Interrupted, KeepsWhatItHasAndSaysHowToGoOn) {
@@ -277,8 +277,8 @@ TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {
   expect_one_line(against("--unrounded --target " HIL_TARGET), "--unrounded");
 }
 
-// In process: the results are bit for bit those of the program, which takes ten times as long. With a
-// sanitizer, two runs are enough to test memory; the limits are for the number of runs in the file.
+// In process, because the program takes ten times as long for the same bits. With a sanitizer, two runs are
+// enough to test memory; the limits of the metrics apply to the number of runs in the file.
 TEST(Acceptance, TheTargetIsWithinTheBarsOfEveryCampaign) {
 #ifdef CANHIL_SANITIZED
   constexpr int runs = 2, worst_code = 1;
@@ -367,7 +367,7 @@ TEST(CampaignBadInput, WhatHasNoEffectOnAPaper) {
 
 TEST(CampaignBadInput, FullDiskLeavesWhatWasCommitted) {
   const std::string at = folder("full");
-  // No file may exceed 100 KiB: a write fails as on a full disk.
+  // No file may exceed 100 KiB, so a write fails as on a full disk.
   const auto while_full = [&](const std::string& more) {
     return shell(
         fmt::format("ulimit -f 100; {} campaign {} --out {} {}", HIL_BENCH, campaign_file(), at, more));
@@ -392,7 +392,7 @@ std::string hil_bench_of_nobody() {
   return "setpriv --reuid=65534 --regid=65534 --clear-groups " + scratch("hil-bench");
 }
 
-// It is a separate program, which may not be built.
+// hil-bench campaign starts a separate program, which may not have been built.
 TEST(CampaignBadInput, WithoutItsProgramIsOneLineThatSaysHowItIsMade) {
   const std::string alone = folder("alone") + "/hil-bench";
   fs::copy_file(HIL_BENCH, alone);

@@ -98,7 +98,7 @@ class Pipeline(unittest.TestCase):
             xml.etree.ElementTree.parse(f"{self.here}/reports/{bus}.xml")
             self.assertTrue(os.path.exists(f"{self.here}/reports/{bus}.html"))
         self.assertNotIn("no worse", output, "nothing to compare with yet")
-        # An equal second run is not worse. A run whose target fails a check that passed before is worse.
+        # A second run with equal results is not worse. A run whose target fails a previously passed check is worse.
         compare = [step for step in steps if "hil-bench compare" in step]
         self.assertEqual(len(compare), 1)
         self.keep()

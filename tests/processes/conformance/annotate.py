@@ -48,7 +48,7 @@ def main():
         if "dbc_hash" in values:
             values["dbc_hash"] = f"{values['dbc_hash']:06x}"
         said = ", ".join(f"{signal} {shown(value)}" for signal, value in values.items()
-                         if value or name != "TargetHeartbeat")  # of the error flags, only those that are set
+                         if value or name != "TargetHeartbeat")  # prints only the error flags that are set
         side = "target" if group in FROM_TARGET else "bench "
         print(f"{side}  {identifier}#{data}  {name}: {said}")
         left -= 1

@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Conformance, EstimatorOfHilTarget,
 
 struct Defect {
   const char* name;                // a class of defective_target.py
-  std::set<std::string> expected;  // the rules that name it, and no other
+  std::set<std::string> expected;  // exactly the rules that must detect it
   friend void PrintTo(const Defect& defect, std::ostream* out) { *out << defect.name; }
 };
 
@@ -76,7 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
     Conformance, Defective,
     testing::Values(Defect{"SlowBeat", {"P-BEAT"}}, Defect{"AnyContract", {"P-CONTRACT"}},
                     Defect{"AnyEstimator", {"P-ESTIMATOR"}}, Defect{"UnknownCommand", {"P-COMMAND"}},
-                    // Both rules: a target that needs no initial state needs no complete one either.
+                    // Both rules fail: a target that needs no initial state does not need a complete one
+                    // either.
                     Defect{"NoStateNeeded", {"P-NO-STATE", "P-WHOLE-STATE"}},
                     Defect{"HalfState", {"P-WHOLE-STATE"}}, Defect{"DeafToRepetition", {"P-REPEAT"}},
                     Defect{"EarlyAnswers", {"P-BEFORE"}}, Defect{"NoStop", {"P-STOP"}},
@@ -85,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Defect{"EarlyStepDone", {"P-STEP"}}, Defect{"WrongAnswerCrc", {"P-PROTECT"}},
                     Defect{"Disorder", {"P-GROUP"}}, Defect{"OwnCause", {"P-CAUSE"}},
                     Defect{"Chance", {"P-REPLAY"}}, Defect{"NoWrap", {"P-WRAP"}},
-                    // Damaged frames are counted nowhere.
+                    // This target does not detect damaged frames, so it does not count them either.
                     Defect{"AnyCrc", {"P-COUNT", "P-CRC"}}, Defect{"AnySize", {"P-SIZE"}},
                     Defect{"Repetitions", {"P-TWICE"}}, Defect{"NoLosses", {"P-LOST"}},
                     Defect{"HalfSamples", {"P-HALF"}}, Defect{"EightBits", {"P-COUNT"}},

@@ -1,4 +1,5 @@
-// The kit for own targets: both examples reach a verdict with the same bits, and its tables match the DBC.
+// The kit for user-written targets: both examples give the same bits and a verdict, and its tables match the
+// DBC.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -68,7 +69,7 @@ TEST(Kit, CAndPythonAnswerWithTheSameBits) {
   EXPECT_THAT(hil_bench("diverge" + logs).out, HasSubstr("same: "));
 }
 
-// The target has its own arguments; a golden flight with other arguments differs.
+// The target receives its own arguments; a golden flight with other arguments differs.
 TEST(Kit, ArgumentsReachTheTarget) {
   const std::string folder = scratch("kit_golden");
   shell("rm -rf " + folder);
@@ -84,7 +85,7 @@ TEST(Kit, ArgumentsReachTheTarget) {
 
 const std::string own_target = read(SOURCE_DIR "/docs/own-target.md");
 
-// On a stalled host the bench repeats commands; such a recording is made again.
+// On a stalled host the bench repeats commands; such a recording is repeated.
 TEST(Documentation, HandshakeIsThatOfARun) {
   const std::string log = scratch("handshake.log");
   Ended annotated;

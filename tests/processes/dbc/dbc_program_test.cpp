@@ -57,7 +57,8 @@ TEST(DbcLint, ExitCodeSaysWhetherEveryFileIsTaken) {
               HasSubstr("error unreadable-message: unexpected ':', expected the name of the message; "
                         "the file is refused\n"));
   EXPECT_THAT(refused.out, HasSubstr("refused.dbc: refused, 1 error\n"));
-  EXPECT_THAT(refused.out, HasSubstr("1 message, 1 signal, 2 warnings, 1 note\n"));  // the next file too
+  // The next file is checked too.
+  EXPECT_THAT(refused.out, HasSubstr("1 message, 1 signal, 2 warnings, 1 note\n"));
 }
 
 TEST(DbcLint, WritesJson) {
@@ -80,7 +81,7 @@ TEST(DbcLint, WritesSarif) {
   const std::string path = scratch("lint.sarif");
   const Ended ended = hil_bench(fmt::format("dbc lint --sarif '{}' '{}'", path, odd_file()));
   EXPECT_EQ(ended.code, 0);
-  EXPECT_THAT(ended.out, HasSubstr("undeclared-node"));  // the text too
+  EXPECT_THAT(ended.out, HasSubstr("undeclared-node"));  // the text report is printed too
   const nlohmann::json log = read_json(path);
   EXPECT_EQ(log["version"], "2.1.0");
   const nlohmann::json& run = log["runs"][0];
@@ -95,7 +96,7 @@ TEST(DbcLint, WritesSarif) {
   EXPECT_EQ(place["region"]["startColumn"], 6);
   EXPECT_THAT(place["artifactLocation"]["uri"].get<std::string>(), StartsWith("file:///"));
   EXPECT_THAT(place["artifactLocation"]["uri"].get<std::string>(), HasSubstr("odd%20file.dbc"));
-  // On standard output only.
+  // With `-`, standard output contains only the SARIF log.
   const Ended alone = hil_bench(fmt::format("dbc lint --sarif - '{}'", odd_file()));
   EXPECT_EQ(json_of(alone.out), log);
 }
@@ -104,7 +105,7 @@ TEST(DbcLint, BadInputIsOneLine) {
   expect_one_line(hil_bench("dbc"), "A subcommand is required");
   expect_one_line(hil_bench("dbc lint"), "FILE is required");
   expect_one_line(hil_bench("dbc lint /nowhere.dbc"), "/nowhere.dbc: cannot be read");
-  // Findings of the first file are not printed either.
+  // If the second file cannot be read, the findings of the first are not printed.
   expect_one_line(hil_bench(fmt::format("dbc lint '{}' /nowhere.dbc", odd_file())),
                   "/nowhere.dbc: cannot be read");
   expect_one_line(hil_bench(fmt::format("dbc lint --json --sarif - {}", canhil_dbc)), "expected one of them");

@@ -1,5 +1,5 @@
 // hil-bench faults: the matrix, the same bytes after kills and with shards, and a reduced scenario that still
-// shows its violation.
+// shows the violation.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ std::string file(const std::string& name, const std::string& text) {
   return path;
 }
 
-// Faults of a flight of 6 s with a seeker of 200 Hz: an outage, damaged frames, and a group without an
+// Faults of a flight of 6 s with a seeker at 200 Hz: an outage, damaged frames, and a group without an
 // answer.
 std::string small_set() {
   return file("small.toml", R"(
@@ -93,7 +93,7 @@ to_s = 2.3
               HasSubstr("| angles away | detected in"));
 }
 
-// The seeded defect: the target uses a signal that its sensor did not measure, and reports small sigmas.
+// A seeded defect: the target uses a signal that its sensor did not measure, and reports small sigmas.
 TEST(Faults, AViolationIsMadeSmallAndShowsAgain) {
   const std::string storm = file("storm.toml", R"(
 [[fault]]
@@ -161,7 +161,7 @@ TEST(Faults, ShardsAndAKillGiveTheSameBytes) {
   EXPECT_GT(json_in(whole).size(), 1000U);
   EXPECT_TRUE(json_in(whole) == json_in(shards));
 
-  // Killed when it has some cells; the file is then truncated in the middle of a line.
+  // The program is killed after some cells are stored; then the file is truncated in the middle of a line.
   const std::string cells = killed + "/faults.jsonl";
   const pid_t child = fork();
   if (child == 0) {

@@ -75,7 +75,7 @@ TEST(BadInput, ParameterThatTheTargetRefusesIsNamedWithItsPlace) {
 }
 
 TEST(BadInput, AMisspeltParameterIsOneOfItsEstimator) {
-  // Among all parameters, gyro_bias_sigma_degph of the alignments would be the nearest.
+  // Among all parameters, the nearest name would be gyro_bias_sigma_degph of the alignments.
   std::string text = read(scenario("wind_quick"));
   const std::string table = "[target.parameters]\n";
   const auto at = text.find(table);
@@ -282,7 +282,7 @@ TEST(BadInput, FilesThatWouldReplaceSomethingElse) {
   EXPECT_EQ(read(scratch("self.toml")), read(quick));
 }
 
-// Both are rejected without disturbing the current run.
+// A second bench or target is rejected without disturbing the current run.
 TEST(BadInput, ASecondBenchOrTargetOnABus) {
   const std::string quick = scenario("transfer_alignment_quick");
   const std::string report = scratch("first.json");

@@ -1,4 +1,4 @@
-// Property: the target's frames depend only on the bench's frames, on every bus, with every clock, and in a
+// Property: the target's frames depend only on the bench's frames: on every bus, with every clock, and in a
 // replay.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ std::string record(const std::string& name, const std::string& options,
   return log;
 }
 
-// A complete recording in real time: the property does not apply to an incomplete one.
+// A complete recording in real time. The property does not apply to incomplete recordings.
 std::string record_in_real_time(const std::string& name, const std::string& file = "transfer_alignment_quick",
                                 Ended* how = nullptr) {
   const std::string report = scratch(name + ".json");
@@ -59,7 +59,8 @@ INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
 
 class BitsOnAWire : public testing::TestWithParam<const char*> {};
 
-// With simulated frame times, frames keep their order; in the closed loop they take effect at the same time.
+// Simulated frame times must not change the order of frames or, in the closed loop, the time at which answers
+// take effect.
 TEST_P(BitsOnAWire, AreThoseWithoutOne) {
   const std::string name = GetParam();
   const auto without = target_frames(record(name + ".no_wire.log", "--bus in-process", name));
@@ -73,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Bits, BitsOnAWire,
                          testing::Values("transfer_alignment_quick", "inflight_quick", "los_closed_loop",
                                          "wind_quick"));
 
-/// Its 30 s are flown once, for both the bits and the verdict.
+/// The flight of 30 s is flown once for both the bits and the verdict.
 TEST(Bits, AnAlignmentInFlightPassesInRealTimeAndAgreesWithInProcess) {
   const std::string name = "inflight_quick";
   const auto in_process = target_frames(record("inflight.in_process.log", "--bus in-process", name));
@@ -99,7 +100,7 @@ TEST(Bits, AllFourAtOnceInProcessAndRealTimeAgree) {
   const auto real_time = target_frames(record_in_real_time("all_four.real_time.log", "all_four"));
   EXPECT_GT(in_process.size(), 30'000U);
   EXPECT_TRUE(in_process == real_time);
-  // All checks passed during the run. Timing is not considered.
+  // All checks passed during the run. Checks of timing are ignored.
   const auto report = read_json(scratch("all_four.real_time.log.json"));
   for (const auto& check : report["checks"]) {
     if (check["kind"] == "heartbeat") continue;
@@ -126,7 +127,7 @@ TEST(Bits, DivergeNamesTheFirstFrameThatDiffers) {
   const std::string log = record("original.log", "--bus in-process");
   EXPECT_EQ(hil_bench(fmt::format("diverge {} {}", log, log)).code, 0);
 
-  // One bit of the 100th AlignAttitude is turned over.
+  // Flips one bit of the 100th AlignAttitude.
   ASSERT_EQ(
       shell(fmt::format(
                 "awk '/ 0C0#/ && ++n == 100 {{ c = substr($3, length($3)); sub(/.$/, c == \"0\" ? \"1\" : "

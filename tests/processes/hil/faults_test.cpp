@@ -31,7 +31,7 @@ std::string faults_file(const std::string& faults) {
   return path;
 }
 
-/// A quick flight with a check of the counts in addition, and with faults from a separate file.
+/// A quick flight with an additional check of the counts, and with faults from a separate file.
 Flown fly(const std::string& faults, const std::string& how = "--lockstep") {
   const std::string flight = scratch("flight.toml"), json = scratch("report.json");
   std::ofstream(flight) << read(scenario("transfer_alignment_quick")) << counts_match;

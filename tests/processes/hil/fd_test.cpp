@@ -51,7 +51,7 @@ TEST_P(FdBitsOfScenario, ClassicAndFdAgree) {
     if (kind == "latency" || kind == "output_period" || kind == "heartbeat") continue;
     EXPECT_EQ(check["outcome"], "pass") << check;
   }
-  // 0.5 and 2 Mbit/s against 500 kbit/s, both without the frames that lockstep adds.
+  // 0.5 and 2 Mbit/s compared with 500 kbit/s, both without the frames that lockstep adds.
   const Recorded fd_in_process = record(GetParam(), "--bus in-process --dbc canhil-fd", "fd_in_process");
   const auto load = [](const Recorded& run) { return run.report["bus_load"][0]["mean"].get<double>(); };
   EXPECT_LT(load(fd_in_process), 0.4 * load(classic));
@@ -73,7 +73,7 @@ TEST(Fd, RealTimeGivesTheSameFrames) {
   ADD_FAILURE() << "none of four runs was whole";
 }
 
-/// Records the frames on an FD bus during its lifetime; hosts the bus if it is local.
+/// Records the frames on an FD bus during the lifetime of the object; hosts the bus if it is local.
 class Wiretap {
  public:
   explicit Wiretap(const std::string& bus) {
@@ -108,7 +108,7 @@ class Wiretap {
   std::thread thread_;
 };
 
-// The mean load of the whole seconds of the time base except the last, as in the report.
+// The mean load over the whole seconds of the time base except the last second, as in the report.
 double mean_load(const std::vector<Frame>& frames, const wire::BitRates& rates) {
   std::vector<double> seconds;
   for (const Frame& frame : frames) {
@@ -138,7 +138,7 @@ TEST(Fd, TheWireCarriesWhatTheLogAndTheReportSay) {
   EXPECT_EQ(compared.code, 0) << compared.out << compared.err;
   EXPECT_GT(std::atoi(compared.out.c_str()), 10'000);
 
-  // Recordings of the FD bus replay and compare like the log of the bench.
+  // Recordings of the FD bus can be replayed and compared like the log of the bench.
   const std::string replayed = scratch("replayed.log");
   EXPECT_EQ(shell(fmt::format("{} --replay {} > {}", HIL_TARGET, raw, replayed)).code, 0);
   for (const std::string& other : {raw, replayed}) {
@@ -149,8 +149,8 @@ TEST(Fd, TheWireCarriesWhatTheLogAndTheReportSay) {
   const auto load = read_json(json)["bus_load"][0];
   const wire::BitRates rates{.nominal = load["bitrate_bitps"], .data = load["data_bitrate_bitps"]};
   EXPECT_EQ(rates.data, 2'000'000);
-  // In lockstep the bench can read the answers of the last step of a second (1 of 100) after it has begun the
-  // next second.
+  // In lockstep the bench may read the answers of a second's last step (1 of 100) after it has begun the next
+  // second.
   EXPECT_NEAR(load["mean"].get<double>(), mean_load(frames, rates), 0.01 * mean_load(frames, rates));
 }
 

@@ -74,7 +74,8 @@ TEST_F(Golden, ATargetThatGivesUpIsAFailure) {
   EXPECT_THAT(ended.out, HasSubstr("FAIL  los_quick"));
 }
 
-// A log contains the frames of the DBC on both buses; the target's command line shows which bus it was.
+// A log contains the frames of the classic DBC for both buses, so the test detects the bus by the target's
+// command line.
 TEST_F(Golden, AScenarioOnCanFdIsFlownOnCanFd) {
   const std::string file = scratch("on_fd.toml"), target = scratch("told.sh"), told = scratch("told.txt");
   std::ofstream(file) << "dbc = \"canhil-fd\"\n" << read(scenario("los_quick"));

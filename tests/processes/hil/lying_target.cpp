@@ -22,10 +22,10 @@ namespace {
 using namespace canhil;
 using namespace canhil::messages;
 
-// Changes a frame, or returns that it is not sent.
+// Changes a frame, or returns that the frame is not sent.
 using Lie = std::function<bool(Frame&)>;
 
-// The message with other values under the same counter, if the frame carries this message.
+// If the frame carries this message, replaces its values and keeps its counter.
 template <class Message, class Change>
 void change(Frame& frame, const Change& values) {
   if (frame.id != Message::info.id) return;

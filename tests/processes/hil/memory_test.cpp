@@ -11,7 +11,8 @@
 namespace canhil::test {
 namespace {
 
-// The peak memory [KiB] of a run over this number of IMU samples or of an earlier run, including all reports.
+// The peak memory [KiB] of all bench runs up to now, including this one with its number of IMU samples and
+// all reports.
 long peak_kib(int samples) {
   constexpr double period_s = 0.005;
   const std::regex duration("duration_s = .*"), truth("trajectory = [^]*\\[initial_error\\]"),
@@ -31,9 +32,10 @@ long peak_kib(int samples) {
   return of_children.ru_maxrss;
 }
 
-// A series over 2 MiB is in a file (bench/spool). The series of navigation answers are in files from 60 000
-// samples on. A dozen series become so later: those of filter answers, which have a tenth as many, and those
-// of 8 bytes. In memory, 120 000 more samples took 90 MiB.
+// A series over 2 MiB is stored in a file (bench/spool). The series of navigation answers exceed this size
+// from 60 000 samples on. A dozen series exceed it later: the series of filter answers, which have a tenth of
+// the samples, and the series with 8 bytes per sample. Kept in memory, 120 000 more samples would take 90
+// MiB.
 TEST(Memory, OfARunDoesNotGrowWithIt) {
   const long before = peak_kib(60'000), after = peak_kib(180'000);
   EXPECT_GT(before, 0);

@@ -1,5 +1,4 @@
-// The tests of runs cannot pass if outputs failed: tests the function that they use to recognise passed
-// outputs.
+// Tests the function by which the tests of runs recognise passed outputs: it must not accept failed outputs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -15,7 +14,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// A run in virtual time, where timing is not measured, and its report as it would be in other circumstances.
+// A run in virtual time, where timing is not measured; each test changes its report to that of other
+// circumstances.
 class OutputComplaints : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -57,7 +57,7 @@ TEST_F(OutputComplaints, NameAnOutputThatFailedHoweverLateTheHostWas) {
     end_with(kind, "fail");
     EXPECT_THAT(complaints(), ElementsAre(HasSubstr(fmt::format("\"kind\":\"{}\"", kind)),
                                           "the verdict is 'fail', and no check of timing is why"));
-    end_with("latency", "fail");  // which excuses the verdict, and not that check
+    end_with("latency", "fail");  // explains the verdict, but not the failed output check
     EXPECT_THAT(complaints(), ElementsAre(HasSubstr(fmt::format("\"kind\":\"{}\"", kind))));
   }
 }

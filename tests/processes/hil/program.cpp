@@ -26,7 +26,7 @@ namespace canhil::test {
 
 namespace {
 
-/// The limit of a timing check, in the words of the report; empty for a check of outputs.
+/// The limit of a timing check, parsed from the report; empty for a check of outputs.
 std::optional<double> timing_bar_s(const nlohmann::json& check) {
   static const std::map<std::string, std::regex> bars{
       {"latency", std::regex(".* < ([0-9.]+) (ms) .*")},
@@ -38,12 +38,11 @@ std::optional<double> timing_bar_s(const nlohmann::json& check) {
   std::smatch found;
   const auto expected = check["expected"].get<std::string>();
   if (!std::regex_match(expected, found, bar->second))
-    return std::numeric_limits<double>::infinity();  // no figure: lateness does not matter
+    return std::numeric_limits<double>::infinity();  // no limit found: lateness does not matter
   const double value = std::stod(found[1]) * (found[2] == "ms" ? 1e-3 : 1);
   return bar->first == "output_period" ? value * std::stod(found[3]) / 100 : value;
 }
 
-/// How late the bench was for its own deadlines; 0 in lockstep, which has none.
 }  // namespace
 
 double largest_lateness_s(const nlohmann::json& report) {

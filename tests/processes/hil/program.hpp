@@ -30,16 +30,17 @@ std::string read(const std::string& path);
 nlohmann::json read_json(const std::string& path);
 /// The value of a figure in the results of a report.
 double figure(const nlohmann::json& report, const char* estimator, const char* line, const char* name);
-/// Compiled once for all tests, because a JSON parser costs every source that instantiates it over a second.
+/// Compiled once for all tests, because every source that instantiates a JSON parser takes over a second
+/// longer.
 nlohmann::json json_of(const std::string& text);
 
-/// The target's frames in a log, in order, from the first Sync on, without the frames that report on the host
-/// or the step.
+/// The target's frames in a log, in order, from the first Sync on, without frames that report on the host or
+/// the step.
 std::vector<Frame> target_frames(const std::string& log_path);
 
-/// A run in real time whose counts and bits can be tested. If the host stalls a program for half a second,
-/// vcan's receive queue loses frames, or the target is silent for too long, or the target's process sends
-/// heartbeats of its own. The programs report this, and the run is repeated.
+/// True if counts and bits of this run in real time can be tested. If the host stalls a program for half a
+/// second, the receive queue of vcan loses frames, the target is silent for too long, or the target's process
+/// sends heartbeats of its own. The programs report this, and the run is repeated.
 bool whole(const nlohmann::json& report);
 
 /// The largest lateness of the bench itself; 0 in virtual time.
@@ -52,10 +53,10 @@ Ended hil_bench_whole(const std::string& arguments, const std::string& report);
 /// Bad input: exit code 2, one line on stderr that contains `what`, nothing on stdout.
 void expect_one_line(const Ended& ended, const std::string& what);
 
-/// The outputs that did not pass, in words; empty: all passed. Outputs must pass on any host, but a slow host
-/// may affect timing, which this does not test. So a timing check may be not measured. It may also have
-/// failed if the bench missed a deadline of its own by more than half of the check's bar, because the host
-/// may have delayed the target as much. Only in that case may the verdict be 'fail'.
+/// Descriptions of the outputs that did not pass; empty: all passed. Outputs must pass on any host, but a
+/// slow host may affect timing, which these tests do not judge. So a timing check may be not measured. It may
+/// also fail if the bench missed one of its own deadlines by more than half of the check's limit, because the
+/// host may have delayed the target as much. Only in that case may the verdict be 'fail'.
 std::vector<std::string> output_complaints(const Ended& ended, const nlohmann::json& report);
 void expect_outputs_passed(const Ended& ended, const nlohmann::json& report);
 

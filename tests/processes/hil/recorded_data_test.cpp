@@ -1,4 +1,4 @@
-// Recorded data as a user flies it: repeated logs of runs, CSV files, a flight without truth.
+// Recorded data as a user flies it: replayed logs of runs, CSV files, a flight without truth.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -24,7 +24,7 @@ std::string with_table(const std::string& text, const std::string& table, const 
   return at == 0 ? text : text.substr(0, header_end + 1) + lines + text.substr(end);
 }
 
-/// The line of a table that begins with a word, including its line end; empty if there is none.
+/// The line of a table that begins with this word, including the line end; empty if no line does.
 std::string line_of(const std::string& text, const std::string& table, const std::string& word) {
   const std::size_t at = text.find("\n[" + table + "]");
   const std::size_t end = text.find("\n[", at + 1), found = text.find("\n" + word, at);
@@ -64,7 +64,7 @@ TEST_P(LogFlownAgain, GivesTheSameAnswers) {
   EXPECT_EQ(none.code, 0) << none.out;
   EXPECT_GT(target_frames(log).size(), 500U);
 
-  // A changed sample changes the answers: one increment in the middle of the log.
+  // One changed increment in the middle of the log changes the answers.
   auto reader = LogReader::open(log);
   ASSERT_TRUE(reader);
   std::string changed;
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, LogFlownAgain,
                                                "glider_nav", "fins"}}),
                          [](const auto& one) { return one.param.scenario; });
 
-/// The IMU and master samples of a log, as a user would have them in files.
+/// The IMU and master samples of a log as CSV files, as a user would have them.
 struct Csv {
   std::string imu =
       "t_s,delta_theta_x_rad,delta_theta_y_rad,delta_theta_z_rad,delta_v_x_mps,delta_v_y_mps,"
@@ -159,7 +159,7 @@ TEST(RecordedData, TheSamplesOfARunAsCsvFilesGiveTheSameAnswers) {
   EXPECT_EQ(none.code, 0) << none.out;
 }
 
-// NIS needs no truth, errors do.
+// The NIS needs no truth; errors need one.
 TEST(RecordedData, WithoutATruthErrorsAreNotMeasuredAndConsistencyIs) {
   const std::string log = scratch("unknown.log"), json = scratch("unknown.json");
   ASSERT_NE(hil_bench(fmt::format("run {} --lockstep --bus {} --log {}", scenario("transfer_alignment_quick"),
@@ -206,7 +206,7 @@ heading_deg = 0.0
   EXPECT_THAT(csv, testing::Not(HasSubstr("nan")));
 }
 
-// Errors of a file: its line, the scenario's line, and what was expected.
+// The message for an invalid file states its line, the scenario's line, and what was expected.
 TEST(RecordedData, AWrongFileIsOneLine) {
   write("rows.csv", "t_s,rate_x_degps\n0.01,1\n0.02,2\n");
   std::string text = read(scenario("transfer_alignment_quick"));

@@ -1,4 +1,4 @@
-// Commands for reports of finished runs.
+// Commands that work on reports of finished runs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -18,7 +18,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// One run in virtual time, for all tests: the same on any host.
+// One run in virtual time for all tests: its results are the same on any host.
 class Reports : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -58,7 +58,7 @@ TEST_F(Reports, TellWhichTargetWasTested) {
             std::filesystem::file_size(target["program"].get<std::string>()));
 }
 
-// sha256sum of the same files must give the same hashes; the built-in DBC has the hash of dbc/canhil.dbc.
+// The hashes must equal those of sha256sum; the hash of the built-in DBC must equal that of dbc/canhil.dbc.
 TEST_F(Reports, NameEveryFileByItsHash) {
   const Ended run = hil_bench("run " + scenario("transfer_alignment_quick") + " --bus " + bus() +
                               " --lockstep --operator 'Ada L' --json " + scratch("signed.json"));

@@ -65,7 +65,7 @@ TEST(Run, ATargetKilledInMidRunIsNamed) {
                                             scenario("transfer_alignment"), bus(), mortal, report));
   EXPECT_EQ(ended.code, 1) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("fail: target silent since t="));
-  // The run ends when the silence is detected, not at the end of the 20 s.
+  // The run ends when the bench detects the silence, not after 20 s.
   EXPECT_LT(read_json(report)["wall_s"].get<double>(), 15.0);
   EXPECT_LT(read_json(report)["ending"]["t_s"].get<double>(), 15.0);
 }
@@ -106,7 +106,7 @@ TEST(Run, ACheckThatCannotHoldFailsTheRun) {
   EXPECT_THAT(read(junit), HasSubstr("value=\"R&lt;1&gt;\""));
 }
 
-// In virtual time the wire is exact: no host disturbs it, and every run is the same.
+// In virtual time the simulated wire is exact: the host has no influence, and all runs are equal.
 TEST(SimulatedWire, TheReportSaysWhoseTimesTheseAre) {
   const std::string report = scratch("wire.json");
   const std::string run = fmt::format("run {} --bus 'in-process?bitrate=500000&bit-error-rate=1e-4' --json ",
@@ -129,7 +129,7 @@ TEST(SimulatedWire, TheReportSaysWhoseTimesTheseAre) {
   EXPECT_EQ(compared.code, 0) << compared.out;
 }
 
-// One scenario on the bus of each format, with the check of the bounds.
+// Runs one scenario with the check of the wire bounds, on a bus of either format.
 nlohmann::json with_bounds(const std::string& options) {
   std::ofstream(scratch("bounds.toml"))
       << read(scenario("los_quick")) << "\n[[check]]\nkind = \"wire_response\"\n";
@@ -168,7 +168,7 @@ TEST(SimulatedWire, ThePeriodOfAnswersIsTheIntervalThatTheScenarioSets) {
        {std::pair("transfer_alignment_quick", "AlignAttitude"), std::pair("inflight_ssbl", "FixVelocityD"),
         std::pair("wind_quick", "WindUpdate")}) {
     std::string file = with_interval(name, message, 2);
-    if (name == std::string("inflight_ssbl")) {  // which sets an interval itself
+    if (name == std::string("inflight_ssbl")) {  // this scenario sets an interval itself
       std::string text = read(file);
       text.erase(text.find("output_interval_ms = 20\n"), 24);
       std::ofstream(file) << text;
@@ -202,7 +202,7 @@ TEST(SimulatedWire, OnCanFdEveryContainerKeepsItsBoundAndTheWholeLatencyIsExplai
   EXPECT_THAT(read(scratch("bounds.html")), HasSubstr("Over the bus at 500 and 2000 kbit/s"));
 }
 
-// In real time, with the target's own report of its times. The duration on the host is not judged.
+// In real time, with the target's report of its own times. The durations on the host are not judged.
 TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
   const std::string report = scratch("fd.json");
   const Ended ended = hil_bench(
@@ -215,7 +215,8 @@ TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
   double sum_s = 0;
   for (const auto& [part, mean] : page["split"]["parts_s"].items()) {
     ASSERT_TRUE(mean.is_number()) << part;
-    const bool is_rest = part == "not_explained";  // of means over other stimuli than those of the target
+    // The rest may be negative: bench and target average over different stimuli.
+    const bool is_rest = part == "not_explained";
     EXPECT_TRUE(is_rest || mean.get<double>() >= 0) << part;
     sum_s += mean.get<double>();
   }
@@ -308,7 +309,7 @@ TEST(Run, JsonToStdoutIsAloneThere) {
   EXPECT_THAT(ended.err, HasSubstr("a target says hello"));
 }
 
-// Every program checks its standard output when it ends.
+// Every program checks at its end whether its standard output was written.
 TEST(Output, ThatIsLostIsSaid) {
   const std::string log = scratch("lost.log");
   ASSERT_THAT(
@@ -339,7 +340,7 @@ TEST(Run, CsvIsATableOfAllThatWasTold) {
   std::string line;
   std::getline(file, line);
   EXPECT_EQ(line, "t_s,estimator,quantity,unit,estimate,truth,error,sigma");
-  std::map<std::string, int> lines;  // by quantity
+  std::map<std::string, int> lines;  // number of lines by quantity
   while (std::getline(file, line)) {
     std::istringstream fields(line);
     std::vector<std::string> row;

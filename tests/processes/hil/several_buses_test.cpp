@@ -18,13 +18,13 @@ namespace canhil::test {
 namespace {
 
 using testing::HasSubstr;
-using Counts = std::map<std::string, int>;  // frames by message
+using Counts = std::map<std::string, int>;  // number of frames by message
 
 int of(const Counts& counts, const std::string& message) {
   return counts.contains(message) ? counts.at(message) : 0;
 }
 
-// A bus that the test hosts: it sees every frame of every sender, and loses none.
+// A bus hosted by the test, which therefore receives every frame of every sender without loss.
 class WatchedBus {
  public:
   explicit WatchedBus(const std::string& which)
@@ -68,9 +68,9 @@ struct Flown {
   Counts main, aiding;
 };
 
-// The quick transfer alignment with the master INS on a separate bus. `command` starts bench and target; its
-// arguments are the words of the bench, the bus of all others and the bus of the master. Repeated if the host
-// disturbed the run.
+// The quick transfer alignment with the master INS on a separate bus. `command` starts bench and target. Its
+// arguments are the options of the bench, the bus of all other nodes, and the bus of the master INS. The run
+// is repeated if the host disturbed it.
 template <class Command>
 Flown fly(const Command& command) {
   Flown flown;

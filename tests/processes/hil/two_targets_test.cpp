@@ -1,4 +1,4 @@
-// Two targets on one bus, each started as if it were alone.
+// Two targets on one bus, each started as the only target.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -34,7 +34,7 @@ class TwoTargets : public testing::Test {
     stop_ = true;
     if (server_.joinable()) server_.join();
   }
-  /// Starts one and waits for its first heartbeat, while no other sends any.
+  /// Starts a target and waits for its first heartbeat, while no other target sends heartbeats.
   pid_t start_target() {
     const auto ear = open_port(bus_, {.only_ids = {messages::TargetHeartbeat::info.id}}).value();
     const pid_t pid = ::fork();
@@ -54,19 +54,19 @@ class TwoTargets : public testing::Test {
   std::vector<pid_t> targets_;
 };
 
-// A target listens before its first frame; here it must not receive the first target during that time.
+// A target listens before it sends its first frame. Here the first target is stopped during that time.
 TEST_F(TwoTargets, EndTheRun) {
   const pid_t first = start_target();
   ::kill(first, SIGSTOP);
   int status = 0;
   ASSERT_EQ(::waitpid(first, &status, WUNTRACED), first);
   ASSERT_TRUE(WIFSTOPPED(status));
-  ::usleep(50'000);  // the hub has forwarded what the target had sent
+  ::usleep(50'000);  // until the hub has forwarded all frames of the target
   start_target();
   ::kill(first, SIGCONT);
   const Ended ended =
       hil_bench(fmt::format("run {} --bus {} --target none", scenario("transfer_alignment_quick"), bus_));
-  EXPECT_TRUE(ended.code == 1 || ended.code == 2) << ended.code;  // by when the bench has noticed
+  EXPECT_TRUE(ended.code == 1 || ended.code == 2) << ended.code;  // depends on when the bench detects it
   EXPECT_THAT(ended.out + ended.err, testing::HasSubstr("a second target answers on this bus"));
 }
 

@@ -84,7 +84,7 @@ class Browser(unittest.TestCase):
             self.assertIn("running", self.text("state"))
             self.assertTrue(all(one["points"] > 0 for one in charts(browser).values()))
 
-            # The display stands still, data go on.
+            # The display is paused, the data continue.
             self.press(" ")
             self.assertIn("paused", self.text("state"))
             shown, received = self.text("tiles"), browser.execute_script("return document.body.dataset.received")
@@ -122,7 +122,7 @@ class Browser(unittest.TestCase):
             self.press("w")
             self.expect_no_errors()
 
-            for size in (DESKTOP, PHONE):  # nothing sticks out, nothing lies over another
+            for size in (DESKTOP, PHONE):  # no element exceeds the page or overlaps another
                 set_size(browser, size)
                 time.sleep(0.3)
                 widths = browser.execute_script("return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
@@ -161,7 +161,7 @@ class Browser(unittest.TestCase):
         folder = pathlib.Path(self.keep)
         faults = pathlib.Path(self.folder.name, "faults.toml")
         faults.write_text(PICTURED_FAULTS)
-        (pathlib.Path(self.folder.name) / PICTURED).write_text((FLIGHTS / PICTURED).read_text())  # no path of this machine in a picture
+        (pathlib.Path(self.folder.name) / PICTURED).write_text((FLIGHTS / PICTURED).read_text())  # the picture shows no path of this machine
         with Bench(HIL_BENCH, "run", PICTURED, "--faults", faults, "--bus", "local:?bitrate=500000", folder=self.folder.name) as bench:
             set_size(self.browser, DESKTOP)
             self.browser.get(bench.url)

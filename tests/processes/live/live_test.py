@@ -25,11 +25,11 @@ class Page(unittest.TestCase):
                 self.assertTrue(headers["content-type"].startswith(kind), target)
                 self.assertIn("default-src 'none'", headers["content-security-policy"])
                 self.assertEqual(len(body), int(headers["content-length"]))
-                if target != "/chart.js":  # which has addresses in its licence
+                if target != "/chart.js":  # its licence contains addresses
                     self.assertNotIn(b"http", body.replace(b"http-equiv", b""), target)
             bench.await_line("(page stays)")
             code, out = bench.interrupt()
-            self.assertEqual(code, 3, out)  # of the flight: its times are not judged in lockstep
+            self.assertEqual(code, 3, out)  # not measured: lockstep does not judge times
 
     def test_a_port_in_use_is_refused_in_one_line(self):
         with Bench(HIL_BENCH, *LOCKSTEP) as bench:
@@ -76,7 +76,7 @@ class Refusals(unittest.TestCase):
             speaks = WebSocket(bench.port)
             speaks.send(b"x" * 100)
             while speaks.message() is not None:
-                pass  # to the end: who speaks is dropped
+                pass  # until the bench closes the connection, because the client sent data
             self.assertEqual(get(bench.port)[0], 200)
 
     def test_without_the_token(self):
@@ -100,12 +100,12 @@ class Refusals(unittest.TestCase):
             self.assertEqual(get(bench.port)[0], 0)
             for one in first[:4]:
                 one.close()
-            for _ in range(100):  # the places are free when the bench has looked
+            for _ in range(100):  # the bench frees the places with a delay
                 if get(bench.port)[0] == 200:
                     break
                 time.sleep(0.05)
             self.assertEqual(get(bench.port)[0], 200)
-            silent = [connect(bench.port) for _ in range(MOST)]  # who says nothing loses his place
+            silent = [connect(bench.port) for _ in range(MOST)]  # a client that sends nothing loses its place
             for one in silent:
                 one.settimeout(30)
                 self.assertEqual(one.recv(1), b"")
@@ -130,10 +130,10 @@ class Run(unittest.TestCase):
             self.assertEqual(alone.returncode, code)
             frames = [[line.split()[2:] for line in (folder / name).read_text().splitlines()] for name in ("live.log", "alone.log")]
             self.assertGreater(len(frames[0]), 1000)
-            self.assertEqual(frames[0], frames[1])  # their stamps are the host's
+            self.assertEqual(frames[0], frames[1])  # excludes the stamps, which are those of the host
             live, without = (without_host(json.loads((folder / name).read_text())) for name in ("live.json", "alone.json"))
-            bus = live["provenance"].pop("bus"), without["provenance"].pop("bus")  # private: named after the process
-            live["provenance"].pop("adapters"), without["provenance"].pop("adapters")  # name the bus too
+            bus = live["provenance"].pop("bus"), without["provenance"].pop("bus")  # a private bus is named after its process
+            live["provenance"].pop("adapters"), without["provenance"].pop("adapters")  # these contain the bus name too
             self.assertTrue(all(name.startswith("local:") for name in bus))
             self.assertEqual(live, without)
 
@@ -148,7 +148,7 @@ class Run(unittest.TestCase):
                 before_end = message
                 times.append(message["flight"]["t_s"])
             self.assertEqual(times, sorted(times))
-            self.assertGreater(len(set(times)), 3)  # it goes on while we look
+            self.assertGreater(len(set(times)), 3)  # several updates during the run
             self.assertTrue(before_end["flight"]["series"])
             self.assertTrue(before_end["flight"]["timing"])
             self.assertTrue(all(check["outcome"] is None for check in before_end["flight"]["checks"]))
@@ -171,7 +171,7 @@ class Run(unittest.TestCase):
                 self.assertAlmostEqual(line["p99_us"] * 1e-6, of["p99"], delta=1e-4 * of["p99"])
                 self.assertAlmostEqual(line["max_us"] * 1e-6, of["max"], delta=1e-4 * of["max"])
             self.assertEqual(flight["load"], report["bus_load_line"]["busiest"])
-            late = WebSocket(bench.port).until_over()  # who comes later sees the same
+            late = WebSocket(bench.port).until_over()  # a client that connects later receives the same
             self.assertEqual(late["flight"]["series"], flight["series"])
             self.assertEqual(bench.interrupt()[0], {"pass": 0, "fail": 1, "not measured": 3}[report["verdict"]])
 
@@ -180,7 +180,7 @@ class Run(unittest.TestCase):
             try:
                 last = WebSocket(bench.port).until_over()
             except ConnectionError:
-                last = None  # it was over before
+                last = None  # the run ended before the client connected
             code, _ = bench.end()
             self.assertEqual(code, 2)
             if last is not None and last["over"]:

@@ -14,7 +14,7 @@ import unittest
 
 HIL_BENCH = sys.argv[1]
 QUICK = pathlib.Path(__file__).resolve().parents[3] / "bench/flights/transfer_alignment_quick.toml"
-BEGIN, END = b"\x1b[?1049h", b"\x1b[?1049l"  # the screen of a program, and the user's again
+BEGIN, END = b"\x1b[?1049h", b"\x1b[?1049l"  # switch to the alternate screen of the program, and back
 PATIENCE_S = 120
 
 
@@ -23,7 +23,7 @@ def fly(rows, columns, key=b""):
     child, terminal = pty.fork()
     if child == 0:
         os.environ["TERM"] = "xterm"
-        time.sleep(0.2)  # the size is set by then
+        time.sleep(0.2)  # until the size is set
         os.execv(HIL_BENCH, [HIL_BENCH, "run", str(QUICK), "--tui"])
     fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
     before, after, out, until = termios.tcgetattr(terminal), None, b"", time.monotonic() + PATIENCE_S
@@ -35,9 +35,9 @@ def fly(rows, columns, key=b""):
         except OSError:  # the other end is closed
             break
         out += part
-        if END in out:  # the settings follow it
+        if END in out:  # the program restores the settings afterwards
             after = termios.tcgetattr(terminal)
-        if key and b"heading error" in out:  # it flies
+        if key and b"heading error" in out:  # the flight has begun
             os.write(terminal, key)
             key = b""
     _, status = os.waitpid(child, 0)
@@ -50,7 +50,7 @@ class Terminal(unittest.TestCase):
         self.assertIn(BEGIN, out)
         self.assertIn(END, out)
         self.assertTrue(same)
-        self.assertIn(b"Transfer alignment", out.split(END)[-1])  # the report, after the screen
+        self.assertIn(b"Transfer alignment", out.split(END)[-1])  # the report is printed after the screen
 
     def test_shows_a_run_and_gives_the_terminal_back(self):
         code, out, same = fly(40, 100)

@@ -1,4 +1,4 @@
-// An ECU with a DBC of its own, tested by hil-bench over a bus.
+// An ECU with its own DBC, tested by hil-bench over a bus.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -27,8 +27,8 @@ Ended run(const std::string& target, const std::string& report, const std::strin
   return hil_bench(fmt::format("run {} --bus {} {} --json {} {}", own_ecu, bus(), target, report, more));
 }
 
-// In real time. Repeated if the host stalled for longer than two samples, because the ECU's values are then
-// late.
+// A run in real time. It is repeated if the host stalled for longer than two samples, because the values of
+// the ECU are then late.
 Ended run_in_time(const std::string& target, const std::string& report, const std::string& more = "") {
   constexpr double two_samples_s = 0.02;
   Ended ended = run(target, report, more);
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(InC, Ecu, testing::Values("--target " OWN_ECU_C));
 
 struct Defect {
   const char* name;
-  const char* caught_by;  // a check that fails
+  const char* caught_by;  // a check that must fail
   const char* clock;
 };
 
@@ -88,7 +88,7 @@ TEST_P(DefectiveEcu, IsCaughtByTheCheckThatItIsFor) {
   if (!failed.empty() || std::string(GetParam().name) != "slow") {
     EXPECT_EQ(ended.code, 1) << ended.err;
     EXPECT_THAT(failed, testing::Contains(HasSubstr(GetParam().caught_by))) << ended.out;
-  } else {  // cannot be judged on a host that is late itself
+  } else {  // a host that is late itself cannot judge this
     EXPECT_THAT(checks(seen, "not measured"), testing::Contains(HasSubstr(GetParam().caught_by)))
         << ended.out;
     EXPECT_THAT(ended.out, HasSubstr("this host kept the bench itself")) << ended.out;
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Each, DefectiveEcu,
                                          Defect{"silent", "answers", ""}),
                          [](const auto& of) { return std::string(of.param.name); });
 
-// The defects' own harness has none.
+// The program with defects passes when no defect is selected.
 TEST(OwnEcu, WithoutADefectPasses) {
   const std::string report = scratch("none.json");
   EXPECT_EQ(run(in_python("none"), report, "--lockstep").code, 3);

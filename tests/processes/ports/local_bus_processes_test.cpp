@@ -45,7 +45,7 @@ class Process {
     ::waitpid(pid_, nullptr, 0);
     pid_ = 0;
   }
-  /// Waits for its end: its exit status.
+  /// Waits for the end of the process and returns its exit status.
   int status() {
     int status = -1;
     ::waitpid(pid_, &status, 0);
@@ -68,8 +68,8 @@ class Process {
 class LocalBusProcesses : public ::testing::Test {
  protected:
   void SetUp() override {
-    // These tests are for a bus that waits, on a machine of any speed that may stall for minutes. If a frame
-    // never comes, CTest ends the test.
+    // The bus waits for slow nodes, because these tests must pass on a machine that may stall for minutes. If
+    // a frame never arrives, CTest ends the test.
     auto hub = host_local_bus(bus_, {.fd = true}, {.reading_limit_ns = 600'000'000'000});
     ASSERT_TRUE(hub) << hub.error().message;
     hub_ = std::move(*hub);
@@ -114,7 +114,7 @@ TEST_F(LocalBusProcesses, ThreeNodesAndTheHostSeeOneOrder) {
   ASSERT_EQ(hub_->send(streamed(0, 0)), SendOutcome::sent);
   Order order;
   std::array<std::uint64_t, 3> next{};
-  int turns = 0;  // how often the sender changed
+  int turns = 0;  // how often two consecutive frames had different senders
   std::size_t last = 0;
   for (std::uint64_t received = 0; received < 3 * count;) {
     const auto got = hub_->receive();
@@ -140,7 +140,8 @@ TEST_F(LocalBusProcesses, ThreeNodesAndTheHostSeeOneOrder) {
   }
 }
 
-/// Sends the stream of sender 0 from frame `from` on and waits for room. Returns how often there was none.
+/// Sends the stream of sender 0 from frame `from` on and waits whenever there is no room. Returns how often
+/// it waited.
 int send_stream(Port& port, std::uint64_t from, std::uint64_t count) {
   int full = 0;
   for (std::uint64_t sent = from; sent < count;) {
@@ -171,7 +172,7 @@ TEST_F(LocalBusProcesses, AStuckNodeStopsTheBusUntilItIsKilled) {
   Process stuck("ignore", bus_, 2, 0);
   wait_for_nodes(2);
   std::uint64_t sent = 0;
-  while (hub_->held_up_by() != "2") {  // the reader is slow too, but comes back
+  while (hub_->held_up_by() != "2") {  // the reader is slow too, but continues to read
     wait(*hub_, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + 1'000'000);
     if (hub_->send(streamed(0, sent)) == SendOutcome::sent) ++sent;
     ASSERT_LT(sent, count) << "no back-pressure";

@@ -1,4 +1,4 @@
-// A node (or host) of an embedded bus in a process of its own, for local_bus_processes_test.
+// A node (or host) of an embedded bus in a separate process, for local_bus_processes_test.
 //   node ROLE BUS SENDER COUNT; ends with 0 on success, otherwise prints what failed.
 #include <fmt/format.h>
 #include <unistd.h>
@@ -69,10 +69,11 @@ void babble(const Task& task) {
   }
 }
 
-/// Sends its stream, receives the streams of three nodes, own included, and prints their order.
+/// Sends its stream, receives the streams of three nodes, including its own, and prints the order of the
+/// frames.
 void witness(const Task& task) {
   const auto port = join(task, true);
-  while (!port->receive()) wait_for(*port, WaitFor::frame);  // the start
+  while (!port->receive()) wait_for(*port, WaitFor::frame);  // the start signal
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
   Order order;
@@ -104,7 +105,7 @@ void ignore(const Task& task) {
   while (!port->closed()) ::pause();
 }
 
-/// Hosts the bus until it is killed; its first frame informs a node that the hub has accepted it.
+/// Hosts the bus until it is killed. The first frame of the host shows a node that the hub has accepted it.
 void host(const Task& task) {
   auto hub = host_local_bus(task.bus, {.fd = true});
   if (!hub) give_up(hub.error().message);

@@ -23,8 +23,8 @@ using namespace std::chrono_literals;
 int some_cpu() { return std::stoi(shell("taskset -cp $$ | sed 's/.*[ ,-]//'").out); }
 bool may_have_priority(int priority) { return shell(fmt::format("chrt -f {} true", priority)).code == 0; }
 
-// The quick run with another quantile of the latency limit of 3 ms: with the median, a few answers may be
-// late, as on a shared machine.
+// The quick run with another quantile for the latency limit of 3 ms: with the median, a few answers may be
+// late, as happens on a shared machine.
 std::string judged_by(const std::string& quantile) {
   const std::string path = scratch(fmt::format("quantile_{}.toml", quantile));
   const Ended edited = shell(fmt::format(
@@ -105,7 +105,8 @@ const std::string no_cpu =
     "(no CPU was free for the bench for|the hypervisor gave) [0-9.]+ % of (the run|this machine's .*)";
 const std::string late = "this host kept the bench itself .* ms late \\(.*\\), more than 50 % of the bar";
 
-// Limits of a few ms are not measured for one of these reasons; the times that the target reports are judged.
+// Limits of a few ms are not measured for one of these reasons; the target's report of its own times is
+// judged.
 void expect_not_measured(const Ended& ended, const nlohmann::json& report) {
   EXPECT_EQ(report["verdict"], "not measured");
   EXPECT_EQ(ended.code, 3) << ended.out;

@@ -1,4 +1,4 @@
-// --realtime of both programs: its settings, and its error if it is not permitted.
+// --realtime of both programs: its effects, and its error if it is not permitted.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -13,7 +13,8 @@ namespace {
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-// Runs a command with neither the limits nor the capabilities; root loses them by the bounding set.
+// Runs a command without the resource limits and capabilities for real time; for root, the bounding set
+// removes the capabilities.
 Ended without_rights(const std::string& command) {
   const std::string drop = geteuid() == 0 ? "setpriv --bounding-set -sys_nice,-ipc_lock " : "";
   return shell(fmt::format("prlimit --rtprio=0 --memlock=65536 {}{}", drop, command));

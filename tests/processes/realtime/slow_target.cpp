@@ -1,6 +1,6 @@
-// hil-target with delays: the objects of the delivered program, in which the linker (--wrap) adds a pause to
-// two calls. CANHIL_SLOW_COMPUTE_US: additional computing time for each frame that is answered.
-// CANHIL_SLOW_QUEUE_US: time that frames wait before they are processed.
+// hil-target with delays: the objects of the delivered program, with a pause that the linker option --wrap
+// adds to two calls. CANHIL_SLOW_COMPUTE_US: additional computing time for each answered frame.
+// CANHIL_SLOW_QUEUE_US: waiting time of frames before they are processed.
 #include <unistd.h>
 
 #include <cstdint>

@@ -47,7 +47,7 @@ std::vector<LogEntry> entries_of(const std::string& log) {
   }
 }
 
-// A run recorded in lockstep, once for all tests of a process.
+// A run recorded in lockstep, shared by all tests of a process.
 const std::string& recorded() {
   static const std::string log = [] {
     std::string path = scratch("los.log");
@@ -274,9 +274,9 @@ TEST(Decode, SaysWhatItLeavesOut) {
   expect_one_line(hil_bench(fmt::format("decode {} --dbc none.dbc", log)), "none.dbc");
 }
 
-// b's clock is 5 s ahead. Of 123: later by 100, 300, 200 and 200 us, so the mean is 200 us beyond 5 s and the
-// standard deviation sqrt((100^2 + 100^2) / 3) = 81.6 us; 03 is in a alone, 06 in b alone, FF before a
-// begins.
+// The clock of b is 5 s ahead. The frames 123 are later by 100, 300, 200 and 200 us beyond these 5 s: the
+// mean is 200 us, the standard deviation sqrt((100^2 + 100^2) / 3) = 81.6 us. Frame 03 is only in a, 06 only
+// in b; FF was sent before the beginning of a.
 TEST(LogCompare, TellsHowFarStampsAreApart) {
   const std::string a =
       file("a.log",

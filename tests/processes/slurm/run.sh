@@ -15,7 +15,7 @@ cluster_start
 cd "$cluster"
 campaign=$root/bench/monte_carlo/quick.toml
 
-# Exit code 1: a metric of the campaign did not hold, which is not this test's business.
+# Exit code 1 means that a metric of the campaign did not hold, which this test does not judge.
 "$bench" campaign "$campaign" --threads 2 --out single.sqlite >single.out || [[ $? == 1 ]] || fail "the campaign in one process"
 "$bench" campaign merge single_merged.sqlite single.sqlite
 

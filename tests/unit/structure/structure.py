@@ -13,34 +13,36 @@ SKIPPED = {".git", "build", "runs", "__pycache__"}
 # The longest prefix applies: a file under KEY may include project headers under these prefixes. An entry that ends in .hpp is that
 # file only.
 ESTIMATOR_SHARED = ("target/estimators/strapdown/", "target/estimators/filtering/")
-GENERATED = "messages/"  # dbcgen's headers, made from dbc/: whoever may include dbc/ may include them
+GENERATED = "messages/"  # headers that dbcgen generates from dbc/: code that may include dbc/ may include them
 DEVICE = "target/device/device.hpp"  # the bench may hold a Device, through this header
 MAY_INCLUDE = {
     "dbc/": ("dbc/",),
-    "target/": ("dbc/", "target/"),  # main.cpp puts it all together
+    "target/": ("dbc/", "target/"),  # main.cpp connects the parts
     "target/device/": ("dbc/", "target/device/", "target/estimators/"),
-    "target/estimators/": ESTIMATOR_SHARED,  # and its own folder, see allowed_prefixes()
+    "target/estimators/": ESTIMATOR_SHARED,  # and the estimator's own folder, see allowed_prefixes()
     "bench/": ("dbc/", "bench/"),
     "bench/drive/": ("dbc/", "bench/", DEVICE),
     "bench/campaign/": ("dbc/", "bench/", DEVICE),
     "bench/checks/": ("dbc/", "bench/"),
 }
-# Out of reach even through other headers: a check judges decoded frames against the truth, and nothing else.
+# Folders that must not be included even indirectly: a check compares decoded frames with the truth and uses nothing
+# else.
 NEVER_REACHES = {"bench/checks/": ("target/", "bench/nodes/")}
 
-# Code that works on quantities contains no estimator's name (a folder of bench/estimators), not even in a comment, and
-# no name of a message.
+# Code that works on quantities contains no name of an estimator (a folder of bench/estimators) and no name of a
+# message, not even in a comment.
 ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/")
 
-# Places that may name an estimator: its folder and the registry; the papers, each about one estimator; the seeker, which steers by
-# the answers of one; and the truth of the glide, whose table [wind] has an estimator's name.
+# Code that may name an estimator: its folder and the registry; the papers, each about one estimator; the seeker,
+# which uses the answers of one estimator for guidance; and the truth of the glide, whose table [wind] has an
+# estimator's name.
 KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/nodes/seeker.", "bench/scenario/glide.")
 
 # The aim is 300 lines. A file with a long table or a long derivation may exceed it; a file that exceeds it by a
 # third has a second subject.
 MOST_LINES = 400
 VAGUE = {"util", "utils", "common", "manager", "helper", "helpers", "base"}
-TERMS = {"time_base"}  # terms of the field that hold such a word
+TERMS = {"time_base"}  # terms of the field that contain such a word
 OTHER_SUFFIXES = {".h", ".hh", ".hxx", ".cc", ".cxx", ".c", ".inl", ".inc", ".ipp", ".tpp"}
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*(.*)$', re.M)
@@ -239,7 +241,7 @@ def machine_path_breaches(texts):
                 yield f"{name}:{number}: '{match[0]}' is a path of one machine, expected a relative one"
 
 
-# The page that names, for each promise, the test that proves it.
+# The page that names the test that proves each promise.
 PROVEN = "docs/duty.md"
 NAMED_TEST = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
 TEST = re.compile(r"\bTEST(?:_[FP])?\((\w+),\s*(\w+)\)")

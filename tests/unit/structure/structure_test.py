@@ -14,7 +14,7 @@ DBC = """BO_ 129 SlaveImuDeltaV: 8 SlaveImu
 BO_ 386 MasterInsAttitude: 8 MasterIns
 BA_ "E2eDataId" BO_ 129 16513;
 """
-# A small tree that keeps every rule; each case below breaks one thing in it.
+# A small tree that satisfies every rule; each case below violates one rule.
 GOOD = {
     "dbc/canhil.dbc": DBC,
     "dbc/wire/frame.hpp": '#include "messages/canhil.hpp"\n'
@@ -172,7 +172,7 @@ class Checker(unittest.TestCase):
                      "x * 0.00002  // no", "int cycle_time_ms = 10;"):
             with self.subTest(line):
                 changes = {"bench/world/truth.hpp": line + "\n"}
-                if line.startswith("x *"):  # a number alone may be anything
+                if line.startswith("x *"):  # a number alone is not recognised as an id
                     self.assertEqual(breaches_of(changes), [])
                 else:
                     self.expect("bench/world/truth.hpp:1: ", changes)

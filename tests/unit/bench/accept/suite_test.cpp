@@ -52,8 +52,8 @@ TEST_P(Shipped, EveryMetricAsksForARequirement) {
   }
 }
 
-// The suite has a table of its own, so that a target is compared with the published values and not with this
-// program.
+// The suite states the parameter ranges in its own table, so that a target is compared with the published
+// ranges and not with the ranges of this program.
 class OfOneEstimator : public Shipped {};
 
 TEST_P(OfOneEstimator, RangesAreThoseOfTheTarget) {
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, OfOneEstimator, estimators, by_name);
 TEST(Suites, EachEstimatorHasOne) {
   const auto found = suites_in(shipped);
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->size(), 5U);  // one for several at once
+  EXPECT_EQ(found->size(), 5U);  // four suites of one estimator, and one of several at once
   EXPECT_FALSE(suites_in("/no/such/folder"));
 }
 

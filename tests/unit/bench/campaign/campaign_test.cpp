@@ -55,7 +55,7 @@ other = "A"
   EXPECT_EQ(campaign->variants[6].name, "B master_ins.period_ms=100 target.parameters.fading_per_s=0");
   EXPECT_EQ(campaign->variants[6].scenario.node("master_ins")->period_us(), 100'000);
   EXPECT_THAT(variants_of(*campaign, campaign->metrics[0]), ElementsAre(4, 5, 6, 7));
-  EXPECT_EQ(counterpart(*campaign, 6, "A"), 2U);  // at the same point
+  EXPECT_EQ(counterpart(*campaign, 6, "A"), 2U);  // A at the same point of the sweep
 }
 
 TEST(Campaign, HashIsOfAllTexts) {

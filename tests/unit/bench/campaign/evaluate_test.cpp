@@ -38,7 +38,8 @@ TEST(Bars, OfTimeWithin) {
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\n"), std::nullopt);
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 0.2\n"), true);
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 0.19\n"), false);
-  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 9.0\n", 1), false);  // never
+  // B never comes within 3 mrad.
+  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 9.0\n", 1), false);
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 0.3\n"), false);
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 0.2\n"), true);
   EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 9.0\n", 1), true);
@@ -48,7 +49,7 @@ TEST(Bars, OfLead) {
   EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 8.5\nother = 'B'\nat_least_s = 0.0\n"), true);
   EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 8.5\nother = 'B'\nat_least_s = 0.1\n"), false);
   EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'B'\nat_least_s = 5.0\n"), true);   // B never
-  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'A'\nat_least_s = 0.0\n"), false);  // of B
+  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'A'\nat_least_s = 0.0\n"), false);  // itself
 }
 
 TEST(Bars, OfValuesWindowsPairsAndDivergence) {
@@ -58,7 +59,7 @@ TEST(Bars, OfValuesWindowsPairsAndDivergence) {
   EXPECT_EQ(passed("kind = 'window'\nfrom_s = 0.2\nto_s = 0.3\nmean_at_most_mrad = 1.501\n"), true);
   EXPECT_EQ(passed("kind = 'window'\nfrom_s = 0.2\nto_s = 0.3\nmean_at_most_mrad = 1.499\n"), false);
   EXPECT_EQ(passed("kind = 'window'\nfrom_s = 0.2\nto_s = 0.3\nstandard_deviation_at_most_mrad = 0.5\n"),
-            false);  // 0.53
+            false);  // the standard deviation is 0.53 mrad
   EXPECT_EQ(passed("kind = 'paired'\nat_s = 3.0\nother = 'B'\nat_least = 0.75\n"), true);
   EXPECT_EQ(passed("kind = 'paired'\nat_s = 3.0\nother = 'B'\nat_least = 0.76\n"), false);
   EXPECT_EQ(passed("kind = 'divergence'\nbeyond_mrad = 5\nat_most = 0\n"), true);
@@ -67,7 +68,7 @@ TEST(Bars, OfValuesWindowsPairsAndDivergence) {
 }
 
 TEST(Bars, OfDistributions) {
-  const auto of_b = [](const std::string& bar) {  // 8, 8, 8, 0 mrad
+  const auto of_b = [](const std::string& bar) {  // the runs have 8, 8, 8 and 0 mrad
     return passed("kind = 'distribution'\nat_s = 0.3\n" + bar, 1);
   };
   EXPECT_EQ(of_b(""), std::nullopt);

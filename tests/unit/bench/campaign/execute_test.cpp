@@ -89,7 +89,7 @@ TEST(Execute, ARunThatCannotBeConfiguredEndsItWithOneLine) {
   ASSERT_TRUE(campaign) << campaign.error().message;
   const auto refused = execute(*campaign, options_for(scratch("refused.sqlite"), 2), never);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("c.toml: variant '"));  // of either thread
+  EXPECT_THAT(refused.error().message, HasSubstr("c.toml: variant '"));  // either thread may report first
   EXPECT_THAT(refused.error().message, HasSubstr(" target.parameters.h2_case=7': "));
   EXPECT_THAT(refused.error().message, HasSubstr("out_of_range"));
 }

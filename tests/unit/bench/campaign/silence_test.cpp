@@ -1,4 +1,4 @@
-// A target that falls silent meets no limit: an estimate counts only until it is stale.
+// A target that falls silent meets no limit: an estimate counts only until its age limit.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -109,7 +109,8 @@ TEST(LostFixes, AreNoUpdatesOfAWindow) {
 }
 
 TEST(LostFixes, TooManyInARowAreASilence) {
-  const std::vector runs{run_silent(end_us, end_us), run_silent(2 * s_us, 4 * s_us)};  // 2 s, may be 1 s old
+  // One run is silent for 2 s; the age limit is 1 s.
+  const std::vector runs{run_silent(end_us, end_us), run_silent(2 * s_us, 4 * s_us)};
   EXPECT_EQ(value_at(rms_curve(runs, heading), 3 * s_us)->missing, 0U);
   EXPECT_EQ(value_at(rms_curve(runs, heading), 7 * s_us / 2)->missing, 1U);
   EXPECT_EQ(window_statistics(runs, heading, 0, end_us).missing, 1U);

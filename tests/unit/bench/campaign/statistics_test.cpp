@@ -29,8 +29,8 @@ TEST(RmsCurve, IsTheRootOfTheMeanSquareOverRuns) {
 TEST(RmsCurve, HasTheStandardErrorThatTheScatterOverTheRunsGivesIt) {
   const std::vector runs{run_with(0, {3, 2}), run_with(1, {-4, -2})};
   const auto curve = rms_curve(runs, heading);
-  // The mean of the squares 9 and 16 has the standard error sqrt(24.5 / 2); that of its root is this divided
-  // by twice the root.
+  // The mean of the squares 9 and 16 has the standard error sqrt(24.5 / 2) = 3.5. The standard error of the
+  // RMS is 3.5 / (2 RMS).
   EXPECT_DOUBLE_EQ(curve[0].rms_error, 3.5 / (2 * std::sqrt(12.5)));
   EXPECT_EQ(curve[1].rms_error, 0) << "all alike";
   EXPECT_TRUE(std::isnan(rms_curve(std::vector{run_with(0, {3})}, heading)[0].rms_error)) << "one run";
@@ -71,7 +71,7 @@ TEST(RunDistribution, IsOfEachRunsLastUpdateAtOrBeforeTheTime) {
   for (std::uint64_t run = 0; run < 10; ++run)
     runs.push_back(
         run_with(run, {99, run % 2 == 0 ? static_cast<double>(run + 1) : -static_cast<double>(run + 1), 99}));
-  runs[3] = run_with(3, {4});  // its fix was lost, so the value before counts
+  runs[3] = run_with(3, {4});  // the second fix was lost, so the previous value counts
   const auto found = run_distribution(runs, heading, 250'000, 5, 100);
   EXPECT_EQ(found.missing, 0U);
   EXPECT_DOUBLE_EQ(found.rms, std::sqrt(38.5));
@@ -101,8 +101,8 @@ TEST(RunDistribution, BootstrapsTheRmsOfABatch) {
   std::vector<RunSeries> runs;
   for (std::uint64_t run = 0; run < 400; ++run) runs.push_back(run_with(run, {run % 4 == 0 ? 10.0 : 0.0}));
   const auto found = run_distribution(runs, heading, 100'000, 1, 100);
-  // A quarter of the runs have the value 10, so of 100 drawn runs B(100, 1/4) have it. The 5 % and 95 %
-  // quantiles of that number are 18 and 32.
+  // A quarter of the runs have the value 10, so the number of tens among 100 drawn runs has the distribution
+  // B(100, 1/4), with the 5 % and 95 % quantiles 18 and 32.
   EXPECT_NEAR(found.rms_low, std::sqrt(18.0), 0.13);
   EXPECT_NEAR(found.rms_high, std::sqrt(32.0), 0.13);
   EXPECT_EQ(run_distribution(runs, heading, 100'000, 1, 100).rms_low, found.rms_low) << "seeded";
@@ -175,7 +175,8 @@ TEST(Consistency, HasTheBoundsOfChiSquareForTheMeanOverRuns) {
 }
 
 TEST(Consistency, IsOfTheRunsThatWereAsked) {
-  // The fixes of the second update were gated in all runs but one, those of the third in all.
+  // The fixes of the second update were gated in all runs except one, the fixes of the third update in all
+  // runs.
   std::vector<RunSeries> runs(10, run_with(0, {3, nan, nan}, quantities::innovation_nis));
   runs[4] = run_with(4, {3, 9.3, nan}, quantities::innovation_nis);
   const auto found = consistency(runs, quantities::innovation_nis, 0, 1'000'000, 0.95);

@@ -61,7 +61,7 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
 
 class Damaged : public testing::Test {
  protected:
-  /// The error of a damaged file; "" if it gives the same report. Another report is a failure.
+  /// The error of a damaged file; "" if the report is unchanged. A different report fails the test.
   std::string complaint_of(const std::string& bytes) {
     write(copy_, bytes);
     const auto report = report_on(copy_);
@@ -110,16 +110,16 @@ TEST_F(Damaged, IsRefusedOrGivesTheSameReport) {
     const std::size_t place = below(bytes.size());
     const std::size_t length = std::min(bytes.size() - place, 1 + below(64));
     switch (i % 4) {
-      case 0:  // one bit
+      case 0:  // one flipped bit
         bytes[place] = static_cast<char>(bytes[place] ^ (1 << below(8)));
         break;
-      case 1:  // anything
+      case 1:  // random bytes
         for (std::size_t k = 0; k < length; ++k) bytes[place + k] = static_cast<char>(random());
         break;
-      case 2:  // as from a disk that lost it
+      case 2:  // zeros, as from a disk that lost the block
         std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(place), length, '\0');
         break;
-      default:  // as from another file
+      default:  // bytes from another place in the file
         std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(below(bytes.size() - length)), length,
                     bytes.begin() + static_cast<std::ptrdiff_t>(place));
     }

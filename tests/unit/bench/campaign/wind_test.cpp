@@ -40,10 +40,10 @@ TEST(RunMeans, CountRunsThatWereLost) {
   EXPECT_DOUBLE_EQ(found.mean, 2);
   EXPECT_TRUE(std::isnan(found.standard_deviation));
   EXPECT_EQ(run_means(three_runs(), quantities::wind_along, 500'000, end_us).missing,
-            3U);  // no updates there
+            3U);  // there are no updates in this window
 }
 
-// Heading of A: 2 mrad in the mean, of B: 6.
+// The mean heading error of A is 2 mrad, of B 6 mrad.
 std::optional<bool> passed(const std::string& metric) {
   const auto campaign =
       parse(two_variants + "[[metric]]\nkind = 'run_mean'\nquantity = 'attitude.heading'\n" + metric);

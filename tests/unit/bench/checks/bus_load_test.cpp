@@ -37,7 +37,7 @@ TEST(BusLoad, IsJudgedOnTheWireOfTheRunToo) {
   EXPECT_EQ(found(rule, seen).outcome, Outcome::pass);
 }
 
-// 60 000 bits of the data phase: 30 ms at 2 Mbit/s, 12 ms at 5.
+// 60 000 bits in the data phase take 30 ms at 2 Mbit/s and 12 ms at 5 Mbit/s.
 TEST(BusLoad, IsJudgedOnTheWireOfTheRunTooWhereItsDataRateAloneDiffers) {
   Observations seen;
   seen.length_by_second = {{.nominal = 5'000, .data = 60'000}};

@@ -33,7 +33,7 @@ constexpr std::int64_t second_us = 1'000'000;
 constexpr std::int64_t duration_us = 4 * second_us;
 constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
 
-// A frame of the target, and its cause.
+// A received frame of the target, with the time of the sample that caused it.
 struct Came {
   std::int64_t t_ns = 0;
   std::int64_t cause_us = -1;
@@ -281,7 +281,7 @@ TEST_F(Judged, CountersByEachBar) {
   rule.frames_lost_at_most = 0;
   rule.late_at_most = 2;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  seen_.counters->bad_crc = 5;  // not checked
+  seen_.counters->bad_crc = 5;  // the rule sets no limit on it
   seen_.counters->late = 2;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   seen_.counters->late = 3;
@@ -291,8 +291,8 @@ TEST_F(Judged, CountersByEachBar) {
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
-// Stalled for 5 of 400 stimuli: the p99 of lateness tolerates this number of late frames, the periods of the
-// answers would not.
+// The bench stalls for 5 of 400 stimuli. The p99 of the lateness tolerates five late frames, but the periods
+// of the answers would exceed their limit.
 TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
   const OutputPeriod period{.message = "AlignAttitude", .window = whole, .within = 0.25, .quantile = 0.99};
   ASSERT_EQ(judge(period).outcome, Outcome::pass);
@@ -453,7 +453,7 @@ TEST_F(Judged, TheControllersStampsAreUsedWhereItGaveThem) {
   EXPECT_FALSE(stamped_by_hardware(timed(checks).timing));
   for (auto& [group, stimuli] : stimuli_)
     for (Stimulus& stimulus : stimuli) stimulus.hardware_ns = stimulus.t_ns + 1'000'000'000'000;
-  for (auto& came : came_)  // 30 us where the host's stamps say 200 us
+  for (auto& came : came_)  // hardware stamps: 30 us, host stamps: 200 us
     for (Came& one : came) one.hardware_ns = one.t_ns + 999'999'830'000;
   EXPECT_TRUE(stamped_by_hardware(timed(checks).timing));
   EXPECT_EQ(window().latency.max_ns(), 30'000);

@@ -71,7 +71,7 @@ TEST_F(Winds, ErrorsAreAlongAndAcrossTheAirVelocity) {
   seen_.of<WindAnswers>()[200].wind_n += Vector3(-2, 0, 0);  // to the south: to the right
   seen_.of<WindAnswers>()[300].wind_n += Vector3(0, 0, -1);
   const auto errors = wind_errors(seen_.of<WindAnswers>(), glide_);
-  EXPECT_NEAR(errors[100].along_track, 3, 0.01);  // it weathercocks by a fraction of a degree
+  EXPECT_NEAR(errors[100].along_track, 3, 0.01);  // the glider weathercocks by a fraction of a degree
   EXPECT_NEAR(errors[100].cross_track, 0, 0.1);
   EXPECT_NEAR(errors[200].cross_track, 2, 0.01);
   EXPECT_NEAR(errors[300].error_n.z(), -1, 1e-12);
@@ -114,7 +114,8 @@ TEST_F(Winds, NeesTakesTheCorrelationIn) {
 
 TEST_F(Winds, ACovarianceThatIsNoneExplainsNothing) {
   seen_.of<WindAnswers>()[0].wind_n += Vector3(1, -1, 0);
-  seen_.of<WindAnswers>()[0].correlation = {0.9, 0.9, -0.9};  // as no three numbers are correlated
+  // Not positive definite: no three quantities have these correlations.
+  seen_.of<WindAnswers>()[0].correlation = {0.9, 0.9, -0.9};
   EXPECT_TRUE(std::isinf(nees_of(seen_.of<WindAnswers>(), glide_)[0].value));
   EXPECT_EQ(consistency(quantities::wind_nees, MeanBetween{.low = 0, .high = 1e9}).outcome, Outcome::fail);
 }

@@ -16,7 +16,7 @@ using messages::SlaveImuStatus;
 using messages::TargetHeartbeat;
 using testing::HasSubstr;
 
-constexpr std::int64_t frame_ns = 135'000;  // of 8 bytes, at 1 Mbit/s
+constexpr std::int64_t frame_ns = 135'000;  // a frame with 8 bytes at 1 Mbit/s
 
 // 1 s at 1 Mbit/s: one message of the bench, one answer to it, and heartbeats.
 class OnTheWire : public testing::Test {
@@ -50,19 +50,21 @@ class OnTheWire : public testing::Test {
   Observations seen_;
 };
 
-// The bench's frame can find an answer or the heartbeat on the wire; if their id is lower, they also win the
-// arbitration. The target's own frame can be queued behind the heartbeat, or the heartbeat behind it.
+// A frame of the bench can wait for an answer or heartbeat that is already on the wire; an answer or
+// heartbeat with a lower id also wins the arbitration. In the target, an answer can be queued behind the
+// heartbeat, or the heartbeat behind an answer.
 TEST_F(OnTheWire, TheBoundIsOfTheMessagesThatWereSeen) {
   EXPECT_EQ(wire_bounds(seen_).size(), 2U) << "of the heartbeat nobody saw when it was queued";
   EXPECT_EQ(bound_of("SlaveImuStatus"), 2 * frame_ns);
   EXPECT_EQ(bound_of("AlignAttitude"), 3 * frame_ns);
-  heartbeats(4);  // of a target with four estimators
+  heartbeats(4);  // a target with four estimators
   EXPECT_EQ(bound_of("AlignAttitude"), 6 * frame_ns);
 }
 
 TEST_F(OnTheWire, TheBoundIsThatOfTheOrderInWhichNodesSend) {
   heartbeats(4);
-  seen_.timing.wire.urgent_first = true;  // one heartbeat can be on the wire; none is queued in front
+  // A heartbeat can be on the wire, but none is queued before the answer.
+  seen_.timing.wire.urgent_first = true;
   EXPECT_EQ(bound_of("SlaveImuStatus"), 2 * frame_ns);
   EXPECT_EQ(bound_of("AlignAttitude"), 3 * frame_ns);
 }
@@ -85,7 +87,7 @@ TEST_F(OnTheWire, WithoutABoundNothingIsMeasured) {
   seen_.transmit_stamps_echoed = false;
   EXPECT_THAT(judged().measured, HasSubstr("does not echo"));
   seen_.transmit_stamps_echoed = true;
-  seen_.timing.wire.rates.nominal = 10'000;  // 13.5 ms a frame: overloaded
+  seen_.timing.wire.rates.nominal = 10'000;  // 13.5 ms per frame: overloaded
   EXPECT_EQ(judged().outcome, Outcome::not_measured);
   EXPECT_THAT(judged().measured, HasSubstr("has no bound"));
   seen_.timing.wire.rates.nominal = 0;
@@ -94,8 +96,8 @@ TEST_F(OnTheWire, WithoutABoundNothingIsMeasured) {
   EXPECT_TRUE(wire_bounds(seen_).empty());
 }
 
-// Three messages each way in a container of 24 bytes: 20 + 12 bits at the nominal bit rate, 246 + 33 at the
-// data bit rate; 86 + 28 for the 8 bytes of the heartbeat.
+// Three messages in each direction, in a container of 24 bytes: 20 + 12 bits at the nominal bit rate and 246
+// + 33 bits at the data bit rate. The heartbeat with 8 bytes has 86 + 28 bits at the data bit rate.
 TEST_F(OnTheWire, OnCanFdTheBoundIsThatOfTheContainer) {
   constexpr std::int64_t container_ns = 32'000 + 69'750, heartbeat_ns = 32'000 + 28'500;
   seen_.timing.wire = {.rates = {.nominal = 1'000'000, .data = 4'000'000}, .fd = true};
@@ -109,7 +111,7 @@ TEST_F(OnTheWire, OnCanFdTheBoundIsThatOfTheContainer) {
   EXPECT_EQ(bound_of("AlignNav"), 2 * container_ns + heartbeat_ns);
   EXPECT_EQ(found(WireResponseRule{}, seen_).outcome, Outcome::pass);
   EXPECT_THAT(found(WireResponseRule{}, seen_).measured, HasSubstr("SlaveImu: 0.150 of 0.20"));
-  sent.max_ns = 2 * container_ns + 1;  // held back by a frame more than there can be
+  sent.max_ns = 2 * container_ns + 1;  // longer than the bound of two containers
   EXPECT_EQ(found(WireResponseRule{}, seen_).outcome, Outcome::fail);
   sent.max_ns = 150'000;
   answered.max_ns = 2 * container_ns + heartbeat_ns + 1;

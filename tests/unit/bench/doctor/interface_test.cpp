@@ -129,7 +129,7 @@ Interface healthy() {
           .stamping = std::nullopt};
 }
 
-// The lines that are not good: subject and remedy.
+// The lines that report a problem: subject and remedy.
 std::vector<std::string> complaints(const Interface& interface) {
   std::vector<std::string> found;
   for (const Line& line : interface_lines(interface)) {

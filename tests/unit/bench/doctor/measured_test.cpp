@@ -112,7 +112,7 @@ TEST_F(OnABus, TheFramesOfTheLoopAreNoneOfTheDbc) {
   EXPECT_EQ(seen, 2);
 }
 
-// Passes frames on, but not every one.
+// Passes frames on, but loses some.
 class LossyPort final : public Port {
  public:
   LossyPort(Port& port, int loses_every) : port_(port), loses_every_(loses_every) {}

@@ -1,4 +1,4 @@
-// The adapter of an interface, from a tree as sysfs has it; the hash of a file.
+// Identifies the adapter of an interface in an artificial sysfs tree; the hash of a file.
 #include "bench/drive/adapter.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ class Adapters : public testing::Test {
 TEST_F(Adapters, OnUsb) {
   const fs::path device = "devices/pci0000:00/0000:00:14.0/usb1/1-4";
   plug_in("can0", device / "1-4:1.0", "usb", "gs_usb");
-  write("devices/pci0000:00/0000:00:14.0/usb1/idVendor", "1d6b");  // the hub
+  write("devices/pci0000:00/0000:00:14.0/usb1/idVendor", "1d6b");  // the USB hub
   write(device / "idVendor", "1d50");
   write(device / "idProduct", "606f");
   write(device / "product", "candleLight USB to CAN adapter");
@@ -76,7 +76,7 @@ TEST(FileIdentity, IsWhatSha256sumPrints) {
   std::ofstream(path) << "abc";
   const auto identity = identify_file(path);
   ASSERT_TRUE(identity);
-  // FIPS 180-4, example of one block.
+  // FIPS 180-4, the example with one block.
   EXPECT_EQ(identity->sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(identity->bytes, 3U);
   EXPECT_FALSE(identify_file(own.path.string()));

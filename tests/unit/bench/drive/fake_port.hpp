@@ -1,4 +1,4 @@
-// A bus whose target is written by a test.
+// A bus on which the test plays the target.
 #pragma once
 
 #include <deque>
@@ -11,7 +11,7 @@
 
 namespace canhil::drive {
 
-/// Passes every sent frame to `on_send`, which may call give(). Stamps are 0; waiting is sleeping.
+/// Passes every sent frame to `on_send`, which may call give(). All stamps are 0; waiting sleeps.
 class FakePort : public Port {
  public:
   SendOutcome send(const Frame& frame) override {

@@ -15,8 +15,8 @@ using testing::HasSubstr;
 using world::Vector3;
 
 constexpr double dt = 0.01;
-constexpr double widest_rad = 0.131;  // of SlaveImuDeltaTheta
-constexpr double widest_mps = 1.31;   // of SlaveImuDeltaV
+constexpr double widest_rad = 0.131;  // limit of SlaveImuDeltaTheta
+constexpr double widest_mps = 1.31;   // limit of SlaveImuDeltaV
 
 class ImuLimits : public testing::Test {
  protected:
@@ -35,7 +35,7 @@ class ImuLimits : public testing::Test {
   }
 
   scenario::Scenario scenario_;
-  world::FlightRecord truth_;  // 1 g ahead and 1 g up: 0.098 m/s a sample on two axes, hardly any rotation
+  world::FlightRecord truth_;  // 1 g ahead and 1 g up: 0.098 m/s per sample on two axes, hardly any rotation
 };
 
 TEST_F(ImuLimits, AnHonestImuFits) {
@@ -126,7 +126,7 @@ TEST(Nodes, SendInAnOrderThatNeverChanges) {
   std::vector<std::string_view> senders;
   for (const auto& node : sensors) {
     nodes::Transmission out;
-    while (out.frames().empty()) node->transmit(out);  // some are lost on purpose
+    while (out.frames().empty()) node->transmit(out);  // until the first sample that is not lost on purpose
     senders.push_back(messages::find_message(out.frames().front().id)->sender);
   }
   EXPECT_THAT(senders,

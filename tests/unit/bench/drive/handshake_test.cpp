@@ -1,4 +1,4 @@
-// The handshake with targets that are slow, that do not receive, that disobey, or that have another DBC.
+// The handshake with targets that are slow, receive nothing, disobey, or have another DBC.
 #include "bench/drive/handshake.hpp"
 
 #include <gmock/gmock.h>
@@ -108,7 +108,7 @@ TEST_F(Handshake, TwoTargetsThatAcknowledgeEachStepAreNotTaken) {
     while (const auto one = port_.receive()) answers.push_back(*one);
     for (const Received& one : answers) {
       port_.give(one);
-      port_.give(one);  // from a second target, whose counters are the same
+      port_.give(one);  // from a second target with the same counters
     }
   };
   const auto done = configure();
@@ -128,7 +128,7 @@ TEST_F(Handshake, AHeartbeatOfTheLastRunIsNotTheAnswerToAReset) {
   deaf_to_commands_ = 1;
   port_.on_send = [this](const Frame& frame) {
     if (deaf_to_commands_ > 0) {
-      heartbeat_.estimator = Estimator::transfer_alignment;  // as left behind: idle, with the other algorithm
+      heartbeat_.estimator = Estimator::transfer_alignment;  // left from an earlier run
       heartbeat_.algorithm = Algorithm::kalman;
       beat();
     }

@@ -18,7 +18,7 @@
 namespace canhil::drive {
 namespace {
 
-using Flown = Run;  // a test has a Run() of its own
+using Flown = Run;  // in tests, Run() is the member function of gtest
 
 scenario::Scenario scenario_of(const std::string& name) {
   auto read = scenario::read_file(fmt::format("{}/bench/flights/{}.toml", SOURCE_DIR, name), contract());
@@ -43,7 +43,7 @@ const checks::CheckResult* find_check(const Flown& run, std::string_view kind) {
   return found == run.verdict.checks.end() ? nullptr : &*found;
 }
 
-/// The sums of the stamps of a run, message by message.
+/// The sum of the stamps of each message in a run.
 std::vector<std::int64_t> stamps(const Flown& run) {
   std::vector<std::int64_t> t_ns{run.seen.first_ns, run.seen.last_ns};
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
@@ -103,7 +103,7 @@ TEST(InProcessWire, TimingIsJudgedAndTheSameEachTime) {
   expect_same_estimates(run, quick("in-process"));
 }
 
-// With half of the bit rate every frame takes twice as long, and so does every answer.
+// At half the bit rate, every frame and every answer takes twice as long.
 TEST(InProcessWire, LatencyIsTheShareOfTheWire) {
   const std::size_t index = message_index<messages::AlignVelocityD>();
   const auto latency_ns = [&](const std::string& bus) {
@@ -190,7 +190,7 @@ TEST_P(Containers, KeepTheirBoundsAndTheirTimesAddUp) {
   for (const auto& [group, breakdown] : timing.breakdown_by_group) {
     EXPECT_EQ(breakdown.echoed, breakdown.stimuli) << group;
     EXPECT_GE(breakdown.to_echo_ns, breakdown.stimulus_wire_ns) << group;
-    // Rounded up to whole ns by frame.
+    // The duration of each frame is rounded up to whole ns.
     EXPECT_GE(breakdown.latency_ns + static_cast<std::int64_t>(4 * breakdown.stimuli),
               breakdown.reply_wire_ns)
         << group;
@@ -224,7 +224,7 @@ TEST(InProcessWire, ADisturbedWireLosesNothingAndTakesLonger) {
   const checks::Histogram& latency = run.seen.timing.answers[index].latency;
   const checks::Histogram& undisturbed = clean.seen.timing.answers[index].latency;
   EXPECT_EQ(latency.count(), undisturbed.count());
-  EXPECT_GT(latency.max_ns(), undisturbed.max_ns() + 50'000);  // a frame again, and 23 bits
+  EXPECT_GT(latency.max_ns(), undisturbed.max_ns() + 50'000);  // a repeated frame and 23 bits
   EXPECT_EQ(stamps(run), stamps(quick(disturbed + "1")));
   EXPECT_NE(stamps(run), stamps(quick(disturbed + "2")));
 }
@@ -241,7 +241,8 @@ TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
   const auto back = std::ranges::find(bus.incidents, BusEvent::restarted, &checks::BusIncident::event);
   ASSERT_TRUE(off < back && back != bus.incidents.end());
   EXPECT_GE(back->t_ns - off->t_ns, 128 * 11 * 2'000);
-  ASSERT_NE(find_check(run, "bus_errors"), nullptr);  // also where the scenario has none
+  // This check is implied if the scenario does not contain it.
+  ASSERT_NE(find_check(run, "bus_errors"), nullptr);
   EXPECT_EQ(find_check(run, "bus_errors")->outcome, checks::Outcome::fail);
 
   checks::BusErrorLimits limits;

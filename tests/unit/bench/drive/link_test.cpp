@@ -62,7 +62,7 @@ TEST(LinkDrain, AWaitEndsAtOnceWhileFramesAreLeft) {
   FloodedPort port;
   port.most = Link::most_at_once + 1;
   ASSERT_EQ(::pipe(port.ends.data()),
-            0);  // never readable: poll() does not show the frames that the port holds
+            0);  // the pipe is never readable: poll() does not see the frames that the port holds
   Link link(port);
   link.drain();
   EXPECT_TRUE(link.wait_until(clock_ns(CLOCK_MONOTONIC)));
@@ -102,10 +102,10 @@ TEST(SharesOfFrames, OfAllIdsOnlySoManyAreToldApart) {
 TEST(LinkFlood, FramesThatWaitedForABenchWithoutACpuAreNone) {
   FloodedPort port;
   port.simulated = true;
-  port.most = 9'000;  // looked at in 90 ms
+  port.most = 9'000;  // the link reads them within 90 ms
   Link link(port);
   while (port.brought < port.most) link.drain();
-  port.most += 2'000'000;  // time goes by
+  port.most += 2'000'000;  // 20 s pass in which the link does not read
   while (port.brought < port.most) port.receive();
   port.most += 9'000;
   while (port.brought < port.most) link.drain();
@@ -121,7 +121,7 @@ TEST(LinkFlood, FramesThatWereLostMeanwhileHadBeenWaiting) {
   for (int turn = 0; turn < 5; ++turn) {
     port.most += 1'000;
     while (port.brought < port.most) link.drain();
-    port.most += 5'000;  // 50 ms go by
+    port.most += 5'000;  // 50 ms pass in which the link does not read
     while (port.brought < port.most) port.receive();
     port.overflowed += 4'000;
   }

@@ -85,8 +85,8 @@ TEST(Los, EveryAlgorithmSeesTheSameFlight) {
 }
 
 TEST(Los, WithoutNoiseTheErrorIsThatOfTheBus) {
-  // A filter designed for noise lags behind a manoeuvre. Without one there is no lag, so only the error of
-  // the bus remains.
+  // A filter designed for noise lags behind a manoeuvre. A filter designed without noise has no lag, so only
+  // the rounding on the bus remains as error.
   const Flown quiet =
       fly("los_quick", {set("seeker.thermal_noise_radpm2", "0"), set("seeker.glint_noise_m", "0"),
                         set("seeker.gyro_noise_mradps", "0"), set("seeker.gyro_bias_sigma_mradps", "0"),

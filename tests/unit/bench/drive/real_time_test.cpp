@@ -110,7 +110,7 @@ TEST_F(RealTime, NamesASilentTarget) {
 
 TEST_F(RealTime, AnErrorFrameIsNoSignOfLife) {
   static_assert(CAN_ERR_CNT == messages::AlignInnovation::info.id);
-  // The class of error frames with the error counters looks like the id of AlignInnovation.
+  // The class bits of error frames with error counters look like the id of AlignInnovation.
   port_.on_send = [&](const Frame&) { port_.give(Frame{.id = CAN_ERR_CNT, .size = 8, .error = true}); };
   EXPECT_EQ(run(impatient_ns).kind, Ending::Kind::target_silent);
 }
@@ -150,7 +150,7 @@ class Trouble : public RealTime {
       if (port_.sent.size() == 2) {
         port_.trouble = trouble;
         port_.trouble_until_ns = clock_ns(CLOCK_MONOTONIC) + silence_limit_ns * 3 / 2;
-        return begin();  // the target sends nothing more
+        return begin();  // the target sends nothing afterwards
       }
       port_.give(TargetHeartbeat{.state = TargetState::running});
     };
@@ -232,7 +232,7 @@ TEST_F(RealTime, AFrameThatWaitedForRoomIsAsLateAsItWasSent) {
     std::int64_t& room_ns_;
   } opener(port_, room_ns);
   link.attach(opener);
-  port_.give(Frame{.id = 1});  // found while the link waits for room
+  port_.give(Frame{.id = 1});  // received while the link waits for room
   ASSERT_EQ(link.send(Frame{.id = 2}, patient_ns, due_ns), LinkState::up);
   EXPECT_GE(lateness.late, room_ns - due_ns);
   ASSERT_EQ(link.send(Frame{.id = 2}, patient_ns), LinkState::up);

@@ -103,9 +103,10 @@ double rms(const Spool<estimators::NavigationError>& errors, std::int64_t from_u
   return std::sqrt(sum / count);
 }
 
-// The same seed gives both flights the same errors of sensors and start. They differ in the interpolation and
-// the rounding of the file, which are small compared with the errors of the alignment. The ratio of the
-// errors differs from 1 by at most 8e-6; a frame that is rounded in the other direction can multiply this.
+// With the same seed, both flights have the same errors of the sensors and of the initial state. They differ
+// only by the interpolation and the rounding of the file, which are small compared with the errors of the
+// alignment. The ratio of the errors differs from 1 by at most 8e-6; a single frame that is rounded in the
+// other direction can multiply this difference.
 TEST(RecordedTruth, GivesTheErrorsOfTheFlightThatItWasRecordedOf) {
   const std::string analytic = scenario_text(per_run_truth);
   const auto scenario = scenario::parse(analytic, "own.toml", contract());

@@ -12,7 +12,7 @@
 namespace canhil::drive {
 namespace {
 
-// In lockstep, so that only the heartbeats of the other estimators differ.
+// Flies in lockstep, so that the other estimators add only their heartbeats.
 Collected fly(const scenario::Scenario& scenario) {
   const auto truth = make_truth(scenario);
   EXPECT_TRUE(truth) << truth.error().message;

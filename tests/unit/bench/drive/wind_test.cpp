@@ -81,9 +81,9 @@ TEST(Wind, IsEstimatedThroughTheBus) {
   EXPECT_LT(flown.mean_error(norm), 2);
 }
 
-// The first answer contains exactly the carrier's information. All other errors are off: with navigation
-// noise and coefficient errors of 20 %, the error would be 1.2 m/s RMS even if the carrier sent the true
-// wind.
+// The first answer contains exactly the initial state from the carrier. All other errors are off: with
+// navigation noise and coefficient errors of 20 %, the error would be 1.2 m/s RMS even if the carrier sent
+// the true wind.
 TEST(Wind, StartsFromWhatTheCarrierTells) {
   const auto first_error = [](const std::string& sigma) {
     std::vector<scenario::Setting> settings{set("glide.initial_error.air_velocity_sigma_mps", sigma)};
@@ -104,8 +104,8 @@ TEST(Wind, StartsFromWhatTheCarrierTells) {
 TEST(Wind, DenserAirIsAWindAlongTheTrack) {
   const Flown flown =
       fly({set("airframe.density_error_percent", "3"), set("airframe.coefficient_error_percent", "0")});
-  // The effect of an error of 1.5 % of the air speed. 40 runs gave 2.73 m/s with a sigma of 0.09 m/s along
-  // the track, and at most 0.24 m/s across it.
+  // An error of 1.5 % of the air speed gave a mean of 2.73 m/s along the track with a sigma of 0.09 m/s over
+  // 40 runs, and at most 0.24 m/s across the track.
   EXPECT_NEAR(flown.mean_error(along_track), 2.73, 0.35);
   EXPECT_LT(flown.mean_error(cross_track), 0.35);
 }

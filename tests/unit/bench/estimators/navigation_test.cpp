@@ -49,7 +49,7 @@ TEST(AttitudeNees, IsTheSquareOfTheErrorInUnitsOfItsCovariance) {
 }
 
 TEST(AttitudeNees, KnowsWhichCorrelationIsWhich) {
-  // phi along the principal axis of a strongly correlated pair is likely, across it is not.
+  // For a strongly correlated pair, a phi along the principal axis is likely, a phi across it is unlikely.
   const double r = 0.96;
   for (int pair = 0; pair < 3; ++pair) {
     checks::Observations seen;
@@ -76,7 +76,7 @@ TEST(AttitudeNees, TakesTheFirstAnswerThatKnewOfTheUpdate) {
       {.cause_us = 100, .navigation_us = 100, .attitude_sigma = Vector3::Ones()});
   EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors)[0].value, 25, 1e-9);
   seen.of<TransferAnswers>().filter[0].navigation_us =
-      120;  // this fix came 20 us late: earlier answers do not include it
+      120;  // the fix arrived 20 us late, so earlier answers do not include it
   EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors)[0].value, 1, 1e-9);
   seen.of<TransferAnswers>().filter[0].navigation_us = 130;
   EXPECT_THAT(nees_of(seen.of<TransferAnswers>().filter, errors), SizeIs(0));

@@ -209,8 +209,8 @@ TEST(Plan, DependsOnItsSeedAlone) {
   EXPECT_EQ(one.rows.front().name(), no_fault);
 }
 
-// The faults that are flown by default: those that work in virtual time, on a bus without a bit rate, and
-// that affect something.
+// The faults of the default plan: faults that work in virtual time on a bus without a bit rate, and that have
+// an effect.
 TEST(Plan, HasEachKindOnEachNode) {
   std::vector<Column> columns;
   for (const char* name :

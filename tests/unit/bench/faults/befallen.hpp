@@ -22,7 +22,7 @@ inline Result<scenario::Scenario> parsed(const std::string& faults,
   return drive::parse_scenario(text.str(), "test.toml");
 }
 
-/// One of a kind; what follows must be another.
+/// The text of one fault of this kind; only further tables may follow it.
 inline std::string fault(const std::string& kind, const std::string& more) {
   return "[[fault]]\nkind = \"" + kind + "\"\n" + more;
 }
@@ -52,7 +52,7 @@ inline const Place everything{.bus = "vcan0",
                               .starts_target = true,
                               .wire = {.rates = {.nominal = 500'000}}};
 
-/// Frames with the time at which they go to the bus.
+/// Frames, each with the time at which it is sent.
 using Timed = std::vector<std::pair<std::int64_t, Frame>>;
 
 /// A run of a flight with these faults, without a target.

@@ -20,7 +20,7 @@ const Flight& right() {
   return flight;
 }
 
-// Compares both flights sample by sample within a period: a number without and with the fault.
+// Compares a number in the flight without and with the fault, sample by sample, within a time window.
 template <class Message, class Number>
 void each(const Flight& befallen, double from_s, double to_s, Number number,
           const std::function<void(double was, double is, double t_s)>& look) {
@@ -45,7 +45,8 @@ const std::string rate = "quantity = \"imu.rate.z\"\nfrom_s = 1\nto_s = 2\n";
 constexpr double degps = M_PI / 180;
 
 TEST(SensorFaults, ABiasOfARateIsInItsIncrementsAndNothingIsLostByRounding) {
-  // 1e-3 deg/s is 1.7e-7 rad per sample, a twelfth of a step: only the rounding remainders carry it.
+  // 1e-3 deg/s is 1.7e-7 rad per sample, a twelfth of a step: only the carried rounding remainders transmit
+  // it.
   double sum = 0;
   each<SlaveImuDeltaTheta>(Flight(fault("bias", rate + "by_degps = 1e-3")), 1, 2, rate_z,
                            [&](double was, double is, double) { sum += 0.01 * (is - was); });
@@ -53,7 +54,7 @@ TEST(SensorFaults, ABiasOfARateIsInItsIncrementsAndNothingIsLostByRounding) {
 }
 
 TEST(SensorFaults, EachKindChangesTheNumberAsItSays) {
-  const double step = 2e-6 / 0.01;  // of a rate [rad/s]
+  const double step = 2e-6 / 0.01;  // step of the rate [rad/s]
   each<SlaveImuDeltaTheta>(
       Flight(fault("drift", rate + "by_degps = 2")), 1, 2, rate_z,
       [&](double was, double is, double t) { EXPECT_NEAR(is - was, 2 * degps * (t - 1), step); });
@@ -125,7 +126,7 @@ TEST(SensorFaults, ALateSampleTellsItsOwnTime) {
     EXPECT_EQ(t_us - one.time_of_validity_us, one.time_of_validity_us == 1'000'000 ? 30'000 : 0);
 }
 
-// Frames that a receiver of one message must have lost.
+// The number of frames that a receiver of one message must count as lost.
 template <class Message>
 int lost(const Flight& flight) {
   e2e::Receiver receiver;

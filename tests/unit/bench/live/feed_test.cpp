@@ -57,7 +57,7 @@ TEST(LiveFeed, DropsAndCountsWhatFindsNoRoom) {
   EXPECT_EQ(feed.dropped(), 12U);
   Seen seen;
   EXPECT_EQ(feed.drain(seen, nullptr), 8U);
-  EXPECT_EQ(seen.sent.back(), 7U);  // what is in it stays
+  EXPECT_EQ(seen.sent.back(), 7U);  // a full feed keeps its frames and drops new ones
   feed.transmitted({.id = 20}, 0, 0);
   EXPECT_EQ(feed.drain(seen, nullptr), 1U);
   EXPECT_EQ(feed.dropped(), 12U);
@@ -81,7 +81,7 @@ TEST(LiveFeed, DoesNotAllocateWhereTheFlightIs) {
   Feed feed(64);
   const Received answer{.frame = {.id = 3, .size = 8}, .t_ns = 1};
   const std::size_t before = allocations;
-  for (int i = 0; i < 200; ++i) {  // with room, and without
+  for (int i = 0; i < 200; ++i) {  // first with room, then with a full feed
     feed.transmitted({.id = 1}, i, 0);
     feed.received(answer);
     feed.time_told(i);

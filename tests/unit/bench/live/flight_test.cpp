@@ -82,7 +82,7 @@ TEST_P(LiveFlight, ShowsTheNumbersOfTheReport) {
   for (std::size_t i = 0; i < report.series.size(); ++i) {
     const report::Series &live = shown.series[i], &end = report.series[i];
     EXPECT_EQ(live.quantity, end.quantity);
-    ASSERT_GE(live.points.size() + 2, end.points.size()) << end.quantity;  // its end may add a gap
+    ASSERT_GE(live.points.size() + 2, end.points.size()) << end.quantity;  // the end of the run may add a gap
     std::size_t differing = 0;
     for (std::size_t k = 0; k < std::min(live.points.size(), end.points.size()); ++k) {
       const auto &a = live.points[k], &b = end.points[k];
@@ -92,7 +92,7 @@ TEST_P(LiveFlight, ShowsTheNumbersOfTheReport) {
   }
   EXPECT_EQ(shown.load_line.busiest, report.load_line.busiest);
   for (std::size_t i = 0; i < shown.checks.size(); ++i) {
-    if (!shown.checks[i].outcome) continue;  // at the end alone
+    if (!shown.checks[i].outcome) continue;  // judged only at the end of the run
     EXPECT_EQ(shown.checks[i].outcome, report.checks[i].outcome) << shown.checks[i].name;
     EXPECT_EQ(shown.checks[i].measured, report.checks[i].measured) << shown.checks[i].name;
   }

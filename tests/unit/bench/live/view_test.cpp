@@ -80,7 +80,7 @@ TEST(LiveServer, RefusesAPortInUse) {
   ASSERT_FALSE(second);
   EXPECT_NE(second.error().message.find("the port is in use"), std::string::npos);
   EXPECT_FALSE(Server::open("not an address", 0));
-  EXPECT_FALSE(Server::open("192.0.2.1", 0));  // of no machine
+  EXPECT_FALSE(Server::open("192.0.2.1", 0));  // TEST-NET-1 (RFC 5737), not an address of this machine
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(Delay, LiesInItsIntervalAsOftenAsItSays) {
     EXPECT_LT(found->half_width_s, 0.005);
     inside += std::abs(found->delay_s - 0.023) <= found->half_width_s ? 1 : 0;
   }
-  // 95 % of 400, with four standard deviations of a binomial distribution to either side.
+  // 95 % of 400 trials, plus and minus four standard deviations of the binomial distribution.
   EXPECT_GE(inside, 363);
   EXPECT_LE(inside, 397);
 }

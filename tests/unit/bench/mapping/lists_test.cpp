@@ -38,7 +38,7 @@ std::string told() {
   std::string all = "| quantity | what it is | unit |\n|---|---|---|\n";
   for (const ReferenceQuantity& one : reference_quantities()) {
     std::string meaning(one.quantity->meaning);
-    meaning = meaning.substr(0, meaning.find(';'));  // what campaigns make of it
+    meaning = meaning.substr(0, meaning.find(';'));  // the rest concerns campaigns
     if (meaning.starts_with("error of ")) meaning.erase(0, 9);
     all += fmt::format("| `{}` | {} | {} |\n", one.quantity->name, meaning, one.si);
   }

@@ -90,7 +90,7 @@ Vector3 mean_error(const std::vector<Fix>& fixes) {
   return sum / static_cast<double>(fixes.size());
 }
 
-// RMS about a mean.
+// The RMS about a mean, by axis.
 Vector3 spread(const std::vector<Fix>& fixes, const Vector3& mean) {
   Vector3 sum = Vector3::Zero();
   for (const Fix& fix : fixes) sum += (error(fix) - mean).cwiseAbs2();
@@ -152,7 +152,7 @@ TEST(Aiding, ErrorsAreConstantsAndNoise) {
 
 TEST(Aiding, AcousticNoiseGrowsWithTheRange) {
   const auto all = fixes(SsblSettings{.ship_offset = {-400, 0, 0}, .noise = {3, 3, 3}, .range_noise = 0.01});
-  EXPECT_NEAR(all.front().sigma, 5.02, 0.02);  // 3 and 1 % of 403 m, squared and summed
+  EXPECT_NEAR(all.front().sigma, 5.02, 0.02);  // root sum square of 3 m and 1 % of 403 m
   EXPECT_NEAR(
       all.back().sigma,
       std::hypot(

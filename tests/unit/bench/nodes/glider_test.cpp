@@ -79,7 +79,7 @@ TEST(GliderNav, SendsTheTruthOfItsTimeOfValidity) {
   GliderNavSettings config;
   config.schedule.latency_us = 30'000;
   const auto samples = navigation(config);
-  ASSERT_EQ(samples.size(), 998U);  // every 20 ms, those that arrive before the end
+  ASSERT_EQ(samples.size(), 998U);  // every 20 ms; only samples that arrive before the end of the run
   for (const Sample& sample : samples) {
     EXPECT_EQ(sample.due_us, sample.valid_us + 30'000);
     const world::GlideTruth& truth = glide().at(sample.valid_us);
@@ -101,7 +101,7 @@ TEST(GliderNav, ErrorsHaveTheirSigmas) {
     rates += (sample.rates - truth.omega_nb_b).cwiseAbs2() / count;
     attitude += (sample.angles - angles(truth)).cwiseAbs2() / count;
   }
-  for (int axis = 0; axis < 3; ++axis) {  // 1000 samples: sigma of 2.2 %
+  for (int axis = 0; axis < 3; ++axis) {  // 1000 samples: the estimated sigma has a sigma of 2.2 %
     EXPECT_NEAR(std::sqrt(velocity[axis]), 0.25, 0.025);
     EXPECT_NEAR(std::sqrt(rates[axis]), 0.125 * deg, 0.0125 * deg);
     EXPECT_NEAR(std::sqrt(attitude[axis]), 0.25 * deg, 0.025 * deg);
@@ -119,7 +119,7 @@ TEST(GliderNav, CorrelatedErrorsStay) {
       };
       sum += std::pow(error(i) - error(i - 1), 2) / static_cast<double>(samples.size() - 1);
     }
-    return sum;  // 2 (1 - fraction), and the change of the process in 20 ms
+    return sum;  // 2 (1 - fraction), plus the change of the correlated error in 20 ms
   };
   EXPECT_NEAR(change(0), 2, 0.3);
   EXPECT_NEAR(change(0.5), 1, 0.15);

@@ -10,7 +10,7 @@ namespace canhil::nodes {
 template <class Settings>
 std::unique_ptr<Node> made(const Kind& kind, const Settings& settings, const world::FlightRecord& flight,
                            const world::GlideRecord* glide = nullptr) {
-  static const scenario::Scenario any;  // a run's nodes refer to theirs
+  static const scenario::Scenario any;  // nodes keep a reference to their scenario
   return kind.make({kind.table, settings}, {.scenario = any, .index = 0, .flight = flight, .glide = glide});
 }
 

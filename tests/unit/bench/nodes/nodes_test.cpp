@@ -101,7 +101,7 @@ TEST(TimeKeeper, KeepsTimeFromZeroToTheEnd) {
 }
 
 TEST(TimeKeeper, ClosesARunThatEndsBetweenTwoSyncs) {
-  TimeKeeper keeper(25'000, true);  // or lockstep would not wait for the last sample's answer
+  TimeKeeper keeper(25'000, true);  // without a final Sync, lockstep would not wait for the last answer
   EXPECT_THAT(times(keeper), ElementsAre(0, 10'000, 20'000, 30'000));
 }
 

@@ -56,7 +56,7 @@ std::vector<Frame> sent(const Kind& kind, RecordedSamples samples, std::vector<s
   return sent(*node, due);
 }
 
-/// 100 rows a second, all with these values.
+/// 100 rows per second, all with the same values.
 std::string imu_rows(const std::string& names, const std::string& values) {
   std::string csv = "t_s," + names + "\n";
   for (int i = 0; i <= 100; ++i) csv += fmt::format("{:.2f},{}\n", 0.01 * i, values);

@@ -12,7 +12,7 @@
 namespace canhil::nodes {
 namespace {
 
-// MasterIns as master_ins.
+// The table key of a sender: MasterIns becomes master_ins.
 std::string key_of(std::string_view sender) {
   std::string key;
   for (const char c : sender) {
@@ -46,7 +46,7 @@ TEST(Registry, WhatClosesAGroupIsTheLastOfItAndHasACycle) {
   }
 }
 
-// The truth has one interval.
+// The truth has a single sampling interval, so only one kind of node can be sampled at every epoch.
 TEST(Registry, OneNodeSamplesEveryEpoch) {
   EXPECT_EQ(std::ranges::count(all(), true, &Kind::at_every_epoch), 1);
 }

@@ -44,7 +44,7 @@ class Bench {
                                                    .glide = nullptr,
                                                    .engagement = &record_})) {}
 
-  /// The next sample; none if it was lost or the engagement is over.
+  /// The next sample; none if it was lost or the engagement has ended.
   std::optional<Sample> next() {
     out_.clear();
     const std::int64_t due_us = node_->due_us();
@@ -129,12 +129,12 @@ TEST(Seeker, SendsTheTruthOfEachSampleRoundedToTheBus) {
     ASSERT_EQ(epochs[i].t_us, due_us);
     ASSERT_EQ(counter, i % 15);
     ASSERT_EQ(angles.interval_us, 5000);
-    if (epochs[i].range < 100) continue;  // then all turn too fast to be compared with one instant
+    if (epochs[i].range < 100) continue;  // below 100 m, all quantities change too fast within a sample
     ASSERT_NEAR(angles.error_pitch_rad, epochs[i].error.pitch, 1e-5 + 1e-12);
     ASSERT_NEAR(angles.error_yaw_rad, epochs[i].error.yaw, 1e-5 + 1e-12);
     ASSERT_NEAR(range.range_m, epochs[i].range, 0.05 + 1e-9);
     ASSERT_NEAR(motion.closing_speed_mps, epochs[i].closing_speed, 0.25 + 1e-9);
-    if (i > 0) {  // mean of the step: the trapezium is off by T^2/12 of the second derivative
+    if (i > 0) {  // mean over the step: the trapezium rule errs by T^2/12 times the second derivative
       const double y = (epochs[i - 1].missile.yaw + epochs[i].missile.yaw) / 2;
       const double z = (epochs[i - 1].missile.pitch + epochs[i].missile.pitch) / 2;
       ASSERT_NEAR(motion.missile_acceleration_y_mps2, y, 0.01 + 0.02) << range.range_m;
@@ -272,8 +272,8 @@ TEST_F(GuidedSeeker, AnswersInTheAxesOfARollingAntenna) {
   EXPECT_LT(miss(bench, truthful), 0.5);
 }
 
-// With 100 ms from sample to command and a turning target: an answer is extrapolated from the sample's time
-// to the command's. A missing term or a wrong sign costs half a metre or more.
+// With 100 ms from sample to command and a manoeuvring target, the seeker extrapolates an answer from the
+// time of its sample to the time of the command. A missing term or a wrong sign costs half a metre or more.
 TEST_F(GuidedSeeker, ReckonsTheAnswerOnToItsUse) {
   SeekerSettings late = exact();
   late.schedule.latency_us = 90'000;
@@ -315,7 +315,8 @@ TEST_F(GuidedSeeker, TheSameFlightHoweverEarlyAnswersAreHeard) {
   Bench at_once(exact(), guided()), in_pairs(exact(), guided());
   const double first = miss(at_once, truthful);
   const double second = miss(in_pairs, [](Bench& bench, const world::EngagementTruth& epoch) {
-    if (epoch.t_us % 10'000 != 0) return;  // the answers to the samples of 5 and 10 ms arrive after 10 ms
+    // The answers to the samples of 5 and 10 ms arrive together after 10 ms.
+    if (epoch.t_us % 10'000 != 0) return;
     const auto& epochs = bench.record().epochs;
     if (epochs.size() > 1) truthful(bench, epochs[epochs.size() - 2]);
     truthful(bench, epoch);

@@ -94,7 +94,7 @@ TEST_F(OnAnFdWire, TheLatencyIsSplitIntoTheTimesOfContainers) {
   EXPECT_EQ(response<AlignVelocityD>().count, 0U);
 }
 
-// Nine messages: eight in a container; the ninth in a separate frame, which is held back for 2 ms.
+// Nine messages: eight in a container, the ninth in a separate frame that is delayed by 2 ms.
 TEST_F(OnAnFdWire, TheFramesOfAnAnswerCountOneBehindTheOther) {
   bench_.send(MasterInsVelocityNE{}, MasterInsAttitude{}, MasterInsLatitude{}, MasterInsLongitude{},
               MasterInsVelocityD{.time_of_validity_us = 20'000});
@@ -114,7 +114,8 @@ TEST_F(OnAnFdWire, TheFramesOfAnAnswerCountOneBehindTheOther) {
   EXPECT_EQ(timing().breakdown.latency_ns, 2'700'000 + ns(reply[1]));
 }
 
-// It was sent with the next frame of another kind, so the time of its queueing is not known.
+// An incomplete container is not sent before a frame of another kind follows, so the time at which it was
+// queued is unknown.
 TEST_F(OnAnFdWire, AContainerWithoutItsLastMessageHasNoResponse) {
   bench_.send(SlaveImuDeltaTheta{}, SlaveImuDeltaV{}, Sync{}, SlaveImuDeltaTheta{}, SlaveImuDeltaV{},
               SlaveImuStatus{});

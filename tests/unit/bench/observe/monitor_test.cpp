@@ -375,7 +375,7 @@ TEST_F(Watched, CountsAnswersToWhatWasAnsweredBefore) {
   sync(0);
   imu(10'000, 0);
   answer(10'000, 100'000);
-  answer_in_flight(10'000, 100'000);  // of another estimator
+  answer_in_flight(10'000, 100'000);  // an answer of another estimator
   EXPECT_EQ(seen().timing.answers[message_index<FixVelocityD>()].repeated, 0U);
   answer(10'000, 200'000);
   EXPECT_EQ(seen().timing.answers[message_index<AlignVelocityD>()].repeated, 1U);
@@ -457,7 +457,7 @@ TEST_F(OnAWire, TheLatencyIsSplitAndItsPartsAddUp) {
   EXPECT_EQ(timing.responses[message_index<AlignVelocityD>()].max_ns, wire_ns);
 }
 
-// IMU samples are answered at once, a sample of the master INS after 3 ms.
+// IMU samples are answered at once, samples of the master INS after 3 ms.
 TEST_F(OnAWire, EachGroupOfStimuliHasASplitOfItsOwn) {
   for (const std::int64_t t_us : {10'000, 20'000}) {
     imu(t_us, 1000 * t_us);
@@ -485,7 +485,7 @@ TEST_F(OnAWire, AMeanAtTheEndOfItsRangeIsKnownToBeOne) {
   EXPECT_FALSE(seen().timing.breakdown.compute_clipped);
 }
 
-// One stimulus with the answers of two estimators: the response lasts until the second answer.
+// One stimulus, answered by two estimators: the response ends with the second answer.
 TEST_F(OnAWire, AStimulusIsAnsweredWithItsLastAnswer) {
   imu(10'000, 0);
   answer(10'000, 300'000);

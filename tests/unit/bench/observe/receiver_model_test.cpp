@@ -35,7 +35,7 @@ class Model : public testing::Test {
   [[nodiscard]] checks::LossCounts least() const { return model_.expected().least; }
   [[nodiscard]] checks::LossCounts most() const { return model_.expected().most; }
 
-  ReceiverModel model_{{{"SlaveImu", 2}}};  // of two estimators
+  ReceiverModel model_{{{"SlaveImu", 2}}};  // two estimators receive the group
   Outbox<3> out_;
   std::int64_t now_us_ = 0;
 };
@@ -102,14 +102,14 @@ TEST_F(Model, WhatAnEstimatorMayRefuseLeavesRoomAndNoMore) {
   EXPECT_EQ(least().bad_group, 0U);
   EXPECT_EQ(most().bad_group, 2U);
   EXPECT_EQ(most().late, 0U);
-  imu(500'000);    // half a second old
-  imu(1'020'000);  // and in order again
-  imu(1'020'000);  // a second time
+  imu(500'000);    // 0.5 s too old
+  imu(1'020'000);  // in order again
+  imu(1'020'000);  // repeated
   sync();
   EXPECT_EQ(least().late, 0U);
   EXPECT_EQ(most().late, 4U);
   EXPECT_EQ(most().bad_group, 2U);
-  imu(2'000'000);  // nearly a second ahead
+  imu(2'000'000);  // nearly 1 s in the future
   sync();
   EXPECT_EQ(most().bad_group, 4U);
 }

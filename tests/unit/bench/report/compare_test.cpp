@@ -35,7 +35,7 @@ std::vector<int> latencies_us(unsigned seed, double median_us, std::size_t count
   return sample;
 }
 
-// Pair by pair, as U is defined.
+// The effect from the definition of U, which compares all pairs.
 double effect_by_pairs(const std::vector<int>& a, const std::vector<int>& b) {
   double u = 0;
   for (const int of_b : b)
@@ -48,9 +48,10 @@ TEST(RankTest, IsThatOfAllPairs) {
   EXPECT_NEAR(rank_test(buckets_of(a), buckets_of(b)).effect, effect_by_pairs(a, b), 1e-12);
 }
 
-// U = 6 of 3 x 4 pairs + 2 ties: computed by hand. a = 1 2 2, b = 2 3 3 1: pairs b > a: 2: 1, 3: 3, 3: 3, 1:
-// 0; ties: 2 with 2 twice, 1 with 1 once; U = 7 + 1.5. N = 7, ties 2, 3, 2: sum t^3 - t = 6 + 24 + 6 = 36,
-// var = 12 / 12 (8 - 36 / 42) = 7.142857; z = (8.5 - 6 - 0.5) / 2.672612 = 0.748331; P(Z > z) = 0.227130.
+// Computed by hand for a = 1 2 2, b = 2 3 3 1. Pairs with b > a, for each b: 1, 3, 3, 0, in total 7 of 12.
+// Ties: 2 with 2 twice, 1 with 1 once, in total 3, so U = 7 + 1.5. N = 7 with ties of 2, 3 and 2: sum t^3 - t
+// = 6 + 24 + 6 = 36, var = 12 / 12 (8 - 36 / 42) = 7.142857; z = (8.5 - 6 - 0.5) / 2.672612 = 0.748331; P(Z >
+// z) = 0.227130.
 TEST(RankTest, HandComputedWithTies) {
   const RankTest test = rank_test(buckets_of({1, 2, 2}), buckets_of({2, 3, 3, 1}));
   EXPECT_NEAR(test.effect, 8.5 / 12, 1e-12);
@@ -207,7 +208,7 @@ TEST(Compare, ACheckThatFailsNowIsWorse) {
   EXPECT_EQ(compared(bad, bad).outcome, Comparison::no_worse);
 }
 
-// The implied check, which no scenario contains: it appears if the bus went off.
+// Adds the implied check bus_errors, which reports contain only if the bus went off.
 Json with_bus_errors(Json report) {
   report["checks"].push_back(
       {{"name", "bus_errors"}, {"kind", "bus_errors"}, {"outcome", "fail"}, {"measured", "bus off 1"}});
@@ -336,7 +337,7 @@ TEST(Compare, NamesAnotherAdapterProgramAndOption) {
       << "all of them, before the first figure";
 }
 
-// A key that a later version adds is named as well.
+// A key that a later version adds is reported by name.
 TEST(Compare, NamesWhatItDoesNotKnow) {
   Json one = report_of(latencies_us(1, 200)), other = one;
   one["provenance"]["moon"] = "new";

@@ -111,7 +111,7 @@ TEST(PageSections, ShowsTheWordsOfEveryFigureThatHasSome) {
                         "down none judged</td>"));
 }
 
-// 200 stimuli, and no answer of a group that an estimator in use should send.
+// 200 stimuli without an answer of a group that an estimator in use should send.
 TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
   drive::Run run = run_of();
   for (int i = 0; i < 200; ++i)

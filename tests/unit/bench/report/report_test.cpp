@@ -83,7 +83,8 @@ TEST(Junit, EscapesWhatXmlForbids) {
   const auto suite = suite_of(run_of());
   const std::string readable = "a<b> & \"c\" 'd'   \xC2\xB5";
   EXPECT_EQ(suite.get<std::string>("<xmlattr>.name"), readable);
-  auto second = std::next(suite.begin(), 3)->second;  // after attributes, properties and the run's own case
+  // Skips attributes, properties and the test case of the run itself.
+  auto second = std::next(suite.begin(), 3)->second;
   EXPECT_EQ(second.get<std::string>("<xmlattr>.name"), readable);
   EXPECT_EQ(properties_of(second).at("requirement"), readable);
   EXPECT_EQ(second.get<std::string>("failure.<xmlattr>.message"), "5 < 6; expected > 7");

@@ -141,8 +141,8 @@ TEST(Series, ASigmaThatIsStaleIsAGap) {
   }
 }
 
-// A fix arrives each second, except for 10 s in which the bench withholds fixes: the last value before
-// becomes stale after 3 s.
+// A fix arrives each second, except for 10 s without fixes. The last value before this gap becomes stale
+// after 3 s.
 TEST(Series, ASigmaOfFixesIsStaleAfterThreeOfThem) {
   drive::Run run = run_of();
   scenario::Scenario scenario = scenario_of();

@@ -68,7 +68,8 @@ TEST(Uncertainty, TakesTheAdapterThatPollsSlowest) {
   EXPECT_EQ(stamp_conditions(run).usb_poll_s, 125e-6);
 }
 
-// 200 answers of 201 to 400 us, in steps of 1 us: p50 is 300.5 us, the middle of the bucket of the hundredth.
+// 200 answers with 201 to 400 us in steps of 1 us: p50 is 300.5 us, the middle of the bucket with the 100th
+// answer.
 TEST(Uncertainty, IsInTextJsonAndPageAlike) {
   const drive::Run run = run_on_a_wire();
   const auto report = document(scenario_of(), run);

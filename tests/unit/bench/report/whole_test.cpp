@@ -46,7 +46,7 @@ TEST(WholeReport, AKeyThatIsMissingOrOfAnotherKind) {
 
 TEST(WholeReport, ABitRateThatCannotBe) {
   Json report = document(scenario_of(), run_on_a_wire());
-  report["wire"]["bitrate_bitps"] = 1e308;  // no conversion to a whole number is defined for it
+  report["wire"]["bitrate_bitps"] = 1e308;  // no conversion to an integer is defined for this value
   EXPECT_EQ(why_not_whole(report),
             "key 'wire.bitrate_bitps': is 1e+308, expected a whole number of at least 0");
 }

@@ -42,7 +42,7 @@ TEST(Contradictions, AMisspeltParameterIsOneOfItsEstimator) {
   by_estimator.facts["transfer_alignment"].parameters = own;
   EXPECT_EQ(error(by_estimator),
             "s.toml:9: key 'target.parameters.h2_cas': is unknown, expected one of: velocity_noise_m2ps");
-  // A parameter of another estimator, if given, is sent to the target: the target may know it.
+  // A parameter of another estimator is sent to the target, because the target may have it.
   EXPECT_TRUE(parse(with("[truth]", "[target.parameters]\nh2_case = 1\n[truth]"), "s.toml", by_estimator));
 }
 

@@ -21,7 +21,8 @@ TEST_P(ScenarioError, IsOneExactLine) {
   EXPECT_EQ(error_of(with(GetParam().from, GetParam().to)), "s.toml:" + GetParam().error);
 }
 
-/// The keys in the order in which they are read: sections that depend on a truth follow its section.
+/// The keys in the order in which they are read: sections that depend on a truth follow the section of this
+/// truth.
 std::string keys_of_a_file() {
   const auto nodes_of = [](TruthOf samples) {
     std::string keys;

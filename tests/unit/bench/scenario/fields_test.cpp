@@ -268,7 +268,7 @@ TEST(ScenarioFields, Ssbl) {
   EXPECT_EQ(node.faults.silence_us, std::pair(std::int64_t{5'000'000}, std::int64_t{6'500'000}));
 }
 
-TEST(ScenarioFields, OutliersOfNoShareAreNone) {  // as at the beginning of a sweep
+TEST(ScenarioFields, OutliersOfNoShareAreNone) {  // for example the first point of a sweep
   const auto faults =
       node_of<nodes::SsblSettings>(parsed(aided("[ssbl]\noutlier_percent = 0\noutlier_m = 200"))).faults;
   EXPECT_EQ(faults.outlier_probability, 0);

@@ -31,7 +31,7 @@ std::map<std::string, Stream> by_name(const dbc::Database& from, const Assumptio
   return streams;
 }
 
-// 0x80010000 is the extended id 0x10000, base id 0: it wins over all.
+// 0x80010000 is the extended id 0x10000 with base id 0: it wins every arbitration.
 TEST(Streams, AreSortedByPriority) {
   std::vector<std::string> names;
   const auto streams = streams_of(example(), {}, rates);
@@ -47,7 +47,7 @@ TEST(Streams, TakeTheirTimesFromTheAttributes) {
   EXPECT_EQ(brake.deadline_ns, 2'500 * us);
   EXPECT_EQ(brake.jitter_ns, 250 * us);
   EXPECT_EQ(brake.sender, "Brake");
-  EXPECT_EQ(streams.at("Speed").deadline_ns, 10 * ms);  // its period
+  EXPECT_EQ(streams.at("Speed").deadline_ns, 10 * ms);  // the default deadline is the period
   EXPECT_EQ(streams.at("Speed").jitter_ns, 0);
 }
 
@@ -118,7 +118,7 @@ TEST(BitRates, AreTheGivenOnesElseThoseOfTheDbc) {
             "no bit rate, expected --bitrate or the DBC's attribute Baudrate");
 }
 
-// The claim of canhil.dbc: with every node at once, the bus load is below 50 % at 1 Mbit/s.
+// canhil.dbc claims a bus load below 50 % at 1 Mbit/s with all nodes active.
 TEST(Contract, IsSchedulableWithEveryNodeOn) {
   for (const auto& [rate, most] : {std::pair{1'000'000, 0.5}, {500'000, 1.0}}) {
     const Bus bus{.rates = {.nominal = rate}};

@@ -12,7 +12,7 @@ using testing::Not;
 
 constexpr std::int64_t ms = 1'000'000;
 
-/// Two messages of 1 ms each at 100 kbit/s; the second one may not have enough time.
+/// Two messages of 1 ms each at 100 kbit/s; the second one can miss the given deadline.
 Analysis two(std::int64_t deadline_ns, Release release = Release::cycle) {
   std::vector<Stream> streams{{.name = "High",
                                .id = 0x10,

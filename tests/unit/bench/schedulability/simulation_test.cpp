@@ -26,7 +26,7 @@ std::int64_t longest_period(const MessageSet& set) {
   return std::ranges::max_element(set.streams, {}, &Stream::period_ns)->period_ns;
 }
 
-// Safe: with random sets, phases and jitters no response exceeds its bound.
+// Safe bounds: with random message sets, phases and jitters, no response exceeds its bound.
 TEST(Simulation, NeverExceedsTheAnalysis) {
   for (std::uint64_t seed = 0; seed < sets; ++seed) {
     SCOPED_TRACE(seed);
@@ -44,7 +44,7 @@ TEST(Simulation, NeverExceedsTheAnalysis) {
   }
 }
 
-// The same for frames of any content; the analysis knows only their size.
+// The same with frames of any content; the analysis knows only their size.
 TEST(Simulation, NeverExceedsTheAnalysisWhateverTheContent) {
   for (std::uint64_t seed = 0; seed < sets / 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -73,8 +73,7 @@ TEST(Simulation, NeverExceedsTheAnalysisWhateverTheContent) {
   }
 }
 
-// Nodes that send in the order of queueing, at loads for which a bound exists; the bound must not be far too
-// large either.
+// Nodes with FIFO queues, at loads for which a bound exists. The bound must also not be far too large.
 TEST(Simulation, NeverExceedsTheAnalysisOfQueuesInOrder) {
   int bounded = 0, tight = 0, beyond_priority = 0;
   for (std::uint64_t seed = 0; seed < sets; ++seed) {
@@ -114,8 +113,9 @@ TEST(FifoAnalysis, HasNoBoundOnAnOverloadedBus) {
     EXPECT_FALSE(response.response_ns);
 }
 
-// Worked by hand: node x queues 1 and 3, y 2 and 4; 135 us each. 1 may find 3 in front of it and 4 on the
-// wire, and 2 wins from 3; so may 3. 2 finds 4 in front of it, nothing blocks, and 1 and 3 win from 4.
+// By hand: node x queues 1 and 3, node y queues 2 and 4; each frame takes 135 us. In the worst case, 1 is
+// queued behind 3, 4 is on the wire, and 2 wins against 3; the same holds for 3. In the worst case, 2 is
+// queued behind 4, no frame blocks, and 1 and 3 win against 4.
 TEST(FifoAnalysis, OfFourMessagesInTwoNodes) {
   const auto stream = [](std::uint32_t id, const char* sender) {
     return Stream{
@@ -128,9 +128,9 @@ TEST(FifoAnalysis, OfFourMessagesInTwoNodes) {
   EXPECT_EQ(found[1].blocking_ns, 0);
 }
 
-/// The critical instant of stream m: the longest frame of lower priority has just won the arbitration. All
-/// streams of higher priority and m itself are queued together, with their largest jitter. Later instances
-/// become due as soon as possible and are queued without jitter.
+/// The critical instant of stream m: the longest frame of lower priority has just won the arbitration. At
+/// this instant all streams of higher priority and m itself are queued, with their largest jitter. Later
+/// instances become due as soon as possible and are queued without jitter.
 std::vector<Due> critical_instant(const MessageSet& set, std::size_t m, std::int64_t end_ns) {
   std::vector<Due> dues;
   const std::int64_t bit_ns = wire::duration_ns({.nominal = 1}, set.bus.rates);
@@ -150,9 +150,9 @@ std::vector<Due> critical_instant(const MessageSet& set, std::size_t m, std::int
   return dues;
 }
 
-// Exact: at the critical instant the response equals the bound. The blocking frame must have won before: its
-// first bit is over, so it blocks for one bit less than B. The lowest priority is not blocked at all, and
-// reaches the bound itself.
+// Exact bounds: at the critical instant the response equals the bound. The blocking frame must have won the
+// arbitration before, so its first bit is over and it blocks for one bit less than B. The stream of lowest
+// priority is not blocked, and its response equals the full bound.
 TEST(Simulation, ReachesTheAnalysisAtTheCriticalInstant) {
   std::int64_t beyond_the_first = 0;
   for (std::uint64_t seed = 0; seed < sets; ++seed) {
@@ -174,10 +174,10 @@ TEST(Simulation, ReachesTheAnalysisAtTheCriticalInstant) {
       beyond_the_first += exact.worst_instance > 0 ? 1 : 0;
     }
   }
-  EXPECT_GT(beyond_the_first, 20);  // sets on which the analysis of 1994 is wrong are among them
+  EXPECT_GT(beyond_the_first, 20);  // some of the sets violate the analysis of 1994
 }
 
-// Errors with at least the distance of the model, each at any bit of a frame and with an error flag of any
+// Errors no closer than the error model allows, each at any bit of a frame and with an error flag of any
 // length.
 TEST(Simulation, NeverExceedsTheAnalysisWithErrors) {
   std::uint64_t errors_seen = 0;
@@ -189,7 +189,8 @@ TEST(Simulation, NeverExceedsTheAnalysisWithErrors) {
     set.bus.errors = {.burst = dice(1, 3), .interval_ns = dice(1, 3) * longest_period(set)};
     const auto bounds = responses(set.streams, set.bus);
     const auto dues = random_dues(set, 12 * longest_period(set), dice);
-    // A bucket of `burst` errors that gains one every interval. 12 errors leave all nodes error active.
+    // A token bucket with `burst` errors that gains one error per interval. After 12 errors, all nodes are
+    // still error active.
     std::int64_t left = 12;
     double bucket = static_cast<double>(set.bus.errors.burst);
     std::int64_t last_ns = 0;

@@ -31,7 +31,7 @@ struct Due {
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  /// A whole number from a to b, both possible.
+  /// A random integer from a to b, both included.
   std::int64_t operator()(std::int64_t a, std::int64_t b) {
     return std::uniform_int_distribution<std::int64_t>(a, b)(engine_);
   }
@@ -40,7 +40,8 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-/// Classic and FD frames of both id lengths; bytes with long runs as often as any.
+/// Classic and FD frames with both id lengths. Data with long runs of equal bits is as frequent as random
+/// data.
 inline Frame random_frame(Dice& dice, bool fd_allowed) {
   constexpr std::array<std::uint8_t, 8> fd_sizes{0, 8, 12, 16, 20, 24, 48, 64};
   constexpr std::array<std::uint8_t, 6> runs{0x00, 0xFF, 0x0F, 0xF0, 0x87, 0x78};
@@ -55,7 +56,7 @@ inline Frame random_frame(Dice& dice, bool fd_allowed) {
   return frame;
 }
 
-/// 2 to 8 messages in 2 to 4 nodes, with periods that load the bus with up to 99 %.
+/// 2 to 8 messages from 2 to 4 nodes, with periods that give a bus load of up to 99 %.
 inline MessageSet random_set(Dice& dice) {
   constexpr std::array<std::int64_t, 4> rates{83'333, 125'000, 500'000, 1'000'000};
   MessageSet set;

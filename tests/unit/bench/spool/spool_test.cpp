@@ -94,14 +94,14 @@ TEST(Spool, WhatIsChangedStays) {
   EXPECT_EQ(spool[0].value[6], 7);
 }
 
-#ifndef CANHIL_SANITIZED  // which holds memory of its own
+#ifndef CANHIL_SANITIZED  // the sanitizers use memory of their own
 TEST(Spool, LetsGoOfWhatItPassed) {
   constexpr std::size_t megabyte = 1 << 20;
   const std::size_t before = resident_bytes();
   Spool<Sample> spool;
   std::size_t most = 0;
   const auto look = [&] { most = std::max(most, resident_bytes() - std::min(before, resident_bytes())); };
-  for (std::size_t index = 0; index < 4 * many; ++index) {  // 64 MiB
+  for (std::size_t index = 0; index < 4 * many; ++index) {  // 64 MiB in total
     spool.push_back(sample(index));
     if (index % 10'000 == 0) look();
   }
@@ -110,8 +110,8 @@ TEST(Spool, LetsGoOfWhatItPassed) {
     ASSERT_TRUE(is_right(found, index));
     if (index++ % 10'000 == 0) look();
   }
-  EXPECT_LT(most, 10 * megabyte);  // 2 MiB in memory, half as much again as they grow, 2 MiB of the file, and
-                                   // the heap's own
+  // 2 MiB in memory, half as much again while they grow, 2 MiB of the file, and the heap's own memory.
+  EXPECT_LT(most, 10 * megabyte);
 }
 #endif
 

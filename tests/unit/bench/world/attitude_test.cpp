@@ -11,7 +11,7 @@ namespace {
 using units::deg;
 
 TEST(Attitude, EulerAnglesTurnBodyAxesAsThePilotSaysIt) {
-  // Heading east: body x points east (n y), body y south.
+  // Heading east: body x points east, body y south.
   const Matrix3 east = C_bn_from({.heading = 90 * deg});
   EXPECT_LT((east * Vector3::UnitX() - Vector3::UnitY()).norm(), 1e-15);
   EXPECT_LT((east * Vector3::UnitY() + Vector3::UnitX()).norm(), 1e-15);

@@ -1,5 +1,5 @@
-// The engagement against its own finite differences, the equations of the filter, and the miss distance of
-// proportional navigation.
+// The engagement compared with finite differences and with the equations of the filter, and the miss distance
+// of proportional navigation.
 #include "bench/world/engagement/engagement.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ EngagementPlan rolling() {
   return plan;
 }
 
-/// Calls inspect(before, after, increment) at steps of 1 ms, down to 100 m: a step is 0.9 m.
+/// Calls inspect(before, after, increment) at steps of 1 ms (0.9 m) until the range is 100 m.
 template <class Inspect>
 void fly(const EngagementPlan& plan, std::uint64_t run, Inspect inspect) {
   Engagement engagement(plan, Stream(1, run, "engagement"));
@@ -84,7 +84,7 @@ TEST(Engagement, RatesAreTheDerivativesOfWhatTheyAreRatesOf) {
   });
 }
 
-// e_y' = w_y - q_n + p e_z, e_z' = w_z - r_n - p e_y: of small angles, so up to e^2 w.
+// e_y' = w_y - q_n + p e_z, e_z' = w_z - r_n - p e_y for small angles: the error is of the order e^2 w.
 TEST(Engagement, ErrorAnglesObeyTheFiltersEquations) {
   fly(rolling(), 3,
       [](const EngagementTruth& before, const EngagementTruth& after, const SeekerIncrement& increment) {
@@ -115,7 +115,8 @@ TEST(Engagement, LosRatesObeyTheFiltersEquations) {
                                .yaw = mean(before.los_rate.yaw, after.los_rate.yaw)};
         const double a_z = mean(before.target.pitch, after.target.pitch) - increment.mean_acceleration.z();
         const double a_y = mean(before.target.yaw, after.target.yaw) - increment.mean_acceleration.y();
-        const double tolerance = 2e-5 + 0.02 * std::abs(growth * w.pitch);  // e times what acts along the LOS
+        // The tolerance allows for the error angle e times the terms along the LOS.
+        const double tolerance = 2e-5 + 0.02 * std::abs(growth * w.pitch);
         ASSERT_NEAR((after.los_rate.pitch - before.los_rate.pitch) / dt,
                     growth * w.pitch - a_z / r + 3 * w.yaw, tolerance)
             << r;
@@ -155,7 +156,8 @@ TEST(Engagement, TheTargetManoeuvresWhenAndAsHardAsPlanned) {
   EXPECT_LE(largest_after, both);
 }
 
-// 0.05 m: Na and Lee's engagement as the reference simulation flew it; here 0.05 in each plane.
+// The reference simulation of Na and Lee's engagement has a miss of 0.05 m; here it is about 0.05 m in each
+// plane.
 TEST(Engagement, MissOfProportionalNavigationOnTheTruth) {
   std::vector<double> misses;
   for (std::uint64_t run = 0; run < 200; ++run) {
@@ -215,7 +217,7 @@ TEST(Engagement, CommandsTakeEffectWhenTheySay) {
 TEST(Engagement, TheNumbersOfARunAreItsOwn) {
   EXPECT_EQ(miss(EngagementPlan{}, 4), miss(EngagementPlan{}, 4));
   EXPECT_NE(miss(EngagementPlan{}, 4), miss(EngagementPlan{}, 5));
-  // Steps of another length: the same flight.
+  // Steps of a different length must give the same flight.
   Engagement fine(EngagementPlan{}, Stream(1, 4, "engagement"));
   for (std::int64_t t_us = 2000; !fine.over(); t_us += 2000) fine.fly_to(t_us);
   EXPECT_EQ(*fine.miss_n(), miss(EngagementPlan{}, 4));

@@ -20,7 +20,8 @@ struct Moments {
     sum += x;
     squares += x.cwiseProduct(x);
   }
-  // 5 sigma: the mean of n has sigma/sqrt(n), the mean square sigma^2 sqrt(2/n).
+  // Limits of 5 sigma: the mean of n numbers has the standard deviation sigma/sqrt(n), the mean square
+  // sigma^2 sqrt(2/n).
   void expect_normal(const Vector3& mean, const Vector3& sigma) const {
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(sum(i) / n, mean(i), 5 * sigma(i) / std::sqrt(n)) << "axis " << i;
@@ -109,7 +110,7 @@ TEST(ErroneousImu, NoiseIsWhiteWithTheDensityGiven) {
 }
 
 TEST(ErroneousImu, NoiseOfASecondDoesNotDependOnTheRate) {
-  // 0.125 deg/sqrt(h) over one hour is 0.125 deg for any sample interval: 3600 runs of one second, summed.
+  // 0.125 deg/sqrt(h) is 0.125 deg after one hour, for any sample interval: sums 3600 runs of one second.
   ImuErrorModel model;
   model.gyro.noise = Vector3::Constant(0.125 * units::degprth);
   for (const std::int64_t interval_us : {5'000, 20'000}) {

@@ -42,7 +42,7 @@ TEST(FlightRecord, AtRestTheAccelerometersFeelMinusGravityAndTheGyrosTheEarth) {
   const Euler angles{0.1, -0.2, 2.0};
   const FlightRecord record({.start = seoul, .motion = Rest{angles}}, 1'000'000, 10'000);
   const Matrix3 C_nb = C_bn_from(angles).transpose();
-  // WGS-84 closed form (Somigliana) with the free-air term to second order: 1e-6 m/s^2 at 1000 m.
+  // WGS-84 closed form (Somigliana) with the free-air term to second order: accurate to 1e-6 m/s^2 at 1000 m.
   const double s2 = std::pow(std::sin(seoul.latitude), 2);
   const double surface = 9.7803253359 * (1 + 0.00193185265241 * s2) / std::sqrt(1 - 6.69437999014e-3 * s2);
   const double f = 1 / 298.257223563;
@@ -78,8 +78,8 @@ TEST(FlightRecord, GridAndIncrementsBelongTogether) {
 }
 
 // An independent navigator: Earth-centred inertial axes, attitude by two-sample coning, velocity by
-// two-sample sculling (Savage), gravitation by GeographicLib in geocentric coordinates. Shares no equation
-// with the record's NED form.
+// two-sample sculling (Savage), gravitation by GeographicLib in geocentric coordinates. It shares no equation
+// with the NED form of the record.
 struct Inertial {
   Vector3 r;  // inertial axes coincide with ECEF at t = 0
   Vector3 v;
@@ -145,8 +145,9 @@ Inertial navigate(const FlightRecord& record) {
   return state;
 }
 
-// At 1 kHz the errors of the two-sample algorithms are below the limits: (rate * h)^4 with rates of 1 rad/s;
-// the trapezoid rule for the position has an error of h^2/12 times the change of acceleration, 1e-6 m.
+// At 1 kHz the errors of the two-sample algorithms are below the limits: they are of the order (rate * h)^4,
+// with rates of 1 rad/s. The trapezoid rule for the position has an error of h^2/12 times the change of
+// acceleration, 1e-6 m.
 class IndependentNavigator : public testing::TestWithParam<Flight> {};
 
 TEST_P(IndependentNavigator, FliesTheIncrementsBackToTheTruth) {
@@ -162,8 +163,8 @@ TEST_P(IndependentNavigator, FliesTheIncrementsBackToTheTruth) {
 INSTANTIATE_TEST_SUITE_P(Flights, IndependentNavigator, testing::Values(paper, weaving));
 
 TEST(FlightRecord, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
-  // Coning at 10 Hz: 10 ms is 0.63 rad, where five Gauss nodes leave 4e-13 * 0.63^10 = 4e-15 of the
-  // amplitude.
+  // Coning at 10 Hz: 10 ms is 0.63 rad, for which the quadrature with five Gauss nodes has an error of 4e-13
+  // * 0.63^10 = 4e-15 of the amplitude.
   const FlightRecord coarse(coning(), 2'000'000, 10'000);
   const FlightRecord fine(coning(), 2'000'000, 1'000);
   for (std::size_t k = 0; k < coarse.increments().size(); ++k) {
@@ -173,7 +174,7 @@ TEST(FlightRecord, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
       theta += fine.increments()[j].delta_theta;
       v += fine.increments()[j].delta_v;
     }
-    // Relative to 2 mrad and 0.1 m/s a sample.
+    // Relative to 2 mrad and 0.1 m/s per sample.
     EXPECT_LT((coarse.increments()[k].delta_theta - theta).norm(), 2e-3 * 1e-13);
     EXPECT_LT((coarse.increments()[k].delta_v - v).norm(), 0.1 * 1e-13);
   }
@@ -188,9 +189,9 @@ TEST(FlightRecord, AJumpInsideASampleIsNotSmeared) {
   for (std::size_t j = 100'000; j < 100'100; ++j) v += fine.increments()[j].delta_v;
   EXPECT_LT((coarse.increments()[1000].delta_v - v).norm(), 1e-14);
   EXPECT_NEAR(v.x(), units::standard_gravity * 6.3e-3,
-              1e-4);  // Coriolis and gravity's north part are smaller
-  // Position between epochs, across the jump. A Runge-Kutta step across it errs by 1e-12 rad; rounding of the
-  // fine record's 540 steps by 1e-16 each.
+              1e-4);  // the Coriolis term and the north component of gravity are smaller
+  // Position change between epochs, across the jump. A Runge-Kutta step across the jump has an error of 1e-12
+  // rad; rounding in the 540 steps of the fine record adds 1e-16 rad per step.
   const auto moved = [](const FlightRecord& record) {
     return record.at(10'009'000).position.latitude - record.at(10'000'000).position.latitude;
   };
@@ -206,7 +207,8 @@ TEST(FlightRecord, LookUpAgreesWithAFinerRecordBetweenEpochs) {
     EXPECT_EQ(a.t_us, t_us);
     EXPECT_EQ(a.v_eb_n, b.v_eb_n);
     EXPECT_EQ(a.C_bn, b.C_bn);
-    // Rounding: an ulp of longitude is 2 nm, in 1.2e5 steps of the fine record (0.7 um if independent).
+    // Rounding: an ulp of the longitude is 2 nm; over the 1.2e5 steps of the fine record this is 0.7 um if
+    // independent.
     EXPECT_LT(displacement_n(a.position, b.position).norm(), 1e-6);
     EXPECT_LT((a.f_ib_b - b.f_ib_b).norm(), 1e-12);
     EXPECT_LT((a.omega_ib_b - b.omega_ib_b).norm(), 1e-15);
@@ -219,7 +221,8 @@ TEST(FlightRecord, ThePapersFlightIsAsThePaperSays) {
   EXPECT_NEAR(end.v_eb_n.x(), 500 / 3.6 + 98.0665, 1e-9);
   EXPECT_EQ(end.position.height, seoul.height);
   EXPECT_EQ(end.position.longitude, seoul.longitude);
-  // 10 s cruise + 10 s at 1 g: 2777.78 + 490.33 m + 10 s * 138.9 m/s north. The mean radius is good to 1e-6.
+  // 10 s cruise + 10 s at 1 g: 2777.78 + 490.33 m + 10 s * 138.9 m/s north. The mean radius is accurate to
+  // 1e-6.
   const double north = 20 * 500 / 3.6 + 0.5 * 9.80665 * 100;
   EXPECT_NEAR(displacement_n(seoul, end.position).x(), north, 0.02);
   EXPECT_NEAR(record.at(15'000'000).f_ib_b.x(), units::standard_gravity, 1e-3);

@@ -16,7 +16,7 @@ namespace {
 
 using units::deg;
 
-// Across 180 degrees of longitude, with a heading that passes north and south.
+// Crosses the 180 degree meridian, with a heading that swings through north and south.
 const Flight turning{.start = {.latitude = 40 * deg, .longitude = 179.99 * deg, .height = 2000},
                      .motion = Weave{.heading = 170 * deg,
                                      .speed = 60,
@@ -59,8 +59,8 @@ RC_GTEST_PROP(RecordedPath, PassesThroughItsSamplesWithTheRatesOfItsCurve, ()) {
   const Flight again = flown_again(states);
   const FlightRecord record(again, states.back().t_us, 10'000);
   // Velocity differs only by the correction. A cubic spline through velocities has an error of 5/384 h^4
-  // v'''' per sample: 1e-3 m/s for 250 m/s turning with 2 pi / 6 per second at 50 ms. Its mean over 10 s is
-  // far below that. So positions agree within this error times 12 s.
+  // v'''' per sample: 1e-3 m/s for 250 m/s turning at 2 pi / 6 per second, sampled at 50 ms. Its mean over 10
+  // s is far below that, so positions agree within this error times 12 s.
   const double h = 1e-6 * static_cast<double>(every_us);
   const double w = 2 * std::numbers::pi / 6;
   const double bend = weave.speed * std::pow(2 * w, 4) * 5 / 384 * std::pow(h, 4) + 1e-9;
@@ -104,10 +104,10 @@ strapdown::NavState navigated(const FlightRecord& record) {
 
 class RecordedEvery : public testing::TestWithParam<std::int64_t> {};
 
-// The errors after 100 s at 100 Hz. Velocity and attitude of the record are the recorded ones, and the
-// increments are their integrals. So the remaining error is that of the mechanisation, as in the analytic
-// flight: 1.2e-8 rad, 1.6 mm/s and 82 mm. Interpolation may change it by a twentieth; the bounds are three
-// times the error.
+// The errors after 100 s at 100 Hz. The record has the recorded velocity and attitude, and its increments are
+// their integrals. So the remaining error is the error of the mechanisation, as in the analytic flight:
+// 1.2e-8 rad, 1.6 mm/s and 82 mm. Interpolation may change it by a twentieth; the limits are three times the
+// error.
 TEST_P(RecordedEvery, StrapdownNavigationOfItsIncrementsReturnsToWhatWasRecorded) {
   const FlightRecord flown(turning, 100'000'000, 10'000);
   const auto states = states_of(flown, GetParam());
@@ -128,8 +128,9 @@ TEST_P(RecordedEvery, StrapdownNavigationOfItsIncrementsReturnsToWhatWasRecorded
 
 INSTANTIATE_TEST_SUITE_P(Rates, RecordedEvery, testing::Values(10'000, 20'000, 40'000));
 
-// Rounded velocities at irregular times: the derivatives of their spline jump at each of them, so no
-// quadrature may step across one. Sums of ten or of a hundred parts agree to 1e-15 of 0.1 m/s and 2 mrad.
+// Rounded velocities at irregular times: the derivatives of the spline jump at each recorded time, so a
+// quadrature must not step across a recorded time. Sums of ten or a hundred parts agree to 1e-15 of 0.1 m/s
+// and 2 mrad.
 TEST(RecordedPath, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
   const FlightRecord flown(turning, 4'000'000, 1'000);
   auto states = states_of(flown, 37'000);

@@ -70,7 +70,8 @@ double random_value(std::mt19937_64& random, const SignalInfo& info) {
     case 4:
       return std::bit_cast<double>(random());
     case 5:
-      return info.offset + (std::floor(inside(random) / info.scale) + 0.5) * info.scale;  // a tie, nearly
+      // Close to a rounding tie.
+      return info.offset + (std::floor(inside(random) / info.scale) + 0.5) * info.scale;
     default:
       return inside(random);
   }
@@ -85,8 +86,8 @@ Member random_member(std::mt19937_64& random, const SignalInfo& info) {
   }
 }
 
-// The visitors are named types, not lambdas: a lambda would be a type per message. So their code is compiled
-// once per type of member.
+// The visitors are named types, because with lambdas each message would have its own type. So the code of a
+// visitor is compiled once per type of member.
 struct Collect {
   std::vector<NamedValue>& values;
   template <class Member>
@@ -95,7 +96,7 @@ struct Collect {
   }
 };
 
-/// Keeps integers that doubles represent exactly, because the run-time codec uses doubles.
+/// Limits integers to values that doubles represent exactly, because the run-time codec uses doubles.
 struct MakeExactAsDouble {
   template <class Member>
   void operator()(const SignalInfo& /*info*/, Member& member) const {
@@ -120,7 +121,7 @@ struct Packed {
   std::vector<NamedValue> values;
 };
 
-/// A generated message type without its type.
+/// The codec of a generated message type, with the type erased.
 struct Codec {
   const MessageInfo& info;
   std::size_t size;

@@ -23,7 +23,7 @@ struct Planned {
   const Message* message;
   MessagePlan plan;
 };
-using Plans = std::map<std::uint32_t, Planned>;  // by id, with bit 31 set for an extended one
+using Plans = std::map<std::uint32_t, Planned>;  // by id; bit 31 marks an extended id
 
 std::vector<std::uint8_t> bytes_of(const std::string& hex) {
   std::vector<std::uint8_t> bytes;

@@ -130,7 +130,7 @@ TEST(FdContract, AContractThatNoContainerCanCarryIsRefused) {
   const auto wide = with([](Database& d) { message(d, "Sync").fd = true; });
   ASSERT_FALSE(wide);
   EXPECT_THAT(wide.error().message, testing::StartsWith("my.dbc:"));
-  // A slot of zeros means that its message is missing; with this data id, its CRC would be right.
+  // A slot of zeros means that its message is missing; with this data id, zeros would have a correct CRC.
   const auto zero = with([](Database& d) { message(d, "SeekerAngles").e2e_data_id = 0x183; });
   ASSERT_FALSE(zero);
   EXPECT_THAT(zero.error().message, HasSubstr("its CRC of zeros is 0"));

@@ -19,7 +19,7 @@ import sys
 logging.disable(logging.CRITICAL)
 import canmatrix.formats  # noqa: E402
 
-LARGEST_EXACT = 1 << 48  # with a scale and an offset, doubles hold raw values up to about here
+LARGEST_EXACT = 1 << 48  # up to about this raw value, doubles are exact with a scale and an offset
 
 counts = collections.Counter()
 disagreements = {}
@@ -54,7 +54,7 @@ def random_raw(generator, signal):
 def encoded_by_canmatrix(generator, message):
     """Bytes of a frame with random values, or None where canmatrix cannot tell what belongs to the frame."""
     multiplexors = {s.name: random_raw(generator, s) for s in message.signals if s.is_multiplexer}
-    for name in multiplexors:  # values that select something, mostly
+    for name in multiplexors:  # mostly values that select a signal
         asked = [v for s in message.signals if s.muxer_for_signal in (name, None)
                  for v in ([s.mux_val] if s.mux_val is not None else []) + [r[0] for r in s.mux_val_grp]]
         if asked and generator.random() < 0.8:

@@ -58,7 +58,7 @@ Signal signal_at(unsigned start_bit, unsigned length) {
 TEST(Placement, SignalsOverNineBytesAreTwoPieces) {
   const auto pieces = pieces_of(message_of(64), signal_at(13, 60));
   ASSERT_EQ(pieces.size(),
-            2U);  // bits 13..63 of the word at byte 1: 5.., then the rest at the end of the word at byte 2
+            2U);  // bits 13..71 are in the word at byte 1, bit 72 only in the word at byte 2
   EXPECT_EQ(pieces[1].word.first, 1U);
   EXPECT_EQ(pieces[1].shift, 5U);
   EXPECT_EQ(pieces[1].length, 59U);

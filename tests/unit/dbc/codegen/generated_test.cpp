@@ -1,4 +1,4 @@
-// Use of the generated headers, with values computed by hand from the DBC.
+// Uses the generated headers, with values computed by hand from the DBC.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ TEST(Generated, PacksSlaveImuDeltaThetaAsTheDbcLaysItOut) {
       (50000ULL << 12U) | ((static_cast<std::uint64_t>(-65500) & 0x1FFFFU) << 29U) | (1ULL << 63U);
   constexpr auto bytes = packed(message);
   static_assert(wire::load_le<0, 8>(bytes.data()) == word);
-  EXPECT_EQ((wire::load_le<0, 8>(packed(message).data())), word);  // the same, not in a constant expression
+  EXPECT_EQ((wire::load_le<0, 8>(packed(message).data())), word);  // the same at run time
 }
 
 TEST(Generated, ProtectionFieldsAreLeftZeroForE2e) {

@@ -9,7 +9,7 @@
 namespace canhil::dbc {
 namespace {
 
-/// The rule that a signal with this name, scale, sigma and CarriesRemainder violates; empty: none.
+/// The rule that a signal with this name, scale, sigma and CarriesRemainder violates; empty: no rule.
 std::string breach(std::string_view name, double scale, double sigma, bool carries) {
   const auto database =
       parse(fmt::format("BS_:\nBU_: A\nBO_ 1 M: 8 A\n SG_ {} : 0|16@1- ({},0) [0|0] \"\" A\n"

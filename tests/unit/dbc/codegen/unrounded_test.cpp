@@ -73,7 +73,7 @@ TEST(Unrounded, EveryScaledSignalOfTheContractIsCarried) {
   });
 }
 
-// So protection, groups, lengths and loads are the same as on the bus.
+// Therefore protection, groups, lengths and loads are the same as on the bus.
 TEST(Unrounded, ThePackedBytesAreThoseOfTheBus) {
   std::mt19937_64 random(2);
   for_every_message([&]<class Message>() {

@@ -57,7 +57,7 @@ TEST(RunTimeCodec, DecodesThePageThatTheMultiplexorsName) {
 TEST(RunTimeCodec, NestedSignalsNeedEveryMultiplexorAbove) {
   const Database database = database_of("multiplexed.dbc");
   const Message& extended = database.messages[1];
-  const Signal& leaf = *find_signal(extended, "leaf_a");  // when inner is 0..3 or 5, and top is 1
+  const Signal& leaf = *find_signal(extended, "leaf_a");  // present if inner is 0..3 or 5 and top is 1
   EXPECT_TRUE(is_present(extended, leaf, std::array<std::uint8_t, 8>{0x10, 5}));
   EXPECT_FALSE(is_present(extended, leaf, std::array<std::uint8_t, 8>{0x10, 4}));
   EXPECT_FALSE(is_present(extended, leaf, std::array<std::uint8_t, 8>{0x20, 5}));

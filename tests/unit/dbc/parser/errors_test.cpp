@@ -1,4 +1,4 @@
-// Every error with its place and its complete text: one clear line for each wrong input.
+// Every error with its place and its complete text: one line for each invalid input.
 #include <gtest/gtest.h>
 
 #include "dbc/parser/parse.hpp"
@@ -14,7 +14,7 @@ struct Wrong {
 
 void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.name; }
 
-// Six lines, so that what follows begins in line 7.
+// Six lines, so that the text of each case begins in line 7.
 constexpr const char* head =
     "BS_:\nBU_: A B\nBO_ 1 M: 8 A\n SG_ s : 0|8@1+ (1,0) [0|255] \"\" B\n SG_ t : 8|8@1- (1,0) [0|0] \"\" "
     "B\n\n";

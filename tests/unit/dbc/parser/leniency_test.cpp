@@ -23,7 +23,7 @@ struct Lenient {
 
 void PrintTo(const Lenient& lenient, std::ostream* out) { *out << text_of(lenient.rule).id; }
 
-// Six lines, so that what follows begins in line 7.
+// Six lines, so that the text of each case begins in line 7.
 constexpr const char* first_lines =
     "BS_:\nBU_: A B\nBO_ 1 M: 8 A\n SG_ s : 0|8@1+ (1,0) [0|255] \"\" B\n SG_ t : 8|8@1- (1,0) [0|0] \"\" "
     "B\n\n";
@@ -40,7 +40,7 @@ bool has_no_limits(const Database& database) {
   return last_signal(database).minimum == 0 && last_signal(database).maximum == 0;
 }
 
-/// Bytes of a frame of the last message, for all values 1.
+/// The bytes of a frame of the last message, with the value 1 in every signal.
 std::vector<std::uint8_t> ones_of(const Database& database) {
   const MessagePlan plan(last(database));
   std::vector<std::uint8_t> data(plan.size());

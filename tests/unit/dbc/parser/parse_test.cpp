@@ -225,7 +225,7 @@ TEST(RawRange, IsInsideOfTheLimitsAndOfTheBits) {
   EXPECT_EQ(range(-0.5, 10, 5, 10, 8, u), std::pair(0L, 10L));
   EXPECT_EQ(range(1, 0, 0, 0, 64, u), std::pair(0L, -1L));  // all 64 bits
   EXPECT_EQ(range(1, 0, 0, 0, 64, s), std::pair(INT64_MIN, INT64_MAX));
-  EXPECT_EQ(range(1, 0, 0.2, 0.8, 8, u), std::pair(1L, 0L));  // none
+  EXPECT_EQ(range(1, 0, 0.2, 0.8, 8, u), std::pair(1L, 0L));  // no raw value
 }
 
 TEST(RealRange, IsFiniteAndOfTheRightEndOnANegativeScale) {
@@ -240,7 +240,8 @@ TEST(RealRange, IsFiniteAndOfTheRightEndOnANegativeScale) {
   EXPECT_EQ(real_range(signal).highest, 5);
 }
 
-// The end of a range is as wide as a multiplexor: 2^63 has no negative in 64 bits with a sign.
+// A range may end at any raw value of a 64-bit multiplexor; values from 2^63 on do not fit into a signed
+// integer.
 TEST(Parse, AMultiplexorsRangeMayEndWhereItsBitsDo) {
   const auto database = parse(
       "BS_:\nBU_: A\nBO_ 2 N: 12 A\n SG_ x M : 0|64@1+ (1,0) [0|0] \"\" A\n SG_ y m0 : 64|8@1+ (1,0) [0|0] "

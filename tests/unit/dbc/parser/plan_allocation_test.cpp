@@ -36,7 +36,7 @@ TEST(Plan, AllocatesNothingWhenUsed) {
   EXPECT_TRUE(plan.encode(values, data));
   EXPECT_TRUE(plan.is_present(0, data));
   EXPECT_EQ(allocations - before, 0U);
-  EXPECT_GT(before, 0U);  // they are counted
+  EXPECT_GT(before, 0U);  // the counting works
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-/// The place of bit i of the raw value (bit 0 is the least significant), as the DBC format defines it.
+/// The position in the message of bit i of the raw value (bit 0 is the least significant), as the DBC format
+/// defines it.
 unsigned position(const Signal& signal, unsigned i) {
   const bool big_endian = signal.byte_order == ByteOrder::big_endian;
   return wire::bit_position(signal.start_bit, big_endian ? signal.length - 1 - i : i, big_endian);
@@ -185,7 +186,7 @@ Message multiplexed() {
   return database->messages.at(1);
 }
 
-// A plain value is not computed with.
+// A float signal without scale and offset is copied without arithmetic.
 TEST(Plan, ASignallingNanKeepsItsBits) {
   Message message;
   message.size = 8;

@@ -1,4 +1,4 @@
-// For any text, parse() returns either a Database that the codec can use, or one line.
+// For any text, parse() returns either a Database that the codec can use, or an error of one line.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// Artificial control messages of the kernel, because no virtual interface has hardware time stamps.
+// Artificial control messages, because no virtual interface has hardware time stamps.
 #include "dbc/ports/ancillary.hpp"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ class ControlMessages : public testing::Test {
   void stamp(timespec software, timespec hardware) {
     scm_timestamping stamps{};
     stamps.ts[0] = software;
-    stamps.ts[1] = {.tv_sec = 77, .tv_nsec = 77};  // the legacy one
+    stamps.ts[1] = {.tv_sec = 77, .tv_nsec = 77};  // the legacy hardware time stamp
     stamps.ts[2] = hardware;
     put(SOL_SOCKET, SO_TIMESTAMPING, stamps);
   }

@@ -40,8 +40,8 @@ TEST(BitErrors, AFrameIsHitAsOftenAsItsBitsSayAndAnywhere) {
   }
   const double share = 1 - std::pow(1 - p, bits);
   EXPECT_NEAR(hits, tries * share, 5 * std::sqrt(tries * share * (1 - share)));
-  // The first of several hits counts, so the distribution is not quite uniform: its mean is off by p n / 12
-  // of the length, here 1 %.
+  // Only the first of several errors in a frame counts, so the distribution is not quite uniform: its mean is
+  // off by p n / 12 of the length, here 1 %.
   EXPECT_NEAR(mean / hits / bits, 0.5, 0.01 + 5 * std::sqrt(1. / 12 / hits));
   EXPECT_EQ(first_ns, bit_ns);
   EXPECT_EQ(last_ns, static_cast<std::int64_t>(bits) * bit_ns);
@@ -87,7 +87,7 @@ TEST(BitErrors, BitsOfTheDataPhaseAreShorter) {
   EXPECT_GT(in_data, 100);
 }
 
-// Three nodes, one frame each every 2 ms at 500 kbit/s, every fiftieth attempt disturbed: no node goes
+// Three nodes send a frame every 2 ms at 500 kbit/s. Every fiftieth attempt is disturbed; no node goes
 // bus-off.
 TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -106,7 +106,7 @@ TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
         }
         if (const auto carried = wire.next(until_ns)) {
           const std::uint32_t number = carried->frame.data[0] + 256U * carried->frame.data[1];
-          EXPECT_EQ(number, arrived.at(carried->node)++);  // each once, in order
+          EXPECT_EQ(number, arrived.at(carried->node)++);  // each frame once, in order
           attempts += static_cast<std::uint64_t>(carried->attempts);
         } else if (!wire.has_report()) {
           return;
@@ -126,7 +126,7 @@ TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
     EXPECT_GT(wire.counters().error_frames, 0U) << seed;
     EXPECT_EQ(attempts, wire.counters().frames + wire.counters().error_frames);
     EXPECT_EQ(wire.counters().dropped, 0U);
-    EXPECT_EQ(seen.bus_error, wire.counters().error_frames);  // a controller reports each
+    EXPECT_EQ(seen.bus_error, wire.counters().error_frames);  // the controller reports each error frame
     EXPECT_GE(told, seen.bus_error);
   }
 }

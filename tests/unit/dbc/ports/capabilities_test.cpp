@@ -70,8 +70,8 @@ TEST(JoinOrHost, TheFirstHostsAndTheSecondJoins) {
   for (int twice = 0; twice < 2; ++twice) EXPECT_FALSE(host->receive());
   ASSERT_EQ(node->send({.id = 5}), SendOutcome::sent);
   EXPECT_EQ(host->receive()->frame.id, 5U);
-  // The bus is hosted in the other format: the error states why it cannot be joined, which is more useful
-  // than "hosted already".
+  // The bus is already hosted in the other format. The error states why the port cannot join it, which is
+  // more useful than "hosted already".
   EXPECT_NE(join_or_host(bus, {}, BusFormat::fd).error().message.find("is classic CAN"), std::string::npos);
 }
 

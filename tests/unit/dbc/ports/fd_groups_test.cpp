@@ -56,7 +56,7 @@ class FdGroups : public testing::Test {
     port_ = in_fd_groups(std::move(wire));
   }
 
-  /// The frames of one sample, with their counter.
+  /// The frames of one sample, all with this counter.
   static std::vector<Frame> sample(std::uint8_t counter) {
     return {to_frame(SlaveImuDeltaTheta{.delta_theta_x_rad = 1e-3}, counter),
             to_frame(SlaveImuDeltaV{.delta_v_y_mps = 0.1}, counter),

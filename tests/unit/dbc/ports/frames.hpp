@@ -31,7 +31,7 @@ inline std::uint32_t number_of(const Frame& frame) {
 
 inline std::int64_t in_seconds(int seconds) { return clock_ns(CLOCK_MONOTONIC) + seconds * 1'000'000'000LL; }
 
-/// The next frame; nothing if none comes within 5 s, or the port closes.
+/// The next frame; none if no frame arrives within 5 s or the port closes.
 inline std::optional<Received> next_frame(Port& port) {
   const std::int64_t deadline = in_seconds(5);
   while (!port.closed()) {

@@ -23,7 +23,7 @@ class LocalBus : public ::testing::Test {
     EXPECT_TRUE(hub) << hub.error().message;
     return hub ? std::move(*hub) : nullptr;
   }
-  /// Joins and has the hub take notice.
+  /// Joins the bus and lets the hub accept the node.
   std::unique_ptr<Port> join(Port& hub, const PortOptions& options = {}) const {
     auto node = open_port(bus_, options);
     EXPECT_TRUE(node) << node.error().message;
@@ -96,7 +96,7 @@ TEST_F(LocalBus, GivesNodesTheirNamesAndForgetsTheDead) {
   b->send(frame_of(7));
   b.reset();
   EXPECT_EQ(hub->send(frame_of(8)), SendOutcome::sent);
-  EXPECT_EQ(next_frame(*hub)->frame.id, 7U);  // frames that it had sent before are still delivered
+  EXPECT_EQ(next_frame(*hub)->frame.id, 7U);  // the hub still delivers frames that were sent before the end
   EXPECT_FALSE(hub->receive());
   EXPECT_THAT(hub->nodes(), ElementsAre("target"));
 }
@@ -208,7 +208,7 @@ TEST_F(LocalBus, AStuckNodeHoldsTheBusUpAndNothingIsLost) {
     ++sent;
     while (const auto got = reader->receive()) ASSERT_EQ(number_of(got->frame), read++);
   }
-  EXPECT_EQ(read, sent);  // also the frame that the stuck node has still to get
+  EXPECT_EQ(read, sent);  // including the frame that is pending for the stuck node
   EXPECT_EQ(hub->held_up_by(), "stuck");
   EXPECT_FALSE(wait(*hub, WaitFor::room, 0));
   reader->send(frame_of(9));
@@ -219,7 +219,7 @@ TEST_F(LocalBus, AStuckNodeHoldsTheBusUpAndNothingIsLost) {
   while (stuck->receive()) ++read;
   EXPECT_TRUE(wait(*hub, WaitFor::room, 0));
   EXPECT_EQ(hub->send(numbered(1, sent)), SendOutcome::sent);
-  EXPECT_EQ(number_of(next_frame(*stuck)->frame), sent - 1);  // the pending one came first
+  EXPECT_EQ(number_of(next_frame(*stuck)->frame), sent - 1);  // the pending frame comes first
   EXPECT_EQ(number_of(next_frame(*stuck)->frame), sent);
   EXPECT_EQ(next_frame(*hub)->frame.id, 9U);
   EXPECT_EQ(next_frame(*stuck)->frame.id, 9U);
@@ -255,7 +255,7 @@ TEST_F(LocalBus, TheEndOfTheHubClosesNodesAfterTheirLastFrame) {
   auto hub = host();
   const auto node = join(*hub);
   hub->send(frame_of(3));
-  node->send(frame_of(4));  // the hub has not read it, so the connection is reset at its end
+  node->send(frame_of(4));  // the hub does not read it, so the connection is reset at the end
   hub.reset();
   EXPECT_TRUE(wait(*node, WaitFor::frame, 0));
   EXPECT_EQ(node->receive()->frame.id, 3U);
@@ -272,7 +272,7 @@ TEST_F(LocalBus, IsServedByRunHub) {
   const auto a = std::move(*open_port(bus_, {}));
   const auto b = std::move(*open_port(bus_, {.own_echo = true}));
   b->send(frame_of(1));
-  EXPECT_TRUE(next_frame(*b)->own);  // so the hub has accepted both
+  EXPECT_TRUE(next_frame(*b)->own);  // the echo shows that the hub has accepted both nodes
   a->send(frame_of(2));
   EXPECT_EQ(next_frame(*b)->frame.id, 2U);
   stop = true;

@@ -1,4 +1,4 @@
-// Access to an embedded bus: only processes of the same user, and only while they send and read.
+// Access to an embedded bus: only for processes of the same user, and only while they send and read.
 #include "dbc/ports/local_gate.hpp"
 
 #include <fcntl.h>
@@ -131,7 +131,7 @@ TEST_F(LocalGate, TheSocketsOfADeadHostAreInNobodysWay) {
   const pid_t pid = ::fork();
   if (pid == 0) {
     const auto hub = host_local_bus("local:x", {.fd = true});
-    ::_exit(hub ? 0 : 1);  // nothing is tidied up
+    ::_exit(hub ? 0 : 1);  // without destructors, so the sockets remain
   }
   int status = -1;
   ::waitpid(pid, &status, 0);
@@ -292,7 +292,7 @@ TEST_F(LocalGate, WhoReadsSoSlowlyThatItDragsTheBusAlongIsDropped) {
     ASSERT_LT(clock_ns(CLOCK_MONOTONIC), deadline) << "dragged along for good";
     while (told_.empty() && hub->send(numbered(1, sent)) == SendOutcome::sent) ++sent;
     ::usleep(5000);
-    slow->receive();  // a frame in 5 ms: never stuck for long
+    slow->receive();  // one frame every 5 ms, so the node never blocks the hub for long
   }
   EXPECT_THAT(told_.front(), HasSubstr("node 'slow'"));
 }
@@ -318,7 +318,7 @@ TEST_F(LocalGate, WhoSendsWhatIsNoFrameIsDroppedAndNamed) {
   EXPECT_THAT(hub->nodes(), ElementsAre("node"));
 }
 
-// Three nodes have more frames waiting than the hub takes at once.
+// Three nodes have more frames waiting than the hub accepts at once.
 TEST_F(LocalGate, FramesThatTheHostDoesNotWantKeepItNoLongerThanOthers) {
   const auto hub = host_local_bus("local:x", {.only_ids = {1}}).value();
   std::vector<std::unique_ptr<Port>> senders;

@@ -26,7 +26,7 @@ TEST(OpenPort, ExplainsWhichBusesThereAre) {
   }
 }
 
-TEST(OpenPort, ExplainsWhatIsMissingOfCan) {  // with AF_CAN, and the case of interfaces: tests/vcan
+TEST(OpenPort, ExplainsWhatIsMissingOfCan) {  // tests/vcan tests this with AF_CAN and interfaces
   const Descriptor can(::socket(AF_CAN, SOCK_RAW, 1));
   const std::string why = why_not("nocan7");
   if (can) {
@@ -110,7 +110,7 @@ TEST(Wait, ForRoomDoesAsThePortSays) {
 TEST(Wait, LooksAgainWhereAnInterfaceIsAway) {
   WaitingPort port;
   port.is_up = false;
-  port.room = {.events = POLLOUT};  // a flag that an interface has while it is down
+  port.room = {.events = POLLOUT};  // poll() can report this while the interface is down
   for (const WaitFor what : {WaitFor::frame, WaitFor::room}) {
     const std::int64_t start = clock_ns(CLOCK_MONOTONIC);
     EXPECT_TRUE(wait(port, what, no_deadline)) << "worth another try";

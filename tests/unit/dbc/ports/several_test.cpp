@@ -17,7 +17,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Two hubs joined, even ids to the first and odd ones to the second, and a node on each bus.
+// Two hubs as one port: even ids on the first bus, odd ids on the second, and a node on each bus.
 class Several : public testing::Test {
  protected:
   void SetUp() override {
@@ -109,7 +109,7 @@ class Controller final : public Port {
   std::string name_ = "can0";
 };
 
-// A latency from a stamp of one controller to a stamp of another would be the difference of their clocks.
+// The difference between stamps of two controllers would contain the difference of their clocks.
 TEST(SeveralControllers, AreStampedByTheOneClockOfTheKernel) {
   std::vector<std::unique_ptr<Port>> ports;
   for (const std::int64_t hardware_ns : {std::int64_t{7'000'000}, std::int64_t{9'000'000'000}})

@@ -110,7 +110,7 @@ TEST(SimulatedWire, AnErrorFrameThenTheFrameAgain) {
   EXPECT_EQ(carried->start_ns, (20 + 6 + 8 + 3) * bit_ns);
   EXPECT_EQ(wire.counters().error_frames, 1);
   EXPECT_EQ(wire.transmit_errors(0), 8 - 1);
-  EXPECT_EQ(wire.receive_errors(1), 0);  // 1 for the error, less 1 for the success
+  EXPECT_EQ(wire.receive_errors(1), 0);  // +1 for the error, -1 for the success
 }
 
 TEST(SimulatedWire, AfterAnErrorTheArbitrationIsOpenAgain) {
@@ -134,8 +134,9 @@ TEST(SimulatedWire, AnErrorPassiveReceiverDisturbsNobody) {
   wire.queue(0, frame(0x123), 0);
   const auto carried = wire.next(long_enough);
   ASSERT_TRUE(carried);
-  EXPECT_EQ(carried->attempts, 16);        // 15 times 9 are 135, above 127
-  EXPECT_EQ(wire.receive_errors(1), 119);  // passive nodes start from here after a frame without error
+  EXPECT_EQ(carried->attempts, 16);  // 15 times 9 are 135, above 127
+  // After a frame without error, a passive receiver continues from 119.
+  EXPECT_EQ(wire.receive_errors(1), 119);
   EXPECT_EQ(wire.state(1), NodeState::error_active);
 }
 
@@ -170,7 +171,8 @@ TEST(SimulatedWire, After32ErrorsOffTheBusAndBackAfter128RecessiveRuns) {
   EXPECT_EQ(wire.counters().error_frames, 32);
   EXPECT_EQ(wire.state(0), NodeState::bus_off);
   EXPECT_EQ(wire.counters().dropped, 2);
-  // 16 error frames of 37 bits, 16 more after which it was silent for 8 bits, but not after the last.
+  // 32 error frames of 37 bits. From the 16th on, the passive sender pauses for 8 bits after each except the
+  // last.
   const std::int64_t off_ns = (32 * 37 + 16 * 8) * bit_ns;
   const std::int64_t back_ns = off_ns + 128 * 11 * bit_ns;
   EXPECT_FALSE(wire.queue(0, frame(0x200), back_ns - bit_ns));
@@ -189,7 +191,7 @@ TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
   while (wire.state(0) != NodeState::bus_off) ASSERT_TRUE(wire.next(long_enough));
   for (int i = 0; i < 126; ++i) ASSERT_TRUE(wire.next(long_enough));
   EXPECT_EQ(wire.state(0), NodeState::bus_off);
-  ASSERT_TRUE(wire.next(long_enough));  // the 128th, with the one sent when it was off already
+  ASSERT_TRUE(wire.next(long_enough));  // the 128th frame: the first was sent in the call that went bus-off
   EXPECT_EQ(wire.state(0), NodeState::error_active);
 }
 
@@ -228,7 +230,7 @@ TEST(SimulatedWire, AControllerTellsItsHostFromTheFirstErrorToItsReturn) {
   ASSERT_EQ(changes.size(), 4U);
   EXPECT_EQ(changes[0].event, BusEvent::error_warning);
   EXPECT_EQ(changes[0].tx, 96);
-  EXPECT_EQ(changes[0].t_ns, (11 * 37 + 20) * bit_ns);  // as the 12th error flag begins
+  EXPECT_EQ(changes[0].t_ns, (11 * 37 + 20) * bit_ns);  // the beginning of the 12th error flag
   EXPECT_EQ(changes[1].event, BusEvent::error_passive);
   EXPECT_EQ(changes[1].tx, 128);
   EXPECT_EQ(changes[2].event, BusEvent::bus_off);

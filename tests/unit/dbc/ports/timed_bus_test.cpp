@@ -51,7 +51,7 @@ TEST_F(TimedBus, FramesFollowOneAnotherAtTheirExactLengths) {
     ASSERT_TRUE(received);
     EXPECT_EQ(received->frame, frames.at(i));
     EXPECT_EQ(received->source, StampSource::hub);
-    EXPECT_LE(received->t_ns, clock_ns(CLOCK_MONOTONIC));  // never before it is over
+    EXPECT_LE(received->t_ns, clock_ns(CLOCK_MONOTONIC));  // no frame is delivered before its end
     t_ns.at(i) = received->t_ns;
   }
   EXPECT_EQ(t_ns[1] - t_ns[0], duration_ns(frames[1], rates));
@@ -68,7 +68,8 @@ TEST_F(TimedBus, TheHostHearsItsOwnFrameWhenItIsOver) {
   const auto echo = next_frame(*hub);
   ASSERT_TRUE(echo);
   EXPECT_TRUE(echo->own);
-  EXPECT_GE(echo->t_ns, before_ns + duration_ns(frame_of(5, {1}), rates) - 300'000);  // less the intermission
+  // The stamp excludes the intermission.
+  EXPECT_GE(echo->t_ns, before_ns + duration_ns(frame_of(5, {1}), rates) - 300'000);
   const auto there = next_frame(*node);
   ASSERT_TRUE(there);
   EXPECT_EQ(there->t_ns, echo->t_ns);
@@ -76,7 +77,7 @@ TEST_F(TimedBus, TheHostHearsItsOwnFrameWhenItIsOver) {
   EXPECT_EQ(hub->counters().sent, 1U);
 }
 
-// The untimed bus would serve the nodes in turn, in the order in which they joined.
+// The untimed bus would serve the nodes in turn, in the order of joining.
 TEST_F(TimedBus, TheLowestIdOfThoseThatWaitIsNext) {
   const auto hub = host("?bitrate=1000");
   const auto first = join(*hub), second = join(*hub);
@@ -106,7 +107,7 @@ TEST_F(TimedBus, FullQueuesHoldBackButLoseNothing) {
   const auto node = join(*hub);
   std::uint32_t from_hub = 0, from_node = 0;
   while (hub->send(numbered(1, from_hub)) == SendOutcome::sent) ++from_hub;
-  EXPECT_FALSE(wait(*hub, WaitFor::room, 0));  // it takes a while
+  EXPECT_FALSE(wait(*hub, WaitFor::room, 0));  // the frames still need their time on the wire
   while (node->send(numbered(2, from_node)) == SendOutcome::sent) ++from_node;
   EXPECT_GE(from_hub, 64U);
   EXPECT_GT(from_node, 64U);
@@ -127,7 +128,7 @@ TEST_F(TimedBus, WakesItsHostWhenAFrameIsOver) {
   do {
     ASSERT_TRUE(wait(*hub, WaitFor::frame, in_seconds(5)));
   } while (!hub->receive());
-  EXPECT_FALSE(wait(*hub, WaitFor::frame, 0));  // and not once more
+  EXPECT_FALSE(wait(*hub, WaitFor::frame, 0));  // the frame is delivered only once
 }
 
 TEST_F(TimedBus, CarriesFdAtTwoBitRates) {
@@ -167,7 +168,7 @@ TEST_F(TimedBus, ADisturbedBusLosesNothing) {
     take(*node, at_node, node_errors);
   }
   EXPECT_GT(hub_errors.bus_error, 5U);
-  EXPECT_EQ(hub_errors.bus_error, node_errors.bus_error);  // both were there
+  EXPECT_EQ(hub_errors.bus_error, node_errors.bus_error);  // both nodes see every error frame
   EXPECT_EQ(hub_errors.bus_off + node_errors.bus_off, 0U);
   EXPECT_GT(hub_errors.tx_counter_max, 0);
   EXPECT_EQ(hub->counters().error_frames, hub_errors.frames);
@@ -193,7 +194,7 @@ TEST_F(TimedBus, WhereEveryBitIsWrongASenderGoesOffTheBusAndComesBack) {
   EXPECT_THAT(events, ElementsAre(BusEvent::error_warning, BusEvent::error_passive, BusEvent::bus_off,
                                   BusEvent::restarted));
   EXPECT_EQ(errors.bus_error, 32U);
-  // Frames that it sent during the bus-off are tried now.
+  // Frames that the node queued while it was bus-off are sent now.
   while (errors.bus_error == 32U && wait(*hub, WaitFor::frame, deadline_ns)) {
     while (hub->receive()) {
     }
@@ -206,7 +207,7 @@ TEST_F(TimedBus, WhereEveryBitIsWrongASenderGoesOffTheBusAndComesBack) {
   EXPECT_EQ(of_other.tx_counter_max, 0);
 }
 
-// While the host is bus-off, its queue has no room; then its frames are sent.
+// While the host is bus-off, its queue is full; afterwards the queued frames are sent.
 TEST_F(TimedBus, AHostThatIsOffTheBusWaitsForItsReturn) {
   const auto hub = host("?bitrate=10000&bit-error-rate=1");
   ASSERT_EQ(hub->send(frame_of(1)), SendOutcome::sent);
@@ -223,7 +224,7 @@ TEST_F(TimedBus, AHostThatIsOffTheBusWaitsForItsReturn) {
   EXPECT_EQ(hub->send(frame_of(2)), SendOutcome::sent);
 }
 
-// The reports of a controller are not on the wire: they do not wait for the frame there.
+// Error reports are not sent on the wire, so they do not wait for a frame there.
 TEST_F(TimedBus, ErrorReportsPassAtOnce) {
   Frame report = frame_of(0x40);
   report.size = 8;
@@ -239,7 +240,7 @@ TEST_F(TimedBus, ErrorReportsPassAtOnce) {
   EXPECT_EQ(next_frame(*hub)->frame, frame_of(1));
 }
 
-// They take no time on the wire, so only the hub can limit an endless sender.
+// Error reports take no time on the wire, so only the hub can limit a node that sends them endlessly.
 TEST_F(TimedBus, ErrorReportsWithoutEndAreTakenSoManyAtOnce) {
   Frame report = frame_of(0x04);
   report.size = 8;
@@ -261,7 +262,7 @@ TEST_F(TimedBus, ErrorReportsWithoutEndAreTakenSoManyAtOnce) {
   const int taken = fill();
   EXPECT_GT(taken, 0);
   EXPECT_LE(taken, 256);
-  // It also does not accept more frames than it delivers, if the host is far behind with reading.
+  // If the host is far behind with reading, the hub accepts no more reports than it delivers.
   int more = 0;
   for (int n = 0; n < 100; ++n) {
     EXPECT_TRUE(hub->receive());

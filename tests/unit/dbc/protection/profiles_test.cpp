@@ -1,6 +1,6 @@
-// The profiles against the protected data that the standard publishes: AUTOSAR FO PRS E2EProtocol (document
-// 849), sections 'E2E Profile N Protocol Examples'. The numbers were taken from the tests of public
-// libraries, which repeat them: autosar-e2e on PyPI, torsko/autosar-e2e and remotivelabs/autosar-e2e on
+// The profiles compared with the protected data in the standard: AUTOSAR FO PRS E2EProtocol (document 849),
+// sections 'E2E Profile N Protocol Examples'. The numbers were taken from the tests of public libraries,
+// which repeat these examples: autosar-e2e on PyPI, torsko/autosar-e2e and remotivelabs/autosar-e2e on
 // GitHub.
 #include "dbc/protection/profiles.hpp"
 
@@ -44,14 +44,14 @@ ProfileChoice with_list(unsigned first, unsigned offset_bits = 0) {
   return choice;
 }
 
-/// Zeros, protected.
+/// A protected message of zeros.
 Bytes zeros(std::string_view name, const ProfileChoice& choice, unsigned size, std::uint64_t counter) {
   Bytes data(size);
   of_profile(name, choice, size).protect(data, counter);
   return data;
 }
 
-/// Some bytes at a place, zeros elsewhere.
+/// These bytes at an offset, zeros elsewhere.
 Bytes at(std::size_t offset, const Bytes& bytes, std::size_t size) {
   Bytes all(size);
   std::ranges::copy(bytes, all.begin() + static_cast<std::ptrdiff_t>(offset));
@@ -81,7 +81,8 @@ TEST(E2eProfile1, TakesOtherPlaces) {
   EXPECT_EQ(zeros("autosar-e2e-1c", choice, 8, 1), (Bytes{0x11, 0, 0, 0, 0, 0, 0, 0x77}));
 }
 
-// R23-11, section 6.12.5 (E2E Profile 11 Protocol Examples, table 6.86 and those after it): data id 0x123.
+// R23-11, section 6.12.5 (E2E Profile 11 Protocol Examples, table 6.86 and the following tables): data id
+// 0x123.
 TEST(E2eProfile11, HasThePublishedExamples) {
   const ProfileChoice id = with_id(0x123);
   EXPECT_EQ(zeros("autosar-e2e-11a", id, 8, 0), at(0, {0xCC, 0x00}, 8));
@@ -102,9 +103,10 @@ TEST(E2eProfile22, HasThePublishedExamples) {
   EXPECT_EQ(zeros("autosar-e2e-22", with_list(1, 64), 16, 1), at(8, {0x14, 0x01}, 16));
 }
 
-// No example of profile 2 was found in the standard's text. It is bus-compatible with profile 22 (R19-11,
-// document change history: 'Fixed interoperability issues between P01 and P11, P02 and P22'), so that one's
-// examples count; the two others are from the tests of autosar-e2e on PyPI, data id list 0, 1, .. 15.
+// The text of the standard contains no example of profile 2. Profile 2 is bus-compatible with profile 22
+// (R19-11, document change history: 'Fixed interoperability issues between P01 and P11, P02 and P22'), so the
+// examples of profile 22 are used. The two others are from the tests of autosar-e2e on PyPI, data id list 0,
+// 1, .. 15.
 TEST(E2eProfile2, HasTheExamplesOfProfile22) {
   for (std::uint8_t counter = 0; counter < 16; ++counter)
     EXPECT_EQ(zeros("autosar-e2e-2", with_list(1), 8, counter), at(0, {crc_of_counter[counter], counter}, 8));
@@ -116,8 +118,8 @@ TEST(E2eProfile2, HasTheExamplesOfProfile22) {
   EXPECT_EQ(data, (Bytes{0x61, 1, 2, 3, 4, 5, 6, 7}));
 }
 
-// And from the standard's text (profile 2: CRC-8H2F, polynomial 0x2F, start and final xor 0xFF, over the
-// bytes after the CRC and then the data id of the counter), computed without the library.
+// Computed without the library from the text of the standard (profile 2: CRC-8H2F, polynomial 0x2F, start and
+// final xor 0xFF, over the bytes after the CRC and then the data id of the counter).
 RC_GTEST_PROP(E2eProfile2, IsThatOfTheText, ()) {
   ProfileChoice choice;
   choice.data_id_list = *rc::gen::container<Bytes>(16, rc::gen::arbitrary<std::uint8_t>());
@@ -137,8 +139,8 @@ RC_GTEST_PROP(E2eProfile2, IsThatOfTheText, ()) {
   RC_ASSERT(data[0] == (crc ^ 0xFFU));
 }
 
-// R20-11, section 6.6.5, tables 6.47 and 6.48 (E2E Profile 5 Protocol Examples): data id 0x1234. Counter 1
-// from the tests of autosar-e2e on PyPI.
+// R20-11, section 6.6.5, tables 6.47 and 6.48 (E2E Profile 5 Protocol Examples): data id 0x1234. The example
+// with counter 1 is from the tests of autosar-e2e on PyPI.
 TEST(E2eProfile5, HasThePublishedExamples) {
   EXPECT_EQ(zeros("autosar-e2e-5", with_id(0x1234), 8, 0), at(0, {0x1C, 0xCA, 0x00}, 8));
   EXPECT_EQ(zeros("autosar-e2e-5", with_id(0x1234), 8, 1), at(0, {0xCF, 0x8D, 0x01}, 8));
@@ -146,7 +148,7 @@ TEST(E2eProfile5, HasThePublishedExamples) {
   EXPECT_EQ(zeros("autosar-e2e-5", with_id(0x1234, 64), 16, 1), at(8, {0xFB, 0xD6, 0x01}, 16));
 }
 
-// The same CRC elsewhere: of zeros, the same bytes are covered in the same order.
+// With zeros as data, the CRC is the same in another place: the same bytes are covered in the same order.
 TEST(E2eProfile5, TakesOtherPlaces) {
   ProfileChoice choice = with_id(0x1234);
   choice.checksum = Place{48, 16, false};
@@ -154,7 +156,7 @@ TEST(E2eProfile5, TakesOtherPlaces) {
   EXPECT_EQ(zeros("autosar-e2e-5", choice, 8, 1), (Bytes{0x01, 0, 0, 0, 0, 0, 0xCF, 0x8D}));
 }
 
-// E2E Profile 4, 6 and 7 Protocol Examples, as the tests of autosar-e2e on PyPI repeat them.
+// E2E Profile 4, 6 and 7 Protocol Examples, from the tests of autosar-e2e on PyPI.
 TEST(E2eProfile4, HasThePublishedExamples) {
   const std::uint32_t id = 0x0A0B0C0D;
   EXPECT_EQ(zeros("autosar-e2e-4", with_id(id), 16, 0),
@@ -185,7 +187,7 @@ TEST(E2eProfile7, HasThePublishedExamples) {
 
 bool has_list(std::string_view name) { return name == "autosar-e2e-2" || name == "autosar-e2e-22"; }
 
-// All bits of a protected message are its CRC or covered by it, or constant.
+// Every bit of a protected message is part of the CRC, covered by it, or constant.
 TEST(E2eProfiles, FindEveryFlippedBit) {
   for (const std::string_view name : profile_names()) {
     for (const unsigned size : {8U, 24U, 64U}) {

@@ -79,7 +79,7 @@ TEST(Sums, SumOfSixteenBits) {
             (Bytes{0xFF, 0xFF, 0xFF, 0, 0, 0, 0x02, 0xFD}));
 }
 
-// Sum with the CAN id, as Tesla's: id 488: 88 + 04 = 8C, + 10 + 80 = 11C, modulo 256: 1C.
+// Sum with the CAN id, as Tesla uses it. Id 488: 88 + 04 = 8C, + 10 + 80 = 11C, modulo 256: 1C.
 TEST(Sums, SumWithTheMessageId) {
   Checksum checksum;
   checksum.place = {24, 8, false};
@@ -88,7 +88,7 @@ TEST(Sums, SumWithTheMessageId) {
   EXPECT_EQ(summed(checksum, {0x10, 0x80, 0x00, 0x00}, 0x488)[3], 0x1C);
 }
 
-// Sum of length, CAN id and bytes, as Toyota's: 05 + 02 + E4 = EB, + 80 + 0A = 175, modulo 256: 75.
+// Sum of length, CAN id and bytes, as Toyota uses it: 05 + 02 + E4 = EB, + 80 + 0A = 175, modulo 256: 75.
 TEST(Sums, SumWithLengthAndMessageId) {
   Checksum checksum;
   checksum.place = {32, 8, false};
@@ -97,10 +97,9 @@ TEST(Sums, SumWithLengthAndMessageId) {
   EXPECT_EQ(summed(checksum, {0x80, 0x00, 0x0A, 0x00, 0xEE}, 0x2E4)[4], 0x75);
 }
 
-// Sum of nibbles, as Honda's: 8 - (nibbles of the CAN id and of all bytes but the checksum's own nibble),
-// modulo
-// 16. Id E4: E + 4 = 18. Data 12 34 56 79 2_: 1 + 2 + 3 + 4 + 5 + 6 + 7 + 9 + 2 = 39. 8 - 57 = -49 = 15 - 64:
-// F. As a negated sum: -(8 + 57) = -65 = 15 - 80, since 8 and -8 are the same modulo 16.
+// Sum of nibbles, as Honda uses it: 8 - (nibbles of the CAN id and of all bytes except the checksum's own
+// nibble), modulo 16. Id E4: E + 4 = 18. Data 12 34 56 79 2_: 1 + 2 + 3 + 4 + 5 + 6 + 7 + 9 + 2 = 39. 8 - 57
+// = -49 = 15 - 64: F. As a negated sum: -(8 + 57) = -65 = 15 - 80, since 8 and -8 are equal modulo 16.
 TEST(Sums, NibblesInANibble) {
   Checksum checksum;
   checksum.place = {32, 4, false};
@@ -117,8 +116,9 @@ TEST(Sums, XorOfNibbles) {
   EXPECT_EQ(summed(checksum, {0x12, 0x34, 0x56, 0x0A}), (Bytes{0x12, 0x34, 0x56, 0xDA}));
 }
 
-// A CRC over the whole message with the checksum's byte as 0. CRC-8/SMBUS of the byte 01 is the rest of x^8,
-// the polynomial itself: 07. A zero behind it multiplies by x^8 once more: 07 times 07 without carries = 15.
+// A CRC over the whole message with 0 in the checksum's byte. CRC-8/SMBUS of the byte 01 is the remainder of
+// x^8, the polynomial itself: 07. A following zero byte multiplies by x^8 again: 07 times 07 without carries
+// = 15.
 TEST(Sums, CrcWithItsOwnByteAsZero) {
   Checksum checksum;
   checksum.place = {8, 8, false};
@@ -128,8 +128,8 @@ TEST(Sums, CrcWithItsOwnByteAsZero) {
   EXPECT_EQ(summed(checksum, {0x01, 0xEE})[1], 0x15);
 }
 
-// A data id from a list, by the counter, after the data, as Volkswagen's (CRC-8/AUTOSAR): one entry changes
-// one counter's checksum.
+// A data id that the counter selects from a list, appended to the data, as Volkswagen uses it
+// (CRC-8/AUTOSAR): one entry changes the checksum of one counter.
 TEST(Sums, DataIdOfTheCounter) {
   const auto crc_with = [](std::uint8_t entry, std::uint64_t counter) {
     Settings settings;

@@ -56,8 +56,8 @@ RC_GTEST_PROP(OwnWire, IsThePresetBitForBitInEveryMessage, ()) {
   }
 }
 
-/// Converts a verdict of the wire's receiver to one of this receiver. The wire's receiver reports a counter
-/// of 15 as a wrong CRC.
+/// Converts a verdict of canhil's own receiver to a verdict of protection's receiver. canhil's own receiver
+/// reports a counter of 15 as a wrong CRC.
 Check in_our_words(e2e::Check check) {
   switch (check) {
     case e2e::Check::ok:

@@ -15,7 +15,7 @@ std::uint32_t hex(const std::string& digits) {
   return static_cast<std::uint32_t>(std::stoul(digits, nullptr, 16));
 }
 
-/// "123#0102" as cansend takes it: three digits of id are a standard one, eight an extended one.
+/// A frame as cansend writes it, "123#0102": three digits of id are a standard id, eight an extended id.
 Frame classic(const std::string& text) {
   const std::size_t mark = text.find('#');
   Frame frame{.id = hex(text.substr(0, mark)), .extended = mark == 8};
@@ -54,7 +54,7 @@ TEST(BitLength, AtWorst) {
 TEST(BitLength, AStuffBitOpensTheNextRun) {
   BitStream wire;
   wire.put(0b0'0000'1111, 9);
-  EXPECT_EQ(wire.length(), 10);  // 00000i1111: five ones now
+  EXPECT_EQ(wire.length(), 10);  // 00000i1111: stuff bit i and four ones, a run of five
   wire.close();
   EXPECT_EQ(wire.length(), 11);
 }
@@ -104,8 +104,8 @@ RC_GTEST_PROP(BitLength, LiesBetweenTheBareAndTheWorst,
   RC_ASSERT(length.bits() >= stuffable + (fd ? fd_crc_field_bits(frame.size) + 12 : 13));
 }
 
-// ESI 0, DLC 1111, then 1 0000 1111 0000 ...: a stuff bit after the first data bit and after every four. The
-// bound's one more is for error passive senders.
+// ESI 0, DLC 1111, then 1 0000 1111 0000 ...: a stuff bit after the first data bit and after every four bits.
+// The bound has one more bit, for error passive senders.
 TEST(BitLength, TheWorstOfTheFdDataPhaseIsMet) {
   EXPECT_EQ(bit_length(filled(0x555, 64, 0x87, true, true)).data,
             worst_case_fd_length(64, false, true).data - 1);

@@ -40,7 +40,7 @@ TEST(E2e, CounterRunsFrom0To14) {
   EXPECT_EQ(next(14), 0);
 }
 
-// CRC-8 with this polynomial finds every error of one bit, and every burst of up to 8.
+// A CRC-8 with this polynomial detects every single-bit error and every burst of up to 8 bits.
 RC_GTEST_PROP(E2e, FindsEveryBurstOfUpTo8Bits, ()) {
   const auto payload = *rc::gen::container<std::vector<std::uint8_t>>(8, rc::gen::arbitrary<std::uint8_t>());
   Bytes frame{};

@@ -15,8 +15,7 @@ TEST(RoundHalfEven, InConstantExpressionsToo) {
   static_assert(round_half_even(-0.75) == -1 && round_half_even(7) == 7 && round_half_even(-7) == -7);
 }
 
-// The two branches of round_half_even, forced by evaluating its text at run time and in a table at compile
-// time.
+// Both branches of round_half_even: one at run time, the other in a table that is computed at compile time.
 TEST(RoundHalfEven, BothWaysGiveTheSame) {
   constexpr auto table = [] {
     std::array<std::int64_t, 4001> rounded{};
@@ -63,7 +62,8 @@ TEST(QuantisedWide, ReachesTheUpperHalf) {
 }
 
 // raw -> physical -> raw is the identity for every raw value of up to 40 bits and offsets of up to 1e6 LSB:
-// raw * scale, + offset, - offset and / scale err by a few parts in 2^53 of 2^41 LSB, far below half an LSB.
+// the error of raw * scale, + offset, - offset and / scale is a few parts in 2^53 of 2^41 LSB, far below half
+// an LSB.
 RC_GTEST_PROP(Quantised, GivesBackEveryRawValue,
               (std::int64_t any, std::uint16_t scale_bits, std::int32_t offset_lsb)) {
   const std::int64_t raw = any % (std::int64_t{1} << 40U);

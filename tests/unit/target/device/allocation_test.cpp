@@ -49,7 +49,7 @@ void expect_no_allocation(const std::vector<Frame>& frames, const Session& sessi
   EXPECT_EQ(device.running(), session.running);
 }
 
-// The frames of a session with all features: parameters, both algorithms, losses, late fixes, faults.
+// The frames of a session with all features: parameters, both algorithms, lost samples, late fixes, faults.
 std::vector<Frame> transfer_session(messages::Algorithm algorithm) {
   using namespace messages;
   BenchSide bench;
@@ -66,7 +66,7 @@ std::vector<Frame> transfer_session(messages::Algorithm algorithm) {
     if (k % 10 == 5) bench.master((k - 5) * 10'000L, BenchSide::speed + 0.1);
     bench.sync(k * 10'000L, k > 100);
   }
-  for (int k = 201; k <= 260; ++k) bench.sync(k * 10'000L);  // the IMU falls silent: fault
+  for (int k = 201; k <= 260; ++k) bench.sync(k * 10'000L);  // the IMU falls silent, which causes a fault
   return bench.fed();
 }
 
@@ -76,8 +76,8 @@ TEST(Allocation, TheFramePathOfTheDeviceHasNone) {
   }
 }
 
-// The same for in-flight alignment: fixes that are late, gated, invalid or of the other aid; a P that needs a
-// repair.
+// The same for in-flight alignment: fixes that are late, gated, invalid, or from the other aid; a P that
+// needs a repair.
 std::vector<Frame> inflight_session(messages::Algorithm algorithm) {
   using namespace messages;
   BenchSide bench;
@@ -116,7 +116,8 @@ TEST(Allocation, TheFramePathOfInflightAlignmentHasNone) {
   }
 }
 
-// The same for the LOS rate: groups that are lost, invalid or late, and a seeker that is silent and returns.
+// The same for the LOS rate: groups that are lost, invalid or late, and a seeker that falls silent and
+// returns.
 std::vector<Frame> los_rate_session(messages::Algorithm algorithm) {
   using namespace messages;
   Missile missile(algorithm, {{.parameter = Parameter::glint_noise_yaw_m, .value = 0.7F}});
@@ -142,7 +143,7 @@ TEST(Allocation, TheFramePathOfTheLosRateHasNone) {
   }
 }
 
-// The same for the wind: late and rejected fins; navigation that is lost, invalid, jumping, silent, and
+// The same for the wind: late and rejected fins; navigation that is lost, invalid or jumps, falls silent, and
 // returns.
 std::vector<Frame> wind_session(messages::Algorithm algorithm) {
   using namespace messages;

@@ -25,7 +25,7 @@ class BenchSide {
     const auto answers = device_.receive(frame);
     answers_.insert(answers_.end(), answers.begin(), answers.end());
   }
-  /// Uses the next counter of a message without sending it: the frame is lost.
+  /// Increments the counter of a message without sending it: the receiver sees a lost frame.
   template <class Message>
   void lose(const Message& message) {
     out_.clear();

@@ -13,7 +13,7 @@ namespace {
 
 using Innovation = std::vector<double>;
 
-// The number of updates until the monitor reaches the state; `most`: never.
+// The number of updates until the monitor reaches the state; `most` if it never does.
 template <class Draw>
 int updates_until(ConsistencyMonitor& monitor, bool degraded, int most, Draw draw) {
   for (int i = 0; i < most; ++i) {

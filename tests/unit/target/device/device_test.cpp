@@ -61,7 +61,7 @@ TEST(Device, ReadsBackEveryParameterAsItWasSet) {
       const ParameterStatus status = bench.last<ParamAck>()->status;
       if (status != ParameterStatus::unknown) ++takers;
       if (estimator == Estimator::los_rate && status == ParameterStatus::out_of_range)
-        continue;  // a noise in rad
+        continue;  // this value is outside the range of a noise in rad
       EXPECT_EQ(bench.last<ParamAck>()->value, 1.0F) << name_of(parameter);
       EXPECT_TRUE(status == ParameterStatus::accepted || status == ParameterStatus::unknown);
     }
@@ -209,9 +209,9 @@ TEST(Device, FixesThatWaitedForOneImuSampleAreAllAnswered) {
   BenchSide bench;
   bench.start();
   bench.imu(10'000);
-  for (int k = 2; k <= 10; ++k) bench.master(k * 10'000L);  // one more than may wait
+  for (int k = 2; k <= 10; ++k) bench.master(k * 10'000L);  // one fix more than the device can hold
   EXPECT_FALSE(bench.last<AlignUpdate>());
-  bench.imu(150'000);  // the gap is bridged
+  bench.imu(150'000);  // this sample bridges the gap
   bench.sync(150'000);
   EXPECT_EQ(bench.all<AlignUpdate>().size(), 8U);
   EXPECT_EQ(bench.all<AlignInnovation>().size(), 8U);

@@ -11,10 +11,10 @@ namespace {
 
 using namespace messages;
 
-constexpr double metres_per_degree = 110'977;  // of latitude at 37 deg [m]
+constexpr double metres_per_degree = 110'977;  // length of a degree of latitude at 37 deg [m]
 constexpr double latitude_deg = 37, longitude_deg = 127, height_m = 1000;
 
-// At rest, heading north. The initial state is true, with the sigmas of an unknown heading.
+// At rest, heading north. The initial state is the truth, with sigmas for an unknown heading.
 class Vehicle : public BenchSide {
  public:
   explicit Vehicle(float aiding, Algorithm algorithm = Algorithm::sin_cos,
@@ -76,7 +76,8 @@ TEST(InflightAlignment, AnswersEachFixNamingItsCause) {
   const auto position = bench.all<FixPositionLatitude>()[0];
   EXPECT_GT(position.latitude_deg, latitude_deg + 1 / metres_per_degree);
   EXPECT_LT(position.latitude_deg, latitude_deg + 3 / metres_per_degree);
-  EXPECT_NEAR(bench.all<FixPositionSigma>()[0].position_sigma_north_m, 2, 0.1);  // 10 m met by 2 m
+  // Prior sigma 10 m, fix sigma 2 m.
+  EXPECT_NEAR(bench.all<FixPositionSigma>()[0].position_sigma_north_m, 2, 0.1);
   EXPECT_GT(bench.all<FixAttitudeSigma>()[0].heading_sigma_deg, 20);
   EXPECT_NEAR(bench.all<FixAttitudeSigma>()[0].tilt_sigma_east_deg, 1, 0.05);
   EXPECT_NEAR(bench.all<FixAccelBiasSigma>()[0].accel_bias_sigma_x_ug, 1000, 10);
@@ -95,8 +96,8 @@ TEST(InflightAlignment, AnSsblFixIsTheShipsPositionPlusTheRelative) {
   EXPECT_GT(bench.last<FixBiasSigma>()->fix_bias_sigma_north_m, 2);
 }
 
-// The parameters state 2 m. A fix with a larger sigma is weighted by its own sigma, a fix with a smaller one
-// by the parameters.
+// The parameters set a sigma of 2 m. A fix with a larger sigma is weighted by its own sigma, a fix with a
+// smaller sigma by the parameters.
 TEST(InflightAlignment, AFixThatStatesALargerSigmaWeighsLess) {
   const auto sigmas = [](float aiding, double stated_m) {
     Vehicle bench(aiding);
@@ -155,7 +156,7 @@ struct BadFix {
 
 class BadFixes : public testing::TestWithParam<BadFix> {};
 
-// Each is answered with its reason and counted, and does not change the estimate.
+// Each bad fix is answered with its reason and counted, and does not change the estimate.
 TEST_P(BadFixes, AreAnsweredWithTheirReasonAndLeaveNoTrace) {
   for (const Algorithm algorithm : {Algorithm::ekf, Algorithm::ukf, Algorithm::sin_cos}) {
     const auto flight = [&](bool bad) {
@@ -291,7 +292,7 @@ TEST(InflightAlignment, EveryFixOfAQueueThatOverflowsIsAnswered) {
   Vehicle bench(by_gps);
   bench.imu_until(1'000'000);
   for (int k = 1; k <= 6; ++k) bench.gps(1'000'000 + k * 10'000);
-  EXPECT_EQ(bench.all<FixStatus>().size(), 2U);  // the fifth and sixth
+  EXPECT_EQ(bench.all<FixStatus>().size(), 2U);  // the fifth and the sixth fix
   EXPECT_EQ(bench.outcome(), FixOutcome::future);
   bench.imu_until(1'010'000);
   bench.lose_imu(1'020'000);

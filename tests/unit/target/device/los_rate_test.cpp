@@ -26,7 +26,7 @@ Message as_received(const Message& message) {
   return from_frame<Message>(to_frame(message, 0));
 }
 
-// The output of the estimator for the sample in these frames, without a Device.
+// The output of the estimator for this sample, computed without a Device.
 los::UpdateResult own_step(los::State& state, const SeekerSample& sample, const los::Design& design) {
   const auto antenna = as_received(sample.antenna);
   const auto angles = as_received(sample.angles);
@@ -95,7 +95,7 @@ TEST(LosRate, TheFramesOfAnEngagementGiveTheEstimatorsOwnFigures) {
   }
 }
 
-// Signs and planes: an estimate that tracks the truth of both planes under roll and manoeuvre.
+// Signs and planes: the estimate tracks the truth in both planes under roll and manoeuvre.
 TEST(LosRate, TheEstimateIsTheTruthOfANoiseFreeEngagement) {
   for (const Algorithm algorithm : {Algorithm::switched_table, Algorithm::combined, Algorithm::kalman}) {
     SCOPED_TRACE(name_of(algorithm));
@@ -113,8 +113,8 @@ TEST(LosRate, TheEstimateIsTheTruthOfANoiseFreeEngagement) {
   }
 }
 
-// Error angles with 15 times the configured noise: answers and heartbeat report degraded, until the noise is
-// as configured again.
+// Error angles with 15 times the configured noise: answers and heartbeat report degraded until the noise
+// returns to the configured level.
 TEST(LosRate, SaysThatItIsDegradedWhileItsInnovationsAreBeyondItsCovariance) {
   Missile missile;
   missile.fly_until(3);
@@ -204,7 +204,8 @@ std::vector<Parameter> own_parameters() {
   return own;
 }
 
-// For a value without its own limit: the default lies inside every range.
+// -1 and 1e30 are outside every range. 1.5 times the default, or 0.01 for a default of 0, is inside every
+// range.
 TEST(LosRateParameters, AreReadBackRefusedOutsideTheirRangeAndWhileRunning) {
   ASSERT_EQ(own_parameters().size(), 25U);
   for (const Parameter parameter : own_parameters()) {
@@ -272,7 +273,7 @@ TEST(LosRateParameters, SettingsReachTheEstimator) {
             2 * slow.sigma.los_rate_sigma_pitch_radps);
 }
 
-// At the ends of the ranges, in random combinations, all designs and gains stay finite.
+// With random combinations of range limits, all designs and gains stay finite.
 TEST(LosRateParameters, TheEndsOfTheRangesKeepTheEstimatorWhole) {
   std::mt19937_64 engine(1);
   // The largest and the smallest value that is accepted, found by a rough scan.

@@ -73,7 +73,7 @@ class Missile : public BenchSide {
     sync(t_us_);
     transmit(sample);
   }
-  /// The next group does not arrive.
+  /// Flies one sample; its group is lost.
   void fly_unheard() {
     const SeekerSample sample = next();
     sync(t_us_);
@@ -83,7 +83,7 @@ class Missile : public BenchSide {
     lose(sample.range);
   }
   void fly_until(double time_to_go) {
-    while (t_us_ == 0 || truth().time_to_go > time_to_go) fly();  // there is no truth before the first
+    while (t_us_ == 0 || truth().time_to_go > time_to_go) fly();  // there is no truth before the first sample
   }
 
   [[nodiscard]] std::int64_t t_us() const { return t_us_; }

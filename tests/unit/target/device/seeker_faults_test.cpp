@@ -14,7 +14,7 @@ struct BadSample {
   const char* name;
   LosRateFault fault;
   void (*spoil)(SeekerSample&);
-  bool concerns_low_pass;  // which needs neither range nor missile acceleration
+  bool concerns_low_pass;  // low_pass needs neither range nor missile acceleration
 };
 
 class BadSamples : public testing::TestWithParam<BadSample> {};
@@ -48,7 +48,7 @@ TEST_P(BadSamples, AreNamedCoastedOverAndRecoveredFrom) {
       ASSERT_EQ(missile.estimate().fault, LosRateFault::none);
       ASSERT_NE(missile.estimate().outcome, LosRateOutcome::coasting);
     }
-    // The error of the classical filter is its lag, with and without the fault.
+    // The error of the classical low-pass filter is its lag, with and without the fault.
     EXPECT_LT(missile.rate_error(), algorithm == Algorithm::low_pass ? 3e-3 : 5e-4);
     EXPECT_TRUE(missile.device().running());
     EXPECT_EQ(missile.last<TargetHeartbeat>()->error_input_lost, 1);
@@ -138,7 +138,8 @@ TEST(SeekerLoss, AGroupThatMissesAFrameIsALostGroup) {
   EXPECT_EQ(missile.last<TargetCounters>()->frames_lost, 1);
 }
 
-// dt is the difference of the times of validity, not the nominal period: at 10 ms the same flight is tracked.
+// dt is the difference of the times of validity, not the nominal period: with samples every 10 ms the filter
+// tracks the same flight.
 TEST(SeekerLoss, TheStepIsAsLongAsTheTimesOfValiditySay) {
   los_rate::EngagementSetup setup = Missile::rolling();
   setup.settings.sample_period = 0.01;
@@ -170,7 +171,7 @@ TEST(SeekerLoss, ARangeThatStandsStillIsStaleAfterAWhile) {
   } while (missile.estimate().fault == LosRateFault::none);
   EXPECT_EQ(missile.estimate().fault, LosRateFault::range_stale);
   EXPECT_EQ(missile.estimate().outcome, LosRateOutcome::coasting);
-  EXPECT_NEAR(believed, 21, 1);  // 0.1 s
+  EXPECT_NEAR(believed, 21, 1);  // 0.1 s of samples
   missile.fly();
   EXPECT_EQ(missile.estimate().fault, LosRateFault::none);
 }

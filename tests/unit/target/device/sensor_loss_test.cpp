@@ -37,7 +37,7 @@ TEST(SensorLoss, AFrameOfTheWrongSizeOrFormatIsDroppedAndCounted) {
   };
   wrong([](Frame& frame) { frame.size = 4; });
   wrong([](Frame& frame) { frame.fd = true; });
-  wrong([](Frame& frame) {  // with a CRC over all of it
+  wrong([](Frame& frame) {  // the CRC covers the whole frame
     frame.size = 12;
     frame.data[0] = e2e::crc(frame.payload(), SlaveImuDeltaV::info.e2e_data_id);
   });
@@ -66,7 +66,7 @@ TEST(SensorLoss, ALostGroupIsBridgedAndFlaggedOnce) {
   bench.imu(30'000);
   EXPECT_EQ(bench.last<AlignAttitude>()->coasting, 1);
   EXPECT_EQ(bench.last<AlignVelocityD>()->cause_time_us, 30'000U);
-  // The specific force of the missing sample was bridged, so the vertical velocity stays near zero.
+  // The missing specific force is bridged, so the vertical velocity stays near zero.
   EXPECT_NEAR(bench.last<AlignVelocityD>()->velocity_down_mps, 0, 0.01);
   bench.imu(40'000);
   EXPECT_EQ(bench.last<AlignAttitude>()->coasting, 0);
@@ -81,7 +81,7 @@ TEST(SensorLoss, ABridgeIsTheMeanOfItsNeighboursAtTheirRates) {
     bench.send(velocity);
     bench.send(BenchSide::status(t_us, 10'000));
   };
-  // Two samples are missing between samples of 0.1 and 0.3 m/s: they count as 0.2 m/s each.
+  // Two samples are lost between samples of 0.1 and 0.3 m/s: each counts as 0.2 m/s.
   BenchSide bench;
   bench.start();
   accelerated(bench, 10'000, 0.1);
@@ -147,7 +147,8 @@ TEST(SensorLoss, AGapTooLongToBridgeEndsTheAlignment) {
   EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_silent, 1);
 }
 
-// A gap is bridged within one frame: an interval of 10 us would give 20,000 steps.
+// A gap is bridged while one frame is processed: steps of 10 us, the interval of this sample, would be 20,000
+// steps.
 TEST(SensorLoss, AGapBeforeAVeryShortSampleIsBridgedInFewSteps) {
   ImuStream imu;
   imu.start(0, 10'000);

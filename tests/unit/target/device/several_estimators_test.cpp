@@ -139,7 +139,8 @@ TEST(SeveralEstimators, AStartThatIsRepeatedStartsAllAnew) {
   EXPECT_EQ(first_answers(1).size(), 6U);
 }
 
-// Fixes ahead of the IMU wait; the sample that bridges the gap produces the answers to all of them.
+// Fixes newer than the last IMU sample wait; the sample that bridges the gap produces the answers to all of
+// them.
 TEST(SeveralEstimators, AllThatWaitedIsAnsweredWithOneSample) {
   BenchSide bench;
   make_ready(bench).command(Command::start);

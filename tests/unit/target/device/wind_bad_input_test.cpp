@@ -36,8 +36,8 @@ double undisturbed_error() {
   return error;
 }
 
-// All frames sent contain valid values: none is at the end of its range, to which NaN would be converted. The
-// target still runs.
+// All frames sent contain valid values: no signal is at the end of its range, to which NaN would be
+// converted. The target is still running.
 void expect_sound(const Glider& bench) {
   for (const auto& w : bench.winds()) ASSERT_LT(w.cwiseAbs().maxCoeff(), 190);
   for (const auto& a : bench.all<WindAirVelocity>()) ASSERT_LT(std::abs(a.air_velocity_x_mps), 600);
@@ -50,7 +50,7 @@ void expect_sound(const Glider& bench) {
   }
 }
 
-// In the last second of the run the fault has no effect beyond a margin [m/s].
+// In the last second of the run, the effect of the fault is below a margin [m/s].
 void expect_recovered(const Glider& bench, double margin = 0.5) {
   expect_sound(bench);
   const auto status = bench.all<WindSpeed>();
@@ -74,13 +74,13 @@ TEST(Wind, StartsWithTheFirstUsableSampleWhereTheAirVelocityIsNotKnown) {
   EXPECT_EQ(status[10].outcome, WindOutcome::started);
   EXPECT_EQ(bench.all<WindVector>()[10].started, 1);
   EXPECT_EQ(status[11].outcome, WindOutcome::updated);
-  expect_recovered(bench, 1.0);  // the wind along the track, 20 s after nothing was known of it
+  expect_recovered(bench, 1.0);  // the along-track wind, 20 s after a start without knowledge of the wind
 }
 
 struct Bad {
   const char* name;
   WindFault fault;
-  std::uint16_t bad_groups;  // of 50
+  std::uint16_t bad_groups;  // out of 50
   void (*spoil)(Navigation&);
 };
 
@@ -101,7 +101,8 @@ TEST_P(BadNavigation, IsNamedCoastedOverAndForgotten) {
     const auto sigmas = bench.all<WindSigma>();
     ASSERT_EQ(status.size(), rows);
     const std::size_t noticed = GetParam().fault == WindFault::stale ? bad_from + 6 : bad_from;
-    const std::size_t last = GetParam().fault == WindFault::jump ? bad_from + 20 : bad_to;  // then believed
+    // A persistent jump is accepted after 20 samples.
+    const std::size_t last = GetParam().fault == WindFault::jump ? bad_from + 20 : bad_to;
     for (std::size_t k = noticed; k < last; ++k) {
       ASSERT_EQ(status[k].outcome, WindOutcome::coasting) << k;
       ASSERT_EQ(status[k].fault, GetParam().fault) << k;
@@ -161,7 +162,7 @@ TEST(Wind, AltitudeOutsideTheAtmosphereIsFlagged) {
     });
     const auto status = bench.all<WindSpeed>();
     EXPECT_EQ(status[bad_from].outside_altitude, 0);
-    for (std::size_t k = bad_from + 1; k <= bad_to; ++k) {  // the step behind each sample
+    for (std::size_t k = bad_from + 1; k <= bad_to; ++k) {  // the step after each bad sample
       ASSERT_EQ(status[k].outside_altitude, 1) << k;
       ASSERT_EQ(status[k].outcome, WindOutcome::updated) << k;
     }
@@ -202,7 +203,7 @@ TEST(Wind, DeflectionsThatAreNotPhysicalAreRefused) {
   }
 }
 
-// With a noise that does not adapt, so that only its increase is visible.
+// With process noise that does not adapt, so that only its increase for missing fins is visible.
 TEST(Wind, MissingFinsAreFlaggedAndWidenTheSigmas) {
   Glider::Release release;
   release.parameters = {{.parameter = Parameter::process_noise, .value = 0},
@@ -211,7 +212,7 @@ TEST(Wind, MissingFinsAreFlaggedAndWidenTheSigmas) {
   bench.fly(0, rows, [](std::size_t k, Navigation&, FinFrame& fins) { fins.arrives = !is_bad(k); });
   const auto status = bench.all<WindSpeed>();
   EXPECT_EQ(status[bad_from - 1].fins_late, 0);
-  EXPECT_EQ(status[bad_from].fins_late, 0);  // the last one is 20 ms old
+  EXPECT_EQ(status[bad_from].fins_late, 0);  // the last fins are 20 ms old
   EXPECT_EQ(status[bad_from + 1].fins_late, 1);
   EXPECT_EQ(status[bad_from + 1].fins_missing, 0);
   EXPECT_EQ(status[bad_to - 1].fins_missing, 1);

@@ -1,6 +1,6 @@
 // The published test vector through the Device: its rows go in as frames, and its states come out. The test
-// is built twice: with the DBC, where the states agree up to its rounding, and with a version that rounds
-// nothing.
+// is built twice: with the DBC, where the states agree within its rounding, and with a version of the DBC
+// without rounding.
 #include <gtest/gtest.h>
 
 #include "tests/unit/target/device/glider.hpp"
@@ -68,8 +68,8 @@ Misses replayed(Algorithm algorithm, const std::string& name) {
   return worst;
 }
 
-// A steady elevator error of half a step, 0.01 deg, is 0.3 % of the lift and so 0.16 % of 250 m/s. The filter
-// of this run trusts its model, so this error remains.
+// A constant elevator error of half a step, 0.01 deg, changes the lift by 0.3 % and thus the air speed of 250
+// m/s by 0.16 %. The filter of this run trusts its model, so this error remains.
 constexpr Misses allowed{.air_velocity = 0.4, .attitude_deg = 0.01, .wind = 0.4, .wind_sigma = 0.005};
 
 void expect_within(const Misses& worst) {

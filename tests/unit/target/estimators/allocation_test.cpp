@@ -121,7 +121,7 @@ TEST(Allocation, InflightAlignmentAllocatesNothing) {
         settings.ukf_root = root;
         settings.closed_loop = root == UkfRoot::symmetric;
         settings.longest_interval = 0.3;
-        settings.gyro_bias_sigma_0 = 0;  // a P that the ukf has to repair
+        settings.gyro_bias_sigma_0 = 0;  // P needs a repair by the ukf
         const strapdown::NavState start = transfer_alignment::flight_start();
         const auto imu = transfer_alignment::flight_increment(start, 0, 0.01);
         const auto history = std::make_unique<History<128>>(0);
@@ -190,7 +190,7 @@ TEST(Allocation, WindAllocatesNothing) {
   for (const Algorithm algorithm : {Algorithm::ekf, Algorithm::h_infinity, Algorithm::adaptive_q}) {
     Settings settings;
     settings.algorithm = algorithm;
-    settings.theta_per_s = 10;  // capped at times
+    settings.theta_per_s = 10;  // theta is capped at some updates
     settings.process_noise = ProcessNoise::likeliest;
     const BankDesign design = make_bank(settings);
     Start start;
@@ -204,7 +204,7 @@ TEST(Allocation, WindAllocatesNothing) {
     int outcomes[7] = {};
     const std::size_t before = allocations;
     for (int k = 0; k <= 500; ++k) {
-      fins.push(k * 20'000, {0, 0, 0.3 * (k % 2)}, 0.2);  // every other one refused
+      fins.push(k * 20'000, {0, 0, 0.3 * (k % 2)}, 0.2);  // every other push is refused
       const Navigation sample{.t_us = k % 50 == 0 ? 0 : k * 20'000,
                               .v_eb_n = start.v_eb_n + Eigen::Vector3d(0.01 * (k % 3), 0, 0),
                               .omega = start.omega,

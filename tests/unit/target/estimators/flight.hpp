@@ -19,11 +19,12 @@ strapdown::NavState with_errors(strapdown::NavState nav, const Eigen::Vector3d& 
 /// The start of the published runs: 5 deg and 1 m/s on each axis.
 strapdown::NavState published_start();
 
-/// The true state a sample of dt [s] after `nav` at t [s]: constant acceleration, latitude by the trapezoidal
-/// rule.
+/// The true state one sample of dt [s] after `nav`, which is at t [s]: constant acceleration, latitude by the
+/// trapezoidal rule.
 strapdown::NavState flight_next(const strapdown::NavState& nav, double t, double dt);
 
-/// The increments of that sample: mean rate and specific force with the earth at its middle.
+/// The increments of this sample: mean rate and mean specific force, with the earth terms at the middle of
+/// the sample.
 strapdown::ImuIncrement flight_increment(const strapdown::NavState& nav, double t, double dt);
 
 }  // namespace canhil::transfer_alignment

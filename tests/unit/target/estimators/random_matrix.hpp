@@ -1,6 +1,6 @@
 #pragma once
-// Random matrices with a seed for tests. Eigen's Random() uses the generator of the C library, whose sequence
-// a seed does not fix.
+// Random matrices for tests, reproducible from a seed. Eigen's Random() uses the generator of the C library,
+// whose sequence a seed does not determine.
 #include <random>
 
 #include "tests/unit/target/estimators/reference_matrix.hpp"

@@ -29,7 +29,7 @@ void rotate(Dense& m, int p, int q) {
 
 std::vector<double> symmetric_eigenvalues(const Dense& m) {
   Dense rotated = m;
-  // Convergence is quadratic: after six or so there is nothing left to rotate.
+  // Convergence is quadratic: after about six sweeps, no rotation changes the matrix.
   for (int sweep = 0; sweep < 15; ++sweep)
     for (int p = 0; p < m.rows(); ++p)
       for (int q = p + 1; q < m.rows(); ++q) rotate(rotated, p, q);
@@ -43,7 +43,7 @@ double largest_stretch(const Dense& m) { return std::sqrt(symmetric_eigenvalues(
 // Gelfand's formula: the limit of |m^n|^(1/n), with n doubled at each step.
 double spectral_radius(const Dense& m) {
   Dense power = m;
-  double logarithm = 0;  // the exponent of the factor that was taken out, per factor m
+  double logarithm = 0;  // the exponent of the extracted scale, per factor m
   double share = 1;
   for (int doubling = 0; doubling < 50; ++doubling) {
     const double size = norm(power);

@@ -13,7 +13,7 @@ class Dense {
   Dense(int rows, int columns);  // zeros
   Dense(const double* by_columns, int rows, int columns);
 
-  /// A copy; implicit, so that one expression can contain a filter's matrix and a reference.
+  /// A copy of an Eigen matrix; implicit, so that one expression can mix a filter's matrix with a reference.
   template <int Rows, int Columns, int Options>
   Dense(const Eigen::Matrix<double, Rows, Columns, Options>& m)
       : Dense(m.data(), static_cast<int>(m.rows()), static_cast<int>(m.cols())) {
@@ -74,12 +74,12 @@ Dense entrywise_quotient(const Dense& a, const Dense& b);
 std::vector<double> symmetric_eigenvalues(const Dense& m);
 /// The largest singular value.
 double largest_stretch(const Dense& m);
-/// The largest size of an eigenvalue, of any square matrix.
+/// The largest magnitude of an eigenvalue, for any square matrix.
 double spectral_radius(const Dense& m);
 double determinant(const Dense& m);
 /// L of m = L L', upper triangle zero.
 Dense lower_cholesky(const Dense& m);
-/// The exponential by its power series in extended precision, for matrices of size up to about 10.
+/// The matrix exponential by its power series in extended precision, for matrices of size up to about 10.
 Dense matrix_exponential(const Dense& m);
 
 }  // namespace canhil

@@ -1,4 +1,4 @@
-// The times that the target reports of itself.
+// The times that the target measures and reports.
 #include "target/process/timing_window.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(TimingWindow, HasMeanAndLargestOfEachWindow) {
 
 TEST(TimingWindow, SaturatesAsTheMessageDoes) {
   TimingWindow window;
-  window.add(20'000'000, -5'000);  // a clock that was set
+  window.add(20'000'000, -5'000);  // as after a change of the clock
   const messages::TargetTiming told = window.take();
   EXPECT_EQ(told.queue_max_us, 8191);
   EXPECT_EQ(told.queue_mean_us, 8191);

@@ -1,5 +1,5 @@
-// The bench's aerodynamics and atmosphere: against the published table, and against the target's, which were
-// written independently.
+// The bench's aerodynamics and atmosphere, compared with the published table and with the independently
+// written models of the target.
 #include "bench/world/glide/aerodynamics.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(GlideAerodynamics, AgreesWithTheTargetsModel) {
     const Air air = standard_air(each.height);
     const Loads ours = loads(each.v_a, each.omega, each.fins, air);
     const wind::Air their_air = wind::standard_atmosphere(each.height);
-    EXPECT_NEAR(air.density, their_air.density, 2e-7);  // their exponent has eight digits
+    EXPECT_NEAR(air.density, their_air.density, 2e-7);  // the target's exponent has eight digits
     EXPECT_NEAR(air.speed_of_sound, their_air.speed_of_sound, 1e-9);
     const wind::Air same{air.density, air.speed_of_sound};
     const wind::Flow flow = wind::flow(each.v_a, each.omega, same, wind::airframe_table);
@@ -84,7 +84,7 @@ TEST(GlideAerodynamics, FactorsReachTheirPartAlone) {
       }
       all += doubled[c] - exact[c];
     }
-    EXPECT_NEAR(all, exact[c], 1e-15);  // the parts are the whole
+    EXPECT_NEAR(all, exact[c], 1e-15);  // the parts sum to the whole coefficient
   }
 }
 

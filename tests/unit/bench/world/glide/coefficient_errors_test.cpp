@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t step_us = 10'000;
 
-// The factor of one part at every step of a run.
+// The factor of one part of a coefficient at every step of a run.
 std::vector<double> factors_of(const CoefficientErrorModel& model, std::size_t coefficient, std::size_t part,
                                int count) {
   CoefficientErrors errors(model, Stream(7, 0, "coefficients"));
@@ -41,7 +41,7 @@ TEST(CoefficientErrors, HaveTheirLevel) {
     const auto f = factors_of({.level = 0.2, .kind = kind, .time_us = 50'000}, 2, 1, 100'000);
     double power = 0;
     for (const double each : f) power += (each - 1) * (each - 1) / static_cast<double>(f.size());
-    EXPECT_NEAR(std::sqrt(power), 0.2, 0.005);  // 10 000 independent draws at the least: sigma of 0.7 %
+    EXPECT_NEAR(std::sqrt(power), 0.2, 0.005);  // at least 10 000 independent draws: sigma of 0.7 %
   }
 }
 

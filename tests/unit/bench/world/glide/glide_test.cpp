@@ -1,5 +1,5 @@
-// The glider's truth: the flight of the published study, and the laws of mechanics applied to the recorded
-// states.
+// The truth of the glider: the flight of the published study, and the laws of mechanics applied to the
+// recorded states.
 #include "bench/world/glide/glide.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(Glide, FliesThePublishedPath) {
   EXPECT_NEAR(end.height, 8'600, 60);
   EXPECT_NEAR((start.height - end.height) / 100, 14, 1);
   const GlideTruth& late = record.at(90'000'000);
-  EXPECT_NEAR((late.height - end.height) / 10, 16, 1);  // the sink rate of the end
+  EXPECT_NEAR((late.height - end.height) / 10, 16, 1);  // the mean sink rate of the last 10 s
   EXPECT_NEAR(std::abs(euler_from(end.C_bn).heading) / deg, 2, 0.7);
   EXPECT_LT(std::abs(euler_from(end.C_bn).roll) / deg, 0.2);
   EXPECT_LT(std::abs(euler_from(end.C_bn).pitch) / deg, 0.5);
@@ -61,7 +61,7 @@ TEST(Glide, ReleaseIsThePublishedOne) {
 TEST(Glide, EnergyGoesIntoDragAlone) {
   const Vector3 wind(10, -30, 0);
   const GlideRecord record = flown(in_steady_wind(wind), 20);
-  const auto energy = [&](const GlideTruth& t) {  // of the centre of gravity, in axes that go with the air
+  const auto energy = [&](const GlideTruth& t) {  // of the centre of gravity, in axes that move with the air
     return glide::mass * (0.5 * t.v_a.squaredNorm() + units::standard_gravity * t.height);
   };
   const auto epochs = record.epochs();
@@ -75,7 +75,8 @@ TEST(Glide, MomentumFollowsForceAndMoment) {
   const GlideRecord record = flown(in_steady_wind({10, -30, 0}), 5);
   const auto epochs = record.epochs();
   const auto spin = [](const GlideTruth& t) { return Vector3(t.C_bn * glide::inertia() * t.omega_nb_b); };
-  for (std::size_t k = 40; k + 1 < epochs.size(); k += 20) {  // the release is too fast for differences
+  // The motion after release is too fast for differences.
+  for (std::size_t k = 40; k + 1 < epochs.size(); k += 20) {
     const glide::Loads loads = loads_at(epochs[k]);
     const Vector3 acceleration = (epochs[k + 1].v_eb_n - epochs[k - 1].v_eb_n) / 0.02;
     const Vector3 expected = epochs[k].C_bn * loads.force / glide::mass + Vector3(0, 0, 9.80665);
@@ -87,13 +88,14 @@ TEST(Glide, MomentumFollowsForceAndMoment) {
   }
 }
 
-// The truth must satisfy the estimator's equations, which have the air velocity as a state, although the
+// The truth must satisfy the equations of the estimator. The estimator has the air velocity as a state, the
 // truth does not.
 TEST(Glide, ObeysTheTargetsEquations) {
   const GlideRecord record = flown(in_steady_wind({20, 40, 0}), 10);
   const wind::Design design = wind::make_design({});
   const auto epochs = record.epochs();
-  for (std::size_t k = 80; k + 1 < epochs.size(); k += 20) {  // the release is too fast for differences
+  // The motion after release is too fast for differences.
+  for (std::size_t k = 80; k + 1 < epochs.size(); k += 20) {
     const auto state = [](const GlideTruth& t) {
       const Euler angles = euler_from(t.C_bn);
       wind::StateVector x;

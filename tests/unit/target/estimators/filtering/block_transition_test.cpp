@@ -1,4 +1,4 @@
-// Predictions that skip the zeros of the transition matrix, against the dense prediction.
+// Predictions that skip the zeros of the transition matrix, compared with the dense prediction.
 #include "target/estimators/filtering/block_transition.hpp"
 
 #include <gtest/gtest.h>

@@ -31,8 +31,8 @@ TEST(RobustH2, BetaIsZeroWhenATermVanishes) {
   }
 }
 
-// The purpose of the step: for every |Delta| <= 1 its P is an upper bound of the true covariance of A + L
-// Delta N (to first order in dt).
+// The purpose of the step: for every |Delta| <= 1, its P is an upper bound of the true covariance of the
+// system A + L Delta N (to first order in dt).
 TEST(RobustH2, StepBoundsEveryUncertainSystem) {
   std::mt19937_64 engine(2);
   const double dt = 1e-4;
@@ -62,7 +62,8 @@ TEST(RobustH2, StepAddsTheTermsOfTheRiccatiEquation) {
   const Matrix<4, 2> L = random_matrix<4, 2>(engine);
   const Matrix<2, 4> N = random_matrix<2, 4>(engine);
   const Dense rate = (propagate_h2<4, 2, 2>(P, A, Q, L, N, beta, dt) - Dense(P)) / dt;
-  // P N'N/beta is in Phi and therefore twice on the right-hand side: the step of the published filter.
+  // P N'N/beta is part of Phi and therefore appears twice on the right-hand side: the step of the published
+  // filter.
   const Dense p = P, NP = N * p, Ap = A * p;
   const Dense expected =
       Ap + transposed(Ap) + 2 / beta * transposed(NP) * NP + beta * Dense(L) * transposed(L) + Q;

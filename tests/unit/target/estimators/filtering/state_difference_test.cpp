@@ -1,4 +1,4 @@
-// Updates by a difference of states, against the update with the equivalent matrix H.
+// Updates by a difference of states, compared with the update by the equivalent matrix H.
 #include "target/estimators/filtering/kalman.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Updates by single states, against the update with the equivalent matrix H.
+// Updates by single states, compared with the update by the equivalent matrix H.
 #include "target/estimators/filtering/kalman.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// The unscented transform, the Cholesky factors that it starts from, and the repair of an indefinite
-// covariance.
+// The unscented transform, its Cholesky factors, and the repair of an indefinite covariance.
 #include "target/estimators/filtering/unscented.hpp"
 
 #include <gtest/gtest.h>

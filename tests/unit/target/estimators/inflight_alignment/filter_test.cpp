@@ -1,4 +1,4 @@
-// Properties of the in-flight filters that need no reference.
+// Properties of the in-flight filters that can be tested without a reference.
 #include "target/estimators/inflight_alignment/filter.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ constexpr Case cases[] = {{Algorithm::ekf, Aiding::ssbl},     {Algorithm::ekf, A
                           {Algorithm::ukf, Aiding::ssbl},     {Algorithm::ukf, Aiding::gps},
                           {Algorithm::sin_cos, Aiding::ssbl}, {Algorithm::sin_cos, Aiding::gps}};
 
-// Bar D. In sin_cos only the variance of k may be zero, after the heading was handed over.
+// Acceptance limit D. In sin_cos only the variance of k may be zero, after the handover of the heading.
 TEST(InflightFilter, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
   for (const auto [algorithm, aiding] : cases) {
     for (const double start_deg : {90.0, 170.0}) {
@@ -81,9 +81,9 @@ TEST(InflightFilter, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
   }
 }
 
-// The reset of the published platform frame rotates P's tilts with the heading that is fed back. To second
-// order: measured 0.16 and 0.08 deg (ekf), 0.41 and 0.37 deg (ukf, whose points are drawn anew); without the
-// rotation the ekf ends 2.4 and 4.7 deg away.
+// With the published platform frame, the reset rotates the tilts in P by the heading that is fed back. Open
+// and closed loop then agree to second order: measured differences 0.16 and 0.08 deg (ekf), 0.41 and 0.37 deg
+// (ukf, which draws its sigma points anew). Without the rotation the ekf ends 2.4 and 4.7 deg away.
 TEST(InflightFilter, ClosedLoopWithItsResetEstimatesWhatTheOpenLoopDoes) {
   for (const auto [algorithm, aiding] : cases) {
     if (algorithm == Algorithm::sin_cos) continue;
@@ -114,8 +114,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnywhere) {
   }
 }
 
-// Tilts of 40 deg with a configured sigma of 30 deg: the first sample levels the INS, so that heading and
-// sigma are those of a level start. Without this levelling, one filter ends 3.4 sigma off.
+// The tilts are 40 deg, with a configured sigma of 30 deg. The first sample levels the INS, so heading and
+// sigma equal those of a level start. Without this levelling, one filter ends 3.4 sigma off.
 TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   for (const double tilt_deg : {-40.0, 8.0, 40.0}) {
     RecordedRun from = inputs(Aiding::ssbl);
@@ -161,7 +161,7 @@ State after_some_fixes(const Settings& settings, std::size_t samples = 25) {
   return state;
 }
 
-// The fix that the filter expects, and so much more.
+// The fix that the filter expects, shifted by these distances.
 GeodeticPosition shifted(const State& state, double north_m, double east_m = 0, double down_m = 0) {
   const Estimate best = estimate(state);
   const Vector3d shift = best.fix_bias + Vector3d(north_m, east_m, down_m);
@@ -210,11 +210,12 @@ TEST(InflightFilter, AFixBeyondTheGateIsRefusedUntilTooManyAre) {
   }
 }
 
-// z = dR - rho: if the fix is north of the INS, the INS is too far south, or the fix is biased to the north.
+// z = dR - rho: if the fix is north of the INS, either the INS is too far south or the fix has a bias to the
+// north.
 TEST(InflightFilter, AFixMovesPositionAndBiasTowardsItself) {
   for (const auto [algorithm, aiding] : cases) {
     const Settings settings = recorded_settings(algorithm, aiding);
-    State state = initial(inputs(aiding).start, settings);  // its first fix: P is still diagonal
+    State state = initial(inputs(aiding).start, settings);  // before the first fix P is still diagonal
     for (std::size_t k = 0; k < 10; ++k) propagate(state, inputs(aiding).imu[k], settings);
     const Estimate before = estimate(state);
     const UpdateResult result = update(state, shifted(state, 3, -4, 5), settings);
@@ -245,7 +246,7 @@ TEST(InflightFilter, AFixAcrossTheDateLineIsNear) {
   EXPECT_NEAR(result.innovation.y(), -2e-7 * 6.38e6 * std::cos(fix.latitude), 1.0);
 }
 
-// Without fixes the filter predicts at its own intervals, so that the steps stay short.
+// Without fixes the filter predicts at intervals of its own, so that the steps stay short.
 TEST(InflightFilter, PredictsByItselfWithoutFixes) {
   Settings settings = recorded_settings(Algorithm::sin_cos, Aiding::gps);
   settings.longest_interval = 0.995;
@@ -266,7 +267,7 @@ TEST(InflightFilter, TheEstimateBetweenFixesIsThePredictionsMean) {
     const Settings settings = recorded_settings(algorithm, aiding);
     State state = after_some_fixes(settings);
     const strapdown::NavState early = estimate(state).nav;
-    if (algorithm == Algorithm::ukf) continue;  // whose mean has a shift of its own
+    if (algorithm == Algorithm::ukf) continue;  // the mean of the ukf has a second-order shift
     predict(state, settings);
     const strapdown::NavState late = estimate(state).nav;
     EXPECT_LT((early.v_eb_n - late.v_eb_n).norm(), 1e-12);
@@ -274,7 +275,7 @@ TEST(InflightFilter, TheEstimateBetweenFixesIsThePredictionsMean) {
   }
 }
 
-// Fixes that arrive `late` samples late, through a history; the last ones arrive before the run ends.
+// Passes fixes to a history, each `late` samples late; the last fixes still arrive before the run ends.
 template <class Late>
 State run_late(const Settings& settings, Late late) {
   const RecordedRun& from = inputs(settings.aiding);
@@ -295,7 +296,7 @@ State run_late(const Settings& settings, Late late) {
 
 TEST(InflightHistory, LateFixesGiveTheStateOfFixesInTimeBitForBit) {
   for (const auto [algorithm, aiding] : cases) {
-    // 0.495: each fix falls on a prediction of the filter itself.
+    // 0.495 s: each fix coincides with a prediction of the filter.
     for (const double longest : {1.5, 0.3, 0.495}) {
       Settings settings = recorded_settings(algorithm, aiding);
       settings.longest_interval = longest;
@@ -336,7 +337,7 @@ TEST(InflightHistory, BetweenEpochsThePositionIsInterpolated) {
   };
   const Vector3d a = innovation(160'000), b = innovation(180'000), m = innovation(165'000);
   EXPECT_GT((b - a).norm(), 0.03);
-  // Between epochs the innovation is interpolated. Only the prediction's mean is that of the later epoch,
+  // Between epochs the innovation is interpolated. The mean of the prediction is taken from the later epoch,
   // which changes the result by about 1e-9.
   EXPECT_LT((m - (a + 0.25 * (b - a))).norm(), 1e-6);
 }

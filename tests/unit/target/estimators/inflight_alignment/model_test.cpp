@@ -1,5 +1,5 @@
-// The error models against the difference of two INS, one with errors and one without; and their Jacobians
-// against finite differences.
+// The error models, compared with the difference of an INS with errors and an INS without errors; their
+// Jacobians, compared with finite differences.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -100,9 +100,9 @@ struct Flight {
   }
 };
 
-// Tolerances: the model is of first order in T. Each of its terms changes the result by more than the
-// tolerance: Coriolis 1e-3 m/s, gravity error 8e-5 m/s, turning of the frame 7e-4 m, earth's rate seen
-// through C_pc 7e-6 rad, E 1e-7 rad.
+// Tolerances: the model is of first order in T. Each term of the model changes the result by more than the
+// tolerance: Coriolis 1e-3 m/s, gravity error 8e-5 m/s, rotation of the frame 7e-4 m, earth rate through C_pc
+// 7e-6 rad, E 1e-7 rad.
 TEST(PsiAngle, PredictsTheErrorsOfAnIns) {
   const Flight flight(0.01);
   Vector<15> x;
@@ -114,14 +114,14 @@ TEST(PsiAngle, PredictsTheErrorsOfAnIns) {
   EXPECT_LT(strapdown::log_rotation(off).norm(), 1e-8);
 }
 
-// C_pc = exp([phi x]) Rz(psi_z): heading from its own first column, tilts from what remains.
+// C_pc = exp([phi x]) Rz(psi_z): heading from the first column, tilts from the remaining rotation.
 Vector<4> states(const Matrix3d& C_pc) {
   const double psi = std::atan2(C_pc(1, 0) - C_pc(0, 1), C_pc(0, 0) + C_pc(1, 1));
   const Vector3d phi = strapdown::log_rotation(C_pc * strapdown::exp_rotation({0, 0, -psi}));
   return {phi.x(), phi.y(), std::sin(psi), 1 - std::cos(psi)};
 }
 
-// In the levelled form, biases are rotated by the heading error.
+// In the levelled form, the heading error rotates the biases.
 Errors<16> errors_at_the_start(const Flight& flight, SinCosForm form) {
   Errors<16> errors;
   errors.form = form;
@@ -135,7 +135,7 @@ Errors<16> errors_at_the_start(const Flight& flight, SinCosForm form) {
 
 TEST(SinCos, PredictsTheErrorsOfAnIns) {
   for (const SinCosForm form : {SinCosForm::published, SinCosForm::levelled}) {
-    const Flight flight(0.001);  // of first order in the tilts
+    const Flight flight(0.001);  // the model is of first order in the tilts
     const Errors<16> errors = errors_at_the_start(flight, form);
     const Vector<16> next = predicted_sin_cos<16>(errors, flight.interval);
     EXPECT_LT((next.segment<3>(0) - flight.end.dR).norm(), 1e-4);
@@ -144,8 +144,8 @@ TEST(SinCos, PredictsTheErrorsOfAnIns) {
   }
 }
 
-// With tilts of 10 and 15 deg, 0.48 m/s^2 of the vertical force is of second order in the tilts: 0.048 m/s in
-// the interval. Terms of higher order amount to 8e-4 m/s.
+// With tilts of 10 and 15 deg, the second order in the tilts contributes 0.48 m/s^2 to the vertical force,
+// 0.048 m/s in the interval. Terms of higher order amount to 8e-4 m/s.
 TEST(SinCos, LevelledPredictsTheVerticalVelocityToTheSecondOrderOfTheTilts) {
   const Flight flight(10 * rad_per_deg);
   const auto off = [&](SinCosForm form) {
@@ -156,8 +156,8 @@ TEST(SinCos, LevelledPredictsTheVerticalVelocityToTheSecondOrderOfTheTilts) {
   EXPECT_LT(off(SinCosForm::levelled), 0.002);
 }
 
-// A level vehicle whose tilts are unknown apart from their sigma: the predicted mean and variance of the
-// vertical velocity error after 1 s must equal those of g phi^2 / 2 for two normally distributed tilts.
+// A level vehicle with unknown tilts. The predicted mean and variance of the vertical velocity error after 1
+// s must equal those of g phi^2 / 2 for two normally distributed tilts.
 TEST(SinCos, LevelledKnowsWhatUnknownTiltsDoToTheVertical) {
   Interval interval;
   interval.duration = 1;
@@ -199,7 +199,7 @@ TEST(PsiAngle, JacobianIsThatOfCentralDifferences) {
   EXPECT_LT((G - expected).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-// First-order terms: exact for zero tilts and biases, at any heading.
+// The first-order terms are exact for zero tilts and biases, at any heading.
 TEST(SinCos, JacobianIsThatOfCentralDifferences) {
   const Flight flight(0.01);
   for (const SinCosForm form : {SinCosForm::published, SinCosForm::levelled}) {
@@ -257,8 +257,7 @@ TEST(SinCos, TiltTakenOutLeavesTheSameAttitude) {
   EXPECT_LT((errors.P - left * left.transpose()).norm(), 1e-12);
 }
 
-// Before anything is known of the heading the tilt is, in platform axes: by its correlation with (s, k)
-// alone.
+// With unknown heading, the tilt is known only in platform axes, through its correlation with (s, k).
 TEST(SinCos, TiltIsTakenOutBeforeTheHeadingIsKnown) {
   Errors<16> errors;
   errors.x(9) = 1;  // (s, 1 - k) = 0: any heading
@@ -275,7 +274,7 @@ TEST(SinCos, TiltIsTakenOutBeforeTheHeadingIsKnown) {
   EXPECT_LT(left.norm(), 1e-12);
 }
 
-// As above for the biases: rotated by the heading error, they become the biases in body axes.
+// The same for the biases: rotated by the heading error, they become the biases in body axes.
 TEST(SinCos, BiasesTurnedBackAreThoseOfTheBody) {
   Errors<16> errors;
   const double psi = 1.9, d_psi = 1e-5;
@@ -304,9 +303,9 @@ TEST(SinCos, BiasesTurnedBackAreThoseOfTheBody) {
             1e-17);
 }
 
-// The covariance is of rank one: a single error of the estimate. After the attitude is taken out, it must
-// equal the error of the remaining attitude. If the tilts of 2 deg are not taken out (as published), it is
-// wrong by 3.5 %.
+// The covariance has rank one: a single error of the estimate. After the attitude is taken out, the
+// covariance must equal that of the error of the remaining attitude. If the tilts of 2 deg are not taken out
+// (as published), it is wrong by 3.5 %.
 TEST(SinCos, AttitudeTakenOutLeavesTheCovarianceOfWhatRemains) {
   Errors<19> errors;
   const double psi = 1.9, d_psi = 1e-5;
@@ -324,7 +323,8 @@ TEST(SinCos, AttitudeTakenOutLeavesTheCovarianceOfWhatRemains) {
   const Matrix3d out = take_out_attitude<19>(errors);
   EXPECT_LT((remains * out - tilt_and_heading<19>(truth)).norm(), 1e-14);
 
-  // Left out: phi x dphi / 2 of the heading (1e-8) and phi^2 / 2 of d_psi (8e-9), 2e-3 of d_psi together.
+  // Neglected: the heading component of phi x dphi / 2 (1e-8), and phi^2 / 2 of d_psi (8e-9); together 2e-3
+  // of d_psi.
   off.segment<4>(6) << states(remains).head<3>(), 0;
   EXPECT_NEAR(off(8), d_psi, 3e-3 * d_psi);
   const Matrix<19, 19> expected = off * off.transpose();

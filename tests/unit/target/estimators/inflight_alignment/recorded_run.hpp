@@ -1,5 +1,6 @@
 #pragma once
-// The published run: 90 s of an S path at 50 Hz, one fix per second, an INS whose heading starts 90 deg off.
+// The published run: 90 s of an S path at 50 Hz, one fix per second, and an INS with an initial heading error
+// of 90 deg.
 #include <Eigen/Core>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ inline strapdown::NavState nav_of(const Csv& csv, std::size_t row) {
 struct RecordedRun {
   strapdown::NavState start;
   std::vector<strapdown::ImuIncrement> imu;
-  std::vector<GeodeticPosition> fixes;  // one after each 50 increments
+  std::vector<GeodeticPosition> fixes;  // one after every 50 increments
 
   explicit RecordedRun(Aiding aiding) {
     const std::string aid = aiding == Aiding::ssbl ? "ssbl" : "gps";
@@ -56,7 +57,7 @@ inline Settings recorded_settings(Algorithm algorithm, Aiding aiding) {
   return settings;
 }
 
-/// Runs the recorded inputs; hands each state and result to inspect(k, state, result).
+/// Runs the recorded inputs and passes each state and result to inspect(k, state, result).
 template <class Inspect>
 State run(const RecordedRun& run, const Settings& settings, Inspect inspect) {
   State state = initial(run.start, settings);

@@ -1,5 +1,5 @@
-// The unscented prediction against the textbook transform: all 2 N + 1 points, with the negative weight of
-// the centre.
+// The unscented prediction, compared with the textbook transform: all 2 N + 1 points, with a negative weight
+// of the centre.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -38,7 +38,7 @@ struct Normal {
   Dense x, P;
 };
 
-// `image` is the map of the errors over the interval, `root` a root of P.
+// `image` maps the errors over the interval, `root` is a matrix square root of P.
 Normal as_written(const Dense& x, const Dense& root, const std::function<Dense(const Dense&)>& image,
                   const Interval& interval, const Settings& settings) {
   const int N = x.rows();

@@ -33,7 +33,7 @@ struct Breakage {
   std::string name;
   Fault fault;
   std::function<void(Measurement&)> apply;
-  bool concerns_low_pass;  // which needs neither range nor missile acceleration
+  bool concerns_low_pass;  // low_pass needs neither range nor missile acceleration
 };
 
 std::vector<Breakage> breakages() {
@@ -67,7 +67,7 @@ std::vector<Breakage> breakages() {
   };
 }
 
-// From 2.6 to 2.3 s to go every sample is broken.
+// From 2.6 to 2.3 s to go every sample is invalid.
 TEST(BadInput, IsNamedCoastedOverAndRecoveredFrom) {
   for (const Algorithm algorithm : algorithms) {
     for (const Breakage& breakage : breakages()) {
@@ -165,7 +165,7 @@ TEST(BadInput, AJumpOfRangeIsRefusedAndBelievedOnlyWhenItLasts) {
   EXPECT_EQ(drive.sample(drive.range, 900).fault, Fault::none);
   EXPECT_EQ(drive.sample(drive.range, 1500).fault, Fault::range_jump) << "closing speed jumps";
   EXPECT_EQ(drive.sample(drive.range, 900).fault, Fault::none);
-  // Wild samples never agree with one another.
+  // Samples that contradict one another are never accepted.
   for (int k = 0; k < 40; ++k)
     EXPECT_EQ(drive.sample(drive.range + 600 + 300 * (k % 2), 900).fault, Fault::range_jump);
   // If a range differs from the expected one for long enough, it is accepted as the new range.
@@ -187,7 +187,7 @@ TEST(BadInput, ARangeThatStandsStillIsExtrapolatedThenStale) {
     EXPECT_NEAR(result.used.range, drive.range + 4.5, 1e-6) << "as old as it is unchanged";
     ASSERT_LT(believed, 100);
   }
-  EXPECT_NEAR(believed, 20, 1);  // 0.1 s
+  EXPECT_NEAR(believed, 20, 1);  // 0.1 s of samples
   EXPECT_EQ(result.fault, Fault::range_stale);
   EXPECT_EQ(result.outcome, Outcome::coasting);
   EXPECT_NEAR(result.used.range, drive.range + 4.5, 1e-6);
@@ -224,7 +224,7 @@ TEST(BadInput, AStepThatIsNoneLeavesTheStateAlone) {
   }
 }
 
-// Finite but absurd: refused as a whole.
+// A finite but absurd value: the sample is refused as a whole.
 TEST(BadInput, AResultThatOverflowsIsRefused) {
   Drive drive{make_design({})};
   for (int k = 0; k < 10; ++k) drive.sample(drive.range, 900);
@@ -238,8 +238,8 @@ TEST(BadInput, AResultThatOverflowsIsRefused) {
   EXPECT_NE(drive.sample(drive.range, 900).outcome, Outcome::non_finite) << "and the next one serves";
 }
 
-// The transition divides by r and the switched thermal gain would be unstable, so both use the least range
-// below it.
+// Below the least range, the transition would divide by a small r and the switched thermal gain would be
+// unstable, so both use the least range.
 TEST(BlindRange, RangeIsClampedAndSaidSo) {
   for (const Algorithm algorithm : algorithms) {
     EngagementSetup setup;
@@ -255,7 +255,7 @@ TEST(BlindRange, RangeIsClampedAndSaidSo) {
       ASSERT_EQ(result.used.range, std::max(r, 50.0));
       ASSERT_TRUE(finite(state));
     }
-    // After the pass: no range and no target for a minute.
+    // After the pass: neither range nor target for a minute.
     Measurement m{.dt = 0.005, .antenna_valid = true, .acceleration_valid = true};
     double sigma = 0;
     for (int k = 0; k < 12'000; ++k) {

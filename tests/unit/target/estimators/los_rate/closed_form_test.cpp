@@ -1,5 +1,5 @@
-// The closed forms against the table of algebraic Riccati equations, the integrated differential equation and
-// the discrete equation.
+// The closed forms, compared with a table of algebraic Riccati solutions, with the integrated differential
+// equation, and with the discrete equation.
 #include "target/estimators/los_rate/closed_form.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(Riccati, EqualsThePublishedTable) {
     std::vector<double> c;
     while (std::getline(cells, cell, ',')) c.push_back(std::stod(cell));
     const Covariance P = riccati(c.at(0), c[2], c[1]);
-    // The table is in the sign of pitch: the acceleration of the other sign.
+    // The table is in the sign of pitch, where the acceleration has the opposite sign.
     const std::array ours{P.ee, P.ew, -P.ea, P.ww, -P.wa, P.aa};
     for (std::size_t i = 0; i < ours.size(); ++i)
       EXPECT_NEAR(ours[i] / c[3 + i], 1, 1e-9) << line << " P" << i + 1;
@@ -60,14 +60,14 @@ TEST(Riccati, SolvesItsEquationWhateverTheRatioOfSpeedToNoise) {
     const Dense size =
         entrywise_sizes(A * P) + P_size * transposed(A) + P_size.column(0) * P_size.row(0) / s2 + Q;
     EXPECT_LT(largest(entrywise_quotient(residual, size)), 1e-12) << x;
-    // Of all solutions, takes the stabilising one: (A - k C)' is stable for every x.
+    // Selects the stabilising solution: (A - k C)' is stable for every x.
     const double c1 = P(0, 0) / s2 - 4.5 * v;
     EXPECT_GT(c1, 0);
     EXPECT_GT(determinant(P), 0);
   }
 }
 
-// Without process noise an antistable plant still needs a gain: poles mirrored to -v/2, -3v/2, -5v/2.
+// Without process noise an unstable plant still needs a gain: its poles are mirrored to -v/2, -3v/2, -5v/2.
 TEST(Riccati, WithoutProcessNoiseMirrorsThePoles) {
   const double v = 2;
   const Covariance P = riccati(0, 1, v);
@@ -76,7 +76,7 @@ TEST(Riccati, WithoutProcessNoiseMirrorsThePoles) {
 
 class DifferentialRiccati : public testing::TestWithParam<double> {};
 
-// Integrates from the closed form's covariance, which must stay equal to the closed form. Returns the worst
+// Integrates the covariance from the closed form, which it must continue to equal. Returns the largest
 // relative difference of the gains from 5 km to 50 m. `transform` is the paper's operation on P-bar,
 // corrected or as printed.
 double worst_gain_error(const Noise& noise, double vc, const Matrix3d& P0, double r_from,
@@ -106,8 +106,8 @@ TEST_P(DifferentialRiccati, GlintStartedOnTheClosedFormStaysThere) {
   EXPECT_LT(worst_gain_error(glint, vc, generic_start(), 5000 - 3 * vc, gain), 1e-3);
 }
 
-// Eq. (9) as printed, K3 = P3bar/(s2 r^3), is wrong. No limit on an RMS detects that error, so this
-// comparison of gains must detect it.
+// Eq. (9) as printed, K3 = P3bar/(s2 r^3), is wrong. No limit on an RMS detects this error, so the comparison
+// of gains must detect it.
 TEST_P(DifferentialRiccati, CatchesPrintedEquation9) {
   const double vc = GetParam();
   const Covariance p_bar = riccati(q, thermal_psd, vc);
@@ -119,7 +119,7 @@ TEST_P(DifferentialRiccati, CatchesPrintedEquation9) {
   EXPECT_GT(worst_gain_error(thermal, vc, matrix(thermal_covariance(p_bar, 5000)), 5000, printed), 0.9);
 }
 
-// Eq. (10) as printed, P4 = vc^2 P4bar/r^4 + ...: against P of the integrated equation.
+// Eq. (10) as printed, P4 = vc^2 P4bar/r^4 + ..., compared with P of the integrated equation.
 TEST_P(DifferentialRiccati, CatchesPrintedEquation10) {
   const double vc = GetParam();
   const Covariance p_bar = riccati(q, glint_psd, 0);
@@ -136,7 +136,7 @@ TEST_P(DifferentialRiccati, CatchesPrintedEquation10) {
   EXPECT_GT(printed, 1e-2) << "everywhere on the way";
 }
 
-// Eq. (11) as printed, K3 = P3bar/(s2 r) in place of r P3bar/s2.
+// Eq. (11) as printed, K3 = P3bar/(s2 r), instead of r P3bar/s2.
 TEST_P(DifferentialRiccati, CatchesPrintedEquation11) {
   const double vc = GetParam();
   const Covariance p_bar = riccati(q, glint_psd, 0);
@@ -196,7 +196,7 @@ TEST(PoleMatch, EqualsTheDiscreteRiccatiEquationOfGlint) {
   }
 }
 
-// Poles of I - K H Phi in displacement states.
+// Spectral radius of I - K H Phi in displacement states.
 double spectral_radius(const Gain& K, double T) {
   const Dense Phi = columns({1, 0, 0, T, 1, 0, T * T / 2, T, 1});
   return canhil::spectral_radius(Phi - vector(K) * Phi.row(0));
@@ -213,7 +213,7 @@ TEST(PoleMatch, IsStableForAnyStepWhereEulerIsNot) {
   EXPECT_GT(spectral_radius({20 * T, 200 * T, 1000 * T}, T), 1);
 }
 
-// -3 dB bandwidth [rad/s] of true to estimated LOS rate: (d2 s + d3)/(s^3 + d1 s^2 + d2 s + d3).
+// -3 dB bandwidth [rad/s] from true to estimated LOS rate: (d2 s + d3)/(s^3 + d1 s^2 + d2 s + d3).
 double bandwidth(const Gain& d) {
   const auto gain = [&](double w) {
     const std::complex<double> s(0, w);

@@ -1,5 +1,5 @@
-// The closed-form gains against the Kalman filter and the integrated Riccati equation; their statistics and
-// their start-up.
+// The closed-form gains, compared with the Kalman filter and the integrated Riccati equation; their
+// statistics and their start-up.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -14,8 +14,8 @@
 namespace canhil::los_rate {
 namespace {
 
-// Continuous gains against the integrated equation, from P at 5 km: the sum of thermal and glint after 2.2 s,
-// and constant noise alone, for which the closed form is not exact either.
+// Continuous gains compared with the integrated equation, from P at 5 km: the sum of thermal and glint noise
+// after 2.2 s, and constant noise alone, for which the closed form is not exact either.
 double worst_of_combined(const Noise& noise, double r_first, double r_last) {
   const double T = 0.005, q = 300, vc = 900;
   double worst = 0;
@@ -36,7 +36,7 @@ TEST(ClosedGain, CombinedIsCloseToTheIntegratedEquation) {
   EXPECT_LT(worst_of_combined(constant, 4000, 300), 0.023);
 }
 
-// Poles exp(s Ts) of s^2 + 2 zeta b s + b^2, and the covariance of a discrete filter under white noise.
+// The poles exp(s Ts) of s^2 + 2 zeta b s + b^2, and the covariance of a discrete filter with white noise.
 TEST(LowPass, HasItsPolesAndItsNoise) {
   for (const double zeta : {0.5, 0.7071, 1.3}) {
     Settings settings;
@@ -79,13 +79,14 @@ TEST(ClosedGain, CombinedTableIsWithinThreePercentOfTheKalmanFilter) {
         const ClosedGain closed = closed_gain(design.combined.pitch, {r, vc});
         worst = std::max({worst, std::abs(closed.K.e / K.e - 1), std::abs(closed.K.w / K.w - 1),
                           std::abs(closed.K.a / K.a - 1)});
-        // The closed forms give sigmas in continuous time, which lie between those of prediction and update.
+        // The closed forms give sigmas in continuous time, which lie between the sigmas after prediction and
+        // after update.
         EXPECT_NEAR(closed.sigma.rate / std::sqrt(P.ww), 1, 0.08) << T << " " << vc << " " << r;
         EXPECT_NEAR(closed.sigma.error / std::sqrt(P.ee), 1, 0.12) << T << " " << vc << " " << r;
         EXPECT_NEAR(closed.sigma.acceleration / std::sqrt(P.aa), 1, 0.05) << T << " " << vc << " " << r;
       }
-      // Scaling the sum of noises like a power of r is an approximation. Its error grows with vc/W: 1.8 % at
-      // 900 m/s, 3.03 % at 1200 m/s and 100 Hz. The limit of 3 % is for the paper's engagement.
+      // It is an approximation to scale the sum of noises with a power of r. The error grows with vc/W: 1.8 %
+      // at 900 m/s, 3.03 % at 1200 m/s and 100 Hz. The limit of 3 % is for the paper's engagement.
       EXPECT_LT(worst, vc > 1000 ? 0.035 : 0.03) << T << " " << vc;
     }
   }
@@ -120,7 +121,7 @@ TEST(ClosedGain, TablesAreWithinTheirInterpolationErrorOfTheClosedForms) {
   }
 }
 
-// Closer than the crossing range the thermal gain is far too high: the switch prevents this mistake.
+// Below the crossing range the thermal gain is far too high: the switch must prevent its use.
 TEST(ClosedGain, ThermalGainBelowTheCrossingIsCaught) {
   const Settings settings;
   const double Ts = settings.sample_period, psd = 1e-20 * Ts;
@@ -149,12 +150,12 @@ TEST(Statistics, NisAndSigmasAreConsistent) {
       });
     }
     EXPECT_NEAR(nis / count, 1, 0.05) << static_cast<int>(algorithm);
-    // Errors are correlated over about 1/W, so there are about 40 * 2.8 * 8 independent ones.
+    // The errors are correlated over about 1/W, so about 40 * 2.8 * 8 of them are independent.
     EXPECT_NEAR(ratio / count, 1, 0.15) << static_cast<int>(algorithm);
   }
 }
 
-// The paper ignores the transient. From the start on, the error is at most 1.5 times that of the Kalman
+// The paper ignores the transient. From the start on, the error must be at most 1.5 times that of the Kalman
 // filter.
 TEST(StartUp, KalmanFilterFirstThenTheClosedGain) {
   EngagementSetup setup = setup_of(Algorithm::combined);
@@ -217,8 +218,8 @@ TEST(StartUp, ComesAgainAfterALongCoastOrAnUnseenMotion) {
   EXPECT_EQ(after_coast(1, [](Measurement& m) { m.acceleration_valid = false; }), Outcome::start_up);
 }
 
-// An antenna without valid data is assumed to track: the error angle stays, and its sigma grows by the
-// possible rotation of the antenna.
+// If the antenna's data are invalid, the antenna is assumed to track: the error angle stays, and its sigma
+// grows by the possible rotation of the antenna.
 TEST(Coasting, AnUnseenAntennaIsTakenToTrack) {
   EngagementSetup setup = setup_of(Algorithm::kalman);
   setup.first_rate = {0.03, 0.03};
@@ -235,7 +236,7 @@ TEST(Coasting, AnUnseenAntennaIsTakenToTrack) {
   result = step(state, m, design);
   EXPECT_LT(std::abs(state.error - before.error), 0.1 * std::abs(before.rate) * dt);
   EXPECT_GT(result.sigma.pitch.error, std::hypot(sigma, setup.settings.antenna_rate_sigma * dt) * 0.999);
-  // An unseen acceleration widens the rate.
+  // An unknown missile acceleration increases the sigma of the rate.
   State unseen = before, seen = before;
   m = engagement.next();
   m.error_valid = false;
@@ -246,8 +247,8 @@ TEST(Coasting, AnUnseenAntennaIsTakenToTrack) {
   EXPECT_NEAR(wide * wide - usual * usual, pull * pull, 0.01 * pull * pull);
 }
 
-// A step of the target's acceleration with a filter for zero noise: the rate lags by three times the share of
-// the sigma that allows for it.
+// A step of the target's acceleration, with a filter designed for zero noise: the lag of the rate is three
+// times the part of the sigma that allows for such a step.
 TEST(ClosedGain, ToldSigmaAllowsForATurnAllAtOnce) {
   Settings settings;
   settings.start_up = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// A head-on engagement with constant closing speed in both planes of a rolling antenna. It is the model of
-// the filter itself, so the filter's statistics are known. Angles are small; the antenna rolls, the reference
+// A head-on engagement with constant closing speed in both planes of a rolling antenna. It is the filter's
+// own model, so the statistics of the filter are known. Angles are small; the antenna rolls, the reference
 // axes do not.
 #include <cmath>
 #include <complex>
@@ -13,10 +13,10 @@ namespace canhil::los_rate {
 struct EngagementSetup {
   double range = 5000, closing_speed = 900;  // [m], [m/s]
   Plane first_rate{3e-3, -2e-3};             // LOS rate at the start [rad/s]
-  Plane target{0, 0};                        // acceleration from `manoeuvre_s` to go on [m/s^2]
+  Plane target{0, 0};                        // target acceleration from `manoeuvre_s` to go on [m/s^2]
   double manoeuvre_s = 1;
-  double jerk_density = 0;  // of a random target [m^2/s^5]
-  double roll_rate = 0;     // of the antenna [rad/s]
+  double jerk_density = 0;  // of a randomly accelerating target [m^2/s^5]
+  double roll_rate = 0;     // antenna roll rate [rad/s]
   double guidance = 4;      // navigation constant; 0: the missile flies straight
   bool noisy = false;
   Settings settings;
@@ -41,7 +41,7 @@ class Engagement {
   Measurement next() {
     const double T = Ts(), vc = setup_.closing_speed;
     const Plane before_error = displacement_ / range_ - antenna_;
-    // Mean missile acceleration over the step, target by white jerk or by manoeuvre.
+    // Mean missile acceleration over the step; target acceleration by white jerk or by the manoeuvre.
     const double to_go = range_ / vc;
     const Plane rate = (speed_ + vc * displacement_ / range_) / range_;
     Plane missile = setup_.guidance * vc * rate;
@@ -53,7 +53,7 @@ class Engagement {
     speed_ += a * T + jerk * (T * T / 2);
     wander_ += jerk * T;
     range_ -= vc * T;
-    const Plane turn = before_error * (1 - std::exp(-12 * T));  // antenna servo of 12 1/s
+    const Plane turn = before_error * (1 - std::exp(-12 * T));  // antenna servo with a bandwidth of 12 rad/s
     antenna_ += turn;
 
     const double half = setup_.roll_rate * T / 2;

@@ -16,8 +16,8 @@ namespace {
 constexpr std::array algorithms{Algorithm::switched_table, Algorithm::combined, Algorithm::kalman,
                                 Algorithm::low_pass};
 
-// The filter starts at the truth, without noise. An exact prediction then needs no correction, unlike Euler
-// steps.
+// The filter starts at the truth, without noise. An exact prediction then needs no correction; Euler steps
+// would need one.
 TEST(LosRate, PredictionIsExactForConstantClosingSpeed) {
   EngagementSetup setup = setup_of(Algorithm::kalman);
   setup.target = {0, 40};
@@ -66,7 +66,7 @@ TEST(LosRate, ConvergesToTheTruthInBothPlanesWithTheirSigns) {
   }
 }
 
-// The filter in a rolling antenna is the filter in one that does not roll, turned.
+// The estimate in a rolling antenna must equal the rotated estimate in an antenna that does not roll.
 TEST(TwoPlanes, RollOnlyTurnsTheEstimate) {
   for (const Algorithm algorithm : algorithms) {
     EngagementSetup level = setup_of(algorithm);
@@ -92,7 +92,7 @@ TEST(TwoPlanes, RollOnlyTurnsTheEstimate) {
   }
 }
 
-// The cost of leaving the term out: 30 instead of 0.4 mrad/s.
+// Without the roll term the error is 30 instead of 0.4 mrad/s.
 TEST(TwoPlanes, WithoutTheRollTermTheEstimateIsLost) {
   EngagementSetup setup = setup_of(Algorithm::kalman);
   setup.roll_rate = 3;
@@ -116,7 +116,7 @@ TEST(TwoPlanes, WithoutTheRollTermTheEstimateIsLost) {
 }
 
 // The 6-state Kalman filter of section 5 of the notes, with the roll in its transition. With equal noises its
-// covariance must have two equal blocks, and its estimate must equal this filter's.
+// covariance must have two equal blocks, and its estimate must equal the estimate of this filter.
 TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -162,8 +162,8 @@ TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
     Matrix6 Q6 = Matrix6::Zero();
     Q6.topLeftCorner<3, 3>() = Q6.bottomRightCorner<3, 3>() = Q;
     x = Phi * x;
-    // An input during the turn: the last columns of Phi would rotate it by the whole turn, although on
-    // average it must be rotated by half.
+    // The input acts during the rotation. The last columns of Phi would rotate it by the whole angle, but on
+    // average it is rotated by half.
     x += u;
     P = Phi * P * Phi.transpose() + Q6;
     Eigen::Matrix<double, 2, 6> H = Eigen::Matrix<double, 2, 6>::Zero();
@@ -183,7 +183,8 @@ TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
   }
 }
 
-// One set of gains or two: a second set equal in value must give the same estimate, another set another.
+// Two sets of gains: a second set with equal values must give the same estimate, a different set a different
+// one.
 TEST(TwoPlanes, UnequalNoisesTakeTwoGainSets) {
   for (const Algorithm algorithm : algorithms) {
     EngagementSetup equal = setup_of(algorithm);
@@ -207,7 +208,7 @@ TEST(TwoPlanes, UnequalNoisesTakeTwoGainSets) {
     k = 0;
     double larger = 1e9;
     run(apart, [&](const Truth& truth, const State&, const UpdateResult& result) {
-      if (truth.time_to_go < 0.3) return;  // the noise of yaw leaves the field of view
+      if (truth.time_to_go < 0.3) return;  // in yaw the noise exceeds the field of view
       EXPECT_NEAR(result.sigma.pitch.rate, sigma[k++].rate, 1e-15);
       if (truth.time_to_go < 3) larger = std::min(larger, result.sigma.yaw.rate / result.sigma.pitch.rate);
     });

@@ -1,4 +1,4 @@
-// Lost samples: antenna and missile motion are bridged, and the gain is that of the longer step.
+// Lost samples: the motion of antenna and missile is bridged, and the gain corresponds to the longer step.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 constexpr std::array algorithms{Algorithm::switched_table, Algorithm::combined, Algorithm::kalman,
                                 Algorithm::low_pass};
 
-// The next sample that arrives after `lost` lost ones.
+// The next sample that arrives after `lost` lost samples.
 Measurement next_after(Engagement& engagement, int lost) {
   for (int k = 0; k < lost; ++k) engagement.next();
   Measurement m = engagement.next();
@@ -27,7 +27,7 @@ struct Flown {
   State state = initial();
 };
 
-// Every sample arrives until this time to go [s].
+// Flies without losses until this time to go [s].
 Flown flown(Algorithm algorithm, double time_to_go) {
   Flown now{.setup = setup_of(algorithm)};
   while (now.engagement.truth().range == 0 || now.engagement.truth().time_to_go > time_to_go)
@@ -54,7 +54,7 @@ TEST(Gaps, AreBridgedWithTheMeanOfTheRatesBeforeAndAfter) {
   EXPECT_NEAR(leg.pull / leg.turn, 50 / 0.5, 1e-9) << "changes of 50 m/s^2 and 0.5 rad/s";
 }
 
-// One sample in ten is lost, from 3 s to go on: a turning missile, a tracking antenna, noise as modelled.
+// From 3 s to go on, one sample in ten is lost: a turning missile, a tracking antenna, noise as modelled.
 TEST(Gaps, CostLittleMoreThanTheSamplesThatAreGone) {
   for (const Algorithm algorithm : algorithms) {
     SCOPED_TRACE(static_cast<int>(algorithm));
@@ -90,7 +90,7 @@ TEST(Gaps, CostLittleMoreThanTheSamplesThatAreGone) {
   }
 }
 
-// After a gap of 30 ms, the effect of an error angle on the LOS rate equals that of the Kalman filter.
+// After a gap of 30 ms, the gain from error angle to LOS rate equals that of the Kalman filter.
 TEST(Gaps, TheGainAfterOneIsThatOfTheLongerStep) {
   const auto gain = [](Algorithm algorithm, int lost) {
     auto [setup, design, engagement, state] = flown(algorithm, 0.3);
@@ -108,8 +108,8 @@ TEST(Gaps, TheGainAfterOneIsThatOfTheLongerStep) {
   }
 }
 
-// The motion of antenna or missile in a gap is unknown if the sample that ends the gap lacks it. The variance
-// of the angle then grows for the whole step, as in a gap that is too long.
+// If the sample after a gap does not contain the motion of antenna or missile, this motion is unknown. The
+// variance of the angle then grows over the whole step, as for a gap that is too long.
 TEST(Gaps, BeforeAnUnknownMotionAreNotBridged) {
   auto [setup, design, engagement, state] = flown(Algorithm::combined, 2.4);
   const Measurement whole = next_after(engagement, 4);

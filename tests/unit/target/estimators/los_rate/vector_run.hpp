@@ -1,6 +1,6 @@
 #pragma once
-// The published flight (200 Hz, pitch plane), and filters built from the estimator's own parts with exact
-// gains. Ranges are used as they are, without limits and start-up.
+// The published flight (200 Hz, pitch plane), and filters composed of the estimator's own parts with exact
+// gains. Ranges are used without limits and without start-up.
 #include <functional>
 #include <string>
 #include <vector>

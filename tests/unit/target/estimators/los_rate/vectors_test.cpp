@@ -65,7 +65,7 @@ Settings vector_settings(Algorithm algorithm) {
   return settings;
 }
 
-// The whole step, down to its own least range of 10 vc Ts.
+// The whole step, down to the estimator's least range of 10 vc Ts.
 std::vector<Point> run_steps(const std::vector<Row>& rows, const Design& design) {
   State state = initial();
   std::vector<Point> points;
@@ -85,7 +85,7 @@ std::vector<Point> run_steps(const std::vector<Row>& rows, const Design& design)
   return points;
 }
 
-// Worst |w - reference| of the rows within [from, to) s, and the same relative to the largest reference.
+// The largest |w - reference| of the rows within [from, to) s, also relative to the largest reference.
 double worst_rate(const std::vector<Point>& points, const std::string& column, double from, double to) {
   double worst = 0;
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -115,8 +115,8 @@ TEST(Vector, TablesThroughTheWholeStep) {
   EXPECT_LE(worst_rate(combined, "comb_w", 0, 6), 1e-3 * largest("comb_w"));
 }
 
-// Rows are changed as a wrong sign in a driver or in the filter would change them, and must fail the same
-// comparison. They are nearly right from 3 to 1 s to go, so they are judged at the start and near the end.
+// Rows are changed like a wrong sign in a driver or in the filter would change them; they must fail the same
+// comparison. Between 3 and 1 s to go they are nearly right, so the start and the end are compared.
 using Change = void (*)(Row&);
 double wrong_over_right(Change change, double from, double to) {
   std::vector<Row> rows = vector_rows();
@@ -144,8 +144,8 @@ TEST(SignTraps, MissingMissileAccelerationIsCaught) {
   EXPECT_GT(wrong_over_right(drop, 5, 6), 1e5);
 }
 
-// The same against the truth: the last 0.5 s (without 0.05 s) separate right from wrong without a reference
-// filter.
+// The same compared with the truth: the last 0.5 s (without the last 0.05 s) separate right from wrong
+// without a reference filter.
 double rms_error(Change change) {
   std::vector<Row> rows = vector_rows();
   for (Row& row : rows) change(row);

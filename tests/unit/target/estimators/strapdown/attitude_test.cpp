@@ -54,8 +54,8 @@ TEST(Attitude, MisalignmentHasTheErrorModelsSign) {
 TEST(Attitude, EulerAnglesAreHeadingPitchRoll) {
   const Euler e{0.3, -1.2, 2.9};
   const Matrix3d C = dcm_from_euler(e);
-  // The x axis points forward: its north, east, down components are those of a unit vector at this heading
-  // with the pitch e.pitch.
+  // The x axis points forward: its north, east and down components are those of a unit vector with this
+  // heading and pitch.
   const Vector3d forward(std::cos(e.pitch) * std::cos(e.heading), std::cos(e.pitch) * std::sin(e.heading),
                          -std::sin(e.pitch));
   EXPECT_LT(norm(Dense(C).column(0) - forward), 1e-15);

@@ -25,7 +25,7 @@ TEST(Earth, GravityFallsWithHeight) {
   EXPECT_EQ(low.ellipsoid_gravity, high.ellipsoid_gravity);
 }
 
-// Flying west as fast as the earth turns is standing still in space: the n axes do not turn.
+// Westward flight at the speed of the earth's surface is at rest in inertial space: the n axes do not rotate.
 TEST(Earth, TransportRateCancelsEarthRateForWestwardFlightAtEarthSpeed) {
   const double latitude = 0.65, height = 5000;
   const LocalEarth earth = local_earth(latitude, height);
@@ -35,7 +35,7 @@ TEST(Earth, TransportRateCancelsEarthRateForWestwardFlightAtEarthSpeed) {
   EXPECT_LT(omega_in.norm(), 1e-18);
 }
 
-// Northward flight turns the n axes about west, at velocity over radius.
+// Northward flight rotates the n axes about west, at the rate velocity over radius.
 TEST(Earth, TransportRateOfNorthwardFlightIsAboutWest) {
   const LocalEarth earth = local_earth(-0.3, 100);
   const Eigen::Vector3d omega_en = transport_rate(earth, 100, {200, 0, 5});

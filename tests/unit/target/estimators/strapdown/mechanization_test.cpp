@@ -16,7 +16,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A motion in closed form, staying near one place; its increments are integrated finely (Simpson).
+// A motion in closed form near one place; its increments are integrated in fine steps (Simpson).
 struct Motion {
   std::function<Matrix3d(double)> C_bn;
   std::function<Vector3d(double)> omega_nb_b;
@@ -78,11 +78,11 @@ TEST_P(BothKinds, StaysAtRest) {
   const Motion rest{[&](double) { return C; }, still, still, still};
   const Errors errors = fly(rest, GetParam(), 60, 0.01);
   EXPECT_LT(errors.attitude, 1e-12);             // 6000 roundings
-  EXPECT_LT(errors.velocity, 1e-12 * 9.8 * 60);  // that tilt under gravity
+  EXPECT_LT(errors.velocity, 1e-12 * 9.8 * 60);  // a tilt of this size under gravity for 60 s
 }
 
-// A tilt of a resting INS swings with Schuler's period: a quarter later V_N = g tilt / w_s, w_s = sqrt(g/R).
-// At the equator the coupling through the earth's rate is of order (w_ie/w_s)^2 = 0.3 %.
+// A tilted INS at rest oscillates with Schuler's period: after a quarter, V_N = g tilt / w_s, w_s =
+// sqrt(g/R). At the equator the coupling through the earth rate is of order (w_ie/w_s)^2 = 0.3 %.
 TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   const LocalEarth earth = local_earth(0, 0);
   const double omega = std::sqrt(earth.gravity / earth.meridian_radius), tilt = 1e-4, dt = 0.5;
@@ -105,8 +105,8 @@ TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   EXPECT_NEAR(nav.latitude / (2 * amplitude / omega / earth.meridian_radius), 1, 0.01);
 }
 
-// The quantities that a filter uses from a step: the velocity change must equal the specific force plus
-// gravity and Coriolis terms.
+// The quantities of a step that a filter uses: the velocity change must equal the specific force plus gravity
+// and Coriolis terms.
 TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
   NavState nav;
   nav.C_bn = dcm_from_euler({0.1, 0.2, 0.3});
@@ -152,7 +152,7 @@ TEST(Mechanization, TwoSamplesFollowConing) {
   EXPECT_LT(two.velocity, one.velocity / 20);
 }
 
-// Bridging a lost sample with a longer one must not bring back the coning error.
+// A lost sample is bridged with a longer one; this must not bring back the coning error.
 TEST(Mechanization, TwoSamplesFollowConingAtUnequalSampleTimes) {
   const Motion motion = coning(0.02, 2 * std::numbers::pi * 5);
   const auto uneven = [](int k) { return k % 3 == 0 ? 2.0 : 1.0; };
@@ -161,8 +161,8 @@ TEST(Mechanization, TwoSamplesFollowConingAtUnequalSampleTimes) {
   EXPECT_LT(two.attitude, one.attitude / 30);
 }
 
-// Sculling: roll theta sin wt with an eastward acceleration A sin wt. The one-sample step misses part of the
-// rectified acceleration theta A/2: x^2/6 of it (x = w dt); two samples x^4/30.
+// Sculling: roll theta sin wt with an eastward acceleration A sin wt, x = w dt. Of the rectified acceleration
+// theta A/2, the one-sample step misses x^2/6, the two-sample step x^4/30.
 TEST(Mechanization, TwoSamplesFollowSculling) {
   const double theta = 0.02, A = 10, omega = 2 * std::numbers::pi * 5;
   const Motion motion{[=](double t) {
@@ -178,8 +178,8 @@ TEST(Mechanization, TwoSamplesFollowSculling) {
   EXPECT_NEAR(two.velocity / (theta * A / 2 * std::pow(x, 4) / 30 * duration), 1, 0.1);
 }
 
-// The specific force must be turned by half of the rotation during the step. Then the error is of second
-// order in that rotation; otherwise the velocity would be off by 0.5 |omega| dt |f| t.
+// The specific force must be rotated by half of the rotation during the step, which leaves an error of second
+// order in this rotation. Otherwise the velocity would be off by 0.5 |omega| dt |f| t.
 TEST(Mechanization, OneSampleFollowsATurnAtConstantRate) {
   const double rate = 0.3;
   const Motion turn{
@@ -192,10 +192,10 @@ TEST(Mechanization, OneSampleFollowsATurnAtConstantRate) {
       [&](double t) { return Vector3d(3 * std::cos(rate * t), 3 * std::sin(rate * t), 0); },
       [&](double t) { return Vector3d(-3 * rate * std::sin(rate * t), 3 * rate * std::cos(rate * t), 0); }};
   const Errors errors = fly(turn, Mechanization::one_sample, 20, 0.02);
-  // Its free-air gradient, 2 g/a, differs from the test's by 1e-8 1/s^2, at 1000 m for 20 s.
+  // The step's free-air gradient, 2 g/a, differs from that of the test by 1e-8 1/s^2, at 1000 m for 20 s.
   EXPECT_LT(errors.velocity, 5e-4);
-  // The step uses the earth's rate in the body axes of its start. The error is half a step's turn, 3e-3 rad,
-  // of 1.5e-3 rad.
+  // The step uses the earth rate in the body axes at its start. The error is the earth's rotation in 20 s,
+  // 1.5e-3 rad, times half of the rotation in a step, 3e-3 rad.
   EXPECT_LT(errors.attitude, 5e-6);
   EXPECT_LT(fly(turn, Mechanization::two_sample, 20, 0.02).velocity, errors.velocity);
 }

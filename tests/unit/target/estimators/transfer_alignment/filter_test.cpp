@@ -1,4 +1,4 @@
-// Properties of the transfer-alignment filter that need no reference.
+// Properties of the transfer-alignment filter that can be tested without a reference.
 #include "target/estimators/transfer_alignment/filter.hpp"
 
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ TEST(TransferAlignment, VanishingAttitudeCovarianceGivesNoNan) {
     });
     EXPECT_TRUE(state.P.allFinite() && state.ins.nav.C_bn.allFinite() && state.ins.nav.v_eb_n.allFinite())
         << sigma;
-    // A variance of exactly 0 is rejected as a covariance until the gyro bias has increased it.
+    // A variance of exactly 0 is not a valid covariance until the gyro bias has increased it.
     if (sigma > 1e-100) {
       EXPECT_EQ(updates, 200) << sigma;
     }
@@ -128,7 +128,7 @@ TEST(TransferAlignment, TwoMechanisationsAgreeOnTheFullRun) {
   EXPECT_EQ(k, 200);
 }
 
-// Small errors are linear: open and closed loop must estimate the same.
+// Small errors are linear: open and closed loop must give the same estimate.
 TEST(TransferAlignment, OpenLoopEstimatesWhatTheClosedLoopDoesForSmallErrors) {
   Settings closed, open;
   closed.algorithm = open.algorithm = Algorithm::kalman;
@@ -163,7 +163,7 @@ TEST(TransferAlignment, FadingGrowsTheSigmasAtItsRate) {
   for (int k = 0; k < 10; ++k) propagate(a, imu, plain), propagate(b, imu, fading);
   update(a, flight_start().v_eb_n, plain);
   update(b, flight_start().v_eb_n, fading);
-  // Gyro biases are not observed yet: their sigma has grown by exp(0.1 * 0.1).
+  // Gyro biases are not observable yet: fading has increased their sigma by exp(0.1 * 0.1).
   EXPECT_NEAR(std::sqrt(b.P(11, 11) / a.P(11, 11)), std::exp(0.01), 1e-9);
 }
 

@@ -29,7 +29,8 @@ void expect_same_bits(const State& a, const State& b) {
   EXPECT_EQ(a.ins.interval.duration, b.ins.interval.duration);
 }
 
-// The full run with every master velocity `late` samples late; the last few come before the run ends.
+// The full run with every master velocity `late` samples late; the last velocities arrive before the run
+// ends.
 State run_late(std::size_t late) {
   const Settings settings;
   State state = initial(published_start(), settings);
@@ -37,7 +38,7 @@ State run_late(std::size_t late) {
   std::deque<std::pair<std::size_t, Vector3d>> under_way;
   const std::vector<Sample> samples = full_run_inputs();
   for (std::size_t i = 0; i + 1 < samples.size();
-       ++i) {  // the last row's velocity would arrive after the end
+       ++i) {  // the velocity of the last row would arrive after the end
     history.propagate(state, samples[i].imu, epoch_us(i), settings);
     if (samples[i].master_velocity) under_way.emplace_back(i, *samples[i].master_velocity);
     if (!under_way.empty() && under_way.front().first + late <= i) {
@@ -59,7 +60,8 @@ TEST(History, LateUpdatesGiveTheStateOfUpdatesInTimeBitForBit) {
     propagate(in_time, samples[i].imu, settings);
     if (samples[i].master_velocity) update(in_time, *samples[i].master_velocity, settings);
   }
-  for (const std::size_t late : {0, 1, 3, 7, 10, 15, 20}) {  // 0 to 200 ms; beyond 100 ms two are under way
+  // 0 to 200 ms; beyond 100 ms two velocities are under way.
+  for (const std::size_t late : {0, 1, 3, 7, 10, 15, 20}) {
     SCOPED_TRACE(late);
     expect_same_bits(run_late(late), in_time);
   }

@@ -1,4 +1,4 @@
-// The feedback of an invariant error: its algebra against dense references, and its benefit.
+// The feedback of an invariant error: its algebra compared with dense references, and its benefit.
 #include "target/estimators/transfer_alignment/invariant.hpp"
 
 #include <gtest/gtest.h>
@@ -59,12 +59,12 @@ TEST(InvariantCorrection, TurnsTheCovarianceOfVelocityAndAttitude) {
 
 struct Flown {
   State cruised, ended;
-  int degraded = 0;             // updates
-  double attitude_trace = 0;    // of P, the largest in the cruise
+  int degraded = 0;             // number of updates
+  double attitude_trace = 0;    // trace of the attitude block of P, its maximum in the cruise
   double worst_of_heading = 0;  // error over sigma, after the first second of the manoeuvre
 };
 
-// The paper's flight with an error-free IMU and master, from errors phi [rad].
+// The paper's flight with an error-free IMU and master, starting with the attitude error phi [rad].
 Flown fly(const Settings& settings, const Vector3d& phi) {
   Flown flown;
   State state = initial(with_errors(flight_start(), Vector3d::Zero(), phi), settings);
@@ -99,9 +99,9 @@ Settings told(Algorithm algorithm, Loop loop, double tilt_deg, double heading_de
   return settings;
 }
 
-// The cruise reveals tilts but not the heading: after any correction of tilts, the heading's sigma stays. If
-// P stays in the axes before the corrections, or if the tilts' sigmas are as small as their errors, the
-// heading's sigma falls by a quarter or more.
+// The cruise makes the tilts observable, but not the heading: a correction of tilts must not change the
+// heading's sigma. If P stays in the axes before the correction, or if the tilts' sigmas are as small as
+// their errors, the heading's sigma falls by a quarter or more.
 TEST(InvariantLoop, LeavesTheHeadingSigmaAloneInTheCruise) {
   const Vector3d phi = Vector3d(6, -6, 25) * rad_per_deg;
   const double sigma_0 = 30 * rad_per_deg;
@@ -111,7 +111,7 @@ TEST(InvariantLoop, LeavesTheHeadingSigmaAloneInTheCruise) {
   EXPECT_LT(std::sqrt(published.cruised.P(5, 5)) / sigma_0, 0.75);
 }
 
-// The manoeuvre reveals a large heading error within one or two updates, far beyond first order.
+// The manoeuvre makes a large heading error, far beyond first order, observable within one or two updates.
 TEST(InvariantLoop, FindsALargeHeadingWithinItsSigma) {
   for (const double heading_deg : {-60.0, -25.0, 40.0}) {
     const Vector3d phi = Vector3d(1, -1, heading_deg) * rad_per_deg;
@@ -141,15 +141,15 @@ TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
       EXPECT_EQ(state.P, before.P) << k;
       EXPECT_EQ(state.ins.nav.v_eb_n, before.ins.nav.v_eb_n) << k;
     }
-    // Gated are the wrong update of k = 10 and, from k = 13 on, every wrong update except the sixth. That one
-    // is accepted, so the INS takes over the master's wrong velocity.
+    // The gate rejects the wrong update of k = 10 and, from k = 13 on, every wrong update except the sixth.
+    // This update is accepted, so the INS takes over the master's wrong velocity.
     EXPECT_EQ(gated, loop == Loop::invariant ? 7 : 0);
     EXPECT_GT(state.ins.nav.v_eb_n.z() - truth.v_eb_n.z(), 30);
   }
 }
 
-// H2 with an initial sigma of 15 deg: without a guard its covariance diverges in the cruise. With the guard
-// it stays below the initial one, and the filter reports it.
+// H2 with an initial sigma of 15 deg: without the guard the covariance of H2 diverges in the cruise. With the
+// guard it stays below its initial value, and the filter reports it.
 TEST(InvariantLoop, GuardsH2AgainstItsOwnCovariance) {
   const Vector3d phi = Vector3d(5, -5, 15) * rad_per_deg;
   const Settings settings = told(Algorithm::robust_h2, Loop::invariant, 5, 15);

@@ -1,4 +1,4 @@
-// Frequent mistakes in this filter; each test names the mistake that it detects.
+// Frequent mistakes in such a filter; each test names the mistake that it detects.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ State flown(const Settings& settings, int samples, const strapdown::NavState& st
 
 Dense three(const StateVector& x, int first) { return Dense(x).block(first, 0, 3, 1); }
 
-// A covariance of standard deviations of the order of 0.01.
+// A random covariance with standard deviations of the order of 0.01.
 Covariance small_covariance(std::mt19937_64& engine) {
   return (1e-4 * random_covariance_dense(state_count, engine)).fixed<state_count, state_count>();
 }
@@ -57,7 +57,7 @@ TEST(Traps, CorrectionRemovesTheEstimatedError) {
   EXPECT_EQ(Dense(state.ins.gyro_bias), Dense(before.gyro_bias) + three(result.dx, gyro_bias_state));
 }
 
-// The signs of the model: for each error alone, the filter moves towards the truth.
+// The signs of the model: for each single error, the filter moves towards the truth.
 TEST(Traps, EachErrorIsDrivenTowardsZero) {
   Settings settings;
   settings.algorithm = Algorithm::kalman;
@@ -80,7 +80,7 @@ TEST(Traps, AccelerometerBiasIsSubtracted) {
   Settings settings;
   settings.algorithm = Algorithm::kalman;
   settings.attitude_sigma_0.setConstant(1e-6);
-  settings.velocity_noise_density = 1e-6;  // the default would take minutes to see 300 ug
+  settings.velocity_noise_density = 1e-6;  // with the default, 300 ug would be observable only after minutes
   const Vector3d bias(0, 0, 0.003);
   State state = initial(flight_start(), settings);
   strapdown::NavState truth = flight_start();
@@ -151,7 +151,7 @@ TEST(Traps, CovarianceStepIsTheDenseH2Recursion) {
   EXPECT_LT(largest_difference(state.P, expected.P), 1e-14);
 }
 
-// With alpha = |dC| |f|, or with an uncapped sqrt(tr P_phi), the heading variance would diverge in the
+// With alpha = |dC| |f|, or with sqrt(tr P_phi) without a cap, the heading variance would diverge in the
 // cruise.
 TEST(Traps, AlphaIsCapped) {
   Settings settings;
@@ -170,8 +170,8 @@ TEST(Traps, AlphaOfAHeadingErrorVanishesInLevelFlight) {
   EXPECT_NEAR(uncertainty_size(settings, P, Vector3d(5, 0, -9.8)), 0.5, 1e-12);
 }
 
-// Chat f is averaged over the interval, so the instant at which the specific force steps within it must
-// hardly matter. With the last sample's Chat f alone, the result would differ by half.
+// Chat f is averaged over the interval, so the result hardly depends on the instant of a step of the specific
+// force within the interval. If only the last sample's Chat f were used, the result would differ by half.
 TEST(Traps, SpecificForceIsAveragedOverTheInterval) {
   Settings settings;
   settings.algorithm = Algorithm::kalman;
@@ -186,7 +186,7 @@ TEST(Traps, SpecificForceIsAveragedOverTheInterval) {
   EXPECT_NEAR(mean.x(), flight_acceleration / 2, 1e-4);
   update(step_late, flight_start().v_eb_n, settings);
   update(step_early, flight_start().v_eb_n, settings);
-  const double cross = step_early.P(velocity_state + 1, attitude_state + 2);  // dV_E of heading: g/2 dt P_phi
+  const double cross = step_early.P(velocity_state + 1, attitude_state + 2);  // dV_E by heading: g/2 dt P_phi
   ASSERT_GT(std::abs(cross), 1e-7);
   EXPECT_NEAR(step_late.P(velocity_state + 1, attitude_state + 2) / cross, 1, 1e-5);
 }

@@ -27,8 +27,8 @@ void expect_sound(const Flown& flown) {
   }
 }
 
-// Recovered: the last samples are used and have no error flag, and the wind is as accurate as without the
-// fault.
+// The filter has recovered: the last samples are used and have no error flag, and the wind is as accurate as
+// without the fault.
 void expect_recovered(const Flown& flown, double margin = 0.5) {
   static const double undisturbed = fly(recorded(), Settings()).mean_error(900, 1001);
   for (std::size_t k = 900; k < 1001; ++k) {
@@ -124,7 +124,7 @@ TEST(WindBadInput, JumpOfTheGroundVelocity) {
   expect_recovered(flown);
 }
 
-// Input that contradicts the filter persistently is finally accepted.
+// Input that contradicts the filter persistently is accepted in the end.
 TEST(WindBadInput, LastingJumpStartsTheFilterAgain) {
   const Flown flown = fly(recorded(), Settings(), [](std::size_t k, Navigation& n, FinFrame&) {
     if (k >= bad_from) n.attitude.z() += 1.0;
@@ -138,7 +138,7 @@ TEST(WindBadInput, LastingJumpStartsTheFilterAgain) {
 
 TEST(WindBadInput, LongOutageStartsAgainWithTheWindThatWasKnown) {
   const Flown flown = fly(recorded(), Settings(), [](std::size_t k, Navigation& n, FinFrame&) {
-    n.valid = k < 400 || k >= 600;  // 4 s
+    n.valid = k < 400 || k >= 600;  // invalid for 4 s
   });
   expect_sound(flown);
   EXPECT_EQ(flown.results[498].outcome, Outcome::coasting);
@@ -165,7 +165,7 @@ TEST(WindBadInput, AltitudeOutsideTheAtmosphere) {
   for (const double altitude : {-5000.0, 60'000.0, 1e300}) {
     const Flown flown = fly_with([altitude](Navigation& n, FinFrame&) { n.altitude = altitude; });
     expect_sound(flown);
-    for (std::size_t k = bad_from + 1; k <= bad_to; ++k) {  // the step behind each sample
+    for (std::size_t k = bad_from + 1; k <= bad_to; ++k) {  // the step after each bad sample
       ASSERT_TRUE(flown.results[k].flags.outside.altitude) << k;
       ASSERT_TRUE(flown.results[k].flags.degraded()) << k;
       ASSERT_EQ(flown.results[k].outcome, Outcome::updated) << k;
@@ -194,13 +194,13 @@ TEST(WindBadInput, OneMissedFinFrameIsFlaggedLate) {
   const Flown flown = fly(recorded(), Settings(),
                           [](std::size_t k, Navigation&, FinFrame& fins) { fins.arrives = k != bad_from; });
   EXPECT_FALSE(flown.results[bad_from - 1].flags.fins_late);
-  EXPECT_TRUE(flown.results[bad_from + 1].flags.fins_late);  // bridged by the frame behind it
+  EXPECT_TRUE(flown.results[bad_from + 1].flags.fins_late);  // bridged by the next fin frame
   EXPECT_FALSE(flown.results[bad_from + 2].flags.fins_late);
   for (const UpdateResult& result : flown.results) EXPECT_FALSE(result.flags.fins_missing);
   expect_recovered(flown);
 }
 
-// With a noise that does not adapt, so that only its increase is visible.
+// With process noise that does not adapt, so that only its increase for missing fins is visible.
 Settings constant_noise() {
   Settings settings;
   settings.algorithm = Algorithm::ekf;
@@ -221,7 +221,7 @@ TEST(WindBadInput, MissingFinsWidenTheUncertainty) {
   expect_recovered(flown);
 }
 
-// There are no fins from the start. This is flagged at every step, and the other input must still give a wind
+// Fins are missing from the start. Every step must have the flag, and the other input must still give a wind
 // of the right magnitude.
 TEST(WindBadInput, NoFinsAtAll) {
   const Flown flown =

@@ -1,4 +1,5 @@
-// The bank of filters: its weights and its mixture against their definition, and its response to changes.
+// The bank of filters: its weights and its mixture compared with their definition, and its response to
+// changes.
 #include "target/estimators/wind/bank.hpp"
 
 #include <gtest/gtest.h>
@@ -89,7 +90,7 @@ TEST(WindBank, WeighsByLikelihoodsAndAddsTheSpread) {
   });
 }
 
-// -2 ln of a Gaussian's density, less its constant, by dense algebra.
+// -2 ln of a Gaussian density without its constant term, by dense algebra.
 TEST(WindBank, SurpriseIsThatOfTheInnovation) {
   const RecordedRun run;
   const Design design = make_design(likeliest());
@@ -114,7 +115,7 @@ TEST(WindBank, SurpriseIsThatOfTheInnovation) {
   EXPECT_NEAR(update(x, P, run.y[0], 0.02, design).surprise, expected, 1e-6 * std::abs(expected));
 }
 
-// A wind that turns by 15 m/s within 2 s is not an error of a coefficient.
+// A wind change of 15 m/s within 2 s must not be taken for an error of a coefficient.
 TEST(WindBank, BelievesInGustsWhileThereAreSome) {
   const RecordedRun run;
   const BankDesign design = make_bank(likeliest());
@@ -124,7 +125,7 @@ TEST(WindBank, BelievesInGustsWhileThereAreSome) {
   for (std::size_t k = 0; k < 600; ++k) {
     fins.push(RecordedRun::t_us(k), run.inputs[k].fins, design.of[0].airframe.deflection_most);
     Navigation navigation = run.navigation(k);
-    // Seen from the ground: the air moves, and the glider with it.
+    // The glider moves with the air, so the ground velocity changes with the wind.
     if (k > 300) navigation.v_eb_n.x() += 7.5 * std::min(0.02 * static_cast<double>(k - 300), 2.0);
     step(bank, navigation, fins, design);
     if (k == 300) before = bank.weight[1];

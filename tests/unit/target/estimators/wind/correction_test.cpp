@@ -1,4 +1,4 @@
-// Scalar updates against the matrix equations of the textbook, along the published run.
+// Scalar updates, compared with the matrix equations of the textbook, along the published run.
 #include "target/estimators/wind/correction.hpp"
 #include "target/estimators/filtering/cholesky.hpp"
 
@@ -141,7 +141,7 @@ TEST(WindCorrection, ThetaOfZeroIsTheEkf) {
   }
 }
 
-// theta lambda_max(B) stays at the cap, exactly where it would exceed it.
+// theta is lowered exactly where theta lambda_max(B) would exceed the cap; the product then equals the cap.
 TEST(WindCorrection, ThetaIsLoweredToTheCap) {
   const RecordedRun run;
   Settings settings = run.settings;
@@ -176,7 +176,7 @@ TEST(WindCorrection, ThetaIsProportionalToTheInterval) {
   }
 }
 
-// A cap that would allow theta lambda_max = 1 is reduced, because P~ would not exist.
+// P~ does not exist for theta lambda_max = 1, so a cap that would permit this value is reduced.
 TEST(WindCorrection, NoSettingMakesTheInflationSingular) {
   const RecordedRun run;
   Settings settings = run.settings;

@@ -92,7 +92,8 @@ TEST(WindFilter, EveryChoiceStaysPositiveDefinite) {
   }
 }
 
-// From the published, over-tight noise: the statistic comes down to its degrees of freedom, the error too.
+// Starting from the published, over-tight noise, the mean statistic falls to its degrees of freedom, and the
+// error falls too.
 TEST(WindFilter, AdaptiveNoiseMakesTheStatisticConsistent) {
   const RecordedRun run;
   Settings settings = run.settings;

@@ -1,5 +1,5 @@
-// Each equation of the model against its physical meaning. If a corrected equation is replaced by the printed
-// one, the test that names it fails.
+// Each equation of the model, compared with its physical meaning. If a corrected equation is replaced by the
+// printed equation, the test that names it fails.
 #include "target/estimators/wind/model.hpp"
 
 #include <gtest/gtest.h>
@@ -131,7 +131,7 @@ TEST(WindModel, ObservationJacobianIsThatOfCentralDifferences) {
   }
 }
 
-// Eqs. (3), (16): whatever turns, the ground velocity C_bn v_a + v_w changes by force and gravity alone. The
+// Eqs. (3), (16): for any rotation, only force and gravity change the ground velocity C_bn v_a + v_w. The
 // printed -omega x (v_a + v_w), a force not divided by the mass, or a sum of body and NED vectors fail.
 TEST(WindModel, Eq3And16GroundAccelerationIsForcePerMassAndGravity) {
   const Inputs inputs = at_altitude(9000);
@@ -147,7 +147,7 @@ TEST(WindModel, Eq3And16GroundAccelerationIsForcePerMassAndGravity) {
   EXPECT_LT((2 * half.specific_force - load.specific_force).norm(), 1e-12);
 }
 
-// Eq. (4): without air the angular momentum stays where it is.
+// Eq. (4): without air the angular momentum is constant.
 TEST(WindModel, Eq4AngularMomentumIsConservedWithoutAir) {
   const auto momentum = [](const StateVector& x) -> Vector3d {
     return attitude_of(x) * design().inertia * x.segment<3>(rate_at);
@@ -163,8 +163,8 @@ TEST(WindModel, Eq5EulerAnglesFollowTheRates) {
   EXPECT_LT((motion - expected).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-// Eq. (7): lift across, drag against the flow in the plane of symmetry, side force along y; and the
-// equivalent of full wind axes, whose S is of the opposite sign in the paper.
+// Eq. (7): lift perpendicular to the flow and drag against the flow in the plane of symmetry, side force
+// along y; and the equivalent in full wind axes, where S has the opposite sign in the paper.
 TEST(WindModel, Eq7ForcesAreOfStabilityAxesAndBodySideForce) {
   const Air air = standard_atmosphere(9000);
   const Vector3d v_a(200, 25, 30);
@@ -196,7 +196,7 @@ TEST(WindModel, Eq8GravityGivesNoMoment) {
   EXPECT_EQ(rate_of(x, vacuum()).segment<3>(rate_at), Vector3d::Zero());
 }
 
-// Eqs. (9)-(14): the table of the airframe, by hand: alpha = 0.1, beta = 0.05 at Mach 0.6.
+// Eqs. (9)-(14): the table of the airframe, computed by hand for alpha = 0.1, beta = 0.05 at Mach 0.6.
 TEST(WindModel, Eq9To14CoefficientsAreThoseOfTheTable) {
   Flow f;
   f.alpha = 0.1;
@@ -224,7 +224,8 @@ TEST(WindModel, AtmosphereIsTheStandardOne) {
   EXPECT_EQ(standard_atmosphere(1e6).density, standard_atmosphere(20'000).density);
 }
 
-// Eq. (3)'s noise: the wind's noise reaches the air velocity, so that it does not move the ground velocity.
+// The noise of Eq. (3): the noise of the wind also enters the air velocity, so that it does not change the
+// ground velocity.
 TEST(WindModel, Eq3NoiseWindNoiseDoesNotMoveTheGroundVelocity) {
   Settings settings;
   settings.density = {0, 0, 0, 0.3};
@@ -246,7 +247,7 @@ TEST(WindModel, Eq3NoiseWindNoiseDoesNotMoveTheGroundVelocity) {
 }
 
 // Increases each part of each coefficient by 1 separately, in the airframe. The change of the loads is the
-// contribution of this part, and the squares are the covariance. The drag polar keeps the nominal lift.
+// contribution of this part; the covariance is the sum of the squares. The drag polar keeps the nominal lift.
 TEST(WindModel, CovarianceOfTheLoadsIsTheSumOverTheParts) {
   const Deflection fins{0.05, -0.03, 0.02};
   const Air air = standard_atmosphere(9000);
@@ -329,9 +330,9 @@ TEST(WindModel, CovariancePredictionIsThatOfTheDenseTransition) {
             1e-12 * expected.cwiseAbs().maxCoeff());
 }
 
-// A filter has an error in one part of one coefficient; its samples come from the right model without noise.
-// Its estimation error must be the sensitivity times the coefficient error. The steps are short because at 20
-// ms the second order of Phi causes 6 %.
+// The filter has an error in one part of one coefficient; its samples come from the right model without
+// noise. Its estimation error must be the sensitivity times the coefficient error. The steps are short,
+// because at 20 ms the second order of Phi contributes 6 %.
 TEST(WindModel, SensitivityIsWhatAWrongShareDoesToTheFilter) {
   struct Part {
     int column;
@@ -348,7 +349,7 @@ TEST(WindModel, SensitivityIsWhatAWrongShareDoesToTheFilter) {
     SCOPED_TRACE(part.column);
     constexpr double share = 1e-3;
     Design wrong = right;
-    // Both models have no induced drag: it depends on the lift, but its error is a part of its own.
+    // Both models omit the induced drag: it depends on the lift, but its error is a separate part.
     part.scale(wrong.airframe, 1 + share);
     wrong.airframe.drag.lift_squared = 0;
     Design truth = right;
