@@ -41,7 +41,7 @@ struct RecordedSettings {
   scenario::Schedule schedule{};
   std::string recorded_from;  ///< the file
   std::shared_ptr<const RecordedSamples> samples{};
-  std::shared_ptr<const RecordedFrames> frames{};  ///< set for a log; otherwise the samples are set
+  std::shared_ptr<const RecordedFrames> frames{};  ///< exactly one of `samples` and `frames` is set
 };
 
 /// The keys recorded and period_ms and, for a CSV file, latency_ms, from_s and gap_s.
