@@ -14,11 +14,11 @@ struct RandomValue {
 
 /// All noises are 1 sigma per sample. All are white except the glint, whose correlation is exp(-t/tau).
 struct SeekerErrorModel {
-  double thermal = 1e-10;        ///< thermal noise = this * range^2 [rad/m^2]
-  double glint = 0.5;            ///< glint noise = this / range [m]
-  double glint_correlation = 0;  ///< tau; 0: white [s]
-  double constant = 0;           ///< range-independent noise of the error angle [rad]
-  double gyro_noise = 1e-3;      ///< noise of the mean antenna rate over a sample [rad/s]
+  double thermal = 1e-10;                              ///< thermal noise = this * range^2 [rad/m^2]
+  double glint = 0.5;                                  ///< glint noise = this / range [m]
+  double glint_correlation = 0;                        ///< tau; 0: white [s]
+  double constant = 0;                                 ///< range-independent noise of the error angle [rad]
+  double gyro_noise = 1e-3;                            ///< noise of the mean antenna rate [rad/s]
   RandomValue gyro_bias{.value = 0, .sigma = 0.5e-3};  ///< of each axis [rad/s]
   double accel_noise = 0.3;                            ///< [m/s^2]
   RandomValue accel_bias{.value = 0, .sigma = 0.2};    ///< of each axis [m/s^2]
