@@ -19,13 +19,13 @@ namespace canhil::nodes {
 namespace {
 
 constexpr std::array registered{
-    &master_ins,  // the carrier's INS
-    &slave_imu,   // IMU of the weapon or the vehicle
-    &ssbl,        // acoustic fixes from a ship
-    &gps,         // GPS receiver of the vehicle
-    &seeker,      // seeker of a missile
-    &glider_nav,  // GPS/INS of the glider
-    &fins,        // fin actuators of the glider
+    &master_ins,  // the carrier's
+    &slave_imu,   // of the weapon, or of the vehicle
+    &ssbl,        // of a ship
+    &gps,         // of the vehicle
+    &seeker,      // of a missile
+    &glider_nav,  // the GPS/INS of the glider
+    &fins,        // of the glider
 };
 
 }  // namespace

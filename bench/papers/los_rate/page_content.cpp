@@ -47,7 +47,7 @@ std::string words_of(const Miss& one) { return fmt::format("{:.2f} / {:.2f}", on
 std::string two_digits(double value) { return fmt::format("{:.2f}", value); }
 
 void add_tables(Names& names, const Results& results) {
-  // The words name campaign and variant; for each window, a word in brackets follows.
+  // Arguments: campaign, variant and, optionally, a reference value for each window, shown in brackets.
   const auto by_window = [&results](std::size_t from) {
     return [&results, from](Words& words) {
       const Flown& flown = results.of(words.next());
