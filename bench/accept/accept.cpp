@@ -43,7 +43,7 @@ class Run {
   Run(const Suite& suite, const Options& options, const std::atomic<bool>& stop)
       : suite_(suite), options_(options), stop_(stop) {}
 
-  // The fastest tests come first, and timing comes last, when nothing else runs.
+  // Order: the fastest tests first; timing last, when nothing else runs.
   Result<std::vector<Item>> fly() {
     if (auto flown = fly_all(false); !flown) return tl::unexpected(flown.error());
     if (suite_.dialogue && (wanted("protocol") || wanted("parameters")) && !done()) {
@@ -75,7 +75,7 @@ class Run {
     return options_.families.empty() ||
            std::ranges::find(options_.families, family) != options_.families.end();
   }
-  /// Whether a selected requirement needs a flight, either directly or for comparison with another flight.
+  /// Whether a selected requirement needs this flight or compares another flight with it.
   [[nodiscard]] bool wanted(const Flight& flight) const {
     const auto of = [&](const std::string& id) {
       const Requirement* requirement = suite_.find(id);
@@ -95,7 +95,7 @@ class Run {
     failed_ = failed_ || item.outcome == Outcome::fail;
     items_.push_back(std::move(item));
   }
-  /// `wrong`: the violation; empty: none.
+  /// `wrong`: the violation; empty: no violation.
   static Item item(const std::string& requirement, const std::string& name, const std::string& wrong,
                    const std::string& expected) {
     return {.requirement = requirement,
@@ -105,7 +105,7 @@ class Run {
             .expected = expected};
   }
 
-  /// Occasional delays by the host are not the target's fault: in real time the best of three flights counts.
+  /// In real time the best of three flights counts, because the host may cause occasional delays.
   Result<void> fly(const Flight& flight) {
     constexpr int most_attempts = 3;
     for (int left = flight.real_time ? most_attempts : 1;; --left) {
@@ -158,7 +158,7 @@ class Run {
     Items found{item(flight.requirement, name + " ends", run.ending.detail, flown_to_its_end)};
     if (run.ending.kind != Ending::Kind::completed) return found;
     for (const checks::CheckResult& check : run.verdict.checks) {
-      // Timing cannot be judged in virtual time; the flights in real time judge it.
+      // Virtual time cannot measure timing; the flights in real time do.
       if (!flight.real_time && check.outcome == Outcome::not_measured) continue;
       found.push_back(
           {.requirement = suite_.find(check.requirement) != nullptr ? check.requirement : flight.requirement,
@@ -274,7 +274,8 @@ Result<Acceptance> accept(const Suite& suite, const Options& options, const std:
     const auto found = std::ranges::find_if(acceptance.findings, [&](const Finding& finding) {
       return finding.requirement.id == item.requirement;
     });
-    if (found == acceptance.findings.end() && !asked.empty()) continue;  // its family was not selected
+    if (found == acceptance.findings.end() && !asked.empty())
+      continue;  // the requirement's family was not selected
     if (found == acceptance.findings.end())
       return failure(fmt::format("{}: {} is for '{}', expected a requirement of the suite",
                                  suite.folder.string(), item.name, item.requirement));

@@ -1,4 +1,4 @@
-// Tests the target's protocol command by command: what it must do, and what it must reject.
+// Tests the target's handling of the protocol command by command: required actions and required rejections.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@ namespace canhil::accept {
 /// Requirements for every target, whatever it estimates.
 std::vector<Requirement> protocol_requirements(const Suite& suite);
 
-/// Starts the target and tests it as the estimator of suite.dialogue. Error: it does not start.
+/// Starts the target and tests it as the estimator of suite.dialogue. Error: the target does not start.
 Result<std::vector<Item>> talk(const Suite& suite, const std::string& target, const std::atomic<bool>& stop);
 
 }  // namespace canhil::accept

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double full_turn_deg = 360;
 
-/// True for signals that describe the program, such as its version: correct programs may differ in them.
+/// True for signals that identify the program, such as its version: they may differ between correct targets.
 bool of_the_program(const SignalInfo& signal) {
   return signal.name.starts_with("version_") || signal.name == "dbc_hash";
 }

@@ -1,5 +1,5 @@
-// A summary of the target's answers in one flight, short enough to keep: the count of each message, the mean
-// of each signal, and its values at some instants.
+// A compact summary of the target's answers in one flight: the count of each message, the mean of each
+// signal, and its values at some instants.
 #pragma once
 
 #include <cstddef>
@@ -37,9 +37,9 @@ class Answers final : public drive::Onlooker {
     messages_.clear();
     t_s_ = 0;
   }
-  /// The series of each message, sorted by name.
+  /// The answers of each message, sorted by message name.
   [[nodiscard]] const std::map<std::string, Series, std::less<>>& messages() const { return messages_; }
-  /// The series of "Message.signal"; null: unknown, or the flight had no answer of this message.
+  /// The answers of a message; null: unknown message, or none in this flight.
   [[nodiscard]] const Series* find(std::string_view message) const;
 
  private:
@@ -47,7 +47,7 @@ class Answers final : public drive::Onlooker {
   double t_s_ = 0;
 };
 
-/// The difference of two values of a signal; for an angle the shorter way around.
+/// The difference of two values of a signal; for angles, the smaller of the two arcs.
 double distance(const SignalInfo& signal, double a, double b);
 
 }  // namespace canhil::accept

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t{1} << 22U;
 constexpr double at_an_instant = 2, in_the_mean = 0.25, of_rounding = 4;
 
-/// The value with the largest deviation in tolerances.
+/// The value with the largest deviation, measured in tolerances.
 struct Worst {
   double tolerances = 0;
   std::string text;
@@ -168,7 +168,7 @@ std::string departure(const Reference& reference, const Answers& answers, double
         });
       }
       if (signal.name.ends_with("_counter") || signal.name.ends_with("_us"))
-        continue;  // a mean has no meaning
+        continue;  // the mean of such a signal has no meaning
       const double now = series->mean(s);
       const double mean_tolerance =
           share * ((counts(signal) ? 1.01 / static_cast<double>(count) : in_the_mean * step) +

@@ -1,4 +1,4 @@
-// Answers the questions of a campaign: one function for each kind of metric.
+// Evaluates the metrics of a campaign: one function for each kind of metric.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ struct Answer {
   std::string variant;
   std::string measured{};        ///< with its unit
   std::string expected{};        ///< the bars as text; empty: none
-  std::optional<bool> passed{};  ///< none: there is no bar
+  std::optional<bool> passed{};  ///< none: the metric has no bar
   std::vector<std::pair<std::string, std::optional<double>>>
       figures{};                    ///< by name with unit; none: never reached
   std::vector<CurvePoint> curve{};  ///< for rms_curve, otherwise empty

@@ -114,7 +114,7 @@ std::uint64_t hash_of(const Sources& sources) {
   return world::fnv1a_64(all);
 }
 
-/// Recordings that a scenario uses are not among the sources, but they change the results.
+/// Adds the recordings of the scenarios to the hash: they change the results, but are not among the sources.
 std::uint64_t with_recordings(std::uint64_t hash, const std::vector<Variant>& variants) {
   for (const Variant& variant : variants) {
     const std::uint64_t own = variant.scenario.recordings_hash;

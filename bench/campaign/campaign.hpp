@@ -19,17 +19,17 @@ namespace canhil::campaign {
 
 /// A scenario with its settings at one point of the sweep.
 struct Variant {
-  std::string name;   ///< unique: the file's name for it, plus the point of the sweep if there is one
-  std::string given;  ///< as named in the file
+  std::string name;   ///< unique: the name in the file and, with a sweep, its point
+  std::string given;  ///< name in the file
   std::string point;  ///< "master_ins.period_ms=50 ..."; empty without a sweep
   scenario::Scenario scenario;
 };
 
-/// The texts from which a campaign was read: with them, stored results can be read without the files.
+/// The texts from which a campaign was read; with them, stored results can be evaluated without the files.
 struct Sources {
-  std::string file;  ///< as named by the user
+  std::string file;  ///< file name as given by the user
   std::string text;
-  /// Text by name as written in the campaign; includes the mappings and DBCs that a scenario names.
+  /// Text by file name as given in the campaign; includes the mappings and DBCs of the scenarios.
   std::map<std::string, std::string> scenarios;
 };
 

@@ -10,11 +10,11 @@
 namespace canhil::campaign {
 namespace {
 
-// The system's errno where SQLite's message lacks it; 0: unknown.
+// The errno of the failed system call, which some of SQLite's messages lack; 0: unknown.
 int reason_of(int code, const std::string& file, sqlite3* database) {
   int reason = 0;
   if (code == SQLITE_IOERR) sqlite3_file_control(database, "main", SQLITE_FCNTL_LAST_ERRNO, &reason);
-  if (code == SQLITE_CANTOPEN) {  // SQLite's own errno belongs to its second attempt, to open for reading
+  if (code == SQLITE_CANTOPEN) {  // SQLite retries for reading: its errno is of the retry
     const std::filesystem::path path = std::filesystem::absolute(file);
     const bool there = std::filesystem::exists(std::filesystem::symlink_status(path));
     if (access((there ? path : path.parent_path()).c_str(), W_OK) != 0) reason = errno;
@@ -37,7 +37,8 @@ Error in_words(const SQLite::Exception& error, const std::string& file, sqlite3*
 Result<SQLite::Database> open_database(const std::filesystem::path& path, int flags) {
   std::error_code unknown;
   const auto status = std::filesystem::status(path, unknown);
-  if (std::filesystem::is_fifo(status) || std::filesystem::is_directory(status)) {  // SQLite blocks on a pipe
+  if (std::filesystem::is_fifo(status) ||
+      std::filesystem::is_directory(status)) {  // opening a pipe would block
     return failure(fmt::format("{}: is a {}, expected results of a campaign", path.string(),
                                std::filesystem::is_fifo(status) ? "pipe" : "folder"));
   }
@@ -45,7 +46,8 @@ Result<SQLite::Database> open_database(const std::filesystem::path& path, int fl
     return failure(fmt::format("{}: cannot be read ({}), expected results of a campaign", path.string(),
                                std::strerror(ENOENT)));
   try {
-    return SQLite::Database(path.string(), flags | SQLite::OPEN_NOMUTEX);  // used by one thread at a time
+    return SQLite::Database(path.string(),
+                            flags | SQLite::OPEN_NOMUTEX);  // only one thread at a time uses it
   } catch (const SQLite::Exception& error) {
     return tl::unexpected(in_words(error, path.string(), nullptr));
   }

@@ -1,4 +1,4 @@
-// SQLite files named by a user: describes what is wrong with one in a single line.
+// Opens SQLite files named by a user and describes defects of such a file in one line.
 #pragma once
 
 #include <SQLiteCpp/Database.h>
@@ -11,7 +11,7 @@
 
 namespace canhil::campaign {
 
-/// A file is wrong in a way that SQLite accepts: the reason, without the file's name.
+/// A defect of a file that SQLite does not detect: the reason, without the file's name.
 struct Unfit : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -19,7 +19,7 @@ struct Unfit : std::runtime_error {
 /// `flags`: those of SQLite::Database.
 Result<SQLite::Database> open_database(const std::filesystem::path& path, int flags);
 
-/// Throws Unfit if the size of the file differs from the size in its header: its end is missing, or it grew.
+/// Throws Unfit if the file is shorter or longer than its header states.
 void check_size(const SQLite::Database& database);
 
 /// SQLite's error as text; `database`: null if it could not be opened.

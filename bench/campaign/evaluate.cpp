@@ -8,7 +8,7 @@
 namespace canhil::campaign {
 namespace {
 
-// Checks only the quantities that its estimator reports: the others are NaN.
+// Whether all reported quantities are finite; the quantities that the estimator does not report are NaN.
 bool finite(const quantities::Samples& samples) {
   const auto columns = samples.layout().kept;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -62,7 +62,8 @@ std::string Evaluation::not_judged() const {
     });
   };
   if (!judged(nullptr)) return "nothing was judged: no [[metric]] has a bar";
-  // A variant without completed runs may serve for comparison, where it counts as the worst.
+  // In comparisons, a variant without completed runs counts as the worst one, so bars of other variants may
+  // pass.
   for (const Endings& one : endings) {
     if (one.completed == 0 && !judged(&one.variant))
       return fmt::format(

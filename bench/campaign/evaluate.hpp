@@ -1,4 +1,4 @@
-// Answers the questions of a campaign, with the verdict of its bars.
+// Evaluates all metrics of a campaign, and the verdict.
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@ struct Evaluation {
   std::string target{};  ///< see Identity
   std::vector<Endings> endings;
   std::vector<Answer> answers;
-  /// Why a campaign without failures still did not pass; empty: something failed, or everything was judged.
+  /// The reason why a campaign without failures did not pass; empty: it failed, or everything was judged.
   [[nodiscard]] std::string not_judged() const;
   [[nodiscard]] checks::Outcome outcome() const;
 };

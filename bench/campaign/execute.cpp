@@ -36,8 +36,8 @@ class Finishing {
     const std::scoped_lock lock(mutex_);
     if (--workers_ == 0) ended_.notify_one();
   }
-  /// Waits for a commit interval, or until the workers end, and returns the runs that have finished; none: no
-  /// more will come.
+  /// Waits for a commit interval, or until the workers end, and returns the runs that have finished since.
+  /// None: the workers have ended and all runs were returned.
   std::optional<std::vector<Finished>> take() {
     std::unique_lock lock(mutex_);
     const bool ended = ended_.wait_for(lock, commit_interval, [&] { return workers_ == 0; });
@@ -57,7 +57,7 @@ class Finishing {
   std::optional<Error> error_;
 };
 
-/// Shared by the workers: read only, except for the index of the next task.
+/// Data shared by the workers: read-only, except for the index of the next task.
 struct Work {
   const Campaign& campaign;
   const std::string& target;                               ///< see Options
@@ -92,7 +92,8 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
   finishing.worker_ends();
 }
 
-/// All runs of the shard that are not stored yet, ordered by run, so that pairs are complete early.
+/// All runs of the shard that are not stored yet, ordered by run number, so that pairs of runs are complete
+/// early.
 std::vector<Key> open_tasks(const Campaign& campaign, const Shard& shard, std::vector<Key> stored) {
   std::ranges::sort(stored);
   std::vector<Key> tasks;
@@ -209,7 +210,7 @@ Result<Execution> execute(const Campaign& campaign, const Options& options, cons
   if (!written) return tl::unexpected(written.error());
   store->close();
   if (const auto error = finishing.error()) {
-    // Removes a results file without runs, because it would block the next attempt.
+    // Remove a results file without runs, because it would block the next attempt.
     std::error_code ignored;
     if (progress.stored + progress.done == 0) std::filesystem::remove(options.file, ignored);
     return tl::unexpected(*error);

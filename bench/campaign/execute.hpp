@@ -28,8 +28,8 @@ Result<Shard> shard_of_environment();
 
 /// Progress of a campaign.
 struct Progress {
-  std::size_t done = 0;    ///< in this call
-  std::size_t stored = 0;  ///< stored before this call
+  std::size_t done = 0;    ///< runs done in this call
+  std::size_t stored = 0;  ///< runs stored before this call
   std::size_t total = 0;
 };
 
@@ -40,7 +40,7 @@ struct Options {
   bool resume = false;   ///< continue an existing file
   std::string
       target{};  ///< a program to fly against, over a bus in lockstep; empty: a Device in this process
-  /// Called with what was committed, then with where the campaign stands; from one thread.
+  /// Called with the committed runs and the progress, always from the same thread.
   std::function<void(std::span<const Finished>)> committed = [](std::span<const Finished>) {};
   std::function<void(const Progress&)> progress = [](const Progress&) {};
 };

@@ -18,7 +18,7 @@ struct Shards {
   std::map<Key, std::vector<std::size_t>> holders;  ///< for each run: indices in `stores`
 };
 
-/// Error: a file is given twice, possibly under different names. Then another one has probably been
+/// Error: a file is given twice, possibly under different names; another file has then probably been
 /// forgotten.
 Result<void> check_distinct(std::span<const std::filesystem::path> files) {
   std::error_code ignored;  // a missing file is reported when it is opened
@@ -88,7 +88,7 @@ Result<Finished> take(const Shards& shards, const Key& key) {
   return Finished{.variant = key.variant, .series = std::move(*first)};
 }
 
-/// One transaction for each variant: the bytes of the file depend on it.
+/// Uses one transaction for each variant: the bytes of the file depend on this.
 Result<void> write(const std::filesystem::path& file, const Shards& shards, const Campaign& campaign) {
   const Identity& identity = shards.stores[0].identity();
   auto merged = Store::create(file, identity, shards.stores[0].sources());
@@ -106,7 +106,7 @@ Result<void> write(const std::filesystem::path& file, const Shards& shards, cons
   return {};
 }
 
-/// Error: the file holds something else than results of this campaign, and would be overwritten.
+/// Error: the file holds something other than results of this campaign and must not be overwritten.
 Result<void> check_replaceable(const std::filesystem::path& out, const Identity& identity) {
   if (!std::filesystem::exists(out)) return {};
   const auto old = Store::open(out);

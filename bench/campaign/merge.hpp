@@ -1,4 +1,4 @@
-// Merges shards into one file, whose bytes depend on the results alone.
+// Merges shards into one file whose bytes depend on the results alone.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace canhil::campaign {
 
-/// Writes all runs of the shards `files`, ordered by variant and run, to a new file that is then renamed to
-/// `out`. Error, one line, and `out` is unchanged: the shards differ in campaign, DBC or program, runs are
-/// missing or differ between shards, or `out` is something else than results of this campaign.
+/// Writes all runs of the shards `files`, ordered by variant and run, to a new file and renames it to `out`.
+/// Error: one line, and `out` is unchanged: the shards differ in campaign, DBC or program; runs are missing
+/// or differ between shards; or `out` holds something other than results of this campaign.
 Result<void> merge(const std::filesystem::path& out, std::span<const std::filesystem::path> files);
 
 }  // namespace canhil::campaign

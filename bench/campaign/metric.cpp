@@ -16,13 +16,13 @@ namespace {
 using scenario::Limits;
 using scenario::Section;
 
-/// Facts about the campaign for the readers of all kinds.
+/// Facts about the campaign that the readers of all kinds need.
 struct Context {
   const std::vector<std::string>& variants;
   std::int64_t duration_us;
 };
 
-/// Whether campaigns store a quantity; some exist in single runs only.
+/// Whether campaigns store a quantity; some quantities exist in single runs only.
 bool is_sampled(const Quantity& quantity) {
   if (mapping::find_reference_quantity(quantity.name) != nullptr) return true;
   return std::ranges::any_of(estimators::all(), [&](const estimators::Estimator* one) {
@@ -43,7 +43,7 @@ std::span<const Quantity* const> every_quantity() {
   return all;
 }
 
-/// The quantity that `quantity` names: one that campaigns store and that is wanted here.
+/// Reads the key `quantity`: a quantity that campaigns store and that `Wanted` accepts.
 template <class Wanted>
 const Quantity* read_quantity(Section& section, Wanted&& wanted) {
   return checks::read_quantity(section, every_quantity(), [&](const Quantity& one) -> std::string {
@@ -209,7 +209,7 @@ Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
       {checks::key_of("beyond", rule.quantity->unit), "An error beyond this is a divergence.", "beyond_UNIT"},
       Limits::above(0));
   rule.from_us = section.optional_time_us({"from_s", "From this time on, in place of the end of the run."},
-                                          Limits{});  // for samples by time to go, minus the time to go
+                                          Limits{});  // samples by time to go have negative times
   rule.at_most = section.optional_integer({"at_most", "Bar: at most."}, 0);
   rule.at_least = section.optional_integer({"at_least", "Bar: at least."}, 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);

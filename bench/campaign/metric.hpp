@@ -1,5 +1,5 @@
-// [[metric]]: the questions of a campaign, and the bars that turn answers into a verdict. A new kind is a
-// struct here, its reader in metric.cpp, and its answer in answer.cpp.
+// [[metric]]: what a campaign evaluates, and the bars that turn the answers into a verdict. A new kind is a
+// struct here, its reader in metric.cpp, and its evaluation in answer.cpp.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class Section;
 
 namespace canhil::campaign {
 
-/// RMS over runs against time: for reports, without a bar.
+/// RMS over runs against time: for reports only, without a bar.
 struct RmsCurve {
   static constexpr std::string_view kind = "rms_curve";
   static constexpr std::string_view meaning = "RMS over runs against time. It has no bars.";
@@ -32,8 +32,8 @@ struct TimeWithin {
       "The first update from which the RMS stays within the bound to the end, or never.";
   const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;                            ///< [SI]
-  std::optional<std::int64_t> at_most_us;       ///< 'never' fails
-  std::optional<std::int64_t> never_before_us;  ///< 'never' passes
+  std::optional<std::int64_t> at_most_us;       ///< a time that is never reached fails
+  std::optional<std::int64_t> never_before_us;  ///< a time that is never reached passes
 };
 
 /// How much earlier than `other` the RMS of a variant stays within a limit.
@@ -64,7 +64,7 @@ struct Distribution {
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   quantities::Unit unit;        ///< mrad or deg for angles
-  std::optional<double> below;  ///< reports the fraction of runs below it [SI]
+  std::optional<double> below;  ///< limit for the reported fraction of runs below it [SI]
   std::int64_t batch = 100;     ///< number of runs for the bootstrap range of the RMS
   std::optional<double> rms_at_most, rms_at_least, median_at_most, median_at_least, p90_at_most;  ///< [SI]
   std::optional<double> fraction_at_least, fraction_at_most;
@@ -87,12 +87,12 @@ struct RunMean {
       "Mean of the absolute value over a window of each run; mean and standard deviation of it over runs.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
-  std::optional<double> at_most, at_least;              ///< of the mean over runs [SI]
+  std::optional<double> at_most, at_least;              ///< limits of the mean over runs [SI]
   std::string other;                                    ///< empty: no comparison
-  std::optional<double> ratio_at_most, ratio_at_least;  ///< of the mean to that of `other`
+  std::optional<double> ratio_at_most, ratio_at_least;  ///< limits of the mean divided by the mean of `other`
 };
 
-/// RMS and mean over runs in a window of the time to go, and their ratio to another variant's.
+/// RMS and mean over runs in a window of the time to go, and the ratio of the RMS to another variant's.
 struct ToGo {
   static constexpr std::string_view kind = "to_go";
   static constexpr std::string_view meaning = "RMS and mean over runs and a window of the time to go.";
@@ -101,10 +101,10 @@ struct ToGo {
   std::string other;                   ///< may be empty
   std::optional<double> rms_at_most;   ///< [SI]
   std::optional<std::pair<double, double>> mean_between;
-  std::optional<double> ratio_at_most, ratio_at_least;  ///< of the RMS to that of `other`
+  std::optional<double> ratio_at_most, ratio_at_least;  ///< limits of the RMS divided by the RMS of `other`
 };
 
-/// RMS over runs at their ends, divided by that of `other`.
+/// RMS over runs at their ends, divided by the RMS of `other`.
 struct RmsRatio {
   static constexpr std::string_view kind = "rms_ratio";
   static constexpr std::string_view meaning = "RMS over runs at their ends over that of `other`.";
@@ -123,7 +123,7 @@ struct Paired {
   std::string other;
   std::int64_t at_us = 0;
   double confidence = 0.95;
-  std::optional<double> at_least, at_most;  ///< of the fraction
+  std::optional<double> at_least, at_most;  ///< limits of the fraction
 };
 
 /// Mean NEES or NIS with chi-square bounds.
@@ -148,7 +148,7 @@ struct Diverged {
   const Quantity* quantity = &quantities::attitude_heading;
   double beyond = 0;                              ///< [SI]
   std::optional<std::int64_t> from_us;            ///< none: at the end
-  std::optional<std::int64_t> at_most, at_least;  ///< runs
+  std::optional<std::int64_t> at_most, at_least;  ///< limits of the number of runs
 };
 
 struct Metric {
@@ -165,7 +165,7 @@ const Quantity& quantity_of(const Metric& metric);
 /// The variant that a metric compares with, as named in the file; empty: none.
 std::string other_of(const Metric& metric);
 
-/// A kind of metric, and what it asks for.
+/// A kind of metric and its requirements.
 struct MetricKind {
   std::string_view name, meaning;
 };

@@ -40,7 +40,7 @@ ordered_json json_of(const Answer& answer) {
     json["expected"] = answer.expected;
     json["outcome"] = *answer.passed ? "pass" : "fail";
   }
-  // JSON writes numbers that are not finite as null.
+  // JSON has no infinity or NaN: the library writes null.
   for (const auto& [figure, value] : answer.figures) json[figure] = value.value_or(std::nan(""));
   if (answer.curve.empty()) return json;
   const quantities::Unit unit = answer.quantity->unit;

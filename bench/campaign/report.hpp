@@ -7,10 +7,10 @@
 
 namespace canhil::campaign {
 
-/// A page of text: how runs ended, then every answer with its bar.
+/// A text report: how runs ended, then every answer with its bar.
 std::string text(const Campaign& campaign, const Evaluation& evaluation);
 
-/// One JSON object, with the curves. Unit in every key.
+/// One JSON object with the curves; every key states its unit.
 std::string json(const Campaign& campaign, const Evaluation& evaluation);
 
 }  // namespace canhil::campaign

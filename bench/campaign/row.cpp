@@ -66,7 +66,7 @@ void bind_row(SQLite::Statement& statement, std::uint64_t runs, const Finished& 
   SQLite::bind(statement, id, static_cast<std::int64_t>(key.variant), static_cast<std::int64_t>(key.run),
                static_cast<std::int64_t>(series.ending.kind), series.ending.t_us, series.ending.detail,
                columns);
-  // A null pointer would bind NULL.
+  // A null pointer would be stored as NULL, not as an empty blob.
   const void* bytes = samples.empty() ? "" : static_cast<const void*>(samples.data());
   statement.bind(8, bytes, static_cast<int>(samples.size()));
   statement.bind(9, hash_of(id, key, series.ending, columns, samples));

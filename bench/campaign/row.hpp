@@ -25,7 +25,7 @@ struct Finished {
   std::size_t variant = 0;
   RunSeries series;
 };
-/// The id of a run's row, if each variant has `runs` runs; it does not depend on the shard that flew the run.
+/// The id of a run's row if each variant has `runs` runs. It does not depend on the shard that flew the run.
 std::int64_t row_id(const Key& key, std::uint64_t runs);
 
 /// FNV-1a over a sequence of values, each with its length.
@@ -33,7 +33,7 @@ class Digest {
  public:
   Digest& add(std::int64_t value);
   Digest& add(std::string_view text);
-  /// In SQLite's integer type.
+  /// The digest in SQLite's integer type.
   [[nodiscard]] std::int64_t value() const;
 
  private:

@@ -22,8 +22,8 @@ struct RunSeries {
   quantities::Freshness freshness{};
 };
 
-/// The series of a finished run. `truth`: of its variant, `estimator`: of its scenario. Without a truth there
-/// are no samples.
+/// The series of a finished run. `truth` belongs to its variant, `estimator` to its scenario. Without a truth
+/// there are no samples.
 RunSeries series_of(std::uint64_t run_index, const drive::Collected& finished,
                     const world::FlightRecord& truth, const estimators::Estimator& estimator);
 

@@ -16,10 +16,10 @@ namespace canhil::campaign {
 /// All runs at one update time.
 struct CurvePoint {
   std::int64_t t_us = 0;
-  double rms = 0;  ///< of the finite values [SI]; NaN if there is none
+  double rms = 0;  ///< RMS of the finite values [SI]; NaN: no finite value
   double rms_error = std::numeric_limits<double>::quiet_NaN();  ///< its standard error; NaN: too few runs
-  std::size_t runs = 0;                                         ///< finite values
-  std::size_t missing = 0;                                      ///< runs without one
+  std::size_t runs = 0;                                         ///< number of finite values
+  std::size_t missing = 0;                                      ///< runs without a finite value
 };
 
 /// Root mean square of a quantity over the runs, at every update time of any run, ascending. Each run
@@ -36,7 +36,7 @@ std::optional<double> time_within(std::span<const CurvePoint> curve, double thre
 /// The distribution of a magnitude over the runs at a time. Each run contributes its last update at or before
 /// it; a run that had ended by then, or has no finite value, is missing.
 struct RunDistribution {
-  double rms = 0, mean = 0;          ///< of the finite values [SI]
+  double rms = 0, mean = 0;          ///< over the finite values [SI]
   double median = 0;                 ///< for an even number: the mean of the middle two
   double p90 = 0;                    ///< by nearest rank
   double below = 0;                  ///< fraction of all runs below a bound

@@ -18,7 +18,7 @@ constexpr int format = 6;
 constexpr int any_format = 0x43484300;  // "CHC": canhil campaign
 constexpr int application_id = any_format + '0' + format;
 
-// identity.hash covers its row and all sources.
+// identity.hash is a checksum over the row of `identity` and all sources.
 std::string schema() {
   return fmt::format(
       "create table identity (campaign_hash text, dbc_hash text, program text, target text, runs integer, "
@@ -33,7 +33,7 @@ std::string with_hash(std::string_view name, const std::string& program) {
   return fmt::format("{}+{}", name, file ? file->sha256.substr(0, 16) : "unknown");
 }
 
-// The target's command with each file in it as name and hash: independent of the file's folder.
+// The target's command, with every file in it replaced by its name and hash: independent of folders.
 std::string with_hashes(const std::string& target) {
   std::string text;
   const auto words = drive::target_words(target);
@@ -62,7 +62,7 @@ std::int64_t hash_of(const Identity& identity, const Sources& sources) {
   return digest.value();
 }
 
-// The sources as they are stored: without the campaign's folder.
+// The sources as stored: file names without the campaign's folder.
 Sources kept_of(const Sources& sources) {
   Sources kept = sources;
   kept.file = std::filesystem::path(sources.file).filename().string();

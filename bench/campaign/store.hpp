@@ -28,10 +28,10 @@ struct Identity {
   std::uint64_t runs = 0;
   friend bool operator==(const Identity&, const Identity&) = default;
 };
-/// The identity of results that this program would make for a campaign. `target`: see Options.
+/// The identity of results that this program would compute for a campaign. `target`: see Options.
 Identity identity_of(const Campaign& campaign, const std::string& target = {});
 
-/// One line about how the identity of a store differs from the expected one; empty: it does not.
+/// One line that states how the identity of a store differs from the expected one; empty: both are equal.
 std::string difference(const Identity& found, const Identity& expected);
 
 class Store {
@@ -39,15 +39,17 @@ class Store {
   /// Creates a file. Error: it exists or cannot be written.
   static Result<Store> create(const std::filesystem::path& path, const Identity& identity,
                               const Sources& sources);
-  /// Opens a file to add runs, or creates it. Error: of another campaign, in use, or not writable.
+  /// Opens a file to add runs, or creates it. Error: it belongs to another campaign, is in use, or is not
+  /// writable.
   static Result<Store> resume(const std::filesystem::path& path, const Identity& identity,
                               const Sources& sources);
-  /// Opens a file for reading only. Error: not readable, or damaged.
+  /// Opens a file for reading only. Error: it is not readable, or damaged.
   static Result<Store> open(const std::filesystem::path& path);
 
   [[nodiscard]] const Identity& identity() const { return identity_; }
   [[nodiscard]] const Sources& sources() const { return sources_; }
-  /// The stored runs, ascending. Error, also of load(): a row was changed since it was written.
+  /// The keys of the stored runs, ascending. keys() and load() fail if a row was changed since it was
+  /// written.
   [[nodiscard]] Result<std::vector<Key>> keys() const;
   /// All series of a variant, in order of runs.
   [[nodiscard]] Result<std::vector<RunSeries>> load(std::size_t variant) const;

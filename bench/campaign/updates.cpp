@@ -13,7 +13,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// The latest time at which a run can have answered.
+// The latest time at which a run can contain an answer.
 std::int64_t end_of(const RunSeries& run) {
   if (run.samples.empty()) return run.freshness.end_us;
   const std::size_t last = run.samples.size() - 1;
@@ -105,7 +105,7 @@ bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us
   }
   const auto not_asked = [&] { return std::isnan(run.samples.value(index, quantity)); };
   if (!quantity.nan_allowed || !not_asked()) return false;
-  // A filter that only coasts does not report updates.
+  // A filter that coasts does not report updates.
   if (run.samples.layout().answers_untold) return true;
   while (index > 0 && t_us - times[--index] <= run.freshness.age_limit_us) {
     if (!not_asked()) return true;

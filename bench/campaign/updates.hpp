@@ -18,14 +18,14 @@ std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int
 
 /// The quantity in a run's update at exactly that time; NaN: no update, or no finite value.
 double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
-/// Whether a run has no value of the quantity at that time and none was due. Either it has no update there
-/// (it was lost) while its last update, or the beginning of the window if that is later, is not stale; or the
-/// update does not need the quantity: an unused fix has no NIS.
+/// Whether a run correctly has no value of the quantity at that time. Either it has no update there (it was
+/// lost), and its last update or, if later, the beginning of the window is not yet stale; or the update does
+/// not need the quantity: an unused fix has no NIS.
 bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us);
-/// The quantity in a run's last update at or before a time; NaN: none, stale, not finite, or the run had
+/// The quantity in a run's last update at or before a time. NaN: no update, stale, not finite, or the run had
 /// ended.
 double last_value(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
-/// Its magnitude.
+/// The magnitude of last_value().
 double last_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
 
 /// Whether a run has answers in every stretch of a window.

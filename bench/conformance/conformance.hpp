@@ -1,4 +1,4 @@
-// Tests whether a target keeps the protocol, with a program over its own embedded bus.
+// Tests whether a target program keeps the protocol, over an embedded bus of its own.
 #pragma once
 
 #include <atomic>
@@ -14,22 +14,22 @@
 
 namespace canhil::conformance {
 
-/// A rule and its violation; empty: none.
+/// A rule and how it was violated; empty: not violated.
 struct Finding {
   Rule rule;
   std::string wrong;
 };
 
-/// Tests the rules one after another with a program started for this. `scenario`: selects the estimator.
-/// Error: the program does not start.
+/// Starts the target and tests the rules one after another. `scenario` selects the estimator. Error: the
+/// target does not start.
 Result<std::vector<Finding>> ask(
     const std::vector<Rule>& rules, const scenario::Scenario& scenario, const std::string& target,
     std::span<const Parameter> parameters, const std::optional<std::pair<std::string, double>>& apply,
     const std::atomic<bool>& stop, const std::function<void(const Rule&)>& progress = [](const Rule&) {});
 
-/// The scenario, with its algorithm and without parameters, for the estimator that the target is tested as:
-/// the one in its heartbeat, otherwise the first of the candidates that it accepts. Error: it does not start,
-/// or accepts none.
+/// The scenario for testing the target, with an accepted algorithm and without parameters: for the estimator
+/// in the target's heartbeat, otherwise for the first accepted one of the candidates. Error: the target does
+/// not start, or accepts none.
 Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& candidates,
                                       const std::string& target);
 

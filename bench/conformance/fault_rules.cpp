@@ -9,19 +9,19 @@ namespace {
 
 using namespace messages;
 
-constexpr double most_counted = 8191;  // TargetCounters saturate here
+constexpr double most_counted = 8191;  // TargetCounters saturate at this value
 
 /// The frames sent in place of the k-th of n messages of the sample.
 using Spoil = void (*)(const Frame& frame, std::size_t k, std::size_t n, std::vector<Frame>& instead);
 
 struct Seen {
-  int answers = 0;  ///< to the damaged sample
+  int answers = 0;  ///< number of answers to the damaged sample
   std::size_t messages = 0;
-  TargetCounters counted;  ///< because of the fault
+  TargetCounters counted;  ///< increase of the counters caused by the fault
   TargetHeartbeat beat;
 };
 
-// Flies with one sample damaged in mid-flight, one that is answered without the fault.
+// Flies with one damaged sample in mid-flight: a sample that the target answers in the undisturbed flight.
 Result<Seen> flown_with(Subject& subject, Spoil spoil) {
   const auto known = undisturbed(subject);
   if (!known) return tl::unexpected(known.error());
@@ -63,8 +63,8 @@ std::string unless(bool right, const Seen& seen, const char* expected) {
       described(seen.beat), expected);
 }
 
-// The last message, because a receiver may consider a group complete when its last message arrives: without
-// it the sample is incomplete for every implementation.
+// Damages the last message: a receiver may consider a group complete when its last message arrives, so only
+// without this message the sample is incomplete for every implementation.
 std::string drops_a_wrong_crc(Subject& subject) {
   const auto seen = flown_with(subject, [](const Frame& frame, std::size_t k, std::size_t n, auto& instead) {
     instead.push_back(frame);

@@ -97,7 +97,7 @@ std::string sends_whole_groups(Subject& subject) {
 
 enum class Cause { time, time_and_counter };
 
-// In the last flight.
+// Checks the causes of all answers in the last flight.
 std::string causes(const Talk& talk, Cause asked) {
   const auto samples = groups_in(talk.flown());
   std::set<std::tuple<std::string_view, double, double>> answered;
@@ -148,7 +148,7 @@ std::string repeats_bit_for_bit(Subject& subject) {
   return "";
 }
 
-// Times other than Sync's are 32 bits of microseconds and wrap after 71.6 minutes.
+// All times except the time in Sync have 32 bits of microseconds and wrap after 71.6 minutes.
 std::string bears_the_wrap_of_time(Subject& subject) {
   const auto flown = undisturbed(subject);
   if (!flown) return flown.error().message;

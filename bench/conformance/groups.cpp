@@ -19,7 +19,8 @@ bool closes_step(const Frame& frame) {
   return frame.id == messages::Sync::info.id || frame.id == messages::StepDone::info.id;
 }
 
-// Adds to a signal's raw value, modulo its range. The time signals of canhil's DBC are little-endian.
+// Adds to a signal's raw value, modulo its range. Assumes little-endian signals, as all time signals of
+// canhil's DBC are.
 void add_raw(Frame& frame, const SignalInfo& signal, std::int64_t steps) {
   const auto old = wire::load_le<0, 8>(frame.data.data());
   const std::uint64_t field = wire::mask(signal.length) << signal.start_bit;

@@ -16,7 +16,7 @@ struct Group {
   std::string_view name;
   std::uint8_t counter = 0;  ///< E2E counter of its last frame
   std::vector<Frame> frames;
-  std::size_t step = 0;  ///< the number of frames that close a step (Sync or StepDone) before its last frame
+  std::size_t step = 0;  ///< number of steps closed (Sync or StepDone) before its last frame
 
   /// A signal of any of its messages; none: the group has no such signal.
   [[nodiscard]] std::optional<double> value(std::string_view signal) const;
@@ -25,8 +25,9 @@ struct Group {
 /// The messages of a group, ordered by id: the order of transmission.
 std::vector<std::uint32_t> ids_of(std::string_view group);
 
-/// The groups in a sequence of frames, in the order of their ends: a group ends with its message of the
-/// highest id or, if that is missing, when one of its messages repeats. Frames without a group are left out.
+/// Splits a sequence of frames into groups, in the order in which the groups end. A group ends with its
+/// message of the highest id or, if that is missing, when one of its messages repeats. Frames without a group
+/// are ignored.
 std::vector<Group> groups_in(std::span<const Frame> frames);
 
 /// Whether a group carries answers.

@@ -1,4 +1,4 @@
-// States and commands.
+// Rules about states and commands.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using namespace messages;
 // Must be the first rule: no command has been sent yet.
 std::string beats(Subject& subject) {
   constexpr std::int64_t period_ns = TargetHeartbeat::info.cycle_time_us * 1000;
-  constexpr int attempts = 3;  // the host may be busy with something else
+  constexpr int attempts = 3;  // a busy host may delay the heartbeat
   std::string wrong;
   for (int i = 0; i < attempts; ++i) {
     const auto beats = subject.talk.hear_all<TargetHeartbeat>(12 * period_ns);
@@ -49,7 +49,7 @@ std::string refuses_another_contract(Subject& subject) {
 
 std::string refuses_another_estimator(Subject& subject) {
   TargetCommand reset = subject.talk.command(Command::reset);
-  reset.estimator = Estimator{0b111};  // the largest value of the signal: not in the DBC
+  reset.estimator = Estimator{0b111};  // the largest value of the signal, which is no estimator
   subject.talk.send(reset);
   const auto beat =
       subject.talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_command != 0; });
@@ -90,7 +90,7 @@ std::string takes_its_state_whole(Subject& subject) {
 
 std::string hears_a_repeated_command(Subject& subject) {
   if (auto wrong = made_to_run(subject); !wrong.empty()) return wrong;
-  // A bench that restarts may use the same counter again.
+  // A bench that restarts may use the same command counter again.
   subject.talk.repeat(subject.talk.command(Command::stop));
   return subject.talk.waits_for(TargetState::idle)
              ? ""
@@ -134,7 +134,7 @@ std::string takes_no_state_while_it_runs(Subject& subject) {
              : "an initial state in flight: " + described(beat);
 }
 
-// Errors and counts.
+// A reset must clear errors and counts.
 std::string forgets(Subject& subject) {
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
   subject.talk.tell_damaged(10);

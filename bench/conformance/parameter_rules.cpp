@@ -1,4 +1,4 @@
-// Parameters: ranges, read-back, and when they may be set.
+// Rules about parameters: ranges, read-back, and when they may be set.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,20 +13,20 @@ namespace {
 using namespace messages;
 
 constexpr double far_out = 3e38;                                      // near the largest float
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();  // outside every range
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();  // NaN is outside every range
 
 messages::Parameter named(const Parameter& parameter) {
   return from_name<messages::Parameter>(parameter.name).value_or(messages::Parameter{});
 }
 
-// The value in force of a parameter; none: the target does not have it.
+// The current value of a parameter; none: the target does not have the parameter.
 std::optional<double> in_force(Talk& talk, messages::Parameter parameter) {
   const auto ack = talk.set(parameter, nothing);
   if (!ack || ack->status == ParameterStatus::unknown) return std::nullopt;
   return static_cast<double>(ack->value);
 }
 
-// A value nearby that differs also as a float.
+// A nearby value that is different also after rounding to float.
 double beside(double value) { return value == 0 ? 1 : value * 1.25; }
 
 std::string read_back(Talk& talk, messages::Parameter parameter) {
@@ -151,7 +151,7 @@ std::string parameters_hold_in_flight(Subject& subject) {
   return "";
 }
 
-// The same flight twice, once with a parameter changed in flight.
+// Flies the same flight twice, the second time with a parameter changed in flight.
 std::string parameters_take_effect_in_flight(Subject& subject) {
   std::vector<Frame> without;
   const auto parameter = from_name<messages::Parameter>(subject.apply->first);

@@ -12,7 +12,7 @@
 
 namespace canhil::conformance {
 
-/// A parameter in its form on the bus, before the start.
+/// A parameter with its range on the bus before the start.
 struct Parameter {
   std::string name;
   double least = 0, most = 0;
@@ -31,9 +31,9 @@ struct Undisturbed {
 /// The target under test, with its known properties.
 struct Subject {
   Talk& talk;
-  std::span<const Parameter> parameters{};                ///< all that it has; empty: unknown
+  std::span<const Parameter> parameters{};                ///< all parameters of the target; empty: unknown
   std::optional<std::pair<std::string, double>> apply{};  ///< a parameter that takes effect in flight
-  std::optional<Undisturbed> undisturbed{};               ///< once it has been flown
+  std::optional<Undisturbed> undisturbed{};               ///< none: not flown yet
 };
 
 enum class Needs : std::uint8_t { nothing, parameters, apply };
@@ -58,9 +58,9 @@ inline constexpr std::int64_t flight_us = 1'000'000, some_flight_us = 500'000;
 
 /// Sends a reset, the initial state and a start; returns the violation.
 std::string made_to_run(Subject& subject);
-/// The same, then flies for some_flight_us and expects answers.
+/// Calls made_to_run(), flies for some_flight_us and expects answers.
 std::string flies(Subject& subject);
-/// "state idle, none kalman, errors: none", for people.
+/// Formats a heartbeat for people: "state idle, none kalman, errors: none".
 std::string described(const std::optional<messages::TargetHeartbeat>& beat);
 
 /// The flight without faults, flown at the first call. Error: it cannot be flown.

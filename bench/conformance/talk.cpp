@@ -23,7 +23,7 @@ Result<std::unique_ptr<Talk>> Talk::open(const scenario::Scenario& scenario, con
   if (!started) return tl::unexpected(started.error());
   auto talk = std::make_unique<Talk>(scenario, std::move(*truth), std::move(*flight), std::move(*buses),
                                      std::move(*started));
-  constexpr int attempts = 3;  // it may still be starting
+  constexpr int attempts = 3;  // the target may still be starting
   for (int i = 0; i < attempts; ++i) {
     if (talk->hear<TargetHeartbeat>([](const auto&) { return true; })) return talk;
     if (const auto why = talk->target_.ended())

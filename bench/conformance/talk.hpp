@@ -1,4 +1,4 @@
-// A dialogue with a target of its own on its own bus, command by command.
+// A dialogue, command by command, with a target that is alone on its bus.
 #pragma once
 
 #include <fmt/format.h>
@@ -44,17 +44,18 @@ class Talk {
     const Frame frame = to_frame(message, last_counter_);
     static_cast<void>(link_.send(frame, patience_ns));
   }
-  /// Sends the scenario's initial state: those of its frames for which `sent` holds.
+  /// Sends those frames of the scenario's initial state for which `sent` holds.
   void tell_state(const std::function<bool(const Frame&)>& sent = [](const Frame&) { return true; });
   /// Sends parameter frames with a wrong CRC.
   void tell_damaged(int frames);
-  /// From now on shifts every time that is sent (time base or time of validity).
+  /// Shifts every time sent from now on (time base or time of validity).
   void shift_time(std::int64_t shift_us) { shift_us_ = shift_us; }
   /// Sends the time base before a flight, so that the target resolves a 32-bit time of validity to the
   /// nearest time.
   void tell_time();
 
-  /// Waits for a message that satisfies a condition, after the last transmission; none: it did not come.
+  /// Waits for a message that arrives after the last transmission and satisfies a condition; none: it did not
+  /// arrive.
   template <class Message, class Condition>
   std::optional<Message> hear(Condition condition) {
     const std::int64_t deadline_ns = link_.now_ns() + answer_ns;
@@ -94,20 +95,20 @@ class Talk {
   std::string make_ready();  ///< a reset, then the initial state
   std::string start();
 
-  /// The frames sent in place of a frame: none, the same, another one, several.
+  /// Replaces a frame by the frames to be sent: none, the same, another one, or several.
   using Tamper = std::function<void(const Frame& frame, std::vector<Frame>& instead)>;
 
   /// Continues the flight for a time, in lockstep; returns the number of answers to samples. A step that the
   /// target does not close ends the flight.
   int fly(std::int64_t duration_us, const Tamper& tamper = {});
-  /// The last flight: the frames as the nodes made them; the target's frames up to the last StepDone, because
-  /// nobody waits for more; whether each step was closed.
+  /// The last flight: the frames as made by the nodes; the target's frames up to the last StepDone (later
+  /// ones are not awaited); whether each step was closed.
   [[nodiscard]] const std::vector<Frame>& flown() const { return flown_; }
   [[nodiscard]] std::vector<Frame> heard() const;
   [[nodiscard]] bool closed() const { return closed_; }
   /// The answers of the last flight.
   [[nodiscard]] std::vector<Frame> answers() const;
-  /// The first and the last message of a type during the flight.
+  /// The first and the last received message of a type during the flight.
   template <class Message>
   std::optional<Message> first_received() const {
     for (const Received& received : listener_.frames) {

@@ -13,11 +13,12 @@
 namespace canhil::doctor {
 namespace {
 
-constexpr std::uint32_t least_bitrate = 500'000;  // transfer alignment alone loads less than half of it
-// The kernel's default is 75 % above 800 kbit/s and 87.5 % at 500 kbit/s and below, as CiA recommends.
+constexpr std::uint32_t least_bitrate = 500'000;  // transfer alignment alone loads it by less than half
+// Range of sample points without a warning. The kernel's default, as recommended by CiA, is 75 % above 800
+// kbit/s and 87.5 % at 500 kbit/s and below.
 constexpr std::uint32_t earliest_sample_permille = 750, latest_sample_permille = 900;
-// The queue must hold the largest group of the DBC; but a frame at the end of a long queue waits for all
-// before it.
+// Lengths of the queue without a warning. It must hold the largest group of the DBC, but a frame at the end
+// of a long queue waits for all frames before it.
 constexpr std::uint32_t shortest_queue = 10, longest_queue = 1000;
 
 Line state_line(const std::string& name, const Controller& controller) {
@@ -117,7 +118,7 @@ Line stamps_line(const Interface& interface) {
   const auto has = [&](std::uint32_t flags) { return (interface.stamping.value_or(0) & flags) == flags; };
   if (has(SOF_TIMESTAMPING_RX_HARDWARE | SOF_TIMESTAMPING_RAW_HARDWARE))
     return {Grade::good, "time stamps", "by the controller, and by the kernel"};
-  // The kernel stamps every frame that a driver delivers, whether the driver reports it or not.
+  // The kernel stamps every frame that a driver delivers, even if the driver does not report stamping.
   if (!interface.controller) return {Grade::good, "time stamps", "by the kernel; there is no controller"};
   const bool usb = interface.driver.find("usb") != std::string::npos;
   if (!usb) return {Grade::good, "time stamps", "by the kernel, when the driver hands a frame over"};

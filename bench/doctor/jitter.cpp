@@ -10,7 +10,7 @@
 namespace canhil::doctor {
 namespace {
 
-constexpr double good_p99_s = 100e-6, good_max_s = 1e-3;  // a tenth of a period; and never a whole period
+constexpr double good_p99_s = 100e-6, good_max_s = 1e-3;  // p99: a tenth of a period; maximum: one period
 constexpr double weak_p99_s = 1e-3;
 
 }  // namespace
@@ -27,7 +27,7 @@ std::vector<double> measure_jitter(std::int64_t duration_ns, const std::function
       continue;  // interrupted by a signal
     const std::int64_t late_ns = clock_ns(CLOCK_MONOTONIC) - due_ns;
     late_s.push_back(static_cast<double>(late_ns) * 1e-9);
-    // Periods missed meanwhile are skipped; otherwise one delay would count several times.
+    // Skip periods missed meanwhile; otherwise one delay would count several times.
     due_ns += jitter_period_ns * (1 + late_ns / jitter_period_ns);
   }
   return late_s;

@@ -17,12 +17,12 @@ constexpr std::string_view name(Grade grade) {
   return names.at(static_cast<std::size_t>(grade));
 }
 
-/// One subject.
+/// The finding on one subject.
 struct Line {
   Grade grade = Grade::good;
   std::string subject;
   std::string found;
-  std::string remedy{};  ///< empty when good
+  std::string remedy{};  ///< empty if the grade is good
 };
 
 /// The worst grade of the lines.

@@ -1,4 +1,4 @@
-// Which nodes are on the bus.
+// Detects the nodes on the bus.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Measures frames from one interface to another and back.
+// Measures the round trip of frames from one interface to another and back.
 #pragma once
 
 #include <functional>
@@ -10,20 +10,20 @@
 
 namespace canhil::doctor {
 
-/// The results of the frames.
+/// Results of the measurement.
 struct LoopResult {
   int sent = 0;
-  int lost = 0;                               ///< without an answer in time
-  std::vector<double> round_trip_s;           ///< of those that came back
-  StampSource source = StampSource::process;  ///< of the stamps on the frames that came back
+  int lost = 0;                               ///< frames without an answer in time
+  std::vector<double> round_trip_s;           ///< of the answered frames
+  StampSource source = StampSource::process;  ///< source of the stamps on the answers
 };
 
-/// Sends eight-byte frames one after the other from `near` to `far`, which answers each: `frames` of them, or
-/// fewer if stop() is true or many in a row are lost. Their ids are the two lowest-priority ones that the DBC
-/// does not use.
+/// Sends eight-byte frames one after the other from `near` to `far`, which answers each of them: `frames`
+/// frames, or fewer if stop() returns true or many in a row are lost. Their ids are the two of lowest
+/// priority that the DBC does not use.
 LoopResult measure_loop(Port& near, Port& far, int frames, const std::function<bool()>& stop);
 
-/// The line for this result.
+/// The finding for this result.
 Line loop_line(const LoopResult& result, const std::string& near, const std::string& far);
 
 }  // namespace canhil::doctor

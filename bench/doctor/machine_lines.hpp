@@ -9,19 +9,19 @@
 
 namespace canhil::doctor {
 
-/// What the machine offers.
+/// Properties that affect real-time behaviour.
 struct Machine {
   std::string preemption;              ///< preemption model of the kernel
-  std::string refusal;                 ///< why --realtime is not possible here; empty: it is
-  std::vector<std::string> governors;  ///< of the CPUs
-  std::vector<int> cpus;               ///< available to this process
-  std::string isolated;                ///< list of the CPUs excluded from scheduling
+  std::string refusal;                 ///< why --realtime is not possible here; empty: it is possible
+  std::vector<std::string> governors;  ///< frequency governors of the CPUs
+  std::vector<int> cpus;               ///< CPUs available to this process
+  std::string isolated;                ///< list of the CPUs isolated from the scheduler
 };
 
 /// Lines for kernel, real-time rights, frequency and CPUs.
 std::vector<Line> machine_lines(const Machine& machine);
 
-/// The list from the kernel's command line.
+/// The list of isolated CPUs on the kernel's command line.
 std::string isolated_cpus();
 
 }  // namespace canhil::doctor

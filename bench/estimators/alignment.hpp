@@ -1,5 +1,5 @@
-// Shared by estimators of attitude and velocity: quantities derived from their samples, their tracks, and
-// results for people.
+// Building blocks shared by the estimators of attitude and velocity: derived quantities, tracks and result
+// lines.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ inline double heading_over_its_sigma(const quantities::Samples& samples, std::si
 inline constexpr std::array alignment_derived{
     quantities::Derived{.quantity = &quantities::heading_over_sigma, .of = heading_over_its_sigma}};
 
-/// The tracks that give_alignment() creates for each of them, innovations excepted.
+/// The quantities of the tracks that give_alignment() creates for every such estimator, innovations excepted.
 inline constexpr std::array<const quantities::Quantity*, 10> alignment_told{
     &quantities::attitude_heading,  &quantities::misalignment_north, &quantities::misalignment_east,
     &quantities::misalignment_down, &quantities::attitude_roll,      &quantities::attitude_pitch,
@@ -42,12 +42,12 @@ constexpr auto and_alignment_told(const std::array<const quantities::Quantity*, 
   return all;
 }
 
-/// The answers of one of them.
+/// The inputs of give_alignment(): the answers of one estimator and the properties of its tracks.
 struct Alignment {
-  const quantities::Unit& angle;                            ///< for people
+  const quantities::Unit& angle;                            ///< unit of angles in reports
   std::array<const quantities::Quantity*, 3> innovation{};  ///< north, east, down
   const Spool<NavigationAnswer>& navigation;
-  const Spool<NavigationError>& errors;  ///< of these
+  const Spool<NavigationError>& errors;  ///< errors of `navigation`
   Answering navigates;
   Answering filters;
 };

@@ -13,7 +13,8 @@
 
 namespace canhil::estimators {
 
-/// In the order of transmission: the last message carries the time of the cause.
+/// A group of answer messages, listed in the order of transmission: the last one carries the time of the
+/// cause.
 template <class... Messages>
 class AnswerGroup {
  public:
@@ -32,7 +33,7 @@ class AnswerGroup {
     (try_one(std::type_identity<Messages>{}), ...);
     return complete;
   }
-  /// The cause of a complete group.
+  /// A complete group with its cause.
   [[nodiscard]] Whole whole(std::int64_t now_us) const {
     using Last = std::tuple_element_t<sizeof...(Messages) - 1, std::tuple<Messages...>>;
     return {.messages = messages,
@@ -46,7 +47,7 @@ class AnswerGroup {
   }
 
  private:
-  // Carried by one of the messages, if at all.
+  // The counter of the cause, if one of the messages carries it.
   [[nodiscard]] std::optional<std::uint8_t> cause_counter() const {
     std::optional<std::uint8_t> counter;
     const auto look_at = [&](const auto& message) {
@@ -61,8 +62,8 @@ class AnswerGroup {
   SampleGroup<Messages...> group_;
 };
 
-/// Groups whose answers are kept together: each is an AnswerGroup with `add(cause_us, answers)`. For one run:
-/// `seen` must be the same in every call.
+/// Receives groups whose answers are kept together: each is an AnswerGroup with `add(cause_us, answers)`. An
+/// object serves one run: `seen` must be the same in every call.
 template <class Answers, class... Groups>
 class ReceptionOf : public Reception {
  public:

@@ -9,8 +9,8 @@ namespace canhil::estimators {
 /// The time between samples of a node [us].
 double period_us(const scenario::NodeSettings& node);
 
-/// The longest time between answers to fixes that does not count as silence [us]. Random losses of the
-/// scenario (loss_percent, invalid_percent) make nothing stale; its silences do.
+/// The longest time between answers to fixes that does not count as silence [us]. It allows for the random
+/// losses of the scenario (loss_percent, invalid_percent), but not for its silences.
 double longest_wait_of_fixes_us(const scenario::NodeSettings& aid);
 
 }  // namespace canhil::estimators

@@ -21,7 +21,8 @@ struct NavigationAnswer {
   bool coasting = false;
 };
 
-/// The message group that carries it; its signals have the same names for each such estimator.
+/// The message group that carries a NavigationAnswer; its signals have the same names for each such
+/// estimator.
 template <class Attitude, class VelocityNE, class VelocityD>
 struct NavigationGroup : AnswerGroup<Attitude, VelocityNE, VelocityD> {
   template <class Answers>
@@ -39,7 +40,7 @@ struct NavigationGroup : AnswerGroup<Attitude, VelocityNE, VelocityD> {
   }
 };
 
-/// The cause of the last answer; -1: there is none.
+/// The cause of the last answer; -1: no answer.
 inline std::int64_t last_cause_us(const Spool<NavigationAnswer>& navigation) {
   return navigation.empty() ? -1 : navigation.back().cause_us;
 }
@@ -52,13 +53,13 @@ struct NavigationError {
   world::Vector3 misalignment = world::Vector3::Zero();  ///< phi, NED: C_estimated = exp(-[phi x]) C_true
 };
 
-/// Errors of all navigation answers whose cause lies in the time of the truth.
+/// Errors of all navigation answers whose cause lies within the flight record.
 Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
                                          const world::FlightRecord& truth);
 
 /// The first navigation answer that includes a filter update. For a late fix this excludes the answers
 /// between its time of validity and its arrival: `navigation_us` is the cause of the last answer before the
-/// update. None: nullptr.
+/// update. Null: no such answer.
 const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
                                    std::int64_t navigation_us);
 
@@ -66,8 +67,9 @@ const NavigationError* first_after(const Spool<NavigationError>& errors, std::in
 /// Infinite if rounding made P not positive definite: such a P explains no error.
 double nees(const world::Vector3& error, const world::Vector3& sigma, const world::Vector3& correlation);
 
-/// (error / sigma)^2 of the heading (1 degree of freedom) after an update with cause_us, navigation_us and
-/// attitude_sigma, with the error from first_after(); added to `series` if there is such an error.
+/// Adds (error / sigma)^2 of the heading (1 degree of freedom) after an update to `series`, with the error
+/// from first_after(); adds nothing without such an error. The update has cause_us, navigation_us and
+/// attitude_sigma.
 template <class Update>
 void add_heading_nees(Spool<quantities::TrackPoint>& series, const Spool<NavigationError>& errors,
                       const Update& update) {

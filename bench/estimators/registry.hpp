@@ -14,19 +14,19 @@ namespace canhil::estimators {
 
 /// All estimators. If a scenario runs several, a campaign keeps the samples of the last in this order.
 std::span<const Estimator* const> all();
-/// The estimators that may run in a scenario: all, or the one that a mapping describes.
+/// The estimators that may run in a scenario: all, or, with a mapping, only the mapped target.
 std::span<const Estimator* const> in(const scenario::Scenario& scenario);
 /// Null if there is none.
 const Estimator* find(std::string_view name);
 /// The estimator whose samples have these columns (quantities::names); null if there is none.
 const Estimator* telling(std::string_view columns);
-/// The estimator that sends a message which closes a group of its answers; null: no estimator does.
+/// The estimator that sends a message which completes a group of its answers; null: no estimator does.
 const Estimator* sending(const MessageInfo& message);
 /// The estimator whose samples a campaign keeps for a scenario.
 const Estimator& of(const scenario::Scenario& scenario);
 /// Facts for scenarios by estimator name, for scenario::DbcVocabulary.
 std::map<std::string, scenario::EstimatorFacts, std::less<>> facts();
-/// Every quantity that any of them reports, each once, in the order of the registry.
+/// Every quantity that any estimator reports, each once, in the order of the registry.
 std::span<const quantities::Quantity* const> every_quantity();
 
 }  // namespace canhil::estimators

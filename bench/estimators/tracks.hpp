@@ -41,7 +41,7 @@ void each_axis(const std::array<const quantities::Quantity*, 3>& ned, Visit visi
   visit(*ned[2], std::string("down"), 2);
 }
 
-/// The same track, drawn only if a check has a bar for it.
+/// The same track, but drawn only if a check judges it.
 inline quantities::Track judged(quantities::Track track) {
   track.only_if_judged = true;
   return track;

@@ -9,9 +9,9 @@
 
 namespace canhil::fault_matrix {
 
-/// A minimal subset of the items that shows the property: without any one of its items it does not. `items`
-/// show it. Zeller and Hildebrandt, Simplifying and Isolating Failure-Inducing Input, IEEE TSE 28(2), 2002:
-/// ddmin.
+/// A minimal subset of the items that still shows the property: removing any single item loses it. All
+/// `items` together must show it. Algorithm ddmin of Zeller and Hildebrandt, Simplifying and Isolating
+/// Failure-Inducing Input, IEEE TSE 28(2), 2002.
 template <class Item>
 std::vector<Item> least_of(std::vector<Item> items,
                            const std::function<bool(const std::vector<Item>&)>& shows) {
@@ -43,8 +43,8 @@ std::vector<Item> least_of(std::vector<Item> items,
   return items;
 }
 
-/// A stretch within [from, to] that shows the property and cannot be shortened by a step at either end: by
-/// bisection, the end first, in whole steps. The whole stretch shows it.
+/// A stretch within [from, to] that shows the property and cannot be shortened by a step at either end.
+/// Bisects in whole steps, the end first. The whole stretch must show the property.
 inline std::pair<std::int64_t, std::int64_t> least_stretch(
     std::int64_t from, std::int64_t to, std::int64_t step,
     const std::function<bool(std::int64_t from, std::int64_t to)>& shows) {

@@ -15,7 +15,7 @@
 namespace canhil::fault_matrix {
 namespace {
 
-// The random numbers of one fault.
+// Draws the random numbers of one fault.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : engine_(seed) {}
@@ -44,18 +44,18 @@ class Draw {
 enum class Befalls : std::uint8_t {
   frames,  // all messages of a node
   value,   // one signal of its messages
-  pair,    // two of its quantities
+  pair,    // two quantities of the node
   node,
   bus
 };
 enum class Times : std::uint8_t { each, seldom, stretch, begins };
 
-// A further key of a kind, and the distribution of its value.
+// An additional key of a kind of fault, and the distribution of its value.
 enum class Size : std::uint8_t {
   none,
   within,    // anywhere in the signal's range
   range,     // a fraction of the signal's range, with log-uniform size and random sign
-  positive,  // the same, positive only
+  positive,  // a fraction of the signal's range, log-uniform, positive
   number,
   whole
 };
@@ -130,7 +130,7 @@ double drawn_size(const Kind& kind, const SignalInfo* signal, Draw& draw) {
   return 0;
 }
 
-// Any signal with more values than a flag; `changed` affects flags too.
+// Draws a signal. Flags are excluded, except for the kind `changed`.
 const SignalInfo* draw_signal(const Kind& kind, const MessageInfo& message, Draw& draw) {
   std::vector<const SignalInfo*> signals = observe::signals_of(message);
   if (kind.size != Size::within)
@@ -138,7 +138,7 @@ const SignalInfo* draw_signal(const Kind& kind, const MessageInfo& message, Draw
   return signals.empty() ? nullptr : draw.one_of(signals);
 }
 
-// False: the node does not measure two quantities of the same unit.
+// Draws two quantities of the same unit; false: the node has no such pair.
 bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   std::vector<std::pair<std::string, std::string>> pairs;
   for (const mapping::Stimulus& one : mapping::stimuli()) {
@@ -155,8 +155,8 @@ bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   return true;
 }
 
-// Within the flight, so that there is time before the fault for comparison and time after it to recover; long
-// enough to have an effect.
+// Draws the times of a fault within the flight: time before it for comparison, time after it for recovery,
+// and long enough to have an effect.
 void draw_times(FaultText& fault, Times times, double duration_s, double period_s, Draw& draw) {
   constexpr std::array often{1, 2, 5, 10}, seldom{5, 10, 20, 50};
   const double from_s = duration_s * draw.between(0.3, 0.6);

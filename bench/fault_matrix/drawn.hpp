@@ -10,24 +10,25 @@
 
 namespace canhil::fault_matrix {
 
-/// A row of the matrix without details: a kind of fault and the affected node; empty: the bus.
+/// A row of the matrix before its details are drawn: a kind of fault and the affected node; empty: the bus.
 struct Drawn {
   std::string_view kind, node{};
   bool operator==(const Drawn&) const = default;
 };
-/// Each kind that works in virtual time and needs no bit rate, for each of these nodes and for the bus.
+/// The rows for each of these nodes and for the bus: each kind that works in virtual time and without a bit
+/// rate.
 std::vector<Drawn> drawn_rows(const std::vector<std::string_view>& nodes);
 
 /// The fault of a cell, determined by seed, row, scenario and run alone. None: the scenario has no such node,
-/// or the node has nothing that the fault could affect.
+/// or the fault has nothing to affect in the node.
 std::optional<FaultText> drawn_fault(const Drawn& row, const Column& column, std::uint64_t seed,
                                      std::uint64_t run);
 
-/// Whether the scenario accepts such a fault: a sensor may lack a validity flag, for example. Tries one draw;
-/// this costs far more than the draw.
+/// Whether the scenario accepts such a fault: a sensor may lack a validity flag, for example. Draws one fault
+/// and reads the scenario with it, which takes far longer than the draw.
 bool fits(const Drawn& row, const Column& column, std::uint64_t seed);
 
-/// For a cell with several faults: the rows are drawn too; all of them fit.
+/// The faults of a cell with several faults: the rows are drawn too. All faults fit the scenario.
 std::vector<FaultText> drawn_faults(int count, const std::vector<Drawn>& rows, const Column& column,
                                     std::uint64_t seed, std::uint64_t run);
 

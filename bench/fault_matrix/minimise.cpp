@@ -25,7 +25,7 @@ std::string seconds(std::int64_t t_us) { return fmt::format("{:.3f}", static_cas
 
 Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, const Shows& shows) {
   Minimised least{.faults = faults};
-  // A flight that ended early is shortened to before its end, so that its checks are judged.
+  // A flight that ended early is shortened until it completes, because only completed flights are judged.
   const std::int64_t whole_us = flown_us / flight_step_us * flight_step_us;
   if (!shows(faults, 0)) {
     for (std::int64_t back_us = 0; back_us < 5 * flight_step_us && least.duration_us == 0;

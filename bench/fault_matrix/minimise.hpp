@@ -10,16 +10,16 @@
 
 namespace canhil::fault_matrix {
 
-/// Whether a flight with these faults and this duration (0: the file's) violates the check.
+/// Whether a flight with these faults and this duration (0: as in the scenario file) violates the check.
 using Shows = std::function<bool(const std::vector<FaultText>& faults, std::int64_t duration_us)>;
 
 struct Minimised {
   std::vector<FaultText> faults{};
-  std::int64_t duration_us = 0;  ///< 0: the file's
+  std::int64_t duration_us = 0;  ///< 0: as in the scenario file
 };
 
-/// First the fewest faults, then the shortest flight, then for each fault the shortest window and the fewest
-/// frames. `flown_us`: how far the violating flight went.
+/// Minimises first the number of faults, then the duration, then for each fault the window and the number of
+/// affected frames. `flown_us`: duration of the violating flight up to its end.
 Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, const Shows& shows);
 
 }  // namespace canhil::fault_matrix

@@ -40,7 +40,7 @@ void add_cells(Plan& plan, const FaultsOf& faults_of) {
   }
 }
 
-// Why some faults of a set do not fit a scenario; none: they fit.
+// The reason why some faults of a set do not fit a scenario; none: all fit.
 std::optional<Error> unfit(const Column& column, const std::string& set, const std::string& file,
                            const scenario::FaultPlaces& places) {
   scenario::Scenario scenario = column.scenario;

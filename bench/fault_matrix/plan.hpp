@@ -13,7 +13,7 @@
 
 namespace canhil::fault_matrix {
 
-/// A [[fault]] as text: its keys, each with its value in TOML.
+/// A [[fault]] as text: its keys, each with its TOML value.
 struct FaultText {
   std::vector<scenario::Setting> keys{};
 
@@ -35,8 +35,8 @@ Result<Column> read_column(const std::string& file);
 
 /// A fault that is flown in each scenario to which it applies.
 struct Row {
-  std::string fault;   ///< a kind, or its name in a set
-  std::string node{};  ///< the affected node; empty: the bus, or as the set defines
+  std::string fault;   ///< a kind of fault, or the name of a fault in a set
+  std::string node{};  ///< the affected node; empty: the bus, or as the set states
 
   [[nodiscard]] std::string name() const { return node.empty() ? fault : fault + " " + node; }
 };
@@ -51,7 +51,7 @@ struct Cell {
 struct Plan {
   std::uint64_t seed = 0;
   std::uint64_t runs = 1;
-  std::uint64_t set_hash = 0;  ///< of the text of a set; 0: the generated set
+  std::uint64_t set_hash = 0;  ///< hash of the set's text; 0: the generated set
   std::vector<Column> columns{};
   std::vector<Row> rows{};    ///< the first is "no fault"
   std::vector<Cell> cells{};  ///< row by row, then column by column, then run by run
@@ -61,13 +61,13 @@ struct Plan {
 /// seed; and sets of three faults at once.
 Plan made_plan(std::vector<Column> columns, std::uint64_t seed, std::uint64_t runs);
 
-/// The set in a file: each [[fault]] is a row; those with the same `together` form one row. Error: one line;
-/// a row fits no scenario.
+/// The set of faults in a file: each [[fault]] is a row; those with the same `together` share a row. Error:
+/// one line; a row fits no scenario.
 Result<Plan> plan_of(std::vector<Column> columns, const std::string& set_file, std::uint64_t seed,
                      std::uint64_t runs);
 
-/// The scenario of a flight, with the checks of the matrix (response.hpp). `duration_us`: 0: the file's.
-/// Error: one line; the faults do not fit.
+/// The scenario of a flight, with the checks of the matrix (response.hpp). `duration_us` 0: as in the
+/// scenario file. Error: one line; the faults do not fit.
 Result<scenario::Scenario> scenario_of(const Column& column, std::uint64_t run,
                                        const std::vector<FaultText>& faults, std::int64_t duration_us = 0);
 

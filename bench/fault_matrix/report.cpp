@@ -64,7 +64,7 @@ std::string target_words(const Identity& identity) {
   return identity.target.empty() ? "the target's own code, in process" : identity.target;
 }
 
-// The same with sign and colour of the worst response.
+// The summary with the symbol and colour of the worst response.
 std::string marked_summary(const Cells& cells) {
   if (cells.empty()) return summary(cells);
   const auto any = [&](Kind kind) {
@@ -91,7 +91,7 @@ std::string text(const Results& results, const std::string& folder) {
   for (const Row& row : identity.rows) widest = std::max(widest, row.name().size());
   std::string out = fmt::format("Faults and responses, seed {}, {} run{} a cell, against {}\n", identity.seed,
                                 identity.runs, identity.runs == 1 ? "" : "s", target_words(identity));
-  // One scenario after another: cells are too wide for columns on a terminal.
+  // Prints one table per scenario: cells are too wide for several scenarios side by side on a terminal.
   for (std::size_t column = 0; column < identity.columns.size(); ++column) {
     out += fmt::format("\n{} ({})\n", head_of(identity.columns[column]), identity.columns[column].estimators);
     for (std::size_t row = 0; row < identity.rows.size(); ++row) {

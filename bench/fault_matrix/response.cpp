@@ -21,8 +21,8 @@ constexpr std::array<std::string_view, 5> names{"tolerated", "detected", "ended"
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
-// Judged up to the end of the flight, as if that had been its duration: a target that ended its estimation
-// must have met the checks until then.
+// The verdict on the flight up to its end, as if that had been its planned duration: a target that ended its
+// estimation must have met the checks until then.
 checks::Verdict verdict_to_its_end(const scenario::Scenario& scenario, const drive::Run& run) {
   if (run.ending.kind == Ending::Kind::completed) return run.verdict;
   return checks::judge(scenario, {.seen = run.seen,
@@ -31,15 +31,14 @@ checks::Verdict verdict_to_its_end(const scenario::Scenario& scenario, const dri
                                   .timing_unfit = run.timing_unfit});
 }
 
-// Whether each estimator has answers to compare with the truth: one that ended before its first answer has
-// none.
+// Whether each estimator has answers to compare with the truth; an estimator may end before its first answer.
 bool has_samples(const scenario::Scenario& scenario, const drive::Run& run) {
   return std::ranges::all_of(estimators::in(scenario), [&](const estimators::Estimator* one) {
     return !one->samples(run.seen, drive::truth_of(run.truth, run.per_run_truth, run.ending.t_us)).empty();
   });
 }
 
-// Removes the signs that the flight without faults has at the same times.
+// Removes the signs that also occur at the same times in the flight without faults.
 std::vector<Sign> signs_beyond(std::vector<Sign> signs, const std::vector<Sign>& before) {
   for (Sign& sign : signs) {
     const auto same = std::ranges::find_if(
@@ -56,7 +55,7 @@ std::int64_t latency_us(const scenario::Scenario& scenario) {
   return longest;
 }
 
-// The heartbeat's error bits that ended the flight, without the surrounding words.
+// Extracts the heartbeat's error bits that ended the flight.
 std::string reason_of(const std::string& detail) {
   constexpr std::string_view before = "its errors: ";
   const std::size_t at = detail.find(before);

@@ -1,5 +1,5 @@
-// The response of a target to the faults of a flight. Only its reports and its errors count; no estimator is
-// known here.
+// The response of a target to the faults of a flight, judged by its reports and its errors alone, without
+// knowledge of the estimator.
 #pragma once
 
 #include <array>
@@ -17,9 +17,10 @@ namespace canhil::fault_matrix {
 /// The name of the row without faults.
 inline constexpr std::string_view no_fault = "no fault";
 
-/// The checks that must hold whatever faults the target's inputs have.
+/// The checks that must hold in spite of any fault in the target's inputs.
 inline constexpr std::array<std::string_view, 3> judged_by{"honest", "answering", "counts_match"};
-/// Replaces a check's kind for the flight itself: the target became silent or violated the protocol.
+/// Stands in place of a check's kind if the flight itself failed: the target became silent or violated the
+/// protocol.
 inline constexpr std::string_view flight_itself = "flight";
 
 struct Response {
@@ -31,10 +32,10 @@ struct Response {
     not_measured  ///< a check could not be judged
   };
   Kind kind = Kind::tolerated;
-  std::optional<double> detected_s{};   ///< after the onset
-  std::string by{};                     ///< the sign
-  std::optional<double> recovered_s{};  ///< after the end of the faults; none: not within the flight
-  std::string why{};                    ///< why it ended, what is violated, or what could not be judged
+  std::optional<double> detected_s{};   ///< delay from the onset of the faults
+  std::string by{};                     ///< the first sign of trouble
+  std::optional<double> recovered_s{};  ///< delay from the end of the faults; none: not within the flight
+  std::string why{};                    ///< reason of the end, violation, or what could not be judged
   std::string check{};                  ///< the violated check
 };
 
@@ -52,8 +53,8 @@ struct Undisturbed {
 };
 Undisturbed undisturbed(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// The response in a flight of the matrix. Signs that also occur at the same time in the undisturbed flight
-/// do not count as a response, and checks that fail in it do not count as violations; null: this is the
+/// The response in a flight of the matrix. Signs that occur at the same time in the undisturbed flight are
+/// not counted as a response; checks that fail in it are not counted as violations. Null: this is the
 /// undisturbed flight.
 Response response_of(const scenario::Scenario& scenario, const drive::Run& run, const Undisturbed* before);
 

@@ -162,7 +162,7 @@ Result<std::pair<Writer, Results>> Writer::open(const fs::path& file, const Iden
           fmt::format("{}: is of another matrix, program or target, expected another --out", file.string()));
     results.cells = std::move(before->cells);
   }
-  // Rewrites the file without the truncated last line.
+  // Rewrites the file, because its last line may be truncated.
   Writer writer;
   writer.path_ = file;
   const fs::path anew = file.string() + ".new";

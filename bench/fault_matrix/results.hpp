@@ -20,13 +20,13 @@ namespace canhil::fault_matrix {
 struct Identity {
   std::string line;
   std::uint64_t seed = 0, runs = 1;
-  std::string target;  ///< empty: the target's own code, in process
+  std::string target;  ///< command of the target; empty: the target code runs in the bench's process
   struct Column {
     std::string file, title, estimators;
   };
   std::vector<Column> columns{};
   std::vector<Row> rows{};
-  std::size_t cells = 0;  ///< of all shards
+  std::size_t cells = 0;  ///< number of cells in all shards
 };
 Identity identity_of(const Plan& plan, const std::string& target);
 
@@ -36,7 +36,7 @@ struct Finished {
   std::uint64_t run = 0;
   std::vector<std::string> faults{};  ///< one line each
   Response response{};
-  std::string replay{};              ///< for a violation: the minimal scenario that shows it
+  std::string replay{};              ///< for a violation: file of the minimal scenario that shows it
   std::vector<std::string> least{};  ///< the faults of that scenario
 };
 
@@ -45,10 +45,11 @@ struct Results {
   std::map<std::size_t, Finished> cells{};  ///< by Finished::cell
 };
 
-/// Reads one file. Error: one line; not readable, or not such results. A truncated last line is ignored.
+/// Reads one file. Error: one line; the file is not readable or holds other data. A truncated last line is
+/// ignored.
 Result<Results> read_results(const std::filesystem::path& file);
 
-/// Merges files. Error: one line; different matrices, or cells that are in no file.
+/// Merges files. Error: one line; the files belong to different matrices, or cells are missing.
 Result<Results> merged(std::span<const std::filesystem::path> files);
 
 /// A file to which finished cells are appended.

@@ -18,7 +18,7 @@ using scenario::Setting;
 
 std::string seconds_of(std::int64_t t_us) { return fmt::format("{}", static_cast<double>(t_us) / 1e6); }
 
-// The change of bracket depth within a line, ignoring strings and comments.
+// The change of bracket nesting within a line, ignoring strings and comments.
 int deeper_by(const std::string& line) {
   int depth = 0;
   char quote = 0;
@@ -98,7 +98,7 @@ Result<scenario::Scenario> scenario_of(const Column& column, std::uint64_t run,
     settings.push_back({.key = "duration_s", .value = seconds_of(duration_us), .elements = {}});
   if (!faults.empty())
     settings.push_back({.key = "fault", .value = fmt::format("[{}]", all), .elements = {}});
-  // A setting cannot remove an unwanted key.
+  // Remove [[fault]] from the text, because a setting can only replace a key, not remove it.
   const std::string text = faults.empty() ? without_tables(column.text, {"fault"}) : column.text;
   return drive::parse_scenario(text, column.file, settings);
 }

@@ -23,7 +23,7 @@ std::string several(std::vector<std::string> words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// A short summary of the cells of one kind.
+// A short summary of the cells whose response is of one kind.
 std::string short_words(Kind kind, const Cells& cells) {
   std::vector<double> detected_s, recovered_s;
   std::vector<std::string> what;

@@ -1,4 +1,4 @@
-// A node whose sensor, or which itself, has a fault.
+// A node with a fault of its sensor or of the node itself.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace canhil::faults {
 
-/// Wraps a node. Where several nodes share a log, frames of the others pass unchanged.
+/// Wraps a node. If several nodes share a log, frames of the other nodes pass unchanged.
 class BefallenNode : public nodes::Node {
  public:
   BefallenNode(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run)
@@ -28,11 +28,11 @@ class BefallenNode : public nodes::Node {
  protected:
   /// Changes the frames of the node's transmission, at its time.
   virtual void befall(std::vector<Frame>& frames, std::int64_t t_us) = 0;
-  /// Lets the node transmit, and appends what remains after the fault.
+  /// Lets the node transmit and appends the frames after the fault has changed them.
   void sample(nodes::Transmission& out);
   /// Whether a frame belongs to the node's sample group.
   [[nodiscard]] bool is_own(const Frame& frame) const { return message_of(frame) != nullptr; }
-  /// Null: a message of another node.
+  /// The message of a frame; null: the frame is of another node.
   [[nodiscard]] const MessageInfo* message_of(const Frame& frame) const;
   [[nodiscard]] std::int64_t node_due_us() const { return node_->due_us(); }
   Tally& tally() { return tally_; }
@@ -45,11 +45,11 @@ class BefallenNode : public nodes::Node {
   Tally& tally_;
 };
 
-/// Adjusts counters after samples that the node did not send, so that they leave no gap. Frames that were
-/// sent and lost still leave a gap.
+/// Adjusts counters after samples that the node did not send, so that these samples leave no gap. Frames that
+/// were sent and then lost do leave a gap.
 class Recount {
  public:
-  /// A frame that the node did not send and therefore did not count.
+  /// Records a frame that the node did not send, so it must not be counted.
   void skip(const Frame& frame);
   /// The next frame of each message has counter 0.
   void begin_at_zero() { at_zero_ = true, offsets_.clear(); }

@@ -10,7 +10,7 @@
 
 namespace canhil::faults {
 
-/// In the signal's unit; none: the frame has no such signal.
+/// The value of a signal in its unit; none: the frame has no such signal.
 std::optional<double> value_of(const Frame& frame, std::string_view signal);
 
 /// Writes a signal, rounded to its step and limited to its range unless the frame is unrounded; all other

@@ -1,5 +1,5 @@
-// Faults between nodes and bus, or of the target: they change frames on their way, and may act at times of
-// their own, by sending frames or through RigControl.
+// Faults between nodes and bus, or of the target. They change frames on their way to the bus, and may also
+// act at times of their own: they send frames or use RigControl.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace canhil::faults {
 
-/// Actions on the target's process and the interface. None is called in a run for which Place excludes it.
+/// Actions on the target's process and the interface. Not called in runs for which Place excludes the action.
 class RigControl {
  public:
   RigControl() = default;
@@ -30,8 +30,7 @@ class RigControl {
   virtual void restart_target(std::int64_t t_us) = 0;
   /// Reports an error frame as the interface's driver would.
   virtual void report_error(const Frame& error) = 0;
-  /// Sets the interface down, and up again after that time, even if the bench is blocked meanwhile waiting
-  /// for it.
+  /// Sets the interface down, and up again after that time, even while the bench is blocked waiting for it.
   virtual void interface_down(std::int64_t for_us) = 0;
   /// Waits until the interface is up again.
   virtual void interface_up() = 0;
@@ -40,10 +39,10 @@ class RigControl {
 /// The effect of a fault in a run.
 struct Tally {
   std::uint64_t count = 0;  ///< frames or samples affected, or the number of activations
-  /// Frames with a changed value but valid protection; of those, the ones with a changed time.
+  /// Frames with a changed value but valid protection; number of these whose time was changed.
   std::uint64_t changed = 0, changed_times = 0;
-  /// Frames sent after a newer frame of their message: a one-message sample is then late by its time of
-  /// validity.
+  /// Frames sent after a newer frame of their message; the time of validity of a one-message sample then
+  /// shows that it is late.
   std::uint64_t overtaken = 0;
 };
 
@@ -70,13 +69,13 @@ class Injector {
 
   /// Changes the frames of a transmission that is due at `t_us`.
   virtual void befall(std::vector<Frame>& /*frames*/, std::int64_t /*t_us*/) {}
-  /// When it acts next by itself; nodes::never_us: not any more.
+  /// Time of its next action of its own; nodes::never_us: none.
   [[nodiscard]] virtual std::int64_t due_us() const { return nodes::never_us; }
-  /// Acts, and appends the frames to be sent.
+  /// Acts at due_us() and appends the frames to be sent.
   virtual void transmit(std::vector<Frame>& /*out*/) {}
-  /// Called when the run has ended, however it ended: releases what it holds.
+  /// Called at the end of the run, for any ending: releases the frames or resources that it holds.
   virtual void end() {}
-  /// The time until which this fault explains that the target is silent.
+  /// End of the time during which this fault explains a silent target.
   [[nodiscard]] virtual std::int64_t silent_until_us() const {
     return std::numeric_limits<std::int64_t>::min();
   }
@@ -110,7 +109,7 @@ class Switched : public Injector {
   std::int64_t ended_us_ = std::numeric_limits<std::int64_t>::min();  // of the last stretch that began
 };
 
-/// A fault that acts periodically during its time.
+/// A fault that acts periodically while it is active.
 class Repeated : public Injector {
  public:
   Repeated(const When& when, std::int64_t period_us, const InRun& run);

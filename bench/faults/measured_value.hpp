@@ -20,13 +20,13 @@ class MeasuredValue {
   explicit MeasuredValue(const Measured& of) : of_(of) {}
 
   [[nodiscard]] const Measured& of() const { return of_; }
-  /// The frame that carries the value; null: none.
+  /// The frame that carries the value; null: no frame does.
   [[nodiscard]] Frame* in(std::vector<Frame>& frames) const;
   [[nodiscard]] double get(const Frame& frame, double interval_s) const;
-  /// Writes the value. The rounding remainder of an increment is carried into the next: value' = value +
-  /// remainder.
+  /// Writes the value. For an increment it first adds the rounding remainder of the previous one: value' =
+  /// value + remainder.
   void put(Frame& frame, double value, double interval_s);
-  /// Writes the value without any previous remainder.
+  /// Writes the value without a remainder.
   void put_exactly(Frame& frame, double value, double interval_s) const;
 
  private:

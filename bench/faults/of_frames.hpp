@@ -16,12 +16,12 @@ class OfFrames : public Injector {
   void befall(std::vector<Frame>& frames, std::int64_t t_us) final;
 
  protected:
-  // The state for one message.
+  // The state kept for one message.
   struct Own {
     const MessageInfo* message = nullptr;
     Occasions occasions;
     std::optional<std::uint8_t> counter{};  // for kinds that keep a counter
-    std::optional<Frame> held{};            // for kinds that keep a frame back
+    std::optional<Frame> held{};            // for kinds that hold a frame back
     bool before = false;                    // the previous frame was affected
   };
   /// Appends the result for an affected frame.
@@ -39,7 +39,7 @@ class OfFrames : public Injector {
 /// The effect of a fault on a single frame, independent of earlier frames: appends the result.
 using Change = void (*)(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 
-/// A fault that consists of such a change.
+/// A fault that applies such a change to each affected frame.
 std::unique_ptr<Injector> change_frames(const OfMessages& of, const When& when, const InRun& run,
                                         Change change);
 

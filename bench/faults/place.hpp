@@ -10,11 +10,11 @@ namespace canhil::faults {
 
 struct Place {
   enum class Interface : std::uint8_t { none, virtual_can, controller };
-  std::string bus{};                      ///< as given to --bus
-  Interface interface = Interface::none;  ///< an interface of the kernel; none: another kind of bus
-  bool may_set_interface = false;         ///< it is allowed to set the interface up and down
-  bool virtual_time = false;              ///< time advances in steps that the target completes
-  bool in_process = false;                ///< the target is a device within the bench's process
+  std::string bus{};                      ///< value of --bus
+  Interface interface = Interface::none;  ///< kind of kernel interface; none: not a kernel interface
+  bool may_set_interface = false;         ///< the bench may set the interface up and down
+  bool virtual_time = false;              ///< time advances when the target completes a step
+  bool in_process = false;                ///< the target is a Device in the bench's process
   bool starts_target = false;             ///< the bench starts the target's process
   bool mapped = false;                    ///< the target has its own DBC, used through a mapping
   bool fd = false;                        ///< FD frames are allowed

@@ -17,7 +17,7 @@ namespace {
 using scenario::FaultContext;
 using scenario::Section;
 
-// The suffixes that keys of a quantity may have, by SI unit.
+// Suffixes of the keys for a quantity, by its SI unit.
 constexpr std::array<std::pair<std::string_view, std::array<std::string_view, 3>>, 6> endings{
     {{"rad/s", {"degps", "mradps", "degph"}},
      {"rad", {"deg", "mrad", ""}},

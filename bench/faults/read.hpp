@@ -15,25 +15,25 @@
 
 namespace canhil::faults {
 
-/// Messages that the bench's nodes send, and the scenario's name for them.
+/// Messages that the bench's nodes send, as selected in a scenario.
 struct OfMessages {
   std::vector<const MessageInfo*> all{};
   std::string text{};
 };
-/// The key `messages`, by name, or `node`, all messages of that node. Error: none, or one that the bench does
-/// not send.
+/// The key `messages`, names of messages, or `node`, all messages of that node. Error: no such message, or
+/// the bench does not send it.
 OfMessages read_messages(scenario::Section& section, const scenario::FaultContext& context);
 
-/// The key `node`: a node on the bus. Null: unknown, and the error is reported.
+/// The key `node`: a node on the bus. Null: no such node; the section then has an error.
 const scenario::NodeTable* read_node(scenario::Section& section, const scenario::FaultContext& context);
 
 /// A measured value of a node.
 struct Measured {
   const MessageInfo* message = nullptr;
   const SignalInfo* signal = nullptr;
-  double factor = 1;      ///< from the signal's unit to that of the value
-  bool rate = false;      ///< the value is the signal divided by the sample's interval
-  std::string_view si{};  ///< the value's unit; empty: the signal's own
+  double factor = 1;      ///< from the signal's unit to the value's unit
+  bool rate = false;      ///< the value is the signal divided by the interval of its sample
+  std::string_view si{};  ///< unit of the value; empty: unit of the signal
 };
 struct OfValues {
   std::vector<Measured> all{};
@@ -41,13 +41,13 @@ struct OfValues {
 };
 /// The key `quantity`, or `signal` of `messages`.
 OfValues read_values(scenario::Section& section, const scenario::FaultContext& context);
-/// Another quantity, by this key. Null: unknown, and the error is reported.
+/// A second quantity, from this key. Null: unknown; the section then has an error.
 const mapping::Stimulus* read_quantity(scenario::Section& section, const scenario::FaultContext& context,
                                        std::string_view key);
 /// The signal of canhil's DBC that carries a stimulus.
 Measured measured(const mapping::Stimulus& stimulus);
 
-/// A number in the unit of the values: for a quantity the key is `stem` with the suffix of its unit; for a
+/// A number in the unit of the values. For a quantity the key is `stem` with the suffix of its unit; for a
 /// signal it is `stem` alone, in the signal's unit.
 double read_size(scenario::Section& section, std::string_view stem, const OfValues& of,
                  scenario::Limits limits = {});

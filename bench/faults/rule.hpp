@@ -1,4 +1,4 @@
-// A rule of a scenario: the parts of a kind of fault.
+// The interface of a kind of fault to the rest of the bench.
 //
 // A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), a constant `stage`,
 // its fields, among them `When when`, and
@@ -27,7 +27,7 @@
 
 namespace canhil::faults {
 
-/// The stage of the data path at which it acts.
+/// The stage of the data path at which a fault acts.
 enum class Stage : std::uint8_t { sensor, node, bus, target };
 constexpr std::string_view name(Stage stage) {
   constexpr std::array<std::string_view, 4> names{"sensor", "node", "bus", "target"};
@@ -43,7 +43,7 @@ class Rule {
 
   [[nodiscard]] virtual Stage stage() const = 0;
   [[nodiscard]] virtual std::string cannot(const Place& place) const = 0;
-  /// Null: it acts within the nodes.
+  /// Null: the fault acts within the nodes.
   [[nodiscard]] virtual std::unique_ptr<Injector> injector(const InRun& run) const = 0;
   [[nodiscard]] virtual std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                                               const scenario::NodeSettings& settings,

@@ -1,4 +1,4 @@
-// When a fault is active, and which frames or samples it affects then.
+// When a fault is active, and which frames or samples it then affects.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace canhil::faults {
 
-/// A time within a run; within it, either the whole time or the first part of each period.
+/// The active time within a run: either all of [from, to], or the first part of each period in it.
 struct When {
   static constexpr std::int64_t always_us = std::numeric_limits<std::int64_t>::max();
   std::int64_t from_us = 0, to_us = always_us;  ///< ends included
   std::int64_t for_us = 0, each_us = 0;         ///< 0: no periods
-  std::int64_t every = 1;                       ///< the first of each `every` ...
-  double share = 1;                             ///< ... and of those a random fraction
+  std::int64_t every = 1;                       ///< affects the first of each `every` frames or samples ...
+  double share = 1;                             ///< ... and a random fraction of those
 
   [[nodiscard]] bool holds(std::int64_t t_us) const {
     return t_us >= from_us && t_us <= to_us && (each_us == 0 || (t_us - from_us) % each_us < for_us);
@@ -32,7 +32,8 @@ enum class Repeats : std::uint8_t { each, stretch };
 /// The keys from_s, to_s, for_s, each_s and, for `each`, every and percent.
 When read_when(scenario::Section& section, const scenario::FaultContext& context, Repeats repeats);
 
-/// The same for faults that must end before the run: for_s is required, and the run must continue afterwards.
+/// The same keys for faults that must end before the run: for_s is required, and the run must continue
+/// afterwards.
 When read_stretches(scenario::Section& section, const scenario::FaultContext& context);
 
 /// Decides for each frame or sample whether it is affected.
@@ -40,7 +41,7 @@ class Occasions {
  public:
   Occasions(const When& when, const world::Stream& stream) : when_(when), stream_(stream) {}
 
-  /// The decision for the next one, at its time of transmission.
+  /// The decision for the next frame or sample, at its time of transmission.
   bool next(std::int64_t t_us) {
     if (!when_.holds(t_us)) return false;
     const bool by_chance = when_.share >= 1 || stream_.uniform() < when_.share;
@@ -50,7 +51,7 @@ class Occasions {
  private:
   When when_;
   world::Stream stream_;
-  std::int64_t seen_ = 0;  // within its time
+  std::int64_t seen_ = 0;  // frames or samples seen during the active time
 };
 
 }  // namespace canhil::faults

@@ -13,7 +13,7 @@ namespace canhil::mapping {
 
 /// One value of a quantity, in SI.
 struct TimedValue {
-  std::int64_t t_us = 0;  ///< time of validity: of its cause, or else of its arrival
+  std::int64_t t_us = 0;  ///< time of validity of the cause, or the arrival time if there is no cause
   double value = 0;
   std::optional<double> sigma{};
 };
@@ -22,7 +22,7 @@ struct TimedValue {
 struct Answers {
   const Mapping* mapping = nullptr;
   std::map<const quantities::Quantity*, Spool<TimedValue>> values;
-  std::map<std::string_view, Spool<std::int64_t>> messages;  ///< their times, by name
+  std::map<std::string_view, Spool<std::int64_t>> messages;  ///< arrival times by message name
 };
 
 }  // namespace canhil::mapping

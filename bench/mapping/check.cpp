@@ -14,7 +14,7 @@ namespace {
 
 using Grade = Remark::Grade;
 
-constexpr double most_of_sensor_noise = 0.25;  // the fraction that rounding may add, as in canhil's own DBC
+constexpr double most_of_sensor_noise = 0.25;  // limit of step / sqrt(12), as a fraction of the sensor sigma
 
 class Remarks {
  public:
@@ -75,7 +75,8 @@ class Remarks {
   void on(const Mapped& of, const Source& source, const Play& play) {
     const dbc::Signal& signal = *source.signal;
     const SignalInfo* own = observe::signal_of(*source.stimulus->message, source.stimulus->signal);
-    // From the node's unit to the signal's; for a rate via its interval, at least the period of the play.
+    // Converts the node's unit to the signal's. A rate is an increment over its interval, here the shortest
+    // one: the period of the play.
     const double interval_s =
         source.stimulus->over == Over::rate ? 1e-6 * static_cast<double>(play.period_us) : 1;
     const double factor = std::abs(source.factor * source.stimulus->factor) / interval_s;

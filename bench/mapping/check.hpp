@@ -20,13 +20,12 @@ struct Remark {
 };
 
 /// Remarks in the order of plays and hears: signals without a mapped value, or whose value is not used;
-/// ranges and steps compared with the node's values and the noise of its sensor (canhil's DBC: limits,
-/// SensorSigma); periods compared with the DBC's cycle times; messages from the target's senders that the
-/// bench does not use.
+/// ranges and steps that do not suit the node's values and the noise of its sensor (canhil's DBC: limits,
+/// SensorSigma); periods that differ from the DBC's cycle times; unmapped messages of the target.
 std::vector<Remark> remarks_on(const Mapping& mapping);
 
-/// The bus load of the mapping's messages, with their longest frames; messages without a cycle time are left
-/// out.
+/// The bus load of the mapping's messages, with their longest frames. Messages without a cycle time are not
+/// included.
 double load_of(const Mapping& mapping, const wire::BitRates& rates);
 
 }  // namespace canhil::mapping

@@ -1,5 +1,5 @@
-// The exchange between bench and target in a run: the player records what it sent, the listener pairs answers
-// with it.
+// The exchange between bench and target in a run: the player records what it sent; the listener assigns each
+// answer to its cause.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace canhil::mapping {
 struct Sent {
   std::int64_t valid_us = 0;
   std::int64_t due_us = 0;
-  std::vector<Frame> frames;  ///< of its messages, in their order
+  std::vector<Frame> frames;  ///< one per message, in the order of the play
 };
 
 struct Conversation {
@@ -33,13 +33,13 @@ struct Conversation {
   }
 
   const Mapping& mapping;
-  std::vector<std::deque<Sent>> sent;  ///< by play, the newest last
+  std::vector<std::deque<Sent>> sent;  ///< transmissions of each play, the newest last
   std::map<std::string, std::uint64_t>
-      clipped;  ///< by MESSAGE.SIGNAL: how often the value exceeded the signal's range
+      clipped;  ///< by MESSAGE.SIGNAL: number of values beyond the signal's range
 };
 
-/// Frames of the bench on their way to the bus. A fault may drop or change frames of a play; then the target
-/// has nothing to answer.
+/// Follows frames of the bench on their way to the bus. A fault may drop or change frames of a play; the
+/// target then need not answer it.
 class Passing {
  public:
   explicit Passing(const Conversation& conversation)
@@ -49,7 +49,7 @@ class Passing {
     std::size_t play = 0;
     const Sent* sent = nullptr;
   };
-  /// The play that became complete with this frame; none: it completes none.
+  /// The play that this frame completes; none: the frame completes no play.
   std::optional<Whole> take(const Frame& frame);
 
  private:
@@ -58,11 +58,11 @@ class Passing {
     std::set<std::size_t> frames;
   };
   const Conversation& conversation_;
-  std::vector<Passed> passed_;  // the newest for each play
+  std::vector<Passed> passed_;  // the newest transmission of each play
 };
 
-/// The cause of a target's frame: the stimulus that it echoes, or else the latest; null: none that is still
-/// remembered.
+/// The cause of a target's frame: the stimulus that it echoes, or else the latest one; null: no stored
+/// stimulus matches.
 const Sent* cause_of(const Conversation& conversation, const Hear& hear, const Frame& frame);
 
 }  // namespace canhil::mapping

@@ -26,7 +26,7 @@ double difference(const ReferenceQuantity& of, double a, double b) {
   return of.turns ? std::remainder(a - b, 2 * std::numbers::pi) : a - b;
 }
 
-// Points out of order are sorted in memory.
+// Sorts points by time, in memory, if they are out of order.
 template <class Value, class TimeOf>
 Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
   if (std::ranges::is_sorted(values, {}, time_of)) return values;
@@ -35,14 +35,14 @@ Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
   return Spool<Value>(sorted);
 }
 
-// The result is sorted by time of the cause, because answers may arrive in another order.
+// The result is sorted by the time of the cause, because answers may arrive out of order.
 Spool<TrackPoint> errors_of(const ReferenceQuantity& of, const Spool<TimedValue>& all, const Truth& truth) {
   Spool<TrackPoint> errors;
   for (const TimedValue& one : all) {
     const auto at = of.truth(truth, one.t_us);
     if (!at || one.t_us > truth.duration_us) continue;
     const double error = difference(of, one.value, *at);
-    // Unwrapped to the same turn as the truth.
+    // The estimate is unwrapped to within half a turn of the truth.
     errors.push_back(
         {.t_us = one.t_us, .value = error, .sigma = one.sigma, .estimate = *at + error, .truth = *at});
   }
@@ -72,7 +72,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const quant
   }
 }
 
-// A sample is taken at each time at which a quantity was reported, with the last value of every quantity: a
+// Takes a sample at each time at which any quantity was reported, with the last value of every quantity: a
 // target may report its quantities in turn.
 quantities::Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   const Answers& answers = seen.of<Answers>();

@@ -1,4 +1,4 @@
-// Converts a recording of another bus to a CSV file that a node can send again (docs/recorded-data.md).
+// Converts a recording of another bus to a CSV file that a node can replay (docs/recorded-data.md).
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace canhil::mapping {
 struct Extracted {
   std::string csv;
   std::size_t rows = 0;
-  std::size_t incomplete = 0;  ///< groups with a missing message or a protection error: left out
+  std::size_t incomplete = 0;  ///< groups left out: a message is missing or its protection fails
 };
 
 /// The transmissions of a play in a candump log: one row for each group, with the stamp of its last frame as

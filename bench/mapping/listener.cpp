@@ -31,7 +31,7 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
   for (std::size_t i = 0; i < mapping.hears.size(); ++i) hear_of_[mapping.hears[i].of.index] = i;
 }
 
-// The play that a frame completes, if the frame is valid: a damaged play is not answered.
+// The play that a frame completes; null if the frame is damaged: the target need not answer a damaged play.
 const Sent* Listener::closed_by(std::size_t play, const Frame& frame) const {
   const auto& sent = conversation_.sent[play];
   const auto found =
@@ -102,8 +102,8 @@ void Listener::hear(const Hear& hear, const Received& received) {
   if (hear.answers) {
     const Sent* cause = cause_of(conversation_, hear, frame);
     const std::string_view group = conversation_.mapping.groups[*hear.answers];
-    // Before the first play there is nothing to answer; an echo that matches no play is an answer without a
-    // cause.
+    // Before the first play there is nothing to answer. Later, an echo that matches no play counts as an
+    // answer without a cause.
     if (cause == nullptr && conversation_.sent[*hear.answers].empty()) return;
     stopwatch_.answered({&index, 1}, group, cause == nullptr ? -1 : cause->valid_us);
     if (cause == nullptr) return;
@@ -113,13 +113,13 @@ void Listener::hear(const Hear& hear, const Received& received) {
   auto& answers = seen_.of<Answers>();
   answers.messages[hear.of.message->name].push_back(t_us);
   values_.resize(hear.of.plan.signals());
-  static_cast<void>(hear.of.plan.decode(frame.payload(), values_));  // it has the message's size
+  static_cast<void>(hear.of.plan.decode(frame.payload(), values_));  // the sizes match
   const auto value_of = [&](const ReportedSignal& telling) -> std::optional<double> {
     const std::size_t number = hear.of.number(*telling.signal);
     const bool invalid =
         telling.invalid && dbc::raw_bits(*telling.signal, frame.payload()) == *telling.invalid;
     if (invalid || !hear.of.plan.is_present(number, frame.payload())) return std::nullopt;
-    return values_[number] * telling.factor;  // NaN is recorded too, so that checks fail
+    return values_[number] * telling.factor;  // NaN is recorded too; it makes checks fail
   };
   for (const ReportedSignal& telling : hear.reported_signals) {
     const auto value = value_of(telling);

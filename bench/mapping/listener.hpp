@@ -14,8 +14,8 @@ namespace canhil::mapping {
 
 class Listener final : public observe::Watcher {
  public:
-  /// `conversation` must outlive it. `virtual_time`: nothing takes time; an answer arrives at the time at
-  /// which its cause was sent.
+  /// `conversation` must outlive it. `virtual_time`: transmission takes no time; an answer arrives at the
+  /// time at which its cause was sent.
   Listener(const Conversation& conversation, std::vector<checks::TimedWindow> windows, const WireFacts& wire,
            bool virtual_time);
 
@@ -34,11 +34,11 @@ class Listener final : public observe::Watcher {
   observe::Stopwatch stopwatch_;
   Places places_;
   Passing passing_;
-  std::map<std::size_t, std::size_t> play_closed_by_, hear_of_;  // by index of a message
-  std::vector<double> values_;                                   // of a message's signals
+  std::map<std::size_t, std::size_t> play_closed_by_, hear_of_;  // from the index of a message
+  std::vector<double> values_;                                   // signal values of one message
   std::vector<protection::Receiver> receivers_;                  // for each hear
   bool virtual_time_ = false, sent_any_ = false;
-  std::int64_t due_us_ = 0, due_ns_ = 0;  // of the last play, in the bench's time and in time stamps
+  std::int64_t due_us_ = 0, due_ns_ = 0;  // last play due, in bench time and as a time stamp
 };
 
 }  // namespace canhil::mapping

@@ -47,7 +47,7 @@ struct Mapped {
 struct Source {
   const dbc::Signal* signal = nullptr;
   const Stimulus* stimulus = nullptr;      ///< null: a constant, or the time
-  bool time = false;                       ///< of validity, from the start of the run
+  bool time = false;                       ///< the time of validity, from the start of the run
   double value = 0;                        ///< a constant, in the signal's unit
   double factor = 1;                       ///< from SI to the signal's unit
   std::optional<std::uint64_t> invalid{};  ///< raw value to send when the node's value is invalid
@@ -62,7 +62,7 @@ struct PlayedMessage {
 struct Play {
   std::string name;  ///< of its last message
   std::vector<PlayedMessage> messages;
-  std::string_view node;        ///< whose samples trigger it
+  std::string_view node;        ///< the node whose samples trigger the play
   std::int64_t period_us = 0;   ///< a multiple of the node's period
   std::int64_t latency_us = 0;  ///< added to the node's latency
 };
@@ -86,16 +86,16 @@ struct Echo {
 struct Hear {
   Mapped of;
   std::vector<ReportedSignal> reported_signals;
-  std::optional<std::size_t> answers{};  ///< a play; none: it is sent independently of plays
-  std::optional<Echo> echo{};            ///< none: its cause is the latest stimulus before it
+  std::optional<std::size_t> answers{};  ///< index of a play; none: sent independently of plays
+  std::optional<Echo> echo{};            ///< none: the cause is the latest stimulus before the message
 };
 
 struct Mapping final : scenario::Foreign {
   dbc::Database database;
   std::vector<Play> plays;
   std::vector<Hear> hears;
-  std::string name;  ///< of the target, in place of an estimator's
-  /// By J1939 parameter group: indices of messages that are accepted from any source at any priority.
+  std::string name;  ///< name of the target, used as the name of its estimator
+  /// For J1939, message indices by parameter group: any source address and priority is accepted.
   std::map<std::uint32_t, std::size_t> by_group;
 
   // Storage for Foreign::messages and Foreign::estimator.
@@ -140,8 +140,9 @@ class Places {
 Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,
                                                     const ReadText& text = read_from_disk);
 
-/// The layout of samples with these quantities, in this order, all of which have a truth here. The same
-/// object each time, so stored samples and those of a run share it. Null if there is none.
+/// The layout of samples with these quantities, in this order. Each of them must have a truth in the bench.
+/// Repeated calls return the same object, so stored samples and those of a run share it. Null: some quantity
+/// has no truth.
 const quantities::Layout* find_layout(std::string_view columns);
 
 /// The mapped target presented as an estimator. The mapping must not move.

@@ -74,7 +74,7 @@ std::int64_t Player::due_us() const {
   return due_us;
 }
 
-// Samples first, because a play may be sent with the sample.
+// Take samples first, because a play may be due at the same time as its sample.
 void Player::transmit(nodes::Transmission& out) {
   const std::int64_t now_us = due_us();
   for (Played& played : nodes_) {
@@ -160,8 +160,7 @@ Sent Player::put_together(std::size_t index, const Played& played, std::int64_t 
                 .extended = message.extended,
                 .fd = message.fd,
                 .brs = message.fd};
-    static_cast<void>(
-        one.of.plan.encode(values, {frame.data.data(), frame.size}));  // it has the message's size
+    static_cast<void>(one.of.plan.encode(values, {frame.data.data(), frame.size}));  // the sizes match
     for (const Source& source : one.sources) {
       const auto says_invalid = [](const auto& kept) { return !kept.second.valid; };
       const bool invalid = source.stimulus != nullptr ? !values_[index][source.stimulus].valid

@@ -15,8 +15,8 @@ namespace canhil::mapping {
 
 class Player final : public nodes::Node {
  public:
-  /// Error: the scenario has no table for a node that is played, or the node's period does not divide the
-  /// play's.
+  /// Error: the scenario has no table for a played node, or the play's period is not a multiple of the node's
+  /// period.
   static Result<void> check(const Mapping& mapping, const scenario::Scenario& scenario);
 
   /// `conversation` and everything in `run` must outlive it; the scenario has passed check().
@@ -34,10 +34,10 @@ class Player final : public nodes::Node {
     std::int64_t valid_us = 0;  // of the newest sample
     bool lost = false;          // the newest sample was not sent
   };
-  // The current value of a quantity for the plays.
+  // Accumulates a quantity of a node between transmissions of a play.
   struct Value {
-    double newest = 0, sum = 0;  // the sum since the play was last sent
-    bool valid = true;           // according to the newest message that carries it
+    double newest = 0, sum = 0;  // newest value; sum since the play was last sent
+    bool valid = true;           // validity flag in the newest message that carries the quantity
     std::int64_t over_us = 0;
   };
   struct Due {
@@ -56,8 +56,8 @@ class Player final : public nodes::Node {
   std::int64_t end_us_;  // of the run
   std::vector<Played> nodes_;
   std::vector<std::map<const Stimulus*, Value>> values_;  // for each play
-  std::vector<std::int64_t> next_us_;                     // for each play: the next time of validity
-  std::deque<Due> due_;                                   // in order of time
+  std::vector<std::int64_t> next_us_;                     // time of validity of each play's next transmission
+  std::deque<Due> due_;                                   // ascending by time
   std::map<std::string, protection::Sender> shared_;
   std::map<const dbc::Message*, protection::Sender> own_;
 };

@@ -7,14 +7,14 @@ namespace canhil::quantities {
 
 inline constexpr Unit degps{"deg/s", "_degps", world::units::deg}, mps2{"m/s^2", "_mps2"};
 
-/// Rates of the body relative to inertial space, in body axes.
+/// Angular rate of the body relative to inertial space, in body axes.
 inline constexpr Quantity rate_x{
     .name = "rate.x", .meaning = "error of the inertial rate about x", .unit = degps};
 inline constexpr Quantity rate_y{
     .name = "rate.y", .meaning = "error of the inertial rate about y", .unit = degps};
 inline constexpr Quantity rate_z{
     .name = "rate.z", .meaning = "error of the inertial rate about z", .unit = degps};
-/// Acceleration minus gravity, in body axes.
+/// Specific force (acceleration minus gravity), in body axes.
 inline constexpr Quantity specific_force_x{
     .name = "specific_force.x", .meaning = "error of the specific force along x", .unit = mps2};
 inline constexpr Quantity specific_force_y{

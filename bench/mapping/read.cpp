@@ -87,7 +87,7 @@ class Reader {
     return found;
   }
 
-  // Parses "MESSAGE.SIGNAL", for the case that several messages are possible.
+  // Parses "MESSAGE.SIGNAL" for keys that may refer to any of several messages.
   std::pair<const dbc::Message*, const dbc::Signal*> signal_of(Section& section, std::string_view key,
                                                                std::string_view text) {
     const std::size_t dot = std::min(text.find('.'), text.size());
@@ -229,7 +229,7 @@ class Reader {
       return;
     }
     if (play.node.empty())
-      play.node = stimulus->node;  // of the first quantity: the play is sent with that node's samples
+      play.node = stimulus->node;  // node of the first quantity: its samples trigger the play
     own->sources.push_back({.signal = one,
                             .stimulus = stimulus,
                             .factor = sign / factor(section, key, *of, *one, stimulus->si, stimulus->name)});
@@ -329,7 +329,7 @@ class Reader {
     hear.reported_signals.push_back(telling);
   }
 
-  // Derives the rest from what was read. Returns why the mapping is not valid; none: it is.
+  // Derives all other members from what was read. Returns why the mapping is invalid; none: it is valid.
   std::optional<std::string> put_together() {
     Mapping& mapping = *mapping_;
     const auto wrong = [&](const std::string& what) { return fmt::format("{}: {}", mapping.file, what); };

@@ -24,7 +24,7 @@ std::vector<std::uint64_t> values(Section& section, std::string_view key) {
   return all;
 }
 
-// Turns the error of a library function into an error of the key.
+// Reports the error of a library function as an error of the key.
 template <class Value>
 std::optional<Value> or_reject(Section& section, std::string_view key, Result<Value> value) {
   if (value) return std::move(*value);
@@ -32,7 +32,7 @@ std::optional<Value> or_reject(Section& section, std::string_view key, Result<Va
   return std::nullopt;
 }
 
-// The position of a signal of the DBC, or a position in DBC notation.
+// The bits of a signal of the DBC, or a position in DBC notation.
 protection::Place read_place(Section& section, const dbc::Message& message) {
   if (!section.has("start_bit")) {
     for (const std::string_view key : {"start_bit", "length", "byte_order"}) section.optional(key);
@@ -74,7 +74,7 @@ protection::Counter read_counter(Section section, const dbc::Message& message) {
   return counter;
 }
 
-// A number, also as text: "0x1F".
+// A number in decimal or hexadecimal ("0x1F").
 Result<protection::AddedByte> added_byte(const std::string& word) {
   const bool hexadecimal = word.starts_with("0x");
   unsigned value = 0;
@@ -96,7 +96,7 @@ std::vector<protection::AddedByte> read_added(Section& section, std::string_view
 }
 
 std::variant<protection::Crc, protection::Sum> read_rule(Section& section) {
-  if (section.has("model")) {  // by its published name
+  if (section.has("model")) {  // an algorithm by its published name
     const auto crc = or_reject(section, "model", protection::published_crc(section.text("model")));
     return crc.value_or(protection::Crc{});
   }

@@ -14,19 +14,19 @@ namespace {
 using estimators::Truth;
 using Value = std::optional<double>;
 
-// A quantity from the truth of the navigation, at any time of the run.
+// A quantity from the flight record, at any time of the run.
 template <class Of>
 Value flown(const Truth& truth, std::int64_t t_us, Of of) {
   if (t_us < 0 || t_us > truth.flight.end_us()) return std::nullopt;
   return of(truth.flight.at(t_us));
 }
-// A quantity from the truth of the glider, at the previous step.
+// A quantity from the glide record, at the last step before the time.
 template <class Of>
 Value glided(const Truth& truth, std::int64_t t_us, Of of) {
   if (truth.glide == nullptr || t_us < 0 || t_us > truth.glide->end_us()) return std::nullopt;
   return of(truth.glide->at(t_us));
 }
-// From the truth of the glider if there is one, otherwise of the navigation.
+// A quantity from the glide record if there is one, otherwise from the flight record.
 template <class Of>
 Value moved(const Truth& truth, std::int64_t t_us, Of of) {
   return truth.glide != nullptr ? glided(truth, t_us, of) : flown(truth, t_us, of);
@@ -56,7 +56,7 @@ template <int axis>
 Value wind(const Truth& truth, std::int64_t t_us) {
   return glided(truth, t_us, [](const world::GlideTruth& at) { return at.wind_n[axis]; });
 }
-// A quantity from the truth at a sample of the seeker.
+// A quantity from the engagement record, at a sample of the seeker.
 template <double world::Planes<double>::*plane>
 Value los_rate(const Truth& truth, std::int64_t t_us) {
   const world::EngagementTruth* epoch = truth.engagement == nullptr ? nullptr : truth.engagement->at(t_us);

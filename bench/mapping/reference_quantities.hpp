@@ -12,13 +12,13 @@ namespace canhil::mapping {
 
 struct ReferenceQuantity {
   const quantities::Quantity* quantity = nullptr;
-  std::string_view si;  ///< its unit
-  bool turns = false;   ///< an angle: multiples of a turn are equal
+  std::string_view si;  ///< SI unit
+  bool turns = false;   ///< an angle: equal modulo one turn
   /// The truth at a time [us] of the run, in SI; none: there is no truth.
   std::optional<double> (*truth)(const estimators::Truth& truth, std::int64_t t_us) = nullptr;
 };
 
-/// All these quantities.
+/// All quantities that a mapped target may report.
 std::span<const ReferenceQuantity> reference_quantities();
 /// Null if there is none.
 const ReferenceQuantity* find_reference_quantity(std::string_view quantity);

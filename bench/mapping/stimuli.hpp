@@ -11,21 +11,21 @@
 
 namespace canhil::mapping {
 
-/// How samples in an interval are combined to a value at its end.
+/// How the samples of an interval are combined to one value at its end.
 enum class Over : std::uint8_t {
-  newest,  ///< a value
-  sum,     ///< an increment
-  rate     ///< an increment divided by its interval
+  newest,  ///< the newest sample, for a value
+  sum,     ///< the sum, for an increment
+  rate     ///< the sum of increments divided by the interval
 };
 
-/// A measurement. Its name comes from the DBC: NODE.SIGNAL without the unit ("gps.latitude"); a rate has the
-/// node's name for it ("imu.rate.z").
+/// A measurement. Its name comes from the DBC: NODE.SIGNAL without the unit ("gps.latitude"); the name of a
+/// rate is defined by the node ("imu.rate.z").
 struct Stimulus {
   std::string name;
-  std::string_view si;    ///< its unit
-  std::string_view node;  ///< the table that the scenario must have: "slave_imu"
+  std::string_view si;    ///< SI unit
+  std::string_view node;  ///< required table of the scenario: "slave_imu"
   const MessageInfo* message = nullptr;
-  std::string_view signal;  ///< of the message
+  std::string_view signal;  ///< name in the node's message
   std::string_view column;  ///< in a recording (docs/recorded-data.md): the signal, or the rate in SI
   double factor = 1;        ///< from the signal's unit to SI
   Over over = Over::newest;

@@ -44,7 +44,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
     text.replace(at, from.size(), to);
 }
 
-// Normalises the spelling: DBC files have many.
+// Normalises the spelling of a unit, which varies between DBC files.
 std::string plain(std::string_view text) {
   std::string unit(text);
   std::erase(unit, ' ');

@@ -15,7 +15,7 @@ struct WireUnit {
 /// The meaning of a DBC's unit ("deg/s", "°/s", "g", "km/h", ...); none: unknown.
 std::optional<WireUnit> wire_unit(std::string_view text);
 
-/// All known units, for messages: "deg, rad, ...".
+/// All known units, as a list for error messages: "deg, rad, ...".
 std::string wire_units();
 
 }  // namespace canhil::mapping

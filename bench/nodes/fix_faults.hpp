@@ -13,34 +13,35 @@ namespace canhil::nodes {
 
 /// Faults that affect each fix independently; all probabilities in [0, 1].
 struct FixFaults {
-  double loss_probability = 0;     ///< its group is not sent
-  double invalid_probability = 0;  ///< sent as invalid
+  double loss_probability = 0;     ///< the group of a fix is not sent
+  double invalid_probability = 0;  ///< the fix is sent, but flagged invalid
   double outlier_probability = 0;
   double outlier = 0;  ///< horizontal size of an outlier [m]
   std::optional<std::pair<std::int64_t, std::int64_t>>
-      silence_us{};  ///< no group valid in this interval is sent
+      silence_us{};  ///< interval of the times of validity in which no group is sent
 };
 
 /// The keys loss_percent, invalid_percent, outlier_percent, outlier_m and silence_s of a node's table.
 FixFaults read_fix_faults(scenario::Section& section);
 
-/// The fraction of a node's fixes that cannot be answered. `Own`: the type of its settings, with a member
-/// `faults`.
+/// The fraction of a node's fixes that need not be answered. `Own`: the type of the node's settings, with a
+/// member `faults`.
 template <class Own>
 double lost_fixes(const scenario::NodeSettings& node) {
-  if (node.is_recorded()) return 0;  // losses in the recording are unknown: every fix must be answered
+  if (node.is_recorded()) return 0;  // losses in a recording are unknown: expect answers to all
   const FixFaults& faults = node.own<Own>()->faults;
   return 1 - (1 - faults.loss_probability) * (1 - faults.invalid_probability);
 }
 
 /// The drawn faults of one fix.
 struct Fate {
-  bool lost = false;                             ///< its group is not sent
-  bool invalid = false;                          ///< sent, but flagged
-  world::Vector3 jump = world::Vector3::Zero();  ///< of an outlier: horizontal, in a random direction [m]
+  bool lost = false;     ///< its group is not sent
+  bool invalid = false;  ///< sent, but flagged
+  world::Vector3 jump =
+      world::Vector3::Zero();  ///< horizontal offset of an outlier in a random direction [m]
 };
 
-/// Draws the faults of the fix at a time. Takes four numbers of the stream, whatever the settings are.
+/// Draws the faults of the fix valid at a time. Takes four numbers of the stream, whatever the settings are.
 Fate draw_fate(const FixFaults& faults, std::int64_t valid_us, world::Stream& stream);
 
 }  // namespace canhil::nodes

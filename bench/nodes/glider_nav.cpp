@@ -13,7 +13,7 @@ namespace {
 using world::Vector3;
 using world::units::deg;
 
-// In the range of the signal, -180 to 180 deg.
+// Wraps an angle to the range of its signal, -180 to 180 deg.
 double angle_deg(double angle) { return std::remainder(angle / deg, 360); }
 
 NodeSettings read(const NodeTable& table, Section& section) {

@@ -45,7 +45,7 @@ class Gps final : public Sampler<GpsSettings> {
     const Fate fate = draw_fate(config_.faults, t_us, stream_);
     const bool valid = !fate.invalid && !(config_.lowest_height && truth.height < *config_.lowest_height);
     const world::Position measured = valid ? displaced(truth, bias_ + noise + fate.jump)
-                                           : world::Position{};  // an invalid fix carries no information
+                                           : world::Position{};  // an invalid fix has no position
     out.send(messages::GpsLatitude{.latitude_deg = measured.latitude / deg, .height_m = measured.height});
     out.send(messages::GpsLongitude{.longitude_deg = world::longitude_deg(measured),
                                     .satellites = valid ? satellites : std::uint8_t{0},

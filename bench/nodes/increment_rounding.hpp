@@ -22,8 +22,8 @@ inline double round_increment(double increment, double lsb, const SignalInfo& si
   return sent;
 }
 
-/// Rounds a triad of increments to the resolution and range of a signal, keeping the remainders. Without
-/// rounding the remainder is only what exceeds the range.
+/// Rounds a triad of increments to the resolution and range of a signal and carries the remainders. Without
+/// rounding, the remainder is only the part beyond the range.
 class IncrementRounding {
  public:
   explicit IncrementRounding(const SignalInfo& signal) : signal_(signal) {}

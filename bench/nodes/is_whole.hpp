@@ -5,8 +5,8 @@
 
 namespace canhil::nodes {
 
-/// Checks id, size, CRC and counter range. An error frame is never valid, though its class bits may look like
-/// any id.
+/// Checks id, size, CRC and counter range. An error frame is never valid, although its error-class bits may
+/// equal a message's id.
 template <class Message>
 bool is_whole(const Frame& frame) {
   return frame.id == Message::info.id && !frame.error && frame.extended == Message::info.extended &&

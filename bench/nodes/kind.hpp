@@ -1,5 +1,5 @@
-// The properties of a kind of node that the bench uses. They are defined in the node's own file; all other
-// code iterates over the registry or over the nodes of a scenario.
+// The properties of a kind of node. Each kind defines them in its own file; all other code iterates over the
+// registry or over the nodes of a scenario.
 #pragma once
 
 #include "bench/nodes/node.hpp"
@@ -28,15 +28,14 @@ class Befalling {
   virtual std::unique_ptr<Node> befallen(std::unique_ptr<Node> node, const NodeSettings& settings) = 0;
 };
 
-/// The inputs of the nodes in a run; all of it must outlive them.
+/// The inputs of the nodes in a run; everything that it refers to must outlive the nodes.
 struct Run {
   const scenario::Scenario& scenario;
   std::uint64_t index = 0;
-  const world::FlightRecord& flight;          ///< ends with the run
-  const world::GlideRecord* glide = nullptr;  ///< if the scenario has [glide]
-  world::EngagementRecord* engagement =
-      nullptr;                  ///< if the scenario has [engagement]; filled during the flight
-  Befalling* faults = nullptr;  ///< null: no faults
+  const world::FlightRecord& flight;              ///< ends with the run
+  const world::GlideRecord* glide = nullptr;      ///< null: the scenario has no [glide]
+  world::EngagementRecord* engagement = nullptr;  ///< null: no [engagement]; filled during the flight
+  Befalling* faults = nullptr;                    ///< null: no faults
 
   /// A stream of random numbers. The name must never change: the results depend on it.
   [[nodiscard]] world::Stream stream(std::string_view name) const { return {scenario.seed, index, name}; }
@@ -51,11 +50,11 @@ std::unique_ptr<Node> make(const NodeSettings& node, const Run& run) {
 struct Kind {
   NodeTable table;
   std::unique_ptr<Node> (*make)(const NodeSettings& node, const Run& run) = nullptr;
-  /// Whether the bus can carry all signals that the node sends in any run of a scenario; otherwise a signal
-  /// would saturate or round to zero unnoticed. Error: one line. Null: it always can.
+  /// Checks that the bus can carry every signal that the node sends in any run of a scenario; otherwise a
+  /// signal could saturate or round to zero unnoticed. Error: one line. Null: no check is needed.
   Result<void> (*fits)(const NodeSettings& node, const scenario::Scenario& scenario,
                        const world::FlightRecord& flight) = nullptr;
-  bool at_every_epoch = false;  ///< its period is also that of the flight record
+  bool at_every_epoch = false;  ///< its period defines the epochs of the flight record
 };
 
 }  // namespace canhil::nodes

@@ -1,4 +1,4 @@
-// An emulated node: when it transmits next, and what.
+// An emulated node: the time and the frames of its next transmission.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class Node {
   Node& operator=(const Node&) = delete;
   virtual ~Node() = default;
 
-  /// When the next transmission is due; never_us after the last one.
+  /// Time of the next transmission; never_us after the last one.
   [[nodiscard]] virtual std::int64_t due_us() const = 0;
   /// Appends the frames of the due transmission and advances to the next.
   virtual void transmit(Transmission& out) = 0;

@@ -13,12 +13,13 @@
 namespace canhil::nodes {
 namespace {
 
-// A longer IMU gap ends an alignment; of slower nodes two samples in a row may be missing.
+// The longest gap accepted by default: a longer IMU gap ends an alignment; a slower node may lack two samples
+// in a row.
 std::int64_t usual_gap_us(std::int64_t period_us) { return std::max<std::int64_t>(200'000, 3 * period_us); }
 
 double ms(std::int64_t us) { return 1e-3 * static_cast<double>(us); }
 
-// Silence, freshness and the grid of the truth are computed from the period.
+// Checks the period, because silence, freshness and the grid of the truth are computed from it.
 Result<void> check_period(std::int64_t median_us, std::int64_t period_us, std::string_view file) {
   constexpr double tolerated = 0.1;
   const auto period = static_cast<double>(period_us);

@@ -1,10 +1,10 @@
-// A node that sends recorded samples. It can replace a node of any kind; columns have the names that the DBC
-// gives the signals of the sample group. No error model is applied.
+// A node that sends recorded samples. It can replace a node of any kind. Columns are named after the signals
+// of its sample group in the DBC. No error model is applied.
 //
 // In a CSV file (scenario/table.hpp) each row is a sample: its signals by name, its time of validity in t_s.
 // From a candump log with canhil's DBC, the frames of the group are sent unchanged, at their time in the time
 // base of the log's Sync: a run recorded with --log can be flown again. Another format needs one more reader
-// beside these two, selected in read_recorded(); it returns a scenario::Table, which the code here sends.
+// beside these two, selected in read_recorded(); it returns a scenario::Table, which is sent like a CSV file.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@
 
 namespace canhil::nodes {
 
-/// Samples: for each the values of its group's signals, message by message in the order of ids.
+/// Recorded samples: the values of the group's signals, message by message in the order of ids.
 struct RecordedSamples {
   std::vector<std::int64_t> valid_us{};     ///< ascending
   std::vector<std::int64_t> interval_us{};  ///< before each sample, for groups that carry it
@@ -30,7 +30,7 @@ struct RecordedSamples {
 struct RecordedFrames {
   struct At {
     std::int64_t due_us = 0;
-    std::size_t index = 0;  ///< in the log: keeps the order of frames of several nodes
+    std::size_t index = 0;  ///< position in the log: keeps the order of frames of several nodes
     Frame frame;
   };
   std::vector<At> frames{};
@@ -41,7 +41,7 @@ struct RecordedSettings {
   scenario::Schedule schedule{};
   std::string recorded_from;  ///< the file
   std::shared_ptr<const RecordedSamples> samples{};
-  std::shared_ptr<const RecordedFrames> frames{};  ///< one of the two is set
+  std::shared_ptr<const RecordedFrames> frames{};  ///< exactly one of `samples` and `frames` is set
 };
 
 /// The keys recorded and period_ms and, for a CSV file, latency_ms, from_s and gap_s.
@@ -62,7 +62,7 @@ struct LoggedGroup {
 };
 Result<LoggedGroup> read_frames(const NodeTable& table, const std::string& log, std::int64_t end_us);
 
-/// The nodes that send them.
+/// Makes the node that sends recorded samples.
 std::unique_ptr<Node> make_samples(const NodeSettings& node, const Run& run);
 std::unique_ptr<Node> make_frames(const std::vector<const RecordedFrames*>& of_one_log, const Run& run);
 

@@ -53,7 +53,7 @@ class Reading {
   Result<LoggedGroup> finish(std::int64_t end_us) && {
     if (!synchronised_)
       return failure(fmt::format("{}: has no Sync, expected the log of a run, which has a time base", log_));
-    group_.frames.frames.resize(placed_);  // after the last Sync the time is unknown
+    group_.frames.frames.resize(placed_);  // drops frames after the last Sync: their time is unknown
     if (valid_us_.size() < 2)
       return failure(fmt::format("{}: has {} samples of {}, expected those of a run", log_, valid_us_.size(),
                                  closes_.sample_group.empty() ? closes_.name : closes_.sample_group));
@@ -89,7 +89,7 @@ class Reading {
     return whole;
   }
 
-  /// The full time of validity, continued from the previous one.
+  /// The full time of validity, unwrapped from the previous one.
   std::int64_t valid_us(const Frame& frame) {
     std::int64_t t_us = 0;
     each_message(closes_, [&]<class Message>() {

@@ -25,7 +25,7 @@ struct Source {
   SignalInfo signal;
   Role role = Role::value;
   std::optional<std::size_t> column{};  ///< index in the table's names; none: constant
-  std::optional<std::size_t> rate{};    ///< the same, multiplied by the interval
+  std::optional<std::size_t> rate{};    ///< the same for a rate, which is multiplied by the interval
   double constant = 0;
 };
 
@@ -109,8 +109,9 @@ Result<double> value_of(const Source& source, const Table& table, std::size_t ro
   return value;
 }
 
-/// The interval of a sample reaches back to the previous sample, in steps of its signal, so rounding errors
-/// do not accumulate. Where samples are missing it is one period, and the target sees the gap.
+/// The interval of a sample reaches back to the previous sample and is rounded to the steps of its signal
+/// without accumulating rounding errors. Where samples are missing it is one period, so the target sees the
+/// gap.
 std::int64_t interval_of(const std::vector<std::int64_t>& t_us, std::size_t row, std::int64_t period_us,
                          double step_us) {
   if (row == 0 || 2 * (t_us[row] - t_us[row - 1]) > 3 * period_us) return period_us;

@@ -46,8 +46,8 @@ std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run
   return run.faults == nullptr ? std::move(made) : run.faults->befallen(std::move(made), node);
 }
 
-// By the time of the truth that they sample, then by bus priority: the lower id first. So a fin deflection
-// has arrived when the navigation group of the same instant is complete.
+// Ordered by the time of the truth that they sample, then by bus priority (the lower id first). So a fin
+// deflection arrives before the navigation group of the same instant is complete.
 std::vector<std::unique_ptr<Node>> make(const Run& run) {
   auto kinds = registered;
   std::ranges::sort(kinds, {},
@@ -58,7 +58,7 @@ std::vector<std::unique_ptr<Node>> make(const Run& run) {
     const auto* node = run.scenario.node(kind->table.key);
     if (node == nullptr) continue;
     const auto* recorded = node->own<RecordedSettings>();
-    if (recorded != nullptr && recorded->frames)  // recorded nodes of one log keep their order
+    if (recorded != nullptr && recorded->frames)  // recorded nodes of one log share one player
       logs[recorded->recorded_from].push_back(node);
     else
       nodes.push_back(make(*kind, *node, run));

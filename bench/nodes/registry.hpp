@@ -9,10 +9,10 @@
 
 namespace canhil::nodes {
 
-/// All kinds, in the order of reading tables and of reports.
+/// All kinds, in the order in which tables are read and reported.
 std::span<const Kind* const> all();
 
-/// Their tables, for scenario::DbcVocabulary.
+/// The tables of all kinds, for scenario::DbcVocabulary.
 std::vector<const scenario::NodeTable*> tables();
 
 /// One node alone, emulated or recorded.

@@ -5,8 +5,8 @@
 
 namespace canhil::nodes {
 
-/// Sample k is valid at k * period and sent a latency later, provided that this is before the end of the run:
-/// an answer after the last Sync would not be observed. `Settings`: the settings of its table.
+/// Sends sample k, valid at k * period, after the latency. No sample is sent after the end of the run,
+/// because an answer after the last Sync would not be observed. `Settings`: the settings of the node's table.
 template <class Settings>
 class Sampler : public Node {
  public:
@@ -31,7 +31,7 @@ class Sampler : public Node {
   const Run run_;
 
  private:
-  /// Appends the group for a time; false: it is lost.
+  /// Appends the group valid at a time; false: the group is lost.
   virtual bool sample(std::int64_t valid_us, Transmission& out) = 0;
 
   std::int64_t period_us_;

@@ -32,7 +32,8 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
          outcome == LosRateOutcome::updated || outcome == LosRateOutcome::coasting;
 }
 
-// KEY, and KEY with _sigma before the unit: a constant, and the sigma of the part drawn for each run.
+// Reads KEY, the constant part, and KEY with _sigma before the unit, the sigma of the part drawn for each
+// run.
 world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
                                  std::string_view of, double sigma) {
   return {
@@ -119,7 +120,7 @@ Result<void> fits(const NodeSettings& node, const scenario::Scenario& scenario,
 }
 
 // In closed loop the answer to a sample sent at t takes effect at t + the guidance delay, even if it arrives
-// earlier. So with a delay of at least a Sync cycle every bus and clock gives the same flight.
+// earlier. So, with a delay of at least one Sync cycle, the flight is the same on every bus and clock.
 class Seeker final : public Node {
  public:
   Seeker(const NodeSettings& node, const Run& run)
@@ -142,7 +143,7 @@ class Seeker final : public Node {
   void hear(const Frame& frame) override;
 
  private:
-  /// A sample that may still be answered.
+  /// A sample whose answer may still arrive.
   struct Sent {
     std::int64_t valid_us = 0;
     std::int64_t sent_us = 0;
@@ -161,7 +162,7 @@ class Seeker final : public Node {
   world::Engagement engagement_;
   world::ErroneousSeeker errors_;
   SeekerSettings config_;
-  world::Stream faults_;  // A separate stream for losses and jitter, so that they do not change measurements.
+  world::Stream faults_;  // separate from the measurements, which losses and jitter must not change
   bool guided_;
   std::int64_t period_us_;
   std::int64_t valid_us_ = 0;
@@ -171,7 +172,7 @@ class Seeker final : public Node {
   SampleGroup<LosRateEstimate, LosRateSigma, LosRateTarget> answer_;
 };
 
-// Samples are sent in their order, whatever the jitter is.
+// Keeps the order of the samples in spite of the jitter.
 void Seeker::advance() {
   valid_us_ += period_us_;
   const double jitter_us = faults_.uniform() * static_cast<double>(config_.jitter_us);
@@ -240,10 +241,10 @@ void Seeker::hear(const Frame& frame) {
   put(std::type_identity<LosRateTarget>{});
 }
 
-// Extrapolates the answered rate to dt after its sample, from the answered target acceleration and the
-// missile's own measurements: w' = (2 vc/r) w + (a - a_m)/r with constant vc and accelerations (Na and Lee,
-// eq. (1)). Limited to half of the range, because it grows without bound. In the antenna's axes of the
-// sample.
+// Extrapolates the estimated LOS rate over dt from the time of the sample to the time of use, with the
+// estimated target acceleration and the missile's own measurements: w' = (2 vc/r) w + (a - a_m)/r with
+// constant vc and accelerations (Na and Lee, eq. (1)). The extrapolation ends at half of the range, because
+// the rate grows without bound. In the antenna's axes at the sample.
 world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& estimate,
                                    const LosRateTarget& target, double dt) {
   const double r0 = sample.range;
@@ -257,7 +258,7 @@ world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& es
               a * (target.target_acceleration_y_mps2 - sample.missile_acceleration.yaw)};
 }
 
-// The answer in the antenna's axes at its sample, with the closing speed of that sample.
+// Steers by the answer, in the antenna's axes at its sample, with the closing speed of that sample.
 void Seeker::steer() {
   const auto& estimate = answer_.get<LosRateEstimate>();
   const auto& target = answer_.get<LosRateTarget>();

@@ -15,9 +15,9 @@ struct SeekerSettings {
   scenario::Schedule schedule{};
   std::int64_t jitter_us = 0;  ///< added to the latency: uniform between 0 and this, drawn for each sample
   world::SeekerErrorModel errors{};
-  double loss_probability = 0;           ///< of each group: it is not sent, its increments are lost
-  double invalid_probability = 0;        ///< of the error angles of each group: a missed radar pulse
-  double invalid_range_probability = 0;  ///< of range and closing speed of each group
+  double loss_probability = 0;           ///< a group is not sent, and its increments are lost
+  double invalid_probability = 0;        ///< a missed radar pulse: the error angles of a group are invalid
+  double invalid_range_probability = 0;  ///< range and closing speed of a group are invalid
   std::optional<std::pair<std::int64_t, std::int64_t>> blackout_us{};  ///< error angles invalid throughout
 };
 

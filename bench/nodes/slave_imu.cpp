@@ -72,7 +72,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
   return {table, node};
 }
 
-// The summands of an axis's sample, in the order of `parts_of`: names for messages.
+// Setting names of the terms in parts_of(), in the same order, for error messages.
 using Names = std::array<std::string_view, 7>;
 constexpr Names gyro_parts{"the flight",
                            "'slave_imu.gyro_bias_degph'",
@@ -90,7 +90,8 @@ constexpr Names accel_parts{"the flight",
                             "'slave_imu.accel_misalignment_sigma_mrad'"};
 
 // Bounds of the terms of (I + M) exact + bias dt + noise sqrt(dt); random terms at six sigma. A row of M has
-// two misalignments: the sigma of their sum is the sigma of one times the length of the other two components.
+// two misalignments: the sigma of their sum is one misalignment's sigma times the length of the other two
+// components of `exact`.
 std::array<double, 7> parts_of(const world::TriadErrorModel& model, const world::Vector3& exact, int axis,
                                double dt) {
   constexpr double certain = 6;

@@ -11,7 +11,7 @@ namespace canhil::nodes {
 struct SlaveImuSettings {
   scenario::Schedule schedule{};
   world::ImuErrorModel errors{};
-  double loss_probability = 0;  ///< of each group: it is not sent, its increments are lost
+  double loss_probability = 0;  ///< a group is not sent, and its increments are lost
 };
 
 extern const struct Kind slave_imu;

@@ -49,13 +49,13 @@ class Ssbl final : public Sampler<SsblSettings> {
     const world::Position ship = displaced(run_.flight.epochs().front().position, way);
     const Vector3 relative = displacement_n(ship, run_.flight.at(t_us).position);
 
-    // Angle errors are proportional to the range; they are added as independent.
+    // Angle errors cause position errors proportional to the range, added here as independent components.
     const Vector3 range_noise = Vector3::Constant(config_.range_noise * relative.norm());
     const Vector3 sigma = (config_.noise.array().square() + range_noise.array().square()).sqrt();
     const Vector3 noise = sigma.cwiseProduct(stream_.normal3());
     const Fate fate = draw_fate(config_.faults, t_us, stream_);
     Vector3 measured = relative + bias_ + noise + fate.jump;
-    if (fate.invalid) measured.setZero();  // an invalid fix carries no information
+    if (fate.invalid) measured.setZero();  // an invalid fix has no position
     const world::Position reported = displaced(ship, ship_error_);
     out.send(
         messages::SsblRelativeNE{.relative_north_m = measured.x(),

@@ -11,10 +11,10 @@
 
 namespace canhil::nodes {
 
-/// The message that it does not fit: one line.
+/// The error message for a value that does not fit its signal: one line.
 std::string misfit(std::string_view what, double value, const MessageInfo& message, const SignalInfo& signal);
 
-/// Whether the message's signal interval_us can carry an interval exactly.
+/// Error: the message's signal interval_us cannot carry the interval exactly.
 Result<void> check_interval(std::string_view what, std::int64_t interval_us, const MessageInfo& message,
                             std::span<const SignalInfo> signals);
 

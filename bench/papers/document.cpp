@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// The text before the first occurrence of a separator, and the text after it.
+// Splits a line at the first occurrence of a separator.
 std::pair<std::string_view, std::string_view> cut(std::string_view line, std::string_view at) {
   const auto found = line.find(at);
   if (found == line.npos) wrong(line, fmt::format("'{}'", at));

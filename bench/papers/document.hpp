@@ -1,4 +1,4 @@
-// Parses the text of a page, after its names are filled in:
+// Parses the text of a page after its {{names}} have been filled in:
 //
 //     # Title of the page
 //     Its subtitle, up to a blank line.
@@ -29,10 +29,10 @@
 
 namespace canhil::papers {
 
-/// The curve that its first word names; the other words are its arguments. The label comes from the document.
+/// Makes a curve: found by its first word; the other words are arguments. The label comes from the document.
 using Curves = std::map<std::string, std::function<Curve(Words&)>, std::less<>>;
 
-/// Throws std::logic_error, one line with the place, if the text does not have this form.
+/// Throws std::logic_error if the text does not have this form: one line that contains the place.
 Page page_of(std::string_view text, const Curves& curves);
 
 }  // namespace canhil::papers

@@ -16,7 +16,7 @@ struct Layout {
   int width, height;             // [px]
   int left, right, top, bottom;  // margins [px]
   int font;                      // [px]
-  int x_steps;                   // of the grid, approximately
+  int x_steps;                   // approximate number of grid steps
 };
 constexpr Layout desktop{
     .width = 800, .height = 440, .left = 76, .right = 0, .top = 14, .bottom = 58, .font = 15, .x_steps = 10};
@@ -33,18 +33,18 @@ double grid_step(double length, int steps) {
   return 10 * power;
 }
 
-// The right margin holds the names of the curves and their markers.
+// Sets the right margin so that the names of the curves and their markers fit.
 Layout with_room_for_labels(Layout layout, const Figure& figure) {
   std::size_t longest = 0;
   for (const Curve& curve : figure.curves) longest = std::max(longest, curve.label.size());
-  // As a fraction of the font size. The reader's sans-serif font may be wide: 'combined' takes 0.62 in DejaVu
-  // Sans.
+  // Width of a character divided by the font size. The reader's sans-serif font may be wide: 'combined' takes
+  // 0.62 per character in DejaVu Sans.
   constexpr double character_width = 0.68;
   layout.right = 34 + static_cast<int>(character_width * layout.font * static_cast<double>(longest));
   return layout;
 }
 
-// The colours of Okabe and Ito, dark enough on white; dashes and markers distinguish the curves without
+// The colours of Okabe and Ito, darkened for a white page. Dashes and markers distinguish the curves without
 // colour.
 constexpr std::array colours{"#000000", "#0072B2", "#B5460F", "#007A5A",
                              "#9C4A86", "#6B5B00", "#4A4A4A", "#3E7FB0"};
@@ -59,13 +59,13 @@ double on_axis(double y, const Figure& figure) {  // 0 at the lower end, 1 at th
   return std::clamp(share, 0.0, 1.0);
 }
 
-// Heights of labels, as close to the curves' ends as possible without overlap.
+// Moves labels apart so that they do not overlap, as close to the curves' ends as possible.
 std::vector<double> spread(const std::vector<double>& wanted, double gap) {
   std::vector<std::size_t> order(wanted.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return wanted[i]; });
   std::vector<double> placed = wanted;
-  constexpr int rounds = 200;  // of pushing neighbours apart, each by half of the missing distance
+  constexpr int rounds = 200;  // each moves overlapping neighbours apart by half of the overlap
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 1; i < order.size(); ++i) {
       double &below = placed[order[i - 1]], &above = placed[order[i]];
@@ -138,7 +138,8 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\n", figure.x_range.first,
                         figure.x_range.second, figure.y_range.first, figure.y_range.second,
                         grid_step(length, layout.x_steps));
-  // gnuplot would place the axis names next to the tick labels, which is outside of a narrow figure.
+  // Axis names are drawn here, because gnuplot would place them next to the tick labels, outside a narrow
+  // figure.
   script += fmt::format(
       "set label '{}' at screen {:.4f},{:.4f} center\n"
       "set label '{}' at screen {:.4f},{:.4f} center rotate by 90\n",
@@ -148,7 +149,7 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   script += labels(figure, layout) + "plot ";
   const std::size_t count = figure.curves.size();
   for (std::size_t i = 0; i < count; ++i) {
-    // Markers at every tenth of the axis, shifted from curve to curve.
+    // Draws markers at every tenth of the axis, at a different offset for each curve.
     const auto shown =
         static_cast<std::size_t>(std::ranges::count_if(figure.curves[i].points, [&](const auto& p) {
           return p.first >= figure.x_range.first && p.first <= figure.x_range.second;
@@ -165,7 +166,7 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   return script + "\n";
 }
 
-// Several drawings share one page, so ids in each need a prefix.
+// Prefixes the ids of a drawing, because several drawings share one page.
 std::string with_own_names(std::string svg, const std::string& prefix) {
   for (const std::string_view name : {"gpPt", "gpDot", "gnuplot_"}) {
     for (auto at = svg.find(name); at != std::string::npos;

@@ -19,11 +19,11 @@ struct Curve {
 
 /// Curves over time or another quantity, with a logarithmic or linear axis of values.
 struct Figure {
-  std::string id;  ///< of the HTML element
+  std::string id;  ///< id of the HTML element
   std::string title;
   std::string caption;  ///< meaning of the axes, settings, number of runs
   std::string x_label{}, y_label{};
-  bool logarithmic = false;  ///< the axis of the values
+  bool logarithmic = false;  ///< whether the axis of values is logarithmic
   std::pair<double, double> x_range{}, y_range{};
   std::vector<double> thresholds{};  ///< horizontal lines, labelled by their value
   std::vector<Curve> curves{};
@@ -34,7 +34,7 @@ bool has_ranges(const Figure& figure);
 
 enum class Width { desktop, phone };
 
-/// One SVG element that scales to the width of its container. Error: gnuplot's.
+/// One SVG element that scales to the width of its container. Error: the error that gnuplot reports.
 Result<std::string> draw(const Figure& figure, Width width);
 
 }  // namespace canhil::papers

@@ -12,7 +12,7 @@
 namespace canhil::papers {
 namespace {
 
-// Campaigns and their names are built into the program; a test asks for each of them.
+// Reports an error of the program: the names of campaigns are built in, and a test requests each of them.
 [[noreturn]] void no_such(std::string_view campaign, std::string_view what) {
   throw std::logic_error(fmt::format("campaign '{}': no {}", campaign, what));
 }
@@ -83,7 +83,7 @@ std::span<const campaign::CurvePoint> Results::curve(Words& words, const campaig
 void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit) {
   constexpr double of_95_percent = 1.96;  // standard deviations of a normal distribution
   const double rms = point.rms / unit;
-  // Symmetric on a logarithmic axis, which RMS values use: never below zero.
+  // A range that is symmetric on a logarithmic axis, as used for RMS values, and never below zero.
   const double times = std::exp(of_95_percent * point.rms_error / point.rms);
   curve.points.emplace_back(x, rms);
   curve.ranges.push_back(std::isfinite(times) ? std::pair(rms / times, rms * times) : std::pair(rms, rms));

@@ -21,31 +21,32 @@
 namespace canhil::papers {
 
 struct FlyOptions {
-  std::filesystem::path folder;       ///< for the results, NAME.sqlite; must exist
-  std::optional<std::uint64_t> runs;  ///< replaces the campaigns' own numbers
+  std::filesystem::path folder;       ///< folder of the results, NAME.sqlite; must exist
+  std::optional<std::uint64_t> runs;  ///< replaces the number of runs in the campaigns
   Rounding rounding = Rounding::as_on_the_bus;
   std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
 };
 
 /// A campaign with its answers.
 struct Flown {
-  std::string name;  ///< of the file, without its extension
+  std::string name;  ///< name of the campaign's file without extension
   campaign::Campaign campaign;
   campaign::Evaluation evaluation;
 
   /// RMS over the runs of a variant. The variant is given by its name in the file and, if any, its point of
-  /// the sweep: "kf master_ins.period_ms=20". Like all answers here, a missing one throws std::logic_error.
+  /// the sweep: "kf master_ins.period_ms=20". This and the following functions throw std::logic_error if
+  /// there is no such answer.
   [[nodiscard]] std::span<const campaign::CurvePoint> curve(
       std::string_view variant, const campaign::Quantity& quantity = quantities::attitude_heading) const;
-  /// The answer to a metric, by name, for a variant.
+  /// The answer to a metric for a variant.
   [[nodiscard]] const campaign::Answer& answer(std::string_view metric, std::string_view variant) const;
-  /// The first answer of a kind of metric for a variant.
+  /// The first answer of this kind of metric for a variant.
   [[nodiscard]] const campaign::Answer& answer_of_kind(std::string_view kind, std::string_view variant) const;
-  /// Answers that carry a requirement.
+  /// The answers with this requirement.
   [[nodiscard]] std::vector<const campaign::Answer*> answers(std::string_view requirement) const;
 };
 
-/// Whether there are answers that carry the requirement, and all of them met their bars.
+/// Whether there are answers with this requirement, and all of them met their bars.
 bool passed(const Flown& flown, std::string_view requirement);
 
 /// The campaigns of a paper.
@@ -54,27 +55,27 @@ struct Results {
 
   /// The campaign of this name; it must exist.
   [[nodiscard]] const Flown& of(std::string_view name) const;
-  /// The curve of the campaign and the variant that the words name.
+  /// The curve whose campaign and variant are the next words.
   [[nodiscard]] std::span<const campaign::CurvePoint> curve(
       Words& words, const campaign::Quantity& quantity = quantities::attitude_heading) const;
 };
 
-/// Adds an RMS over runs to a curve at x, with its 95 % range from the scatter over the runs; `unit` [SI] is
-/// the figure's.
+/// Adds an RMS over runs to a curve at x, with its 95 % range from the scatter over the runs. `unit`: unit of
+/// the figure [SI].
 void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit = 1);
 /// The RMS over time [s], every `step`-th point.
 Curve over_time(std::span<const campaign::CurvePoint> points, double unit = 1, std::size_t step = 1);
 
-/// A figure of an answer, by its name in the report; NaN: the answer has no such figure.
+/// The figure of an answer with this name in the report; NaN: the answer has no such figure.
 double figure(const campaign::Answer& answer, std::string_view name);
 
-/// A campaign with the answers from its results. Error: results cannot be read, or runs are missing.
+/// A campaign with the answers computed from its results. Error: results cannot be read, or runs are missing.
 Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const campaign::Store& store);
 
 /// The results file of a campaign in the folder.
 std::filesystem::path results_file(const FlyOptions& options, std::string_view campaign);
 
-/// Flies the runs that are missing in the folder. None: stopped early. Error: one line.
+/// Flies the runs that the results in the folder lack. None: stopped early. Error: one line.
 Result<std::optional<Results>> fly(report::EmbeddedFiles campaigns, report::EmbeddedFiles scenarios,
                                    const FlyOptions& options, const std::atomic<bool>& stop);
 

@@ -13,8 +13,8 @@
 namespace canhil::papers {
 namespace {
 
-// A file in memory: the child process uses such files as its standard streams, so nothing can block on a full
-// pipe.
+// A file in memory, used as a standard stream of the child process: unlike a pipe, it cannot fill up and
+// block.
 class MemoryFile {
  public:
   MemoryFile() : descriptor_(memfd_create("gnuplot", MFD_CLOEXEC)) {}

@@ -1,4 +1,4 @@
-// Debian's gnuplot as a child process: a script in, one SVG out.
+// Runs Debian's gnuplot as a child process: reads a script, writes one SVG.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace canhil::papers {
 
-/// Whether gnuplot can be started, to be checked before a long run. Error: one line.
+/// Error: gnuplot cannot be started; one line. Call this before a long run.
 Result<void> check_gnuplot();
 
-/// The standard output of gnuplot for a script on its standard input; data are inside the script, as
-/// here-documents. Error, one line: it cannot be started, or it reports an error.
+/// The standard output of gnuplot for a script on its standard input; the script contains the data as
+/// here-documents. Error: one line; gnuplot cannot be started, or reports an error.
 Result<std::string> gnuplot(std::string_view script);
 
 }  // namespace canhil::papers

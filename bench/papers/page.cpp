@@ -54,7 +54,7 @@ Result<std::string> html(const Figure& figure) {
       figure.id);
 }
 
-std::size_t width_of(std::string_view text) {  // in characters, not bytes, of UTF-8
+std::size_t width_of(std::string_view text) {  // in characters of UTF-8, not bytes
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char c) { return (static_cast<unsigned char>(c) & 0b1100'0000U) != 0b1000'0000U; }));
 }

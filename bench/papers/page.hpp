@@ -12,8 +12,8 @@ namespace canhil::papers {
 
 struct Table {
   struct Row {
-    std::vector<std::string> cells;  ///< as many as in the head; the last column is the verdict
-    std::string mark;                ///< of the verdict: yes, no, partly; empty: none
+    std::vector<std::string> cells;  ///< one for each column; the last column is the verdict
+    std::string mark;                ///< the verdict: yes, no, partly; empty: none
   };
   std::vector<std::string> head;
   std::vector<Row> rows;
@@ -21,7 +21,7 @@ struct Table {
 };
 
 struct Section {
-  std::string id;  ///< of the HTML element
+  std::string id;  ///< id of the HTML element
   std::string title;
   std::vector<std::variant<std::string, Table, Figure>> parts;  ///< a paragraph is a string
 };

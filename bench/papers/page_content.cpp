@@ -7,7 +7,7 @@
 namespace canhil::papers {
 namespace {
 
-// A metric may apply to several variants: then the rows name them.
+// One row for each answer. If a metric applies to several variants, the rows name the variant.
 std::string bar_rows(const Flown& flown, std::string_view requirement) {
   const auto answers = flown.answers(requirement);
   std::string rows;

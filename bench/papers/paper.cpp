@@ -14,15 +14,15 @@
 namespace canhil::papers {
 namespace {
 
-// The papers. A new one is added here.
+// The papers: add a new one here.
 struct Paper {
   std::string_view name;
   const report::EmbeddedFiles &campaigns, &scenarios, &templates;
   Result<PageContent> (*page_content)(const Results& results, const FlyOptions& options,
                                       const std::filesystem::path& exact);
   std::string_view judged;  // the campaign with the bars
-  std::uint64_t enough;     // number of runs that the bars are made for
-  bool compares = false;    // with results without rounding
+  std::uint64_t enough;     // number of runs for which the bars were derived
+  bool compares = false;    // compares with results without rounding
 };
 constexpr std::array papers{Paper{.name = "transfer",
                                   .campaigns = transfer_alignment::campaigns,

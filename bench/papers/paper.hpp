@@ -24,10 +24,11 @@ struct Request {
   std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
 };
 
-/// too_few_runs: bars were missed, but with so few runs this has no significance.
+/// too_few_runs: bars were missed, but the number of runs is too small for a verdict.
 enum class Outcome : std::uint8_t { bars_met, bars_missed, too_few_runs, interrupted };
 
-/// `runs`: per variant of the campaign with the bars; `enough`: the number that the bars are made for.
+/// `runs`: per variant of the campaign with the bars; `enough`: number of runs for which the bars were
+/// derived.
 Outcome outcome_of(bool bars_met, std::uint64_t runs, std::uint64_t enough);
 
 struct Reproduced {
@@ -36,7 +37,8 @@ struct Reproduced {
   std::filesystem::path page;  ///< path of the HTML page
 };
 
-/// Error, one line: unknown paper, folder not writable, gnuplot missing; all checked before the first flight.
+/// Error: one line; unknown paper, folder not writable, or gnuplot missing, all checked before the first
+/// flight.
 Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& stop);
 
 }  // namespace canhil::papers

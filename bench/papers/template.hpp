@@ -1,4 +1,4 @@
-// Fills a page's prose with a run's figures at {{names}}: Mustache without escaping.
+// Fills the {{names}} in a page's prose with the figures of a run: Mustache without escaping.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace canhil::papers {
 
-/// The words of a name, taken one after another. Throws std::logic_error if none is left.
+/// The words of a tag, read one after another. Throws std::logic_error if no word is left.
 class Words {
  public:
   explicit Words(std::string_view text) : left_(text) {}
@@ -24,15 +24,16 @@ class Words {
   std::string_view left_;
 };
 
-/// Text for {{name}}; or a boolean that selects {{#name}}...{{/name}} or {{^name}}...{{/name}}.
+/// Text for {{name}}, or a boolean that selects {{#name}}...{{/name}} or {{^name}}...{{/name}}.
 using Value = std::variant<std::string, bool>;
-/// The value of a name, by its first word; the other words are arguments: {{times table2 kf_p1}}.
+/// Computes the value of a tag: found by its first word; the other words are arguments: {{times table2
+/// kf_p1}}.
 using Names = std::map<std::string, std::function<Value(Words&)>, std::less<>>;
 
-/// A number in a format, which may be an argument: {{rms .3g ssbl ekf_90}}.
+/// Formats a number; the format may come from an argument: {{rms .3g ssbl ekf_90}}.
 std::string number(std::string_view format, double value);
 
-/// The file `page` with its names filled in; {{>other}} includes another of the files. Throws
+/// The template `page` with its names filled in; {{>other}} includes another template. Throws
 /// std::logic_error, one line with the tag, if the tag is unknown, has too many or too few words, or has no
 /// value. Templates are built into the program, and tests fill all of them.
 std::string filled(report::EmbeddedFiles templates, const Names& names);

@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t most_apart_ns = 5'000'000;
-constexpr std::int64_t drift_over = 64;  // frames, over which the difference of the clocks is followed
+constexpr std::int64_t drift_over = 64;  // length of the moving estimate of the clock difference, in frames
 
 struct Stamped {
   std::int64_t t_ns = 0;
@@ -54,7 +54,8 @@ TimesByContent times_of(const std::vector<Stamped>& frames) {
   return times;
 }
 
-// b's clock less a's, by the frames that each has once; without any by the first frames.
+// The clock of b minus the clock of a: the median over frames that occur once in each log; without such
+// frames, from the first frames.
 std::int64_t clocks_apart_ns(const std::vector<Stamped>& a, const std::vector<Stamped>& b) {
   const TimesByContent of_b = times_of(b);
   std::vector<std::int64_t> apart_ns;
@@ -69,7 +70,7 @@ std::int64_t clocks_apart_ns(const std::vector<Stamped>& a, const std::vector<St
   return *middle;
 }
 
-// Count, mean, sum of squares: Welford's recurrence.
+// Count, mean and sum of squared deviations, by Welford's recurrence.
 class Collected {
  public:
   void add(double difference_s) {
@@ -113,7 +114,7 @@ Result<StampsCompared> compare_stamps(const std::string& log_a, const std::strin
   const std::int64_t from_ns = std::max(a->front().t_ns + apart_ns, b->front().t_ns) - most_apart_ns;
   const std::int64_t to_ns = std::min(a->back().t_ns + apart_ns, b->back().t_ns) + most_apart_ns;
   TimesByContent waiting = times_of(*b);
-  std::unordered_map<std::string, std::deque<std::int64_t>> paired;  // stamps of b
+  std::unordered_map<std::string, std::deque<std::int64_t>> paired;  // stamps of b by content
   for (const Stamped& one : *a) {
     const std::string content = content_of(one.frame);
     std::deque<std::int64_t>& times = waiting[content];

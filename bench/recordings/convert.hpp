@@ -8,8 +8,8 @@
 
 namespace canhil::recordings {
 
-/// Writes the frames of one log into another, whose name determines the format (dbc/logs/log.hpp). Returns
-/// their number. Error: one line; then no new file remains.
+/// Writes the frames of one log into a new log, whose file name determines the format (dbc/logs/log.hpp).
+/// Returns the number of frames. Error: one line; the new file is removed.
 Result<std::uint64_t> convert(const std::string& from, const std::string& to);
 
 }  // namespace canhil::recordings

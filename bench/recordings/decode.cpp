@@ -18,7 +18,7 @@ using Values = std::vector<dbc::DecodedSignal>;
 
 std::string number(double value) { return fmt::format("{:.12g}", value); }
 
-// Writes one format.
+// Writes the decoded frames in one format.
 class Writer {
  public:
   Writer() = default;
@@ -76,7 +76,7 @@ class Csv final : public Writer {
   }
 
  private:
-  std::map<const dbc::Signal*, std::size_t> places_;  // of the columns
+  std::map<const dbc::Signal*, std::size_t> places_;  // column of each signal
   std::string head_;
 };
 
@@ -92,7 +92,7 @@ class JsonLines final : public Writer {
                     {"id", message.id},
                     {"message", message.name},
                     {"signals", std::move(signals)}};
-    // The time as text from the log: a double cannot hold nanoseconds since 1970.
+    // Copies the time as text from the log: a double cannot hold nanoseconds since 1970.
     return fmt::format("{{\"t_s\":{},{}\n", t_s,
                        json.dump(-1, ' ', false, Json::error_handler_t::replace).substr(1));
   }

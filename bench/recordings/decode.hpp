@@ -28,14 +28,14 @@ struct DecodeOptions {
 /// Frames that cannot be decoded with the DBC.
 struct LeftOut {
   std::uint64_t frames = 0;
-  std::set<std::string> ids{};        ///< of frames without a message in the DBC
+  std::set<std::string> ids{};        ///< ids of frames without a message in the DBC
   std::uint64_t of_another_size = 0;  ///< frames of another size than their message
 };
 
 using Sink = std::function<void(std::string_view part)>;
 
-/// Passes on the text part by part. Numbers are in the signals' units, with twelve digits. Error: one line;
-/// the log cannot be read, or the DBC lacks a selected message.
+/// Decodes a log and passes the text on in parts. Numbers are in the signals' units, with twelve digits.
+/// Error: one line; the log cannot be read, or the DBC lacks a selected message.
 Result<LeftOut> decode(const std::string& log, const dbc::Database& database, const DecodeOptions& options,
                        const Sink& give);
 

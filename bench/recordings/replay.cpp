@@ -11,7 +11,7 @@ namespace canhil::recordings {
 namespace {
 
 constexpr std::int64_t patience_ns = 1'000'000'000;
-constexpr std::int64_t look_ns = 100'000'000;  // how often a wait checks for a stop
+constexpr std::int64_t look_ns = 100'000'000;  // interval at which a wait checks for a stop
 
 class Replay {
  public:
@@ -54,8 +54,7 @@ class Replay {
     return {};
   }
 
-  // Frames from the bus are read and discarded, because a node that does not read blocks the bus. False:
-  // stopped.
+  // Reads and discards frames from the bus, because a node that does not read blocks the bus. False: stopped.
   bool wait_until(std::int64_t deadline_ns) {
     for (;;) {
       while (port_.receive()) {

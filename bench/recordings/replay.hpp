@@ -1,4 +1,4 @@
-// Sends the frames of a log again.
+// Replays the frames of a log.
 #pragma once
 
 #include <atomic>
@@ -17,18 +17,18 @@ struct ReplayOptions {
   double speed = 1;                   ///< factor relative to the recording
   std::uint64_t loops = 1;            ///< 0: until stopped
   std::vector<std::uint32_t> only{};  ///< ids; empty: all
-  std::optional<bool> transmitted{};  ///< only frames that the recorder sent (true) or received (false)
+  std::optional<bool> transmitted{};  ///< true: only frames that the recorder sent; false: received
 };
 
 struct Replayed {
   std::uint64_t frames = 0;
   std::uint64_t loops = 0;       ///< repetitions begun
-  checks::Histogram lateness{};  ///< of each transmission relative to its deadline
+  checks::Histogram lateness{};  ///< transmission time minus deadline, for each frame
 };
 
 /// Sends each frame at its time after the first one, by absolute deadlines, so that lateness does not
-/// accumulate. Error frames are left out. `progress`: frames so far. Error: one line; the log cannot be read
-/// or has nothing to send, or the bus rejects a frame or accepts none for a second.
+/// accumulate. Error frames are not sent. `progress` receives the number of frames so far. Error: one line;
+/// the log cannot be read or has no frame to send, or the bus rejects a frame or accepts none for a second.
 Result<Replayed> replay(Port& port, const std::string& log, const ReplayOptions& options,
                         const std::atomic<bool>& stop, const std::function<void(std::uint64_t)>& progress);
 

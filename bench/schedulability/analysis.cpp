@@ -6,10 +6,10 @@ namespace canhil::schedulability {
 namespace {
 
 constexpr std::int64_t given_up_ns =
-    3'600'000'000'000;  // a busy period of an hour: any bound beyond is useless
+    3'600'000'000'000;  // one hour: a longer busy period gives no useful bound
 
-// Error flag 6, superposed flag 6, delimiter 8, intermission 3, and 8 for the suspension of an error passive
-// node: Tindell, Burns, Wellings 1995.
+// Error flag 6, superposed flag 6, delimiter 8, intermission 3, and 8 for the suspended transmission of an
+// error-passive node: Tindell, Burns, Wellings 1995.
 constexpr std::int64_t error_frame_bits = 31;
 
 constexpr std::int64_t divide_up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
@@ -55,7 +55,7 @@ struct Level {
   }
 };
 
-/// The smallest solution of t = f(t), by iteration from below; none beyond an hour.
+/// The smallest solution of t = f(t), by iteration from below; none: it exceeds an hour.
 template <class F>
 std::optional<std::int64_t> fixed_point(std::int64_t t, F&& f) {
   for (;;) {
@@ -77,7 +77,7 @@ Response analyse(const Level& level) {
            queued_within(level.own, t + level.own.jitter_ns) * c;
   });
   if (!busy) return result;
-  // Q_m = ceil((t_m + J_m) / T_m) instances, each of which may be the worst.
+  // Q_m = ceil((t_m + J_m) / T_m) instances; any of them may have the longest response.
   result.instances = queued_within(level.own, *busy + level.own.jitter_ns);
   std::int64_t worst = 0;
   std::int64_t w = level.blocking;
@@ -118,8 +118,8 @@ Response response(std::span<const Stream> streams, std::size_t index, std::int64
 
 namespace {
 
-/// The first stream at which the bus is certainly overloaded: analysing tens of thousands beyond it would
-/// take too long.
+/// The first stream at which the bus is certainly overloaded. The streams after it are not analysed: tens of
+/// thousands would take too long.
 std::size_t first_overloaded(std::span<const Stream> streams, const wire::BitRates& rates) {
   constexpr double for_sure = 1 + 1e-9;  // sums in a different order differ in the last bits
   double demand = 0;
@@ -150,7 +150,8 @@ std::vector<Response> responses(std::span<const Stream> streams, const Bus& bus)
 
 namespace {
 
-/// The streams of a bus on which every node sends in order of queueing, and their response times so far.
+/// The streams of a bus on which every node sends its frames first in, first out, with the current bounds of
+/// their response times.
 class FifoBus {
  public:
   FifoBus(std::span<const Stream> streams, const wire::BitRates& rates)

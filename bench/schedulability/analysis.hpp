@@ -25,7 +25,7 @@ namespace canhil::schedulability {
 enum class Release : std::uint8_t {
   cycle,     ///< sent cyclically, GenMsgCycleTime
   interval,  ///< sent on events, at intervals of at least GenMsgDelayTime
-  option,    ///< sent on events, at intervals of at least the caller's value for all such messages
+  option,    ///< sent on events, at the caller's minimum interval for all such messages
   once       ///< sent on events at unknown intervals: assumed due once within any response
 };
 
@@ -39,11 +39,11 @@ struct Stream {
   std::int64_t period_ns = 0;  ///< minimum interval between two releases; 0: Release::once
   std::optional<std::int64_t> deadline_ns{};
   std::int64_t jitter_ns = 0;  ///< the longest time from becoming due to being queued
-  wire::BitLength length{};    ///< of its longest frame
+  wire::BitLength length{};    ///< longest length of a frame
 };
 
-/// Bus errors: `burst` at once, and one more every `interval_ns`. Each costs an error frame and a
-/// retransmission (Tindell, Burns, Wellings 1995; Davis et al. 2007, section 3.4).
+/// Bus errors: `burst` at once, then one every `interval_ns`. Each costs an error frame and a retransmission
+/// (Tindell, Burns, Wellings 1995; Davis et al. 2007, section 3.4).
 struct ErrorModel {
   std::int64_t burst = 0;  ///< 0: no errors
   std::int64_t interval_ns = 0;
@@ -51,13 +51,13 @@ struct ErrorModel {
 
 struct Response {
   std::int64_t transmission_ns = 0;           ///< C
-  std::int64_t blocking_ns = 0;               ///< B, the longest frame of lower priority
+  std::int64_t blocking_ns = 0;               ///< B, transmission time of the longest frame of lower priority
   std::optional<std::int64_t> response_ns{};  ///< R; none: the analysis finds no bound
-  std::int64_t instances = 0;                 ///< the number of instances in the longest busy period
-  std::int64_t worst_instance = 0;            ///< which of them, from 0, has the longest response
+  std::int64_t instances = 0;                 ///< number of instances in the longest busy period
+  std::int64_t worst_instance = 0;            ///< index of the instance with the longest response, from 0
 };
 
-/// Which frame a node sends first: the one of highest priority, or the oldest.
+/// The order in which a node sends its frames: by priority, or first in, first out.
 enum class Queues : std::uint8_t { by_priority, in_order };
 
 /// Parameters of the bus.
@@ -67,7 +67,8 @@ struct Bus {
   ErrorModel errors{};
 };
 
-/// R of streams[index], with a given blocking in ns. Exactly the streams before it have higher priority.
+/// R of streams[index], with a given blocking [ns]. The streams before it, and only these, have higher
+/// priority.
 Response response(std::span<const Stream> streams, std::size_t index, std::int64_t blocking_ns,
                   const Bus& bus);
 
@@ -83,7 +84,7 @@ std::vector<Response> responses(std::span<const Stream> streams, const Bus& bus)
 ///   w_m = B_L + sum over k in N of ceil((r_k + J_k) / T_k) C_k - C_m
 ///             + sum over other k in hp(L) of ceil((w_m + r_k + J_k + tau_bit) / T_k) C_k
 ///   r_m = w_m + C_m,  R_m = J_m + r_m
-/// Sufficient, not exact. The streams are sorted as above; the bus's error model is ignored.
+/// This bound is sufficient, not exact. The streams are sorted as above; the bus's error model is ignored.
 std::vector<Response> fifo_responses(std::span<const Stream> streams, const wire::BitRates& rates);
 
 /// The utilisation of the bus by all streams with a period.

@@ -10,7 +10,7 @@
 
 namespace canhil::schedulability {
 
-/// Values for what a DBC may leave open.
+/// Values that are used where a DBC states none.
 struct Assumptions {
   std::int64_t event_interval_ns = 0;  ///< for event messages without a GenMsgDelayTime; 0: Release::once
   std::int64_t jitter_ns = 0;          ///< for messages without a GenMsgJitter

@@ -45,7 +45,7 @@ bool any(const Analysis& analysis, Release release) {
   return std::ranges::find(analysis.streams, release, &Stream::release) != analysis.streams.end();
 }
 
-/// The assumptions that replace what the DBC leaves open.
+/// A line with the assumed values that the DBC does not state.
 std::string assumptions(const Analysis& analysis) {
   std::string text;
   if (any(analysis, Release::interval))

@@ -8,7 +8,7 @@
 
 namespace canhil::schedulability {
 
-/// Inputs and results; responses[i] belongs to streams[i].
+/// Inputs and results of the analysis; responses[i] belongs to streams[i].
 struct Analysis {
   std::string file;
   Bus bus;
@@ -16,7 +16,7 @@ struct Analysis {
   std::vector<Response> responses;
 };
 
-/// Analyses streams that are sorted by priority.
+/// Analyses streams, which must be sorted by priority.
 Analysis analyse(std::string file, std::vector<Stream> streams, const Bus& bus);
 
 /// True if every message meets its deadline.

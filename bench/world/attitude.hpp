@@ -1,5 +1,5 @@
-// Conventions of attitude in the bench: C_bn transforms from body to navigation axes (NED), Euler angles are
-// 3-2-1, small errors phi are in n.
+// Attitude conventions of the bench: C_bn transforms from body to navigation axes (NED), Euler angles are
+// 3-2-1, small errors phi are resolved in n.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +31,8 @@ Matrix3 skew(const Vector3& a);
 /// exp([a x]): the rotation by |a| about a (Rodrigues).
 Matrix3 rotation(const Vector3& a);
 
-/// Body rate w.r.t. navigation axes, in body [rad/s], of Euler angles and their rates (as an Euler of rates).
+/// Body rate w.r.t. navigation axes, in body axes [rad/s], from Euler angles and their time derivatives
+/// [rad/s].
 Vector3 omega_nb_b(const Euler& angles, const Euler& rates);
 
 /// The attitude a navigation system computes when its misalignment is phi [rad, NED]: exp(-[phi x]) C_bn.

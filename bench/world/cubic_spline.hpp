@@ -1,5 +1,5 @@
-// The natural cubic spline through values at given times: the value and its first two derivatives are
-// continuous. Linear beyond its ends.
+// The natural cubic spline through values at given times. Its first two derivatives are continuous; beyond
+// its ends it is linear.
 #pragma once
 
 #include <Eigen/Core>

@@ -12,8 +12,8 @@ struct Position {
   double height = 0;     ///< above the ellipsoid [m]
 };
 
-/// The range of messages, -180 to 180 deg; along a flight across 180 deg `longitude` itself continues beyond
-/// it.
+/// The longitude wrapped to the range of messages, -180 to 180 deg. `longitude` itself continues beyond 180
+/// deg along a flight.
 double longitude_deg(const Position& position);
 
 /// Meridian radius of curvature R_N of Groves (2013), eq. (2.105) [m].

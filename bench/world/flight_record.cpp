@@ -47,8 +47,8 @@ struct Node {
   double weight;  ///< the weights add up to 1
 };
 
-// Five nodes: exact to degree 9. A sinusoid of 20 Hz over 10 ms (1.3 rad) is integrated to 1e-11 of its
-// amplitude, one of 5 Hz to 1e-17.
+// Five nodes: exact for polynomials of degree 9. The relative error is 1e-11 for a sinusoid of 20 Hz over 10
+// ms (1.3 rad) and 1e-17 for one of 5 Hz.
 std::array<Node, 5> gauss_legendre() {
   using Rule = boost::math::quadrature::gauss<double, 5>;
   const auto& x = Rule::abscissa();  // those >= 0 on [-1, 1], ascending
@@ -59,7 +59,7 @@ std::array<Node, 5> gauss_legendre() {
   return {node(2, -1), node(1, -1), node(0, 1), node(1, 1), node(2, 1)};
 }
 
-/// Calls piece(from, to) for the parts of an interval that jumps of the motion separate.
+/// Calls piece(from, to) for each part of an interval between jumps of the motion.
 template <class Piece>
 void between_jumps(const Motion& motion, std::int64_t from_us, std::int64_t to_us, Piece piece) {
   for (const std::int64_t jump : jumps_us(motion, from_us, to_us)) {

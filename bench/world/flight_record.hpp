@@ -1,4 +1,4 @@
-// The truth of a scenario, the same for all its runs: computed once, then read only, also by several threads.
+// The truth of a scenario, shared by all its runs: computed once, then read-only, also for several threads.
 //
 // Velocity and attitude are exactly those of the motion (for a recorded motion see motion/recorded.hpp).
 // Position is integrated. Rate and specific force follow by inverting the navigation equations in NED, Groves
@@ -40,7 +40,7 @@ class FlightRecord {
   /// positive.
   FlightRecord(const Flight& flight, std::int64_t duration_us, std::int64_t interval_us);
 
-  /// False: only the start is known, and errors cannot be computed.
+  /// False: only the initial state is known, so errors cannot be computed.
   [[nodiscard]] bool is_known() const { return !std::holds_alternative<Unknown>(flight_.motion); }
 
   /// Truth at epochs 0, 1, ...: epoch k is at k * interval_us().

@@ -26,7 +26,7 @@ class ErroneousImu {
  public:
   ErroneousImu(const ImuErrorModel& model, Stream stream);
 
-  /// The measurement of a sample. Call once for each sample, in order: takes six numbers of the stream.
+  /// The measurement of one sample. Call once for each sample, in order: takes six numbers of the stream.
   ImuIncrement measure(const ImuIncrement& exact);
 
   /// The true biases of this run: [rad/s] and [m/s^2], body axes.

@@ -14,7 +14,7 @@ struct Kinematics {
   Euler rates;                            ///< [rad/s]
 };
 
-/// The same with the attitude as a rotation: the part that the truth uses.
+/// Velocity and attitude with their derivatives, the attitude as a rotation matrix: the input of the truth.
 struct Movement {
   Vector3 v_eb_n = Vector3::Zero();       ///< [m/s]
   Vector3 v_eb_n_rate = Vector3::Zero();  ///< derivative of the NED components [m/s^2]

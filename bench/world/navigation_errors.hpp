@@ -15,7 +15,7 @@ struct NavigationSolution {
   Matrix3 C_bn = Matrix3::Identity();
 };
 
-/// Errors (computed - true) by axis of NED.
+/// Errors (computed - true) along the NED axes.
 struct NavigationErrorModel {
   RandomConstant position;  ///< [m]
   RandomConstant velocity;  ///< [m/s]
@@ -23,9 +23,9 @@ struct NavigationErrorModel {
 };
 
 /// Errors of an initial state. A large heading error rotates about down before the misalignment tilts:
-/// computed C_bn = exp(-[phi x]) Rz(-psi) C_bn. So it does not change the size of the tilts.
+/// computed C_bn = exp(-[phi x]) Rz(-psi) C_bn. So psi does not change the size of the tilts.
 struct InitialErrorModel : NavigationErrorModel {
-  double heading_sigma = 0;      ///< of psi [rad]
+  double heading_sigma = 0;      ///< sigma of psi [rad]
   double heading_magnitude = 0;  ///< added to psi with random sign [rad]
 };
 

@@ -1,6 +1,6 @@
-// Random numbers. Every consumer has its own stream, which (seed, run, name) alone determine. So results
-// depend neither on the order of consumers nor on threads, and a new consumer does not change the numbers of
-// the others.
+// Random numbers. Every consumer has its own stream, determined by (seed, run, name) alone. So results depend
+// neither on the order of consumers nor on threads, and a new consumer does not change the numbers of the
+// others.
 #pragma once
 
 #include <boost/random/mersenne_twister.hpp>
@@ -34,7 +34,7 @@ struct RandomConstant {
   Vector3 sigma = Vector3::Zero();
 };
 
-/// Draws it. Takes three numbers of the stream, whatever sigma is.
+/// Draws the constant. Takes three numbers of the stream, whatever sigma is.
 Vector3 draw(const RandomConstant& constant, Stream& stream);
 
 }  // namespace canhil::world

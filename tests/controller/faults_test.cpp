@@ -1,6 +1,6 @@
-// Faults of a wire, of a controller and of an interface: they are reported, the run continues if possible,
-// and nothing hangs. The wire is that of wire/canhil_wire.c; to the driver, the kernel and the programs it
-// looks like a real one.
+// Faults of the wire, of a controller and of an interface: they are reported, the run continues if possible,
+// and nothing hangs. The wire is simulated by wire/canhil_wire.c; to the driver, the kernel and the programs
+// it looks like a real one.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -30,7 +30,7 @@ struct Outcome {
   }
 };
 
-/// A run in real time; the fault begins when the run is under way.
+/// Flies in real time; the fault begins during the run.
 Outcome run_with(const std::function<void()>& trouble, const std::string& name = "transfer_alignment_quick") {
   const std::string json = scratch("fault.json");
   Outcome outcome;
@@ -60,8 +60,8 @@ TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndTold) {
   EXPECT_EQ(outcome.ended.code, 1);
 }
 
-// The same with faults that the scenario injects. Error frames cannot be injected here, because they come
-// from the controller's own driver.
+// An outage of the interface that the scenario injects. Scenarios cannot inject error frames here, because
+// only the controller's driver generates them.
 TEST(Interface, IsSetDownAndUpByAFaultOfTheScenario) {
   set_up_on_wire();
   const auto with_fault = [](const std::string& kind) {

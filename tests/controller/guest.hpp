@@ -14,14 +14,14 @@ void set_up(const std::string& can0_options, const std::string& can1_options);
 /// arguments are further options of can0 and of can1.
 void set_up_on_wire(const std::string& can0_options = "", const std::string& can1_options = "");
 
-/// Sets the interface up or down at once, as `ip link set INTERFACE up` does.
+/// Sets the interface up or down without waiting, as `ip link set INTERFACE up` does.
 void set_interface(const std::string& interface, bool up);
 
 /// Waits at most half a minute until the interface has a carrier, or has none. A bus-off controller has no
 /// carrier.
 void await_carrier(const std::string& interface, bool there);
 
-/// Waits for so many frames Sync on can0.
+/// Waits for `count` Sync frames on can0.
 void await_syncs(int count);
 
 /// Configures the wire, see wire/canhil_wire.c: "can1 broken".
@@ -30,7 +30,7 @@ void wire(const std::string& what);
 /// Runs a shell command that must succeed; may be called while another thread is in shell().
 void run(const std::string& command);
 
-/// hil-target on can0 while it lives.
+/// Runs hil-target on can0 during the lifetime of the object.
 class Target {
  public:
   Target();

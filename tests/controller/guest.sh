@@ -14,7 +14,7 @@ mount -t devpts devpts /dev/pts
 ln -s /proc/self/fd /dev/fd
 mount -t tmpfs tmpfs /run
 
-port() { # port NAME: its device
+port() { # prints the device of a port
   for one in /sys/class/virtio-ports/*; do
     if [ "$(cat "$one/name")" = "$1" ]; then echo "/dev/${one##*/}"; return; fi
   done
@@ -25,7 +25,7 @@ for i in can0 can1; do
   ip link set $i up type can bitrate "${CANHIL_CONTROLLER_BITRATE:-1000000}" || die "set up $i"
 done
 
-# By way of pipes, so that the command sees no device where its caller has a pipe.
+# Uses pipes, so that the command's output is a pipe, as it is for the caller.
 mkfifo /run/out /run/err
 cat /run/out >"$(port out)" &
 cat /run/err >"$(port err)" &
@@ -33,7 +33,7 @@ setsid bash -c '. "$1/environment"; . "$1/command"' bash "$dir" </dev/null >/run
 command=$!
 wait $command
 status=$?
-kill -s KILL -- -$command 2>/dev/null # what the command left running holds the pipes open
+kill -s KILL -- -$command 2>/dev/null # processes that the command left running keep the pipes open
 wait
 echo $status >"$(port status)"
 busybox poweroff -f

@@ -27,11 +27,11 @@ for tool in apt-get apt-cache dpkg-deb tar flock; do
 done
 mkdir -p "$cache" || die "cannot make the folder $cache"
 exec 9>"$cache/lock"
-flock 9 # of several at the same time, one downloads
+flock 9 # if several run at the same time, only one downloads
 if present; then exit 0; fi
 
-# A user without rights has no place in apt's own folders, and the machine's package lists may be old or absent: then
-# lists of our own. apt verifies what it downloads against the signatures of Debian's archive either way.
+# Uses package lists of its own: a user without rights cannot write to apt's folders, and the machine's lists
+# may be old or absent. In either case apt verifies downloads by the signatures of Debian's archive.
 own_lists=(-o "Dir::State::Lists=$cache/lists" -o "Dir::Cache=$cache/apt" -o Debug::NoLocking=1 -o APT::Sandbox::User=root)
 options=(-o APT::Sandbox::User=root)
 depends() { apt-cache "${options[@]}" depends --important "$1" 2>/dev/null | sed -n 's/^ *Depends: //p'; }
@@ -67,7 +67,7 @@ mv "boot/vmlinuz-$release" "$release/vmlinuz"
 for module in "${modules[@]}"; do mv "lib/modules/$release/kernel/$module" "$release/modules/"; done
 printf '%s\n' "${modules[@]##*/}" >"$release/order" # the order of loading
 mv usr "$release/"
-# The headers find each other by relative paths, but for this one.
+# The headers use relative paths to each other, with one exception.
 build=$release/usr/src/linux-headers-$release
 sed -i 's|^include /usr/src/|include $(dir $(lastword $(MAKEFILE_LIST)))../|' "$build/Makefile"
 ln -s "usr/src/linux-headers-$release" "$release/build"

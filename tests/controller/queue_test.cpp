@@ -14,7 +14,7 @@
 namespace canhil::test {
 namespace {
 
-// The send buffer of one port is smaller than the queue: several ports are needed to fill it.
+// Several ports are needed to fill the queue, because the send buffer of one port is smaller than the queue.
 TEST(TransmitQueue, FullOfManySendersSaysSoAndLosesNothing) {
   set_up_on_wire();
   run("ip link set can1 txqueuelen 10");

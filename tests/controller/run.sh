@@ -22,7 +22,7 @@ trap 'exit 130' INT TERM HUP
 export -p >"$dir/environment"
 { printf 'cd %q && exec' "$PWD"; printf ' %q' "$@"; echo; } >"$dir/command"
 
-# The wire that can fail (wire/canhil_wire.c): the command loads it (insmod "$CANHIL_WIRE") if it wants it.
+# The faulty wire (wire/canhil_wire.c): a command that needs it loads it with insmod "$CANHIL_WIRE".
 cp -r "$here/wire" "$dir/wire"
 env -u MAKEFLAGS -u ARCH -u CROSS_COMPILE make -C "$kernel/build" M="$dir/wire" modules >"$dir/make" 2>&1 ||
   { say "cannot build wire/canhil_wire.c: $(grep -m1 -iE 'error|not found' "$dir/make")"; exit 125; }

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes the API pages and fails on every warning of Doxygen: what is documented wrongly, and each public type, function and enumeration
-# without a comment. Fields of structs may do without: their names carry their units; so may operators that are defaulted.
+# Makes the API pages and fails on every warning of Doxygen: wrong documentation, or a public type, function
+# or enumeration without a comment. Fields of structs need no comment, because their names carry their units;
+# neither do defaulted operators.
 #   api.sh FOLDER        pages in FOLDER/html (about a second)
 set -euo pipefail
 [[ $# == 1 ]] || { echo "api.sh: expected a folder for the pages" >&2; exit 2; }

@@ -21,7 +21,7 @@ from pages import Command, commands_of  # noqa: E402
 from rules import PLACEHOLDERS, PREPARED, Rule, rule_of  # noqa: E402
 
 LONGEST_S = 120
-WRITTEN_TO = ("docs", "dbc")  # by commands of the pages: copied, all else is linked
+WRITTEN_TO = ("docs", "dbc")  # commands write to these: copied; all others are linked
 
 
 def scratch_tree(source: Path, build: Path, scratch: Path) -> None:

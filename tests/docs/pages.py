@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-# An indented block may hold anything; it shows a command where a line begins with one of these.
+# An indented block may contain anything; it shows a command if one of its lines begins with one of these.
 PROGRAMS = r"(?:sudo )?(?:hil-bench|hil-bench-campaign|hil-target|dbcgen|python3|bash|ctest|cmake|build/\S+|tests/\S+\.(?:sh|py))(?= |$)"
 SHELLS = ("sh", "bash", "shell", "console")
 
@@ -13,7 +13,7 @@ SHELLS = ("sh", "bash", "shell", "console")
 class Command:
     text: str
     line: int
-    block: int  # of the page: a folder is kept within one
+    block: int  # commands of the same block share a folder
 
 
 def _blocks(lines: list[str]):
@@ -49,7 +49,7 @@ def commands_of(page: Path) -> list[Command]:
     for number, (language, first, lines) in enumerate(_blocks(page.read_text().splitlines())):
         going_on, ends_at = False, ""
         for offset, line in enumerate(lines):
-            if ends_at:  # a text that the command reads
+            if ends_at:  # the command reads text up to this marker
                 commands[-1].text += "\n" + line
                 ends_at = "" if line.strip() == ends_at else ends_at
                 continue
@@ -65,5 +65,5 @@ def commands_of(page: Path) -> list[Command]:
             ends_at = here[1] if here else ""
             going_on = not here and text.endswith(("\\", "|")) and not text.endswith("||")
             if not going_on and offset + 1 < len(lines) and re.match(r"\s+[\[|]", lines[offset + 1]):
-                going_on = True  # a synopsis that goes on
+                going_on = True  # a synopsis continues on the next line
     return commands

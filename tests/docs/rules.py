@@ -12,25 +12,25 @@ from dataclasses import dataclass
 class Rule:
     pattern: str
     codes: tuple[int, ...] = (0,)
-    says: str = ""  # a regular expression: part of what it prints
-    instead: tuple[tuple[str, str], ...] = ()  # what is put in place of what, as regular expressions
-    why_not: str = ""  # it is not run; its options are looked up in the help of its program
+    says: str = ""  # a regular expression that the command's output must match
+    instead: tuple[tuple[str, str], ...] = ()  # replacements in the command: (regular expression, new text)
+    why_not: str = ""  # why it is not run; its options are looked up in its program's help
     pages: str = ""  # a regular expression; empty: any
 
 
-# Placeholders in the documentation, and what they are replaced by here.
+# Placeholders in the documentation, and their replacements in this test.
 PLACEHOLDERS = (
     (r"\bSCENARIO\b", "bench/flights/transfer_alignment_quick.toml"),
     (r"\bFILE\.dbc\b", "dbc/canhil.dbc"),
     (r"\bMESSAGE\b", "Sync"),
     (r"bench/flights/transfer_alignment\.toml", "bench/flights/transfer_alignment_quick.toml"),
-    (r"\bcan(\d)\b", r"nocan\1"),  # no interface of this machine, whichever it has
+    (r"\bcan(\d)\b", r"nocan\1"),  # an interface that exists on no machine
     (r"\bvcan(\d)\b", r"novcan\1"),
 )
 
 NO_INTERFACE = r"cannot open 'no|nov?can\d"
 PASSES = (0, 3)  # timing is not measured in virtual time, nor on a busy host
-BARS = (0, 1, 3)  # those of a campaign are for its own number of runs
+BARS = (0, 1, 3)  # a campaign's bars are derived for its own number of runs
 IN_VIRTUAL_TIME = ((r"$", " --lockstep"),)
 FEW_RUNS = ((r"$", " --runs 2"),)
 ANY_PORT = (r"--live\b( \d+)?", "--live 0")  # tests run side by side
@@ -66,7 +66,7 @@ RULES = (
     Rule(r"hil-bench campaign (?!merge|report)", codes=BARS, instead=((r"\bFILE\b", "bench/monte_carlo/quick.toml"), *FEW_RUNS)),
     Rule(r"hil-bench compare", codes=(0, 1)),
     Rule(r"all_four\.toml --bus 'in-process\?bitrate=500000'$", codes=(1,), says="1 of 8 checks failed: bus_load"),
-    Rule(r"\| head$", codes=(0, 141)),  # the reader has seen enough
+    Rule(r"\| head$", codes=(0, 141)),  # head closes the pipe early
     Rule(r"hil-bench run .*(\?bitrate|in-process|--lockstep)", codes=PASSES),
     Rule(r"hil-bench run .*\|\| \[ \$\? = 3 \]", instead=((r" \|\|", " --lockstep ||"),)),
     Rule(r"hil-bench run .*own_ecu\.toml", codes=PASSES, instead=((r"$", " --log drive.log"),)),
@@ -76,7 +76,7 @@ RULES = (
 )
 
 RUN = "hil-bench run bench/flights/transfer_alignment_quick.toml --lockstep"
-# What the commands of a page take for granted.
+# Files that the commands of a page require.
 PREPARED = {
     "README.md": tuple(f"{RUN} --json {name}.json" for name in ("before", "after", "a1", "a2", "b1", "b2")),
     "docs/dbc.md": ("cp tests/data/dbc/multiplexed.dbc motion.dbc",),

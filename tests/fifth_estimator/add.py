@@ -68,7 +68,7 @@ def copied(name: str, content: bytes) -> bytes:
 def main() -> None:
     if len(sys.argv) != 2:
         fail("expected one argument, the folder for the copy")
-    # dbcgen --fd makes the other contract from the contract of the copy.
+    # dbcgen --fd derives the FD variant of the DBC from the DBC of the copy.
     copied_tree.copy_tree(pathlib.Path(sys.argv[1]), copied, made=("dbc/canhil-fd.dbc",))
 
 

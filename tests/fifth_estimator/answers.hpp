@@ -1,4 +1,4 @@
-// What a baro-inertial height answers.
+// The answers of a baro-inertial height filter.
 #pragma once
 
 #include <memory>
@@ -17,13 +17,13 @@ struct HeightAnswer {
   double velocity_down = 0;
   double velocity_down_sigma = 0;
   double nis = 0;
-  bool used = false;  ///< else it was gated
+  bool used = false;  ///< false: the height was gated
 };
 using HeightAnswers = Spool<HeightAnswer>;
 
 std::unique_ptr<Reception> height_reception();
 
-/// Errors (estimated - true) of an answer.
+/// Errors (estimated - true) of one answer.
 struct HeightError {
   double height = 0, velocity_down = 0;
 };

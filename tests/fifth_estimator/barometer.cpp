@@ -29,7 +29,7 @@ class Barometer final : public Sampler<BarometerSettings> {
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // of their own: they change no measurement
+  world::Stream losses_;  // a separate stream: losses do not change measurements
 };
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace canhil::nodes {
 /// The table [barometer].
 struct BarometerSettings {
   scenario::Schedule schedule{};
-  double noise = 0;  ///< 1-sigma a sample [m]
+  double noise = 0;  ///< 1-sigma per sample [m]
   SampleLoss loss{};
 };
 

@@ -3,7 +3,8 @@
 //
 // Errors (estimated - true) of height h, velocity down v and the bias b of the accelerometer along body z:
 //   d(dh)/dt = -dv      d(dv)/dt = -(2 g0 / R) dh - C_zz db + noise      d(db)/dt = 0
-// Without aid they grow: gravity is computed at the wrong height. Groves (2013), section 5.7.2 and 16.2.
+// Without aiding these errors grow, because gravity is computed at the wrong height. Groves (2013), section
+// 5.7.2 and 16.2.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +18,8 @@ struct Settings {
   double accel_noise_density = 0;  ///< [m/s^2/sqrt(Hz)]
   double height_sigma_0 = 0;       ///< [m]
   double velocity_sigma_0 = 0;     ///< [m/s]
-  double barometer_sigma = 1;      ///< of a height [m]
-  double gate = 0;                 ///< NIS of a height that is still used; 0: all are
+  double barometer_sigma = 1;      ///< 1-sigma of a barometric height [m]
+  double gate = 0;                 ///< largest accepted NIS; 0: no gate
 };
 
 enum class Outcome : bool { gated, used };
@@ -26,7 +27,7 @@ enum class Outcome : bool { gated, used };
 class VerticalChannel {
  public:
   void start(const strapdown::NavState& nav, const Settings& settings);
-  /// Carries INS and covariance over one sample.
+  /// Propagates INS and covariance over one sample.
   void propagate(const strapdown::ImuIncrement& imu, const Settings& settings);
   /// Corrects INS and bias with a height at the time of the INS [m].
   Outcome update(double height, const Settings& settings);

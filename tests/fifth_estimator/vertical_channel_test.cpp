@@ -15,7 +15,7 @@ strapdown::ImuIncrement at_rest(double dt) {
   return {.delta_theta = {earth_rate * dt, 0, 0}, .delta_v = {0, 0, -gravity_of_equator * dt}, .dt = dt};
 }
 
-// Without aid an error of the height grows as cosh(sqrt(2 g / R) t), in the INS and in the covariance.
+// Without aiding, a height error grows as cosh(sqrt(2 g / R) t), in the INS and in the covariance.
 TEST(VerticalChannel, DivergesWithoutAidAsGravitySays) {
   VerticalChannel channel;
   const Settings settings{.height_sigma_0 = 100};
@@ -27,7 +27,7 @@ TEST(VerticalChannel, DivergesWithoutAidAsGravitySays) {
   EXPECT_NEAR(channel.nav().height / 100, growth, 0.01);
 }
 
-// The filter finds the bias from the heights: sign and size of all three errors.
+// The filter estimates the bias from the heights: tests sign and size of all three errors.
 TEST(VerticalChannel, FindsTheBias) {
   VerticalChannel channel;
   const Settings settings{

@@ -1,5 +1,5 @@
-// Any text as the name of a bus (`--bus`): the parsed settings are within their limits, or one line reports
-// what was expected.
+// Any text as the name of a bus (`--bus`) gives settings within their limits, or one line that states what
+// was expected.
 #include <cstdint>
 
 #include "bench/drive/buses.hpp"
@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto local = local::bus_name(name);
   if (local) {
     fuzz::expect(is_local(name) && !local->name.empty() && local->name.size() <= 64);
-    fuzz::expect(local->name.find_first_of("/.") == std::string::npos);  // it becomes the name of a file
+    fuzz::expect(local->name.find_first_of("/.") == std::string::npos);  // the name becomes a file name
     check(local->wire);
   } else {
     expect_one_line(local.error(), name);

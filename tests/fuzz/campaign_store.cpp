@@ -1,6 +1,6 @@
-// Any file as the results of a campaign is rejected with one line, or gives the same report as before. The
-// input either changes bytes of a valid file, or defines runs with arbitrary samples that are written
-// correctly; these must give a report.
+// Any file as the results of a campaign gives a report, or is rejected with one line. The input either
+// changes bytes of a valid file, which then gives the original report or is rejected, or defines runs with
+// arbitrary samples, which are stored correctly and must give a report.
 #include <unistd.h>
 
 #include <cstdint>
@@ -133,7 +133,7 @@ Sound make_sound(const fs::path& file) {
   return sound;
 }
 
-// Each change: two bytes for the place, one for the length, then the bits to flip.
+// Applies changes to the file: two bytes for the position, one for the length, then the bits to flip.
 void damage(const fs::path& file, const Sound& sound, std::span<const std::uint8_t> script) {
   std::string bytes = sound.bytes;
   while (script.size() >= 4) {
@@ -150,8 +150,8 @@ void damage(const fs::path& file, const Sound& sound, std::span<const std::uint8
   fuzz::expect(*report == sound.report);
 }
 
-// Four runs: outcome and number of samples, then the numbers as bytes; many byte values are mapped to NaN or
-// infinity.
+// Stores four runs. Input for each: outcome and number of samples, then the values as bytes; many byte values
+// mean NaN or infinity.
 void fill(const fs::path& file, const Sound& sound, std::span<const std::uint8_t> script) {
   const auto byte = [&]() -> std::uint8_t {
     if (script.empty()) return 0;

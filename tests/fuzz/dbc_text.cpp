@@ -1,5 +1,5 @@
-// Any text as a DBC: both readers end with a Database that the codec can use, or with one line that contains
-// the place.
+// Any text as a DBC gives, in both readers, a Database that the codec can use, or one line that contains the
+// place.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

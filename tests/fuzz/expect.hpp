@@ -12,13 +12,12 @@ inline void expect(bool holds) {
   if (!holds) std::abort();
 }
 
-/// A non-empty error. It may quote text of the file unchanged; the caller that prints it makes one line of
-/// it.
+/// Expects a non-empty error message. It may quote text of the file unchanged, line breaks included.
 inline void expect_words(std::string_view message, std::string_view begins_with = "") {
   expect(!message.empty() && message.starts_with(begins_with));
 }
 
-/// An error that is already one line.
+/// Expects an error message of one line.
 inline void expect_one_line(std::string_view message, std::string_view begins_with = "") {
   expect_words(message, begins_with);
   const bool one_line = std::ranges::none_of(message, [](char c) { return c >= '\0' && c < ' '; });

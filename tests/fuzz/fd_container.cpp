@@ -1,5 +1,5 @@
-// Frames of an FD bus: frames unpacked from a container give the same container when packed again. Classic
-// frames that are packed into containers come out in their order.
+// Frames of an FD bus. Frames unpacked from a container must give the same container when packed again;
+// classic frames packed into containers must come out in their order.
 #include <cstdint>
 #include <cstring>
 #include <span>

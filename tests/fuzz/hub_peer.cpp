@@ -27,7 +27,7 @@ using namespace canhil;
 using fuzz::Script;
 using local::Datagram;
 
-// The folder of the buses is this process's own.
+// A folder for the buses of this process.
 class Folder {
  public:
   Folder() {
@@ -85,7 +85,7 @@ void run(Script& script) {
   rules.on_turned_away = [](const std::string& line) { fuzz::expect_one_line(line, "bus 'local:fuzz': "); };
   const auto hub = host_local_bus("local:fuzz", options, rules);
   fuzz::expect(hub.has_value());
-  std::vector<Frame> sent;  // all that were frames, of whomever
+  std::vector<Frame> sent;  // all valid frames that any peer or the host sent
   const auto was_sent = [&](const Received& received) {
     fuzz::expect(can_carry(received.frame, options.fd));
     fuzz::expect(std::ranges::find(sent, received.frame) != sent.end());
@@ -109,7 +109,7 @@ void run(Script& script) {
         break;
       case 1:
       case 2:
-      case 3: {  // a frame, or nearly one
+      case 3: {  // a valid or almost valid frame
         Frame frame{.id = script.byte() * 8U};
         const std::uint8_t flags = script.byte();
         frame.extended = (flags & 1U) != 0;
@@ -126,7 +126,7 @@ void run(Script& script) {
         peers.send(peer, &datagram, datagram.bytes());
         break;
       }
-      case 4: {  // anything
+      case 4: {  // arbitrary bytes
         std::array<std::uint8_t, 100> bytes{};
         const std::size_t count = script.byte() % bytes.size();
         script.fill(std::span(bytes).first(count));
@@ -140,7 +140,7 @@ void run(Script& script) {
       case 5:
         peers.leave(peer);
         break;
-      case 6: {  // of the host, or of the good node
+      case 6: {  // a frame from the host or the correct node
         const Frame frame{.id = script.byte(), .size = 1, .data = {script.byte()}};
         sent.push_back(frame);
         static_cast<void>(peer == 0 ? (*hub)->send(frame) : (*node)->send(frame));

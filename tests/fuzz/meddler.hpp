@@ -95,7 +95,7 @@ class Meddler final : public Port {
     switch (act_ % 10) {
       case 0:  // lost
         return;
-      case 1:  // another value, of a frame that is right by its checksum
+      case 1:  // another value, with a valid checksum
       case 2: {
         const std::size_t place = 1 + byte() % 7;
         frame.data[place] ^= byte();
@@ -119,7 +119,7 @@ class Meddler final : public Port {
         if (act_ < 200) protect(other);
         return say(other);
       }
-      case 7:  // what is no frame of the contract
+      case 7:  // a frame that is not in the DBC
         say(frame);
         frame.error = (act_ & 0x10U) != 0;
         frame.extended = (act_ & 0x20U) != 0;

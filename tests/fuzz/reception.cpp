@@ -63,7 +63,7 @@ class Answers {
       expect(answer.data[0] == canhil::e2e::crc(answer.payload(), message->e2e_data_id));
       const std::uint8_t counter = canhil::e2e::counter(answer.payload());
       std::uint8_t& last = last_[static_cast<std::size_t>(message - all_messages.begin())];
-      expect(counter == 0 || counter == canhil::e2e::next(last));  // 0: after a reset or start too
+      expect(counter == 0 || counter == canhil::e2e::next(last));  // 0 is also allowed after a reset or start
       last = counter;
       if (answer.id == AlignAttitude::info.id)
         expect_pitch(canhil::from_frame<AlignAttitude>(answer).pitch_deg);
@@ -110,7 +110,7 @@ void set_parameter(auto& bench, const canhil::target::Device& device, Estimator 
   }();
   const std::uint8_t which = script.byte(), how = script.byte();
   const auto& list = known[static_cast<std::size_t>(estimator)];
-  if (which == 0xFF || list.empty()) {  // any value of any parameter
+  if (which == 0xFF || list.empty()) {  // any parameter with any value
     float value = 0;
     const auto bytes = script.bytes(sizeof value);
     std::memcpy(&value, bytes.data(), bytes.size());
@@ -124,7 +124,7 @@ void set_parameter(auto& bench, const canhil::target::Device& device, Estimator 
   bench.set(parameter, value);
 }
 
-// A frame of the input's own making.
+// Passes a frame that the input defines completely.
 void feed_any(auto& bench, std::array<std::uint8_t, all_messages.size()>& counters, Script& script) {
   enum : std::uint8_t { unprotected = 1, foreign_id = 2, shortened = 4, is_fd = 8 };
   const std::size_t index = script.byte() % all_messages.size();

@@ -35,7 +35,7 @@ struct Spoil {
   }
 };
 
-/// Feed: called with each frame.
+/// `Feed`: a function that is called with each frame.
 template <class Feed>
 class Bench {
  public:
@@ -46,7 +46,7 @@ class Bench {
 
   void feed(const Frame& frame) { feed_(frame); }
 
-  /// Sends the messages of a group, spoilt.
+  /// Sends the messages of a group with the changes in `spoil`.
   template <class... Messages>
   void send(const Spoil& spoil, const Messages&... messages) {
     std::size_t index = 0;
@@ -79,8 +79,8 @@ class Bench {
     send(spoil, messages::TargetInitRate{}, messages::TargetInitAirVelocity{.air_velocity_x_mps = speed});
   }
 
-  /// The sensor that drives an estimator at its rate: a sample valid at t_us, `interval_us` after the one
-  /// before.
+  /// Sends a sample of the sensor that drives the estimator: valid at t_us, `interval_us` after the previous
+  /// sample.
   void drive(messages::Estimator estimator, const Spoil& spoil, std::int64_t interval_us) {
     switch (estimator) {
       case messages::Estimator::transfer_alignment:
@@ -163,7 +163,7 @@ class Bench {
   void seeker(const Spoil& spoil, std::int64_t interval_us) {
     using namespace messages;
     constexpr double closing = 900, first_range = 5000;
-    const double flown = closing * us * static_cast<double>(t_us % 5'000'000);  // then a new target
+    const double flown = closing * us * static_cast<double>(t_us % 5'000'000);  // a new target every 5 s
     send(spoil, SeekerAntenna{.antenna_increment_yaw_rad = 1e-5, .antenna_validity = valid},
          SeekerAngles{.error_pitch_rad = 1e-3,
                       .interval_us = static_cast<double>(interval_us),
@@ -180,7 +180,7 @@ class Bench {
   }
   void glider(const Spoil& spoil, std::int64_t valid_us) {
     using namespace messages;
-    alternating_ = -alternating_;  // navigation that repeats itself to the last bit counts as stale
+    alternating_ = -alternating_;  // navigation without any change counts as stale
     send(spoil, GliderNavVelocityNE{.velocity_north_mps = speed + alternating_, .height_m = height},
          GliderNavAttitude{.pitch_deg = 1.7, .navigation_validity = valid}, GliderNavRates{},
          GliderNavVelocityD{.velocity_down_mps = 0, .time_of_validity_us = wrap_us(valid_us)});

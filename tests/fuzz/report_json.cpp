@@ -1,6 +1,6 @@
 // Any JSON as a report of a run gives a page and a comparison, or one line with the missing key. The input is
-// either the text of a file, or a list of changes to the report of a run that is flown at the start: values
-// removed, moved or replaced. Changing bytes of a report of 30 kB would soon give invalid JSON.
+// either the text of a file, or a list of changes (remove, move, replace values) to the report of a run flown
+// at the start: changing bytes of this report, 30 kB, would soon give invalid JSON.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -24,8 +24,8 @@ namespace {
 using namespace canhil;
 using Json = nlohmann::ordered_json;
 
-// A run over a simulated wire, because it has distributions of times. It has few samples of a kind, because
-// reading them takes most of the time.
+// Flies a run over a simulated wire, so that the report has distributions of times. The run has few samples
+// of each kind, because reading them takes most of the time.
 Json flown() {
   const auto scenario = scenario::parse(fuzz::short_scenario, "short.toml", drive::contract());
   fuzz::expect(scenario.has_value());
@@ -62,7 +62,7 @@ class Changes {
     return first;
   }
 
-  // Walks down from the root, at each step to one of the members. `above` is the parent.
+  // Walks down from the root, at each step to one of the members. `above` is set to the parent.
   Json* walk(Json& root, Json*& above, std::size_t& place) {
     Json* at = &root;
     for (int steps = byte() % 8; steps > 0 && at->is_structured() && !at->empty(); --steps) {
@@ -130,7 +130,7 @@ class Changes {
   std::span<const std::uint8_t> rest_;
 };
 
-// The operations of `hil-bench report` and `hil-bench compare`.
+// Does what `hil-bench report` and `hil-bench compare` do.
 void use(const std::string& text, const report::Reports& whole) {
   static const int file = ::memfd_create("report", 0);
   static const std::string path = "/proc/self/fd/" + std::to_string(file);

@@ -7,7 +7,7 @@
 
 namespace canhil::fuzz {
 
-/// The input, byte by byte; zeros after its end.
+/// Reads the input byte by byte; returns zeros after its end.
 class Script {
  public:
   explicit Script(std::span<const std::uint8_t> bytes) : rest_(bytes) {}

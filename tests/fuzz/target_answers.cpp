@@ -43,7 +43,7 @@ Prepared prepare() {
   return {std::move(*scenario), std::move(*truth)};
 }
 
-// The observations as a session collects them.
+// Assembles the observations as a session does.
 checks::Observations collected(observe::Monitor& monitor, const observe::BusWatch& bus,
                                const observe::Intruders& intruders, const observe::LoadMeter& load,
                                const drive::Link& link) {
@@ -56,7 +56,7 @@ checks::Observations collected(observe::Monitor& monitor, const observe::BusWatc
   return seen;
 }
 
-// All results of a run. The bench must be able to read every report that it writes.
+// Writes all reports of a run and reads them again: the bench must be able to read its own reports.
 void report_all(const scenario::Scenario& scenario, const drive::Run& run) {
   fuzz::expect(!report::text(scenario, run).empty());
   fuzz::expect(!report::junit(scenario, run).empty());

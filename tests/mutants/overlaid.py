@@ -80,7 +80,7 @@ def compile_again(folder, place, file, name):
         elif word != "-MD":
             kept.append(str(source_again(place, file, word)) if word.endswith((".cpp", ".cxx")) else word)
     first = next(i for i, word in enumerate(kept) if word.startswith("-I"))
-    kept[first:first] = [f"-I{place}"]  # before the project's own files of the same name
+    kept[first:first] = [f"-I{place}"]  # searched before the project's own folders
     finished = subprocess.run([*kept, "-o", str(again)], cwd=folder, capture_output=True, text=True)
     if finished.returncode != 0:
         lines = [line for line in finished.stderr.splitlines() if re.search(r"\berror\b", line)]

@@ -39,7 +39,7 @@ import seeded  # noqa: E402
 
 BUILD = ROOT / "build/default"
 BENCH = BUILD / "hil-bench"
-LONGEST_S = 900  # of the suites together
+LONGEST_S = 900  # all suites together
 
 CAUGHT, SURVIVED, NO_BUILD = "caught", "survived", "does not build"
 
@@ -47,7 +47,7 @@ CAUGHT, SURVIVED, NO_BUILD = "caught", "survived", "does not build"
 SINGLE_FLIGHTS = ("algorithms", "parameters", "flags and states", "protocol")
 CAMPAIGNS = ("errors", "honesty")
 TIMES = ("timing",)
-SUITES = ("several", "transfer_alignment", "inflight_alignment", "los_rate", "wind")  # the first flies all four in a second
+SUITES = ("several", "transfer_alignment", "inflight_alignment", "los_rate", "wind")  # the first takes a second
 
 
 class Failure(Exception):

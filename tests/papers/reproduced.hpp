@@ -29,7 +29,7 @@ struct Written {
   std::string html, text;
 };
 
-/// In a new folder.
+/// Reproduces into a new folder.
 inline Written reproduced(const Request& asked) {
   std::filesystem::remove_all(asked.folder);
   const auto reproduced = reproduce(asked, go_on);

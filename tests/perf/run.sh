@@ -41,7 +41,7 @@ as_text() { # as_text NAME COMMAND...
 while read -r program; do
   name=${program##*/}
   case $name in
-    *_instructions | vcan_node | run_turnaround) ;; # for callgrind, on vcan, in real time: below
+    *_instructions | vcan_node | run_turnaround) ;; # for callgrind, on vcan, or in real time: see below
     *_benchmark)
       printf '\n== %s\n' "$name"
       "$program" --benchmark_context="${context%,}" --benchmark_out="$records/$name.json" --benchmark_out_format=json "$@" ||
@@ -52,7 +52,8 @@ while read -r program; do
   esac
 done < <(find "$build/tests/perf" -type f -perm -u+x | LC_ALL=C sort)
 as_text ports_vcan tests/vcan/run.sh /usr/bin/python3 tests/perf/ports/vcan.py "$build/tests/perf/ports/vcan_node"
-# At real-time priority if permitted. On one CPU, so that waking another CPU does not hide the cost of the target.
+# Uses real-time priority if permitted. All processes share one CPU: otherwise the time to wake another CPU
+# would hide the cost of the target.
 real_time=(chrt -f 30)
 "${real_time[@]}" true 2>/dev/null || real_time=()
 last_cpu=$(taskset -cp $$ | sed 's/.*[ ,-]//')

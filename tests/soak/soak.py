@@ -28,11 +28,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENARIOS = ["transfer_alignment_quick", "inflight_quick", "los_quick", "wind_quick"]
-LONGEST_S = {"lockstep": 12, "real time": 3}  # of the flight
+LONGEST_S = {"lockstep": 12, "real time": 3}  # longest flight
 # A busy host can suspend the target for 0.4 s, which looks like a silent target in real time, or the bench for 0.25 s, and then the bus
 # drops it. Such a flight is repeated unchanged. A target with a real defect is silent in every repetition.
 MOST_FLIGHTS = {"lockstep": 1, "real time": 4}
-# Faults that last for a time. They do not affect single samples at intervals (docs/faults.md).
+# Faults that act on a stretch of time rather than on single samples (docs/faults.md).
 STRETCHES = ["silent", "slow", "clock_step", "clock_drift", "restart", "stranger", "flood"]
 PATIENCE_S = 60  # a run that takes longer hangs
 
@@ -46,7 +46,7 @@ class Contract:
         for line in (ROOT / "dbc/canhil.dbc").read_text().splitlines():
             if found := re.match(r"BO_ \d+ (\w+): \d+ (\w+)", line):
                 fields = []
-                if found[2] not in ("Bench", "Target"):  # they are no nodes
+                if found[2] not in ("Bench", "Target"):  # these are not emulated nodes
                     fields = self.messages.setdefault(found[2].lower(), {}).setdefault(found[1], [])
             elif found := re.match(r" SG_ (\w+) :.*\[([^|]+)\|([^\]]+)\]", line):
                 if not found[1].startswith("e2e_"):
@@ -112,7 +112,7 @@ def timed(fault, from_s, to_s, every):
 
 
 def toml(value):
-    return json.dumps(value)  # of strings, numbers and lists it is the same
+    return json.dumps(value)  # strings, numbers and lists are the same in TOML
 
 
 def scenario(base, seed, duration_s, faults):
@@ -330,7 +330,7 @@ def main():
     for why in unexpected:
         print(f"unexpected: {why}")
     print(f"{runs} runs: " + ", ".join(f"{count} {how}" for how, count in sorted(ended.items())))
-    few = runs < 8  # fewer show no growth
+    few = runs < 8  # too few runs to show growth
     good = not unexpected and not few and not any(course.grows() for course in all_courses.values())
     print("soak: " + ("all runs ended as they should, nothing grows" if good else "FAILED" + ", too few runs" * few))
     if good:

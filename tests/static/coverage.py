@@ -52,7 +52,7 @@ def main():
         sys.exit(f"coverage.py: {build}: no program counted anything, expected a build with --coverage whose tests ran")
     files = defaultdict(dict)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        whole = [notes for notes in build.rglob("*.gcno") if notes.with_suffix(".o").exists()]  # none of an interrupted build
+        whole = [notes for notes in build.rglob("*.gcno") if notes.with_suffix(".o").exists()]  # complete ones
         for found in pool.map(lines_of, whole):
             for name, line, ran in found:
                 files[name][line] = files[name].get(line, False) or ran

@@ -21,7 +21,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 LONGEST_S = 900
-PARTS = ("bench/", "dbc/", "target/", "tests/unit/", "tests/")  # a source is of the first that its name begins with
+PARTS = ("bench/", "dbc/", "target/", "tests/unit/", "tests/")  # the first match counts
 ANALYSER = {True: "clang-analyzer-*", False: "-clang-analyzer-*"}
 
 
@@ -30,7 +30,7 @@ class Source:
         self.file = entry["file"]
         self.name = os.path.relpath(self.file, ROOT)
         self.object = None
-        self.flags = []  # each a tuple of one word or two
+        self.flags = []  # tuples of one or two words
         words = iter(shlex.split(entry["command"]))
         for word in words:
             if word == "-o":
@@ -134,7 +134,7 @@ def wrong_ones(file, sources, output):
     found, number = set(), None
     for line in output.splitlines():
         stack = re.match(rf"In file included from {re.escape(str(file))}:(\d+):", line)
-        if stack:  # named again only when it changes
+        if stack:  # the compiler repeats the stack only when it changes
             number = int(stack[1]) // 3
         elif number is not None and re.search(r": (fatal )?error: ", line):
             found.add(sources[number].file)
@@ -153,7 +153,7 @@ def join(file, sources):
         wrong = wrong_ones(file, held, output)
         rest = [source for source in held if source.file not in wrong] or held[:1]
         if compiles or len(rest) == len(held):
-            return held  # what does not compile by itself, clang-tidy says
+            return held  # clang-tidy reports why these do not compile
         held = rest
 
 

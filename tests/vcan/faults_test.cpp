@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::EndsWith;
 
-/// Receives, as every user of a port does, until the interface is gone, or back.
+/// Receives in a loop, as every user of a port does, until the interface has disappeared or returned.
 void wait_until(Port& port, bool up) {
   const std::int64_t deadline = in_seconds(5);
   while (port.up() != up && clock_ns(CLOCK_MONOTONIC) < deadline) {
@@ -25,7 +25,7 @@ void wait_until(Port& port, bool up) {
   ASSERT_EQ(port.up(), up);
 }
 
-/// The number of iterations of a waiting loop in a tenth of a second.
+/// Counts the iterations of a waiting loop in a tenth of a second.
 int rounds(Port& port, WaitFor what) {
   const std::int64_t deadline = clock_ns(CLOCK_MONOTONIC) + 100'000'000;
   int count = 0;
@@ -114,8 +114,8 @@ TEST(SocketCan, AWaitWithoutDeadlineSeesTheReturn) {
   }
 }
 
-/// An interface that is removed and created anew has another index, and the sockets that were bound to the
-/// old one receive nothing.
+/// An interface that was removed and created again has a new index; sockets bound to the old index receive
+/// nothing.
 TEST(SocketCan, BindsToAnInterfaceThatWasMadeAnew) {
   const Interface interface("canhil7", 72);
   const auto a = open("canhil7", {.fd = true, .own_echo = true});
@@ -196,7 +196,7 @@ class SlowWire : public ::testing::Test {
   static void send_and_receive(int frames) {
     const auto a = open("vcan1");
     const auto b =
-        open("vcan1", {.only_ids = {2}});  // what filled the queue before has id 1 and may still come
+        open("vcan1", {.only_ids = {2}});  // frames that filled the queue have id 1 and may still arrive
     int full = 0;
     for (int n = 0; n < frames; ++n) {
       const Frame frame = numbered(2, static_cast<std::uint32_t>(n));

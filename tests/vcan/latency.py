@@ -97,12 +97,12 @@ def fly(bench, scenario, folder):
         deadline = time.monotonic() + 20
         while listeners() == 0 and time.monotonic() < deadline:
             time.sleep(0.01)
-        time.sleep(0.1)  # the kernel turns stamping on a moment after it was asked for
+        time.sleep(0.1)  # the kernel enables stamping a moment after the request
         run = subprocess.run([bench, "run", scenario, "--bus", "vcan0", "--json", report],
                              capture_output=True, text=True, timeout=200, stdin=subprocess.DEVNULL)
         candump.send_signal(signal.SIGINT)
         candump.wait(20)
-    if run.returncode not in (0, 1, 3):  # what the run is worth is not the question here
+    if run.returncode not in (0, 1, 3):  # the verdict of the run does not matter here
         sys.exit(f"{scenario}: hil-bench ended with {run.returncode}: {run.stderr}")
     with open(log, encoding="ascii") as file, open(report, encoding="utf-8") as page:
         return file.read(), json.load(page)

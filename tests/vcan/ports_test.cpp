@@ -166,7 +166,7 @@ class Candump {
   ~Candump() {
     if (started_.joinable()) started_.join();
   }
-  std::string path() {  // when it has seen all frames
+  std::string path() {  // valid when it has received all frames
     started_.join();
     return path_;
   }

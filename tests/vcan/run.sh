@@ -14,7 +14,7 @@ say() { echo "vcan: $*" >&2; }
 make_interfaces='ip link set lo up && for i in vcan0 vcan1; do
   ip link add dev $i type vcan && ip link set $i mtu 72 && ip link set $i up || exit 1; done'
 
-kernel_namespace() { # unshare options that work here
+kernel_namespace() { # prints the unshare options that work here
   [ "$(id -u)" = 0 ] && modprobe -qa vcan can-raw can-gw 2>/dev/null
   for options in --net "--net --map-root-user"; do
     if unshare $options sh -c "$make_interfaces" 2>/dev/null &&

@@ -26,10 +26,10 @@ constexpr std::int64_t tick_ns = 1'000'000;
 constexpr std::int64_t catch_up_ns = 100 * tick_ns;
 constexpr std::int64_t patience_ns = 20 * ns_per_s;
 constexpr std::uint32_t numbered_id = 0x123;
-constexpr std::uint32_t last_id = 0x124;  // carries how many there were
+constexpr std::uint32_t last_id = 0x124;  // carries the number of frames sent
 constexpr std::int64_t flat_kib =
     128;                          // a byte lost with each frame of ten seconds is more than half of that
-constexpr int warm_up_part = 10;  // memory is compared from a tenth of the time on
+constexpr int warm_up_part = 10;  // memory is compared after a tenth of the duration
 
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 
@@ -38,8 +38,8 @@ std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
   std::exit(1);
 }
 
-/// Only anonymous memory: pages of the program and its libraries are loaded when their code first runs, which
-/// is not a leak.
+/// Counts anonymous memory only: pages of the program and its libraries are loaded when their code first
+/// runs, which is not a leak.
 std::int64_t resident_kib() {
   std::ifstream file("/proc/self/statm");
   std::int64_t size = 0;
@@ -76,7 +76,7 @@ class Tally {
   std::uint64_t reordered_ = 0;
 };
 
-/// Resident memory, once warm and at its most since.
+/// Resident memory after the warm-up, and its maximum since then.
 class Memory {
  public:
   void look(bool warm) {
@@ -141,7 +141,7 @@ int send(Port& port, std::int64_t duration_ns, std::int64_t rate) {
   Tally echoes;
   Memory memory;
   std::uint64_t sent = 0;
-  std::int64_t latest_ns = 0;  // the worst of the sender against its deadlines
+  std::int64_t latest_ns = 0;  // largest lateness of the sender
   const auto drain = [&] {
     while (const auto received = port.receive())
       if (received->own && received->frame.id == numbered_id) echoes.add(number_of(received->frame));
@@ -188,7 +188,7 @@ int main(int argc, char** argv) {
   const std::int64_t rate = argc == 4 ? std::atoll(argv[3]) : 8000;
   if (duration_ns <= 0 || rate <= 0) give_up("expected SECONDS and FRAMES_PER_S above 0");
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  const auto receiving = open(argv[1], false);  // before the fork: it misses no frame
+  const auto receiving = open(argv[1], false);  // opened before the fork, so that it misses no frame
   const pid_t child = ::fork();
   if (child == 0) return receive(*receiving, duration_ns);
   int code = 0;

@@ -13,7 +13,7 @@ ln -s /proc/self/fd /dev/fd
 mount -t tmpfs tmpfs /run
 mkdir "$dir/tmp" && mount --bind /tmp "$dir/tmp"
 mount -t tmpfs tmpfs /tmp
-case $cwd in /tmp/*) # the caller works below /tmp: that folder stays in sight
+case $cwd in /tmp/*) # the caller works below /tmp: keep that folder visible
   top=${cwd#/tmp/}
   top=${top%%/*}
   mkdir "/tmp/$top" && mount --bind "$dir/tmp/$top" "/tmp/$top" || die "show $cwd"
@@ -22,7 +22,7 @@ esac
 
 modules=/usr/lib/uml/modules/$(uname -r)/kernel
 for module in drivers/net/can/dev/can-dev net/can/can net/can/can-raw net/can/can-bcm net/can/can-gw drivers/net/can/vcan \
-  net/sched/sch_tbf; do # the last is a slow wire, for tests of full queues
+  net/sched/sch_tbf; do # the last module makes a slow wire, for tests of full queues
   insmod "$modules/$module.ko" || die "load $modules/$module.ko"
 done
 ip link set lo up
@@ -39,7 +39,7 @@ setsid bash -c '. "$1/environment"; . "$1/command"' bash "$dir" </dev/null >/run
 command=$!
 wait $command
 status=$?
-kill -s KILL -- -$command 2>/dev/null # what the command left running holds the pipes open
+kill -s KILL -- -$command 2>/dev/null # processes that the command left running keep the pipes open
 wait
 echo $status >"$dir/status"
 busybox poweroff -f

@@ -17,7 +17,7 @@ struct FixAnswer {
   double nis = 0;
   world::Vector3 innovation = world::Vector3::Zero();      ///< NED [m]
   world::Position position{};                              ///< at the time of validity of the fix
-  world::Vector3 attitude_sigma = world::Vector3::Zero();  ///< of the misalignment, NED
+  world::Vector3 attitude_sigma = world::Vector3::Zero();  ///< sigmas of the misalignment, NED
   world::Vector3 velocity_sigma = world::Vector3::Zero();  ///< NED
   world::Vector3 position_sigma = world::Vector3::Zero();  ///< NED [m]
   world::Vector3 gyro_bias = world::Vector3::Zero();       ///< body
@@ -26,7 +26,7 @@ struct FixAnswer {
   world::Vector3 fix_bias_sigma = world::Vector3::Zero();  ///< NED [m]
   bool degraded = false;      ///< the target reports that its sigmas are not valid
   bool handed_over = false;   ///< the heading is resolved and fed back to the INS
-  std::uint32_t repairs = 0;  ///< of the covariance, since start
+  std::uint32_t repairs = 0;  ///< number of covariance repairs since start
   std::uint32_t gated = 0;    ///< fixes rejected by the gate, since start
   std::uint32_t refused = 0;  ///< fixes not used for another reason, since start
 };
@@ -48,10 +48,10 @@ struct InflightAnswers {
   Spool<SentFix> sent;
 };
 
-/// Where more than two fixes in a row in a window were not answered; empty: nowhere.
+/// The stretches of a window in which more than two fixes in a row were not answered; empty: none.
 std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Window& window);
 
-/// Whether the position in an answer has a known time: that of a fix that the filter used or gated.
+/// Whether the time of the position in an answer is known: yes if the filter used or gated the fix.
 bool tells_of_its_time(const FixAnswer& answer, const world::FlightRecord& truth);
 /// The position error, NED [m].
 world::Vector3 position_error(const FixAnswer& answer, const world::FlightRecord& truth);

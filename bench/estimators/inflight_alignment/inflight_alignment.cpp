@@ -87,8 +87,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 }
 
 // The longest time between answers to fixes that does not count as silence: several fixes in a row may go
-// unanswered. From the median interval, because the bench may withhold fixes on purpose; with two sources the
-// slower one counts.
+// unanswered. Computed from the median interval of the sent fixes, because the bench may withhold fixes on
+// purpose; with two sources the slower one counts.
 double wait_for_fixes_us(const InflightAnswers& answers) {
   double period_us = 0;
   for (const messages::FixSource source : messages::enumerators<messages::FixSource>) {

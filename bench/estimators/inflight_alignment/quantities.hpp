@@ -5,7 +5,7 @@
 
 namespace canhil::quantities {
 
-/// At the time of validity of a fix, NED.
+/// The position error at the time of validity of a fix, NED.
 inline constexpr Quantity position_north{.name = "position.north",
                                          .meaning = "error of the position north, at the time of a fix",
                                          .unit = metres,

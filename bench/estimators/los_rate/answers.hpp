@@ -17,15 +17,15 @@ struct LosAnswer {
   bool blind = false;  ///< too near: the guidance must hold its command
   world::Planes<double> rate{};
   world::Planes<double> rate_sigma{};
-  world::Planes<double> target{};  ///< its acceleration along z (pitch) and y (yaw)
+  world::Planes<double> target{};  ///< acceleration of the target along z (pitch) and y (yaw)
   world::Planes<double> target_sigma{};
-  double nis = 0;         ///< of 2 degrees of freedom; 0 without an update
+  double nis = 0;         ///< normalised innovation squared, 2 degrees of freedom; 0 without an update
   bool degraded = false;  ///< the target reports that its sigmas are not valid
 };
 
 using LosAnswers = Spool<LosAnswer>;
 
-/// True if the sample corrected the filter; a substitute for a sample does not count.
+/// True if the sample corrected the filter; a prediction in place of a sample does not count.
 constexpr bool updated(messages::LosRateOutcome outcome) {
   return outcome == messages::LosRateOutcome::updated || outcome == messages::LosRateOutcome::start_up;
 }
@@ -49,7 +49,7 @@ Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRec
 /// NIS (2 degrees of freedom) of each answer that was an update.
 Spool<quantities::TrackPoint> nis_of(const LosAnswers& answers);
 
-/// RMS over both planes of the errors with time to go in [least, most); none: no errors there.
+/// RMS over both planes of the errors with time to go in [least, most); none: no errors in this range.
 std::optional<double> los_rms(const Spool<LosError>& errors, double least, double most);
 
 std::unique_ptr<Reception> los_reception();

@@ -45,7 +45,7 @@ constexpr std::array<const Quantity*, 4> of_runs{&los_rate_pitch, &los_rate_yaw,
 constexpr Layout layout{
     .kept = kept, .derived = derived, .to_go_stretch_us = stretch_us, .end_known_by = &miss_distance};
 
-/// The sums of one stretch.
+/// Sums over one stretch of the time to go.
 struct Stretch {
   double pitch_squares = 0, yaw_squares = 0, nis_sum = 0;
   double variances = 0, over_variances = 0, trusted = 0;

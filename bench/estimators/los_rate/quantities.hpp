@@ -7,7 +7,7 @@
 
 namespace canhil::quantities {
 
-/// In the antenna's axes; both: RMS of the two planes.
+/// LOS rate errors in the antenna's axes; `both`: RMS of the two planes.
 inline constexpr Quantity los_rate_pitch{
     .name = "los.rate.pitch",
     .meaning = "error of the LOS rate in pitch, antenna axes; in campaigns RMS of 20 ms of the time to go",
@@ -25,7 +25,7 @@ inline constexpr Quantity los_rate_both{
     .unit = mradps,
     .once = "los_rate",
     .parts = los_rate_planes};
-/// The sigma that the target reports; RMS of both planes.
+/// The reported sigma, RMS of both planes.
 inline constexpr Quantity los_rate_sigma{
     .name = "los.rate.sigma",
     .meaning =
@@ -35,14 +35,14 @@ inline constexpr Quantity los_rate_over_sigma{
     .name = "los.rate.over_sigma",
     .meaning = "error of the LOS rate over its sigma: RMS of both planes and 20 ms of the time to go",
     .unit = plain};
-/// Mean over the updates of a stretch, each of 2 degrees of freedom; NaN without an update.
+/// Mean NIS (2 degrees of freedom) over the updates of a stretch; NaN without an update.
 inline constexpr Quantity los_mean_nis{
     .name = "los.nis.mean",
     .meaning = "mean NIS of the updates (2 degrees of freedom each) in 20 ms of the time to go",
     .unit = plain,
     .nan_allowed = true,
     .once = "los_nis"};
-/// In the axes at the start; NaN: the missile did not pass the target.
+/// Components of the miss in the axes at the start; NaN: the missile did not pass the target.
 inline constexpr Quantity miss_pitch{.name = "miss.pitch",
                                      .meaning = "closest approach in pitch, of the axes at the start",
                                      .unit = metres,

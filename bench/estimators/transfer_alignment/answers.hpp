@@ -13,7 +13,7 @@ struct FilterAnswer {
   std::int64_t navigation_us = -1;  ///< cause of the last navigation answer before this one; -1: none
   double nis = 0;
   world::Vector3 innovation = world::Vector3::Zero();
-  world::Vector3 attitude_sigma = world::Vector3::Zero();        ///< of the misalignment, NED
+  world::Vector3 attitude_sigma = world::Vector3::Zero();        ///< sigmas of the misalignment, NED
   world::Vector3 attitude_correlation = world::Vector3::Zero();  ///< north-east, north-down, east-down
   world::Vector3 velocity_sigma = world::Vector3::Zero();
   world::Vector3 gyro_bias = world::Vector3::Zero();   ///< body
@@ -26,7 +26,8 @@ struct TransferAnswers {
   Spool<FilterAnswer> filter;
 };
 
-/// Attitude NEES (3 degrees of freedom) after each velocity update: nees() of phi from first_after().
+/// Attitude NEES (3 degrees of freedom) after each velocity update: nees() of the misalignment from
+/// first_after().
 Spool<quantities::TrackPoint> nees_of(const Spool<FilterAnswer>& filter,
                                       const Spool<NavigationError>& errors);
 

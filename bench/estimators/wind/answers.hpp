@@ -13,7 +13,7 @@ struct WindAnswer {
   std::int64_t cause_us = 0;
   bool started = false;  ///< the filter runs; false: only the wind is valid
   messages::WindOutcome outcome = messages::WindOutcome::waiting;
-  bool outside = false;  ///< some variable is outside of the model's range
+  bool outside = false;  ///< some variable is outside the range of the model
   bool fins_late = false;
   bool fins_missing = false;
   bool fins_not_physical = false;
@@ -24,14 +24,14 @@ struct WindAnswer {
   world::Vector3 correlation = world::Vector3::Zero();  ///< north-east, north-down, east-down
   double along_track_sigma = 0;
   double cross_track_sigma = 0;
-  double nis = 0;  ///< of 9 degrees of freedom; 0: without an update
+  double nis = 0;  ///< normalised innovation squared, 9 degrees of freedom; 0: without an update
 };
 
 using WindAnswers = Spool<WindAnswer>;
 
 /// The error (estimated - true) of a wind answer of a started filter, at the time of validity of its cause.
-/// Along track is the direction of the true horizontal air velocity, close to the heading: the air speed is
-/// least observable.
+/// Along track means along the true horizontal air velocity, close to the heading. The air speed is the least
+/// observable quantity.
 struct WindError {
   std::int64_t t_us = 0;
   world::Vector3 error_n = world::Vector3::Zero();  ///< NED [m/s]

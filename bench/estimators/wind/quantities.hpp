@@ -5,7 +5,7 @@
 
 namespace canhil::quantities {
 
-/// Along the horizontal air velocity, to its right, and down; the norm of all three.
+/// Wind errors along the horizontal air velocity, to its right, and down; the norm of all three.
 inline constexpr Quantity wind_along{.name = "wind.along",
                                      .meaning = "error of the wind along the horizontal air velocity",
                                      .unit = mps,
@@ -21,7 +21,7 @@ inline constexpr Quantity wind_norm{
     .name = "wind.norm", .meaning = "magnitude of the error of the wind", .unit = mps, .once = "wind_norm"};
 inline constexpr Quantity wind_north{.name = "wind.north", .meaning = "error of the wind north", .unit = mps};
 inline constexpr Quantity wind_east{.name = "wind.east", .meaning = "error of the wind east", .unit = mps};
-/// NaN without an update.
+/// NIS of a sample; NaN without an update.
 inline constexpr Quantity wind_nis{.name = "wind.nis",
                                    .meaning = "normalised innovation squared of an update",
                                    .unit = plain,
@@ -35,7 +35,7 @@ inline constexpr Quantity wind_nees{
     .unit = plain,
     .degrees_of_freedom = 3,
     .once = "wind_nees"};
-/// The sigma that the target reports.
+/// The reported sigmas.
 inline constexpr Quantity wind_along_sigma{
     .name = "wind.along.sigma",
     .meaning = "sigma of the wind along the track as the target reports it",

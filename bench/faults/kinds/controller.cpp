@@ -10,7 +10,7 @@ namespace {
 
 constexpr int passive_from = 128;  // ISO 11898-1, fault confinement
 
-// A controller's driver writes error frames itself; only vcan accepts them from others.
+// Only vcan accepts error frames from programs; a controller's driver generates its own.
 std::string needs_vcan(const Place& place) {
   switch (place.interface) {
     case Place::Interface::virtual_can:

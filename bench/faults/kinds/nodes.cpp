@@ -20,7 +20,7 @@ using scenario::FaultContext;
 using scenario::NodeSettings;
 using scenario::Section;
 
-// A mapping plays samples at its own times.
+// Excludes mappings, which send samples at their own times.
 std::string needs_contract(const Place& place) {
   return place.mapped ? "has no effect on a mapping, which plays samples by its own times, expected a target "
                         "that speaks canhil's contract"
@@ -51,7 +51,7 @@ class SilentNode final : public BefallenNode {
       if (gone > 0 && !restarts_) ++tally().count;
       return;
     }
-    // The counters restart even if the node was away so briefly that no sample was due.
+    // The counters restart even if the fault was too short to suppress a sample.
     if (restarts_ && t_us > when_.to_us) {
       restarts_ = false;
       recount_.begin_at_zero();
@@ -62,7 +62,7 @@ class SilentNode final : public BefallenNode {
     }
   }
   When when_;
-  bool restarts_;  // a restart is still to come
+  bool restarts_;  // the restart has not happened yet
   Recount recount_;
 };
 
@@ -101,7 +101,7 @@ class SlowNode final : public BefallenNode {
       : BefallenNode(std::move(node), settings, run), when_(kind.when), longer_(kind.longer) {}
 
  private:
-  // Sample k of the fault's time is due at k periods of the slower clock.
+  // The k-th sample sent during the fault is due at k periods of the slower clock.
   void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
     if (frames.empty() || !is_own(frames.front())) return;
     if (!when_.holds(t_us)) {
@@ -136,7 +136,7 @@ class SlowNode final : public BefallenNode {
   }
   When when_;
   double longer_;
-  double ticks_us_ = 0;                      // when it sends next; 0: unaffected
+  double ticks_us_ = 0;                      // time of the next transmission; 0: unaffected
   std::map<std::string_view, double> kept_;  // increments of samples that were not sent, by signal
   Recount recount_;
 };

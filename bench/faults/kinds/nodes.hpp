@@ -1,5 +1,5 @@
-// Malfunctions of a node as a whole: its values are right, but its transmission times, its counters or its
-// reported times are wrong.
+// Faults of a node as a whole: its values are right, but its transmission times, its counters or its reported
+// times are wrong.
 #pragma once
 
 #include "bench/faults/read.hpp"
@@ -33,7 +33,7 @@ struct Silent : OfNode<Silent> {
                                                   const InRun& run) const;
 };
 
-/// Silent for a time; then its counters restart at 0, and its measurements of that time are lost.
+/// Silent for a time, then its counters restart at 0. The measurements of that time are lost.
 struct NodeRestart : OfNode<NodeRestart> {
   static constexpr std::string_view kind = "restart";
   static constexpr std::string_view meaning = "The node is silent for a time; then its counters begin at 0.";
@@ -43,7 +43,7 @@ struct NodeRestart : OfNode<NodeRestart> {
                                                   const InRun& run) const;
 };
 
-/// Its samples are sent late; their time of validity is right.
+/// Its samples are sent late, but with the right time of validity.
 struct Late : OfNode<Late> {
   static constexpr std::string_view kind = "late";
   static constexpr std::string_view meaning = "The sample leaves later; its time of validity is right.";
@@ -56,12 +56,12 @@ struct Late : OfNode<Late> {
                                                   const InRun& run) const;
 };
 
-/// It sends less often: each time the newest sample, with the sum of the increments since the last one.
+/// It sends less often: the newest sample, with the sum of the increments since the previous transmission.
 struct Slow : OfNode<Slow> {
   static constexpr std::string_view kind = "slow";
   static constexpr std::string_view meaning =
       "The node's period is longer: it sends its newest sample, with the increments of those between.";
-  double longer = 0;  ///< the additional period, as a fraction of the right one
+  double longer = 0;  ///< additional period as a fraction of the right period
   static Slow read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
   [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,

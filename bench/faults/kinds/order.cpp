@@ -33,7 +33,7 @@ class ReorderedFrames final : public OfFrames {
   using OfFrames::OfFrames;
 
  private:
-  // Swaps two successive frames; the second one is not held back too.
+  // Swaps two successive frames: the second one is not held, even if it is affected.
   void put(Own& own, const Frame& frame, std::int64_t /*t_us*/, std::vector<Frame>& left) override {
     if (own.held) return pass(own, frame, left);
     own.held = frame;

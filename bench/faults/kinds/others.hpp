@@ -1,4 +1,4 @@
-// Frames that are not from any node of the scenario.
+// Frames that no node of the scenario sends.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ struct Flood {
   static constexpr Stage stage = Stage::bus;
   When when{};
   std::optional<std::int64_t> period_us{};
-  double load = 0;  ///< if there is no period: a fraction of the bus's bit rate
+  double load = 0;  ///< used without a period: a fraction of the bus's bit rate
   static Flood read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;

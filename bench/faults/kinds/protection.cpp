@@ -8,7 +8,7 @@
 namespace canhil::faults {
 namespace {
 
-// Only for messages with canhil's own protection: for others the positions of counter and CRC are unknown.
+// Requires canhil's own protection: in other messages, the positions of counter and CRC are unknown.
 template <class Kind>
 Kind read_protected(scenario::Section& section, const scenario::FaultContext& context) {
   Kind kind;

@@ -67,7 +67,7 @@ std::vector<Measured> flags_of(const MessageInfo& message) {
   return flags;
 }
 
-// In the message of the quantity, or else in another message of its sample.
+// The validity flags in the message of the quantity, or else in other messages of its sample.
 std::vector<Measured> flags_for(const MessageInfo& message) {
   std::vector<Measured> flags = flags_of(message);
   if (!flags.empty()) return flags;

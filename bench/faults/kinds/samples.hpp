@@ -1,4 +1,4 @@
-// Samples with wrong content, although each number alone is plausible.
+// Samples with wrong content in which each number is plausible.
 #pragma once
 
 #include "bench/faults/read.hpp"

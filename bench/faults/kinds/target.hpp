@@ -17,7 +17,7 @@ struct Paused {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The process gets only a fraction of the time: in each period it is stopped for the rest.
+/// The process gets only a fraction of the CPU time: in each period it is stopped for the remaining fraction.
 struct Slowed {
   static constexpr std::string_view kind = "slowed";
   static constexpr std::string_view meaning =
@@ -31,8 +31,8 @@ struct Slowed {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The process is killed, started again and initialised with the state at that time. Meanwhile the bench
-/// sends nothing else.
+/// The process is killed, started again and initialised with the state at that time. The bench sends nothing
+/// else until then.
 struct Restarted {
   static constexpr std::string_view kind = "restarted";
   static constexpr std::string_view meaning =

@@ -1,5 +1,5 @@
 // Wrong measurements of a sensor: the sample is sent in time, with a valid counter and CRC. A value belongs
-// to a quantity, in SI, or to a signal, in its unit.
+// either to a quantity, in SI, or to a signal, in its unit.
 #pragma once
 
 #include <functional>
@@ -18,14 +18,14 @@ struct Sampled {
 };
 using Becomes = std::function<double(double value, const Sampled& sample)>;
 
-/// The node with these values changed; the node itself if it has none of them. `exactly`: without the
-/// rounding remainders of increments.
+/// Wraps the node so that these values change; returns the node itself if it has none of them. `exactly`:
+/// does not add the rounding remainders of increments.
 std::unique_ptr<nodes::Node> with_values(std::unique_ptr<nodes::Node> node,
                                          const scenario::NodeSettings& settings, const InRun& run,
                                          const OfValues& of, const When& when, Becomes becomes,
                                          bool exactly = false);
 
-/// Shared by all these kinds: `Kind::becomes` computes the wrong value.
+/// Shared by all kinds in this file: `Kind::becomes` computes the wrong value.
 template <class Kind>
 struct EachValue {
   static constexpr Stage stage = Stage::sensor;
@@ -91,14 +91,14 @@ struct Spike : EachValue<Spike> {
   static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
 };
 
-/// The value stays at what it was at the start of the fault.
+/// The value remains as it was at the start of the fault.
 struct Stuck : EachValue<Stuck> {
   static constexpr std::string_view kind = "stuck";
   static constexpr std::string_view meaning = "A sensor's value stays what it was at the start.";
   static double becomes(double value, double size, const Sampled& sample);
 };
 
-/// The value is limited to this magnitude.
+/// The magnitude of the value is limited.
 struct Saturated : EachValue<Saturated> {
   static constexpr std::string_view kind = "saturated", stem = "at";
   static constexpr std::string_view meaning = "A sensor's value is no larger than this, to either side.";

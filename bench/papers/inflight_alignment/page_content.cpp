@@ -18,7 +18,7 @@ constexpr std::size_t drawn_runs = 100;  // the number of runs in the paper
 
 // Heading error at 300 s over the runs of a variant [deg].
 struct Heading {
-  double rms = 0, rms_low = 0, rms_high = 0;  // 5 % to 95 % of the RMS of 100 runs
+  double rms = 0, rms_low = 0, rms_high = 0;  // 5 % and 95 % quantile of the RMS of 100 runs
   double median = 0, p90 = 0;
   double below_10_deg = 0;  // fraction of runs
 };
@@ -37,7 +37,7 @@ std::string words_of(const Heading& h) {
   return fmt::format("{:.3g} [{:.2g}-{:.2g}] ({:.2g})", h.rms, h.rms_low, h.rms_high, h.median);
 }
 
-// The RMS of the heading over the first runs of a variant.
+// The RMS of the heading over the first `drawn_runs` runs of each variant.
 Result<Curves> first_runs(const Results& results, const FlyOptions& options) {
   std::map<std::string, Curve, std::less<>> drawn;
   for (const char* name : {"ssbl", "gps"}) {
@@ -103,7 +103,7 @@ void add_headings(Names& names, const Results& results) {
   };
 }
 
-// The order of EKF and UKF by RMS on other paths.
+// Compares EKF and UKF by RMS on other paths.
 void add_paths(Names& names, const Results& results) {
   const auto cells = [&results](std::string_view aid, std::string_view path) {
     std::string text;
@@ -131,7 +131,7 @@ void add_paths(Names& names, const Results& results) {
   names["reversed"] = [=](Words&) { return fmt::format("{} of {}", reversed, combinations); };
 }
 
-// The paper's claims, and bars that no campaign file contains. Returns whether these bars are met.
+// The paper's claims, and bars that are in no campaign file. Returns whether these bars are met.
 bool add_claims(Names& names, const Results& results) {
   const auto claim = [&names](std::string name, bool holds) {
     names[std::move(name)] = [=](Words&) { return holds; };

@@ -24,7 +24,7 @@ struct Window {
 };
 constexpr std::array windows{Window{5.6, 4.5}, Window{4.5, 3},   Window{3, 2},     Window{2, 1},
                              Window{1, 0.5},   Window{0.5, 0.2}, Window{0.2, 0.08}};
-constexpr std::size_t first_settled = 2;  // after the start-up
+constexpr std::size_t first_settled = 2;  // first window after the start-up
 
 // RMS of the LOS rate error over both planes [mrad/s].
 double rms(const Flown& flown, std::string_view variant, const Window& window) {
@@ -47,7 +47,7 @@ std::string words_of(const Miss& one) { return fmt::format("{:.2f} / {:.2f}", on
 std::string two_digits(double value) { return fmt::format("{:.2f}", value); }
 
 void add_tables(Names& names, const Results& results) {
-  // The words after the campaign and the variant are in brackets, one for each window.
+  // Arguments: campaign, variant and, optionally, a reference value for each window, shown in brackets.
   const auto by_window = [&results](std::size_t from) {
     return [&results, from](Words& words) {
       const Flown& flown = results.of(words.next());
@@ -91,7 +91,7 @@ void add_tables(Names& names, const Results& results) {
   };
 }
 
-// The paper's claims, and how far they hold.
+// The paper's claims, and to what extent they hold.
 void add_claims(Names& names, const Results& results) {
   const Flown &open = results.of("open_loop"), &closed = results.of("closed_loop");
   const auto claim = [&names](const char* name, bool holds) { names[name] = [=](Words&) { return holds; }; };
@@ -124,7 +124,7 @@ void add_claims(Names& names, const Results& results) {
       best = std::min(best, rms(open, variant, window));
     return rms(open, "combined", window) / best;
   };
-  // 3 to 2 s to go: before the manoeuvre; 1 to 0.5 s: at its onset.
+  // Before the manoeuvre: 3 to 2 s to go; at its onset: 1 to 0.5 s.
   const double quiet = over_best_fixed(windows[2]), onset = over_best_fixed(windows[4]);
   number("over_best_in_the_quiet", ".2f", quiet);
   number("over_best_at_the_onset", ".2f", onset);
@@ -140,7 +140,8 @@ void add_claims(Names& names, const Results& results) {
   claim("better_by_miss", miss(closed, "combined").rms < best);
 }
 
-// Of the displacement frame: 1.70 Om, Om = (q / (r^2 R Ts))^(1/6), if vc/r is small compared with Om.
+// Bandwidth of the displacement frame: 1.70 Om, Om = (q / (r^2 R Ts))^(1/6), if vc/r is small compared with
+// Om.
 double bandwidth_hz(double range, double thermal, double glint) {
   constexpr double jerk_density = 300, sample_period = 0.005;
   const double variance = std::pow(thermal * range * range, 2) + std::pow(glint / range, 2);

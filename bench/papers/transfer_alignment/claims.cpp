@@ -24,7 +24,7 @@ std::string verdict(bool holds) { return holds ? "[yes] yes" : "[no] no"; }
 std::vector<CurvePoint> pooled(const std::vector<std::span<const CurvePoint>>& curves) {
   std::vector<CurvePoint> pool(curves.front().begin(), curves.front().end());
   for (std::size_t i = 0; i < pool.size(); ++i) {
-    double sum = 0, variance = 0;  // of the squares: that of each is (2 rms rms_error)^2
+    double sum = 0, variance = 0;  // variance of the squares: (2 rms rms_error)^2 for each
     for (const auto& curve : curves) {
       sum += curve[i].rms * curve[i].rms;
       variance += std::pow(2 * curve[i].rms * curve[i].rms_error, 2);
@@ -48,7 +48,7 @@ std::string cruise_cells(std::span<const CurvePoint> curve) {
                      end < 0.8 * initial_mrad ? "[partly] yes" : "[no] no");
 }
 
-// Times of cases 1 to 4 with one alpha at one period of the master [ms].
+// Times of cases 1 to 4 for one alpha and one period of the master [ms].
 std::vector<Times> cases(const Results& results, std::string_view alpha, std::string_view period) {
   std::vector<Times> all;
   for (const int number : {1, 2, 3, 4})
@@ -64,8 +64,8 @@ bool case_2_best(const std::vector<Times>& all) {
   });
 }
 
-// The time from which the heading of a variant of `sizes` stays within a band: 3 mrad, or a tenth of its
-// initial error, which ends the variant's name in degrees.
+// The time from which the heading of a variant of campaign `sizes` stays within a band: 3 mrad, or a tenth of
+// its initial error. The variant's name ends with this error in degrees.
 double into(const Results& results, std::string_view band, std::string_view variant) {
   const double initial = std::stod(std::string(variant.substr(variant.rfind("_e") + 2))) * deg;
   return campaign::time_within(results.of("sizes").curve(variant),
@@ -73,7 +73,7 @@ double into(const Results& results, std::string_view band, std::string_view vari
       .value_or(never);
 }
 
-// In how many settings the H2 filter is faster.
+// The number of settings in which the H2 filter is faster.
 int first_in(const Results& results, std::string_view band) {
   int count = 0;
   for (const char* initialised : {"", "_fifth"}) {
@@ -130,8 +130,8 @@ void add_tables(Names& names, const Results& results) {
   };
 }
 
-// Comparisons that must not be presented as a gain of the H2 filter: in these it is not faster than the
-// Kalman filter. Returns whether all hold.
+// Comparisons in which the H2 filter is not faster than the Kalman filter; the page must not present them as
+// a gain. Returns whether all hold.
 bool add_guards(Names& names, const Results& results) {
   bool all = true;
   const auto add = [&](std::string name, double kf, double h2, const char* unit) {

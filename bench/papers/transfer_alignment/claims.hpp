@@ -1,4 +1,4 @@
-// The claims of the transfer-alignment paper, and how far they hold.
+// The claims of the transfer-alignment paper, and to what extent they hold.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ inline constexpr std::array axes{Axis{"roll", &quantities::attitude_roll, world:
 /// RMS over the eight combinations of signs of campaign `cruise`.
 std::vector<campaign::CurvePoint> all_signs(const Results& results);
 
-/// Adds the names of claims, and of the tables of Figs 3 to 7. Returns whether every bar is met.
+/// Adds the names of the claims and of the tables of Figs 3 to 7. Returns whether every bar is met.
 bool add_claims(Names& names, const Results& results);
 
 }  // namespace canhil::papers::transfer_alignment

@@ -1,5 +1,5 @@
-// Content of the page on transfer alignment: times into 3, 2 and 1 mrad, beside those of the reference
-// simulation.
+// Content of the page on transfer alignment: times at which heading enters 3, 2 and 1 mrad, beside the times
+// of the reference simulation.
 #include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ Result<Flown> read_exact(const std::filesystem::path& path, const campaign::Camp
   return evaluated("exact", ours, *store);
 }
 
-// Every variant with and without the bus's rounding.
+// One row for each variant: results with and without the bus's rounding.
 std::string exact_rows(const Flown& bus, const Flown& exact) {
   std::string rows;
   for (const campaign::Variant& variant : bus.campaign.variants) {
@@ -57,7 +57,7 @@ void add_times(Names& names, const Results& results) {
     return fmt::format("{:.1f}", times_of(results.curve(words)).end_mrad);
   };
   names["diverged"] = [&results](Words& words) { return diverged(times_of(results.curve(words))); };
-  // "27 of 300 runs (0 ended early)": runs beyond 20 mrad at the end, if the campaign counts them.
+  // "27 of 300 runs (0 ended early)": runs beyond 20 mrad at the end, if the campaign counts such runs.
   const auto diverged_runs = [](const Flown& flown, std::string_view variant) {
     return flown.answer_of_kind(campaign::Diverged::kind, variant).measured;
   };
@@ -65,8 +65,8 @@ void add_times(Names& names, const Results& results) {
     const Flown& flown = results.of(words.next());
     return diverged_runs(flown, words.rest());
   };
-  // The reference, our result, and whether they agree; `counted`: also the number of diverged runs, if ours
-  // diverge.
+  // The reference, our result, and whether they agree. `counted`: appends the number of diverged runs if our
+  // result diverges.
   const auto compared = [&results, diverged_runs](bool counted) {
     return [&results, diverged_runs, counted](Words& words) {
       const Times reference = times_in(std::string(words.next()));
@@ -84,7 +84,7 @@ void add_times(Names& names, const Results& results) {
   names["compared_counted"] = compared(true);
 }
 
-// Points of a curve whose times into 3, 2 and 1 mrad are known.
+// The points of a curve at the known times of 3, 2 and 1 mrad.
 Curve through(const Times& times) {
   Curve curve;
   for (const auto& [t_s, level_mrad] :
@@ -118,7 +118,7 @@ Result<PageContent> page_content(const Results& results, const FlyOptions& optio
   if (!store) return tl::unexpected(store.error());
   auto spreads = spreads_of(table.campaign, *store);
   if (!spreads) return tl::unexpected(spreads.error());
-  // The same comparison, with the spread over batches before the verdict.
+  // The same comparison, with the spread over batches added before the verdict.
   content.names["batched"] = [compared = content.names["compared"],
                               spreads = std::move(*spreads)](Words& words) {
     const std::string_view reference = words.next(), variant = words.rest();

@@ -1,5 +1,5 @@
-// The times from which the heading's RMS over runs stays within 3, 2 and 1 mrad: the results that the
-// transfer-alignment paper gives for a filter.
+// The times from which the heading's RMS over runs stays within 3, 2 and 1 mrad: the form in which the
+// transfer-alignment paper gives its results.
 #pragma once
 
 #include <cstdint>
@@ -23,20 +23,20 @@ struct Times {
   double end_mrad = 0;  ///< RMS at the last update; NaN: no run reached it
 };
 Times times_of(std::span<const CurvePoint> curve);
-/// Parses "14.7 / 16.2 / never", with or without blanks, or "diverges". Throws std::logic_error.
+/// Parses "14.7 / 16.2 / never", with or without spaces, or "diverges". Throws std::logic_error.
 Times times_in(std::string text);
-/// "14.7 / 16.2 / never"; "diverges (71 mrad at the end)" if the heading is then beyond 20 mrad.
+/// "14.7 / 16.2 / never", or "diverges (71 mrad at the end)" if the heading is beyond 20 mrad at the end.
 std::string words_of(const Times& times);
 bool diverged(const Times& times);
 
 /// "14.7", or "never".
 std::string time_words(double t_s);
 
-/// Whether a curve over `runs` runs has the times of the reference, a simulation of 150 runs.
+/// Whether a curve over `runs` runs agrees with the times of the reference, a simulation of 150 runs.
 bool agrees(std::span<const CurvePoint> curve, const Times& reference, std::uint64_t runs);
 
-/// The sampling spread of the times of each variant, as text: the smallest and largest of ten batches, each
-/// with a tenth of the runs. With fewer than ten runs the map is empty.
+/// The sampling spread of the times of each variant, as text: the smallest and the largest time over ten
+/// batches, each with a tenth of the runs. The map is empty if there are fewer than ten runs.
 Result<std::map<std::string, std::string, std::less<>>> spreads_of(const campaign::Campaign& campaign,
                                                                    const campaign::Store& store);
 

@@ -24,8 +24,7 @@ constexpr std::array judged{"table1", "sensitivity", "rates"};
 constexpr const char* all = "wind error";
 constexpr std::array components{"along track", "cross track", "down"};
 
-// Mean of |error of the wind| for t >= 10 s of each run; mean and standard deviation of these over the runs
-// [m/s].
+// The mean over the runs of the mean |wind error| for t >= 10 s of each run [m/s].
 double mean(const campaign::Answer& answer) { return figure(answer, "mean_mps"); }
 std::string score(const campaign::Answer& answer) {
   return fmt::format("{:.2f} ({:.2f})", mean(answer), figure(answer, "standard_deviation_mps"));
@@ -69,7 +68,7 @@ void add_scores(Names& names, const Results& results) {
   };
 }
 
-// The paper's claims, and how far they hold.
+// The paper's claims, and to what extent they hold.
 void add_claims(Names& names, const Results& results) {
   const auto at = [&](const char* filter, int level) {
     return mean(results.of("table1").answer(all, fmt::format("{}_{}", filter, level)));

@@ -60,7 +60,7 @@ Engagement::Engagement(const EngagementPlan& plan, Stream stream) : plan_(plan) 
                                   .pitch = plan.pointing_error_sigma * pointing.pitch,
                                   .heading = plan.pointing_error_sigma * pointing.yaw});
   state_.segment<4>(attitude) = Quaternion(C_na).coeffs();
-  // omega x v with v along -x: a turn about y accelerates along z, one about z along y.
+  // Acceleration is omega x v with v along -x: a turn about y accelerates along z, a turn about z along y.
   if (plan.target_speed > 0)
     turn_ = plan.manoeuvre.acceleration / plan.target_speed *
             Vector3(0, in_pitch * sides.pitch, in_yaw * sides.yaw);

@@ -17,15 +17,15 @@ struct EngagementTruth {
   double closing_speed = 0;               ///< -d(range)/dt [m/s]
   Planes<double> error{};                 ///< LOS relative to the antenna's axis [rad]
   Planes<double> los_rate{};              ///< inertial, about y and z [rad/s]
-  Planes<double> target{};                ///< its acceleration along z (pitch) and y (yaw) [m/s^2]
-  Planes<double> missile{};               ///< the same [m/s^2]
-  Vector3 relative_n = Vector3::Zero();   ///< target from missile [m]
-  Vector3 velocity_n = Vector3::Zero();   ///< of the target w.r.t. the missile [m/s]
+  Planes<double> target{};                ///< target acceleration along z (pitch) and y (yaw) [m/s^2]
+  Planes<double> missile{};               ///< missile acceleration along z and y [m/s^2]
+  Vector3 relative_n = Vector3::Zero();   ///< target position relative to the missile [m]
+  Vector3 velocity_n = Vector3::Zero();   ///< target velocity relative to the missile [m/s]
   Vector3 omega_los_n = Vector3::Zero();  ///< rate of the line of sight, perpendicular to it [rad/s]
   Matrix3 C_na = Matrix3::Identity();     ///< transforms from antenna axes to n
 
-  /// Time to the closest approach without further acceleration [s]; equals range over closing speed except in
-  /// the last metres.
+  /// Time to the closest approach without further acceleration [s]; range over closing speed, except in the
+  /// last metres.
   [[nodiscard]] double time_to_go() const { return range * closing_speed / velocity_n.squaredNorm(); }
 };
 
@@ -39,9 +39,10 @@ struct SeekerIncrement {
 /// The record of an engagement for checks and reports.
 struct EngagementRecord {
   Spool<EngagementTruth> epochs;  ///< at the times of the seeker's samples, ascending
-  std::optional<Vector3> miss_n;  ///< target from missile at the closest approach [m]; none: not reached
-  std::int64_t passage_us = 0;    ///< time of the closest approach
-  std::size_t late_commands = 0;  ///< commands that came after they should have taken effect
+  std::optional<Vector3>
+      miss_n;                   ///< target relative to missile at the closest approach [m]; none: not reached
+  std::int64_t passage_us = 0;  ///< time of the closest approach
+  std::size_t late_commands = 0;  ///< commands whose effective time had already passed
 
   /// The epoch at a time, or null.
   [[nodiscard]] const EngagementTruth* at(std::int64_t t_us) const;
@@ -54,9 +55,9 @@ class Engagement {
   /// Flies to a time [us] or to the closest approach. Fourth-order Runge-Kutta in steps of at most 1 ms.
   void fly_to(std::int64_t t_us);
 
-  /// An LOS rate in n [rad/s] and a closing speed [m/s] for the guidance, effective from a time [us] until
-  /// the next command: a = N vc omega x v/|v|, held. Commands come in order of time. False: the flight had
-  /// already passed that time, and the command takes effect now.
+  /// Commands the guidance with an LOS rate in n [rad/s] and a closing speed [m/s], effective from a time
+  /// [us] until the next command: a = N vc omega x v/|v|, held. Commands must be in order of time. False: the
+  /// flight had already passed that time, so the command takes effect now.
   bool command(std::int64_t from_us, const Vector3& omega_los_n, double closing_speed);
 
   [[nodiscard]] EngagementTruth truth() const;
@@ -64,7 +65,7 @@ class Engagement {
   SeekerIncrement take_increment();
 
   [[nodiscard]] bool over() const { return miss_n_.has_value(); }
-  /// Target from missile at the closest approach [m]; none: not reached yet.
+  /// Target relative to missile at the closest approach [m]; none: not reached yet.
   [[nodiscard]] const std::optional<Vector3>& miss_n() const { return miss_n_; }
   [[nodiscard]] std::int64_t t_us() const { return t_us_; }
 
@@ -92,7 +93,7 @@ class Engagement {
   std::int64_t taken_us_ = 0;  // end of the last increment
   bool manoeuvring_ = false;
   Vector3 turn_ = Vector3::Zero();  // rate of the target's velocity at full manoeuvre [rad/s]
-  Planes<double> phase_{};          // of its weave [rad]
+  Planes<double> phase_{};          // phases of the target's weave [rad]
   std::deque<Command> commands_;    // not yet effective
   Vector3 held_ = Vector3::Zero();  // commanded acceleration, n [m/s^2]
   std::optional<Vector3> miss_n_;

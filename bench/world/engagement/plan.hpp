@@ -20,13 +20,13 @@ struct Planes {
   bool operator==(const Planes&) const = default;
 };
 
-/// The target's acceleration, perpendicular to its velocity; in each plane the side is drawn for the run.
+/// The target's acceleration, perpendicular to its velocity. Its sign in each plane is drawn for the run.
 struct Manoeuvre {
   enum class Kind : std::uint8_t { none, step, weave };
   Kind kind = Kind::step;
   double acceleration = 4 * units::standard_gravity;  ///< amplitude of a weave [m/s^2]
-  double period = 2;                                  ///< of a weave; its phase is drawn [s]
-  double from_s = 0;                                  ///< it begins at this time ...
+  double period = 2;                                  ///< period of a weave [s]; its phase is drawn
+  double from_s = 0;                                  ///< the manoeuvre begins at this time ...
   std::optional<double> at_time_to_go = 1;  ///< ... or when range over closing speed falls to this value [s]
 };
 
@@ -39,21 +39,20 @@ struct EngagementPlan {
   double range = 5000;         ///< at the start [m]
   double missile_speed = 600;  ///< constant [m/s]
   double target_speed = 300;   ///< constant, towards the missile [m/s]
-  double heading_error = 0;  ///< of the missile's velocity relative to the line of sight, in each plane [rad]
+  double heading_error = 0;    ///< angle of the missile's velocity to the line of sight in each plane [rad]
   double heading_error_sigma = 3 * units::deg;    ///< drawn in each plane [rad]
-  double pointing_error_sigma = 5 * units::mrad;  ///< of the antenna at the start, drawn in each plane [rad]
+  double pointing_error_sigma = 5 * units::mrad;  ///< initial antenna error, drawn in each plane [rad]
   ActivePlanes planes = ActivePlanes::both;
   Manoeuvre manoeuvre{};
 
   double navigation_constant = 4;
   double autopilot_lag = 0.15;                               ///< first order [s]
-  double acceleration_limit = 35 * units::standard_gravity;  ///< of the command [m/s^2]
+  double acceleration_limit = 35 * units::standard_gravity;  ///< limit of the commanded acceleration [m/s^2]
   double servo_gain = 12;                                    ///< antenna rate per error angle [1/s]
-  double roll_rate = 0;                                      ///< of the antenna about its axis [rad/s]
+  double roll_rate = 0;                                      ///< roll rate of the antenna [rad/s]
   Guidance guidance = Guidance::truth;
-  std::int64_t guidance_delay_us =
-      10'000;                      ///< from a sample's transmission to the command made of its answer
-  bool guidance_predicts = false;  ///< extrapolates from the time of the sample to that of the command
+  std::int64_t guidance_delay_us = 10'000;  ///< from a sample's transmission to the command from its answer
+  bool guidance_predicts = false;           ///< extrapolates the answer to the time of the command
 };
 
 }  // namespace canhil::world

@@ -14,18 +14,18 @@ struct RandomValue {
 
 /// All noises are 1 sigma per sample. All are white except the glint, whose correlation is exp(-t/tau).
 struct SeekerErrorModel {
-  double thermal = 1e-10;        ///< of the error angle; multiplied by range squared [rad/m^2]
-  double glint = 0.5;            ///< of the error angle; divided by range [m]
-  double glint_correlation = 0;  ///< tau; 0: white [s]
-  double constant = 0;           ///< of the error angle [rad]
-  double gyro_noise = 1e-3;      ///< of the antenna's rate over a sample [rad/s]
+  double thermal = 1e-10;                              ///< thermal noise = this * range^2 [rad/m^2]
+  double glint = 0.5;                                  ///< glint noise = this / range [m]
+  double glint_correlation = 0;                        ///< tau; 0: white [s]
+  double constant = 0;                                 ///< range-independent noise of the error angle [rad]
+  double gyro_noise = 1e-3;                            ///< noise of the mean antenna rate [rad/s]
   RandomValue gyro_bias{.value = 0, .sigma = 0.5e-3};  ///< of each axis [rad/s]
   double accel_noise = 0.3;                            ///< [m/s^2]
   RandomValue accel_bias{.value = 0, .sigma = 0.2};    ///< of each axis [m/s^2]
   double range_noise = 5;  ///< beyond `full_errors_beyond`; proportional to range within [m]
-  RandomValue range_bias{.value = 0, .sigma = 15};         ///< the same [m]
-  double full_errors_beyond = 1000;                        ///< [m]
-  double closing_speed_noise = 3;                          ///< [m/s]
+  RandomValue range_bias{.value = 0, .sigma = 15};  ///< within `full_errors_beyond` proportional to range [m]
+  double full_errors_beyond = 1000;                 ///< [m]
+  double closing_speed_noise = 3;                   ///< [m/s]
   RandomValue closing_speed_bias{.value = 0, .sigma = 5};  ///< [m/s]
   double field_of_view = 8 * units::deg;                   ///< the largest measurable error angle [rad]
 };
@@ -57,7 +57,7 @@ class ErroneousSeeker {
   Vector3 gyro_bias_;
   Planes<double> accel_bias_{};
   double range_bias_, closing_speed_bias_;
-  Planes<double> glint_{};  // of unit variance
+  Planes<double> glint_{};  // current glint, unit variance
   bool glinting_ = false;
 };
 

@@ -58,14 +58,14 @@ Flow flow(const Vector3& v_a, double speed_of_sound) {
 std::array<double, coefficient_count> coefficients(const Flow& flow, const Vector3& omega, const Fins& fins,
                                                    const Factors& factors) {
   const double compressibility =
-      1 + 0.30 * flow.mach * flow.mach;  // applies to all parts except the rate parts
+      1 + 0.30 * flow.mach * flow.mach;  // applies to all parts except the rate derivatives
   const Vector3 reduced = omega.cwiseProduct(Vector3(span, chord, span)) / (2 * std::max(flow.speed, 1.0));
   const auto parts = [&](const Derivatives& d) {
     return Parts{compressibility * (d.zero + d.alpha * flow.alpha + d.beta * flow.beta),
                  Vector3(d.p, d.q, d.r).dot(reduced),
                  compressibility * Vector3(d.elevator, d.aileron, d.rudder).dot(fins)};
   };
-  // The drag polar is a table of the flow: it uses the nominal lift.
+  // The drag uses the nominal lift, not the true one: the true drag deviates only by its own factors.
   const Parts lift = parts(lift_table);
   const double nominal_lift = sum(lift, nominal[0]);
   const double wave = 0.03 * (1 + std::tanh((flow.mach - 0.92) / 0.04));

@@ -1,9 +1,9 @@
-// The glider: a 500-lb body with a planar wing kit. Not the data of a real weapon: the body has the size of
-// the Mk-82 class, and all coefficients are textbook estimates.
+// The glider: a 500-lb body with a planar wing kit. The data are not those of a real weapon: the body has the
+// size of the Mk-82 class, and all coefficients are textbook estimates.
 //
 // Lift and drag act in stability axes, the side force along body y, moments about the centre of gravity: Park
 // and Park (2019), eq. (7), (8), corrected: the paper mixes stability and wind axes and assigns a moment to
-// gravity. gravity a moment.
+// gravity.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace canhil::world::glide {
 
 inline constexpr double mass = 300;  // [kg]
 
-/// About the centre of gravity, body axes [kg m^2].
+/// Inertia about the centre of gravity, body axes [kg m^2].
 Matrix3 inertia();
 
 /// Deflections of elevator, aileron and rudder [rad].

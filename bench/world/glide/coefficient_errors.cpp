@@ -23,7 +23,7 @@ void CoefficientErrors::advance(std::int64_t t_us, std::int64_t dt_us) {
   }
 }
 
-// n = kept n + sqrt(1 - kept^2) new. All parts are drawn, whether used or not.
+// n = kept n + sqrt(1 - kept^2) w, w standard normal. All parts are drawn, whether used or not.
 void CoefficientErrors::draw(double kept) {
   for (std::size_t c = 0; c < coefficient_count; ++c) {
     const bool wrong = model_.moments || c <= static_cast<std::size_t>(Coefficient::side);

@@ -13,17 +13,17 @@ namespace canhil::world::glide {
 
 /// The course of n over time.
 enum class ErrorKind : std::uint8_t {
-  white,    ///< new at every step of the truth
-  held,     ///< new every `time`
-  markov,   ///< first-order Gauss-Markov of correlation time `time`
-  constant  ///< one for the run
+  white,    ///< drawn at every step of the truth
+  held,     ///< drawn every `time_us`, then held
+  markov,   ///< first-order Gauss-Markov with correlation time `time_us`
+  constant  ///< drawn once for the run
 };
 inline constexpr std::array<std::string_view, 4> error_kind_names{"white", "held", "markov", "constant"};
 
 struct CoefficientErrorModel {
-  double level = 0;  ///< standard deviation of the factor
+  double level = 0;  ///< sigma of the relative error
   ErrorKind kind = ErrorKind::held;
-  std::int64_t time_us = 50'000;  ///< for held and markov
+  std::int64_t time_us = 50'000;  ///< hold or correlation time, for held and markov
   bool per_part = true;           ///< each part of a coefficient has its own factor
   bool moments = true;            ///< false: forces only
 };

@@ -33,7 +33,7 @@ constexpr double fin_lag = 0.05;  // of the actuators [s]
 
 // Attitude hold: deflections that keep pitch and roll at zero and damp the yaw, limited to 20 degrees. A
 // positive elevator pitches down, a positive rudder yaws to the left, a positive aileron rolls to the right.
-// `pitch_integral`: of the pitch over time [rad s].
+// `pitch_integral`: the integral of pitch over time [rad s].
 Fins commanded(const Euler& angles, const Vector3& omega, double pitch_integral) {
   constexpr double limit = 20 * units::deg;
   const Fins wanted(1.0 * angles.pitch + 0.4 * pitch_integral + 0.30 * omega.y(),
@@ -41,7 +41,7 @@ Fins commanded(const Euler& angles, const Vector3& omega, double pitch_integral)
   return wanted.cwiseMax(-limit).cwiseMin(limit);
 }
 
-// Constant during one step.
+// Inputs that are constant during one step.
 struct Step {
   const GlidePlan& plan;
   const Factors& factors;

@@ -46,8 +46,8 @@ class GlideRecord {
  public:
   static constexpr std::int64_t step_us = 10'000;
 
-  /// Flies from 0 to the last step at or before duration_us, or until it reaches the ground or the flow
-  /// leaves the valid range. The streams are for coefficients and gusts.
+  /// Flies from 0 to the last step at or before duration_us, or until the glider reaches the ground or the
+  /// flow leaves the valid range. The streams are used for coefficients and gusts.
   GlideRecord(const GlidePlan& plan, std::int64_t duration_us, Stream coefficients, Stream gusts);
 
   /// Truth every 10 ms from 0 on.

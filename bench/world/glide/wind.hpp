@@ -19,12 +19,12 @@ class WindProfile {
   static constexpr std::size_t levels = 16;
   /// Speed [m/s] and the direction it blows from [deg clockwise from north] at 0, 1 ... 15 km.
   WindProfile(const std::array<double, levels>& speed, const std::array<double, levels>& from_deg);
-  /// Synthetic, for a jet from the west: strong in winter.
+  /// A synthetic profile of a jet from the west, strong in winter.
   explicit WindProfile(Season season);
   /// The same wind at all heights, NED [m/s].
   explicit WindProfile(const Vector3& wind_n);
 
-  /// NED [m/s], the velocity of the air; `height` [m].
+  /// Velocity of the air at a height [m], NED [m/s].
   [[nodiscard]] Vector3 at(double height) const;
 
  private:

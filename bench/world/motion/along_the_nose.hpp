@@ -8,15 +8,15 @@ namespace canhil::world {
 
 /// Depth below the start: depth (1 - cos(2 pi t / period)) / 2.
 struct DepthProfile {
-  double depth = 0;   ///< of the deepest point below the start [m]
+  double depth = 0;   ///< deepest point below the start [m]
   double period = 1;  ///< from surface to surface [s]
 };
 
 /// The largest vertical speed of a profile [m/s]: pi depth / period.
 double steepest(const DepthProfile& profile);
 
-/// S-turns about a mean heading: the path of an underwater vehicle in Kang, Kim, Park (2006). Straight if the
-/// amplitude is 0.
+/// S-turns about a mean heading: the path of an underwater vehicle in Kang, Kim, Park (2006). With amplitude
+/// 0 the path is straight.
 ///
 /// heading + heading_amplitude sin(w_h t), pitch_amplitude sin(w_p t), roll_amplitude cos(w_r t): with
 /// roll_period = heading_period it rolls with its heading rate.
@@ -42,7 +42,7 @@ struct Racetrack {
   double heading = 0;  ///< of the first leg [rad]
   double leg = 1;      ///< time of a leg [s]
   double turn = 1;     ///< time of a half turn [s]
-  double roll = 0;     ///< in the middle of a turn [rad]
+  double roll = 0;     ///< roll angle in the middle of a turn [rad]
   DepthProfile depth;
 };
 
@@ -52,7 +52,7 @@ Kinematics kinematics(const Racetrack& motion, double t);
 struct Spiral {
   double speed = 0;    ///< constant, along the nose [m/s]
   double heading = 0;  ///< at the start [rad]
-  double period = 1;   ///< of a full turn to the right [s]
+  double period = 1;   ///< time of a full turn to the right [s]
   double roll = 0;     ///< constant [rad]
   DepthProfile depth;
 };

@@ -46,7 +46,7 @@ RecordedPath::RecordedPath(std::span<const RecordedState> states, const Position
   const bool has_positions = states.front().position.has_value();
   integrate(has_positions ? *states.front().position : start);
   if (!has_positions) return;
-  // A second pass for the residual of the first: NED axes rotate along the way.
+  // The second pass removes the residual of the first, because NED axes rotate along the path.
   for (int pass = 0; pass < 2; ++pass) correct(states);
   find_contradiction(states);
 }
@@ -89,7 +89,7 @@ void RecordedPath::integrate(const Position& start) {
     positions_.push_back(advanced_from(positions_.back(), times[i - 1], times[i]));
 }
 
-// Means of the residual over equal stretches, at their middles.
+// Corrects by the mean residual of each of several equal stretches, at its middle.
 void RecordedPath::correct(std::span<const RecordedState> states) {
   const auto& times = velocity_.times();
   const double length = times.back() - times.front();

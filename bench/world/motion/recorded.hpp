@@ -1,16 +1,16 @@
 // A recorded flight, from samples of velocity and attitude, and of position if available.
 //
 // Velocity and the attitude quaternion are natural cubic splines through the samples. So acceleration and
-// angular rate are continuous, follow from the same curve, and integrate back to the recorded velocity and
-// attitude at every sample. A spline through the positions would be worse: at 50 Hz a centimetre of their
-// rounding is 25 m/s^2 of acceleration, while a millimetre per second of velocity rounding is 0.05 m/s^2. So
-// position is the integral of velocity. To keep it from drifting away from the recorded positions over a long
-// flight, velocity is corrected by the difference of the two, averaged over `averaged_s`: small and slow
-// enough that the additional acceleration is negligible.
+// angular rate are continuous, and they integrate back to the recorded velocity and attitude at every sample.
+// Position is the integral of velocity. A spline through recorded positions would be worse: at 50 Hz,
+// positions rounded to a centimetre cause 25 m/s^2 of acceleration, velocities rounded to a millimetre per
+// second 0.05 m/s^2. To limit the drift from the recorded positions over a long flight, the velocity is
+// corrected by the rate of the position difference, averaged over `averaged_s`: the additional acceleration
+// is negligible.
 //
-// The quaternion's components are splined and the result normalised. For a rotation by an angle between two
-// samples the error is that of a cubic, of fourth order in the angle. Unlike Euler angles, the quaternion has
-// no singularity and no wrap.
+// The quaternion's components are splined and the result is normalised. The interpolation error is of fourth
+// order in the rotation angle between two samples. Unlike Euler angles, the quaternion has no singularity and
+// no wrap.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ class RecordedPath {
 
   /// The largest contradictions between recorded positions and velocities.
   struct Contradiction {
-    double position = 0;  ///< between the integral of the corrected velocity and the recorded position [m]
+    double position = 0;          ///< integral of the corrected velocity minus recorded position [m]
     std::size_t position_at = 0;  ///< the sample where it occurs
     double velocity = 0;          ///< correction of the velocity [m/s]
     std::size_t velocity_at = 0;
@@ -67,7 +67,7 @@ class RecordedPath {
   std::vector<std::int64_t> t_us_;
   CubicSpline<3> velocity_;
   CubicSpline<4> quaternion_;        // x, y, z, w
-  CubicSpline<3> correction_;        // of the position, NED [m]; its rate corrects the velocity
+  CubicSpline<3> correction_;        // position correction, NED [m]; its rate corrects the velocity
   std::vector<Position> positions_;  // at the samples
   Contradiction contradiction_;
 };

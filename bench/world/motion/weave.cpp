@@ -24,8 +24,8 @@ Kinematics kinematics(const Weave& motion, double t) {
   const double sc = std::sin(climb);
   const double cc = std::cos(climb);
 
-  // Coordinated: tan(roll) = speed * heading' * cos(climb) / g, so that specific force has (almost) no
-  // lateral part.
+  // Coordinated turn: tan(roll) = speed * heading' * cos(climb) / g, so the lateral specific force is
+  // (almost) zero.
   const double slope = motion.speed * heading_rate * cc / units::standard_gravity;
   const double slope_rate =
       motion.speed * (heading_rate_rate * cc - heading_rate * sc * climb_rate) / units::standard_gravity;

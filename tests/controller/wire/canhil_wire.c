@@ -47,9 +47,9 @@ struct controller {
 };
 static struct controller controllers[2];
 static struct kprobe on_write;
-static bool passing; // a write of ours
+static bool passing; // true while this module writes a register
 
-static const u64 step_ns = 1000000; // from one stage of trouble to the next
+static const u64 step_ns = 1000000; // interval between the stages of a fault
 
 static struct controller *controller_of(const void *priv)
 {

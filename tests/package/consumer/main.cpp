@@ -1,5 +1,5 @@
-// A program outside the project that uses the installed libraries: a recorded run, its own contract, the
-// earth.
+// A program outside the project that uses the installed libraries: a recorded run, a DBC of its own, the
+// Earth model.
 #include <cstdio>
 
 #include "dbc/logs/log.hpp"

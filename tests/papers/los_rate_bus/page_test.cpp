@@ -13,7 +13,8 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
-// The right ends of the curves' names in a wide sans-serif font, in every drawing of a part of the page.
+// Expects that the names of curves, in a wide sans-serif font, end within every drawing of a part of the
+// page.
 void expect_names_within(const std::string& html, const std::string& name) {
   const std::regex drawing("viewBox=\"0 0 ([0-9]+) [0-9]+\"");
   const std::regex label(

@@ -21,7 +21,7 @@ struct Truth {
   double gyro_bias_sigma = 3 * rad_per_deg / 3600;        // [rad/s]
   double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]
   double gyro_noise_density = 0.125 * rad_per_deg / 60;   // [rad/s/sqrt(Hz)]
-  double master_noise_sigma = 0;                          // each velocity [m/s]
+  double master_noise_sigma = 0;                          // white noise of each velocity component [m/s]
 };
 
 inline constexpr int update_count = 200;

@@ -31,7 +31,7 @@ TEST(TransferAlignmentPaper, KalmanFilterToldOneDegreeIsSlow) {
   EXPECT_GT(convergence_time(runs, k1mrad), 18.0);
 }
 
-// Paper: 11.4 / 11.7 / 12.9; reference with this, the implementable, alpha 12.3 / 12.9 / 15.5.
+// Paper: 11.4 / 11.7 / 12.9; reference with the same, implementable alpha: 12.3 / 12.9 / 15.5.
 TEST(TransferAlignmentPaper, H2IsFasterThanThatKalmanFilter) {
   const auto results = monte_carlo({h2_filter, kalman_1}, {}, run_count, first_seed);
   const auto &h2 = results[0], &kalman = results[1];

@@ -12,8 +12,8 @@
 namespace canhil::papers {
 namespace {
 
-// One end of a limit: `figure`, or the value of the quantity itself if `figure` is empty, must be at most or
-// at least this.
+// One limit: `figure`, or the value of the quantity itself if `figure` is empty, must be at most or at least
+// `value`.
 struct Bar {
   std::string figure;
   double value = 0;  // in the unit of the report
@@ -53,7 +53,7 @@ class BarsOf {
     if (rule.at_most) at_most("", rule.beyond, rule.quantity->unit.factor);
     return bars_;
   }
-  // The other kinds of metric; these papers have no limits on them.
+  // Other kinds of metric have no limits in these papers.
   template <class Rule>
   std::vector<Bar> operator()(const Rule&) {
     return {};

@@ -11,7 +11,7 @@
 namespace canhil::papers {
 namespace {
 
-// Windows of the time to go of the LOS campaigns: two while the filters start, five after it.
+// Windows of the time to go in the LOS campaigns: two during the start-up of the filters, five after it.
 constexpr std::array starting{"RMS 5.6-4.5", "RMS 4.5-3"};
 constexpr std::array settled{"RMS 3-2", "RMS 2-1", "RMS 1-0.5", "RMS 0.5-0.2", "RMS 0.2-0.08"};
 
@@ -169,7 +169,7 @@ TEST(TransferClaims, AnH2FilterAheadWhereItMustNotBeFailsThePage) {
   for (const std::string& kf : {std::string("kf_p5_sigma_0.05"), std::string("kf_p5_sigma_0.1"),
                                 std::string("kf_p5_sigma_0.3"), "kf_p1" + at_1_hz, std::string("kf_open")}) {
     EXPECT_TRUE(made_up.bars_met());
-    at(kf, 4);  // never within 3 mrad, as the H2 filter is all the time
+    at(kf, 4);  // never within 3 mrad; the H2 filter always is
     EXPECT_FALSE(made_up.bars_met()) << kf;
     at(kf, 1);
   }

@@ -1,5 +1,5 @@
-// Calls pack and unpack as often as the argument states. Each is in a separate function, so that callgrind
-// counts it separately.
+// For callgrind: calls pack and unpack as often as the argument states. Each is in a separate function, whose
+// instructions callgrind counts.
 #include <cstdlib>
 #include <span>
 

@@ -15,7 +15,7 @@ void inflight_imu_step(benchmark::State& bench) {
   }
 }
 
-// Each iteration starts from the same state: the copy of a State is part of the figure.
+// Each iteration starts from the same state; the measured time includes the copy of the State.
 void fix_update(benchmark::State& bench, Algorithm algorithm, Aiding aiding) {
   const WarmInflightFilter warm = warm_inflight_filter(algorithm, aiding);
   for (auto _ : bench) {

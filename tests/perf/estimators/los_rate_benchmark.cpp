@@ -8,7 +8,7 @@
 namespace canhil::los_rate {
 namespace {
 
-// Each iteration starts from the same state: the copy of a State is part of the figure.
+// Each iteration starts from the same state; the measured time includes the copy of the State.
 void seeker_step(benchmark::State& bench, Algorithm algorithm, double range, bool equal) {
   const auto warm = std::make_unique<WarmSeeker>(warm_seeker(algorithm, range, equal));
   for (auto _ : bench) {

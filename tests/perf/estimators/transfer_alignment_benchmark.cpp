@@ -19,7 +19,7 @@ void imu_step(benchmark::State& bench, Mechanization mechanization) {
   }
 }
 
-// Each iteration starts from the same state: the copy of a State is part of the figure.
+// Each iteration starts from the same state; the measured time includes the copy of the State.
 void velocity_update(benchmark::State& bench, Algorithm algorithm) {
   const WarmFilter warm = warm_filter(algorithm, Mechanization::two_sample);
   for (auto _ : bench) {
@@ -55,7 +55,7 @@ void predict_covariance(benchmark::State& bench) {
   }
 }
 
-// 200 ms late at 100 Hz: one update and 20 increments mechanised again.
+// An update that arrives 200 ms late at 100 Hz: one update, and mechanisation of 20 increments again.
 void late_update(benchmark::State& bench) {
   const WarmFilter warm = warm_filter(Algorithm::robust_h2, Mechanization::two_sample);
   History<32> history(0);

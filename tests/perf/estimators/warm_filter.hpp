@@ -7,7 +7,7 @@ namespace canhil::transfer_alignment {
 
 struct WarmFilter {
   Settings settings;
-  State state;  // an IMU interval after its last update
+  State state;  // one IMU interval after the last update
   strapdown::ImuIncrement imu;
   Eigen::Vector3d master_velocity;
 };

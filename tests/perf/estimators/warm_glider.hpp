@@ -11,7 +11,7 @@ struct WarmGlider {
   Navigation navigation;
 };
 
-/// Five seconds of a flight of the filter's own model from 10 km with crosswind, at 50 Hz.
+/// Filters five seconds of a flight by the filter's own model: from 10 km, with crosswind, at 50 Hz.
 inline WarmGlider warm_glider(Algorithm algorithm, ProcessNoise noise = ProcessNoise::block_diagonal) {
   Settings settings;
   settings.algorithm = algorithm;

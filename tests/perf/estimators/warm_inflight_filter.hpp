@@ -10,7 +10,7 @@ namespace canhil::inflight_alignment {
 
 struct WarmInflightFilter {
   Settings settings;
-  State state;  // an interval of 1 s after its last update
+  State state;  // 1 s after the last update
   strapdown::ImuIncrement imu;
   GeodeticPosition fix;
 };

@@ -12,7 +12,8 @@ struct WarmSeeker {
   Measurement measurement;
 };
 
-/// `range` [m] above or below the crossing range of 1710 m; unequal noises take two gain sets.
+/// `range` [m] is on either side of the crossing range of 1710 m; unequal noises in the planes require two
+/// gain sets.
 inline WarmSeeker warm_seeker(Algorithm algorithm, double range = 2000, bool equal = true) {
   EngagementSetup setup;
   setup.settings.algorithm = algorithm;

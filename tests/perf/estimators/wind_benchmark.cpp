@@ -8,7 +8,7 @@
 namespace canhil::wind {
 namespace {
 
-// Each iteration starts from the same state: the copy of a State is part of the figure.
+// Each iteration starts from the same state; the measured time includes the copy of the State.
 void glider_step(benchmark::State& bench, Algorithm algorithm, ProcessNoise noise) {
   const auto warm = std::make_unique<WarmGlider>(warm_glider(algorithm, noise));
   for (auto _ : bench) {

@@ -23,7 +23,7 @@ def next_number(bus, identifier):
 def main():
     role, interface, count = sys.argv[1], sys.argv[2], int(sys.argv[3])
     bus = can.Bus(interface="socketcan", channel=interface)
-    bus.socket.setsockopt(socket.SOL_SOCKET, 33, 64 << 20)  # SO_RCVBUFFORCE, as for the others
+    bus.socket.setsockopt(socket.SOL_SOCKET, 33, 64 << 20)  # SO_RCVBUFFORCE, as in vcan_node
     if role == "ping":
         for _ in sys.stdin:
             times_ns = []

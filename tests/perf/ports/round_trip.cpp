@@ -22,7 +22,7 @@ namespace canhil {
 namespace {
 
 constexpr int block = 1000;
-constexpr std::size_t bare_bytes = 24;  // as a datagram of the bus with a full classic frame
+constexpr std::size_t bare_bytes = 24;  // size of a bus datagram with a full classic frame
 
 Frame ping() {
   Frame frame;
@@ -36,7 +36,7 @@ void bare_send(int socket) {
   if (::send(socket, datagram.data(), datagram.size(), MSG_NOSIGNAL | MSG_DONTWAIT) < 0) std::exit(1);
 }
 
-bool bare_receive(int socket) {  // false: the other end is gone
+bool bare_receive(int socket) {  // false: the peer has closed the connection
   std::array<char, bare_bytes> datagram{};
   for (;;) {
     const ssize_t bytes = ::recv(socket, datagram.data(), datagram.size(), MSG_DONTWAIT);
@@ -73,7 +73,7 @@ struct Times {
       ns.push_back(clock_ns(CLOCK_MONOTONIC) - start);
     }
   }
-  [[nodiscard]] double us(double quantile) const {  // of the sorted times
+  [[nodiscard]] double us(double quantile) const {  // requires sorted times
     return static_cast<double>(ns[static_cast<std::size_t>(quantile * static_cast<double>(ns.size() - 1))]) *
            1e-3;
   }
@@ -101,7 +101,7 @@ int compare(int rounds, double limit) {
     while (bus_receive(**node)) (*node)->send(ping());
   });
   ::close(ends[1]);
-  bus_receive(host);  // the node is there
+  bus_receive(host);  // waits for the node
 
   Times bare;
   Times local;

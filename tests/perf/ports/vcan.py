@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 
-BLOCK = 50  # round trips
+BLOCK = 50  # round trips per block
 BURST = 20000
 PYTHON = [sys.executable, str(pathlib.Path(__file__).with_name("python_can_node.py"))]
 RECEIVE_BYTES = str(64 << 20)
@@ -79,7 +79,7 @@ def round_trips(node, rounds):
     for turn in range(rounds * 20 + 1):
         for pair in running.values():
             times = pair.block()
-            if turn > 0:  # the first one warms up
+            if turn > 0:  # discards the first block as a warm-up
                 pair.times_us += times
     p50, p99 = {}, {}
     print(f"{'round trip [us]':<36}{'p50':>9}{'p99':>9}{'max':>10}{'count':>8}")

@@ -1,5 +1,5 @@
-// One end of a measurement on a CAN interface, by the port or by a bare raw socket. vcan.py pairs such nodes
-// with each other, can-utils and python-can.
+// One end of a measurement on a CAN interface, through the port or through a plain raw socket. vcan.py pairs
+// such nodes with each other, with can-utils and with python-can.
 //   vcan_node ROLE port|raw INTERFACE COUNT
 //   ping: for each line on stdin, COUNT round trips, one at a time, to a node that answers each frame; prints
 //   their times in ns on one line. echo: answers COUNT frames of id 0x77 by 0x78, as canfdtest does. send:
@@ -30,14 +30,14 @@ namespace {
 
 constexpr std::uint32_t ping_id = 0x77;
 constexpr std::uint32_t echo_id = 0x78;
-constexpr int receive_bytes = 64 << 20;  // so that the measurement compares work, not losses
+constexpr int receive_bytes = 64 << 20;  // large enough to lose no frame
 
 [[noreturn]] void give_up(const std::string& why) {
   fmt::print(stderr, "vcan_node: {}\n", why);
   std::exit(1);
 }
 
-/// A way to send and to wait for a frame.
+/// A way to send a frame and to wait for one.
 class Line {
  public:
   Line() = default;
@@ -45,7 +45,7 @@ class Line {
   Line& operator=(const Line&) = delete;
   virtual ~Line() = default;
   virtual void send(std::uint32_t id, std::uint64_t number) = 0;
-  /// The number in the next frame of this id.
+  /// Waits for the next frame with this id and returns its number.
   virtual std::uint64_t receive(std::uint32_t id) = 0;
 };
 
@@ -78,7 +78,7 @@ class PortLine final : public Line {
   std::unique_ptr<Port> port_;
 };
 
-/// The minimum that a program can do: blocking read() and write(), without stamps and checks.
+/// The minimum work of a program: blocking read() and write(), without stamps and checks.
 class RawLine final : public Line {
  public:
   explicit RawLine(const std::string& interface) : socket_(::socket(AF_CAN, SOCK_RAW, CAN_RAW)) {

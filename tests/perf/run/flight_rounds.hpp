@@ -13,7 +13,7 @@
 
 namespace canhil {
 
-/// Frames up to and including the one that is answered, and the answers.
+/// The frames up to and including an answered frame, and their answers.
 struct Round {
   std::vector<Frame> stimulus;
   std::vector<Frame> answers;
@@ -33,7 +33,7 @@ class RecordingPort final : public Port {
     return outcome;
   }
   std::optional<Received> receive() override {
-    if (auto first = device_.receive()) return first;  // the heartbeat of a new device
+    if (auto first = device_.receive()) return first;  // first reads the heartbeat of a new device
     if (next_ == heard_.size()) return std::nullopt;
     return heard_[next_++];
   }
@@ -52,8 +52,8 @@ class RecordingPort final : public Port {
   std::size_t next_ = 0;
 };
 
-/// Records the rounds of run `run_index` of a scenario, from the reset of the target on. `algorithm` replaces
-/// the scenario's own. Error: one line.
+/// Records the rounds of run `run_index` of a scenario, beginning with the reset of the target. `algorithm`
+/// replaces the scenario's algorithm. Error: one line.
 inline Result<std::vector<Round>> record_flight(const std::string& file, const std::string& algorithm,
                                                 std::uint64_t run_index) {
   auto scenario = scenario::read_file(file, drive::contract());

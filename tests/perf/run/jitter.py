@@ -117,7 +117,7 @@ def fly(bench, bus, spin_us, report, lateness):
         sys.exit(f"{bus}: the run ended: {page['ending']['detail']}")
     first = page["transmit_lateness_s"]["SeekerAntenna"]["handed_over"]
     for from_us, count in first["buckets_us"]:
-        lateness.rows[bench_name(spin_us)][from_us + 0.5] += count  # of buckets of 1 us
+        lateness.rows[bench_name(spin_us)][from_us + 0.5] += count  # middle of a bucket of 1 us
 
 
 def cyclictest(folder, lateness):

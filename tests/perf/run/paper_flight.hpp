@@ -8,7 +8,7 @@
 
 namespace canhil {
 
-/// Or the program ends.
+/// Ends the program if the campaign cannot be read.
 inline campaign::Campaign paper_campaign() {
   auto read = campaign::read_campaign(SOURCE_DIR "/bench/monte_carlo/paper_transfer/table2.toml");
   if (read) return std::move(*read);

@@ -21,7 +21,7 @@ namespace {
 using namespace canhil;
 
 constexpr int repeats = 7;
-constexpr std::uint64_t runs = 150;  // of each variant: about a second
+constexpr std::uint64_t runs = 150;  // runs per variant: about a second
 
 struct Rate {
   double runs_per_s = 0;
@@ -71,7 +71,7 @@ int main() {
   std::vector<double> one, two, ratio, cost;
   for (int i = 0; i < repeats; ++i) {
     std::array<Rate, 2> rate{};
-    for (const int which : {i % 2, 1 - i % 2})  // either comes first in turn
+    for (const int which : {i % 2, 1 - i % 2})  // the two cases alternate in coming first
       rate[static_cast<std::size_t>(which)] = measured(campaign, static_cast<unsigned>(which + 1));
     one.push_back(rate[0].runs_per_s);
     two.push_back(rate[1].runs_per_s);

@@ -16,8 +16,8 @@ SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, MONITOR = "sensor and truth", "pack", "wi
 LOOP = "device and run loop"
 STAGES = (SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, LOOP, MONITOR)
 GOALS = (("pack + wire + E2E + unpack", (PACK, WIRE, UNPACK), 10), (SENSOR, (SENSOR,), 25))
-# The stage of a source file: the first entry whose text occurs in the file's path. None: pack or unpack,
-# depending on the function that contains the line.
+# The stage of a source file: that of the first entry whose text occurs in the file's path. None: pack or
+# unpack, depending on the function that contains the line.
 FILES = (
     ("bench/world/", SENSOR), ("bench/nodes/", SENSOR),
     ("messages/canhil.hpp", None), ("dbc/wire/bits", None), ("dbc/wire/quantise", None), ("dbc/wire/message.hpp", None),
@@ -111,7 +111,7 @@ def shares_of(costs, calls, homes):
         found = collections.Counter()
         open_functions.add(function)
         for (caller, stage), cost in calls[function].items():
-            if caller not in open_functions:  # libraries may recur
+            if caller not in open_functions:  # library functions may be recursive
                 for name, part in ({stage: 1.0} if stage else split_of(caller)).items():
                     found[name] += cost * part
         open_functions.discard(function)

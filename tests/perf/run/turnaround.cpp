@@ -1,5 +1,5 @@
 // The time from the last frame of a stimulus to the last frame of its answer, for the target and for an echo:
-// a process that computes nothing and sends the recorded answer to each frame.
+// a process that computes nothing and sends the recorded answer to each stimulus.
 //   turnaround [--flights N] [--only NAME] [--bus BUS ECHO_BUS]
 // Without --bus it uses the embedded bus, otherwise two CAN interfaces of the same kind, so that neither
 // receives the frames of the other. It prints for every estimator and each last message of an answer: p50,
@@ -31,7 +31,7 @@
 namespace canhil {
 namespace {
 
-constexpr std::size_t block = 200;  // rounds
+constexpr std::size_t block = 200;  // rounds per block
 constexpr std::int64_t patience_ns = 1'000'000'000;
 constexpr int most_unanswered = 10;
 constexpr std::int64_t breath = 8;  // rests for a part of the time it worked, as Linux stops real-time
@@ -97,7 +97,7 @@ Bare bare_node(const std::string& bus) {
 
 [[noreturn]] void echo(const std::string& bus, const std::vector<Round>& rounds) {
   const Bare node = bare_node(bus);
-  node.write({.id = messages::TargetHeartbeat::info.id, .size = 8});  // here I am
+  node.write({.id = messages::TargetHeartbeat::info.id, .size = 8});  // reports that it is ready
   for (const Round& round : rounds) {
     for (std::size_t n = 0; n < round.stimulus.size(); ++n) node.read();
     for (const Frame& answer : round.answers) node.write(answer);
@@ -106,7 +106,7 @@ Bare bare_node(const std::string& bus) {
   ::_exit(0);
 }
 
-/// Times by the message that ends the answer.
+/// Times by the name of the last message of an answer.
 struct Times {
   std::vector<std::int64_t> ns;
   int unanswered = 0;
@@ -167,7 +167,7 @@ void rest(std::int64_t since_ns) {
   ::usleep(static_cast<unsigned>((clock_ns(CLOCK_MONOTONIC) - since_ns) / breath / 1000));
 }
 
-/// Rounds by blocks in turn; the first one warms up.
+/// Plays the rounds in alternating blocks; the first block of each side is a warm-up.
 void alternate(const std::vector<Round>& rounds, Side& device, Side& bare) {
   for (std::size_t first = 0; first < rounds.size() && device.alive() && bare.alive(); first += block) {
     const std::size_t end = std::min(first + block, rounds.size());
@@ -181,7 +181,7 @@ void alternate(const std::vector<Round>& rounds, Side& device, Side& bare) {
 
 Result<void> fly(const std::vector<Round>& rounds, const std::vector<std::string>& buses, Side& device,
                  Side& bare) {
-  // Removes the rest of earlier processes, which must not appear in a new one.
+  // Discards frames of earlier processes: a new process must not receive them.
   device.settle();
   bare.settle();
   const pid_t child = ::fork();
