@@ -15,10 +15,11 @@ struct PageContent {
   bool bars_met = false;
 };
 
-/// Adds the names that all papers have: runs, enough, flights, frames, #too_few_runs, #unrounded; {{bars
-/// CAMPAIGN REQUIREMENT}}, a row for every answer with that requirement; {{reproduces NAME}} and {{pass
-/// NAME}}, the verdict of a boolean name. `runs`: of the campaign with the bars; `enough`: the number of runs
-/// that the bars are made for.
+/// Adds the names that all papers have:
+/// - runs, enough, flights, frames, #too_few_runs, #unrounded;
+/// - {{bars CAMPAIGN REQUIREMENT}}: a row for every answer with that requirement;
+/// - {{reproduces NAME}} and {{pass NAME}}: the verdict of a boolean name.
+/// `runs`: the number of runs of the campaign with the bars. `enough`: the number that the bars are made for.
 void add_shared_names(Names& names, const Results& results, std::uint64_t runs, std::uint64_t enough);
 
 // For each paper: the files built into the program (bench/monte_carlo/paper_NAME and its templates), and its
