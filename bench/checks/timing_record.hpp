@@ -40,8 +40,8 @@ constexpr std::int64_t elapsed_ns(const From& from, const To& to) {
 /// Timing of a message of the target.
 struct AnswerTiming {
   Histogram latency;  ///< from the last frame of the stimulus group to the answer, both on the bus
-  /// Magnitude of the deviation of the time between two arrivals from its nominal value: the time between the
-  /// deadlines of the two stimuli, or the cycle time of a message that answers nothing.
+  /// |time between two arrivals - nominal time|. The nominal time is the time between the deadlines of the
+  /// two stimuli, or the cycle time of a message that answers nothing.
   Histogram jitter;
   TimeLine latency_line;       ///< latency over the time of arrival
   std::uint64_t count = 0;     ///< arrivals

@@ -1,6 +1,5 @@
-// The content of a paper's page, computed from its campaigns: values for the names in its templates, its
-// curves, and whether its bars are met. The prose is in page.mustache and the other templates of the paper's
-// folder.
+// The content of a paper's page from its campaigns: the values for the names in its templates, its curves,
+// and whether its bars are met. The prose is in page.mustache and the other templates of the paper's folder.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +10,16 @@
 namespace canhil::papers {
 
 struct PageContent {
-  Names names{};  ///< in addition to the names of add_shared_names()
+  Names names{};  ///< in addition to those that all papers have
   Curves curves{};
   bool bars_met = false;
 };
 
-/// Adds the names that all papers have: runs, enough, flights, frames, #too_few_runs, #unrounded; {{bars
-/// CAMPAIGN REQUIREMENT}}, a row for every answer with that requirement; {{reproduces NAME}} and {{pass
-/// NAME}}, the verdict of a boolean name. `runs`: number of runs of the campaign with the bars; `enough`:
-/// number of runs for which the bars were derived.
+/// Adds the names that all papers have:
+/// - runs, enough, flights, frames, #too_few_runs, #unrounded;
+/// - {{bars CAMPAIGN REQUIREMENT}}: a row for every answer with that requirement;
+/// - {{reproduces NAME}} and {{pass NAME}}: the verdict of a boolean name.
+/// `runs`: the number of runs of the campaign with the bars. `enough`: the number that the bars are made for.
 void add_shared_names(Names& names, const Results& results, std::uint64_t runs, std::uint64_t enough);
 
 // For each paper: the files built into the program (bench/monte_carlo/paper_NAME and its templates), and its

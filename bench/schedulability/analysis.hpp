@@ -2,7 +2,7 @@
 // Network (CAN) schedulability analysis: refuted, revisited and revised", Real-Time Systems 35 (2007)
 // 239-272.
 //
-// A response lasts from the event that makes a message due to the end of the intermission after its frame.
+// A response begins when a message becomes due, and ends with the intermission after its frame.
 // Assumptions: every node enters its highest-priority message into each arbitration (a priority queue), ids
 // are unique, and a message becomes due no more often than its period allows. Messages of one sample group
 // become due together; the analysis allows this for all messages of the bus.

@@ -24,8 +24,8 @@ constexpr int most_at_once = 256;
 
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 
-// Commands count as well as Sync: a heartbeat of the process between start and the first Sync would not
-// appear in a replay.
+// A command shows that a bench is at work, as a Sync does. Otherwise the process would send a heartbeat of
+// its own between start and the first Sync, and a replay would lack it.
 bool from_bench(const Frame& frame) {
   return !frame.extended &&
          (frame.id == messages::Sync::info.id || frame.id == messages::TargetCommand::info.id);

@@ -1,6 +1,6 @@
 #pragma once
-// The strapdown solution over a filter's interval, as integrals: a step of the specific force may then fall
-// between updates.
+// The strapdown solution between two updates of a filter, as integrals. They stay valid if the specific force
+// steps between the updates.
 #include <Eigen/Core>
 
 #include "target/estimators/strapdown/mechanization.hpp"

@@ -62,8 +62,8 @@ TEST(RobustH2, StepAddsTheTermsOfTheRiccatiEquation) {
   const Matrix<4, 2> L = random_matrix<4, 2>(engine);
   const Matrix<2, 4> N = random_matrix<2, 4>(engine);
   const Dense rate = (propagate_h2<4, 2, 2>(P, A, Q, L, N, beta, dt) - Dense(P)) / dt;
-  // P N'N/beta is part of Phi and therefore appears twice on the right-hand side: the step of the published
-  // filter.
+  // The published filter has P N'N/beta in Phi. Phi multiplies P from both sides, so P N'N P/beta is added
+  // twice.
   const Dense p = P, NP = N * p, Ap = A * p;
   const Dense expected =
       Ap + transposed(Ap) + 2 / beta * transposed(NP) * NP + beta * Dense(L) * transposed(L) + Q;
