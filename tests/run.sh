@@ -164,8 +164,9 @@ address_sanitizer() {
   # Left out: tests that compare the documentation with the contract, which has one more estimator in this copy; conformance rules,
   # validity of scenarios and killed campaigns, which add nothing for memory errors and take up to a minute each; and long flights in
   # real time, which run the same code as the quick ones.
+  # The live view has the lowest priority: instrumented and beside other tests it is served too seldom for tests that wait for it.
   build asan tests_input tests_processes tests_fuzz tests_fifth_estimator &&
-    run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E '[.]Documentation[.]|Defective[.]TargetIsNamed|ScenarioFiles[.]AreAllValid|Killed[.]AndResumed|Bits[.]A|ThePapersFlight|Ecu[.]PassesInRealTime|DefectiveEcu|Faults[.]WhatIsKnown'
+    run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E '[.]Documentation[.]|Defective[.]TargetIsNamed|ScenarioFiles[.]AreAllValid|Killed[.]AndResumed|Bits[.]A|ThePapersFlight|Ecu[.]PassesInRealTime|DefectiveEcu|Faults[.]WhatIsKnown|live[.](Refusals|Run|Terminal)'
   cd "$root" || exit 2
 }
 
