@@ -28,7 +28,7 @@ drive::Options in_process(std::string_view bus) {
   return options;
 }
 
-/// Magnitude of a signal's mean over a flight; none: no answer carries it.
+/// Magnitude of a signal's mean over a flight; none: no answer contains the signal.
 std::optional<double> mean_of(const Answers& answers, const Move& move) {
   const Series* series = answers.find(move.message);
   if (series == nullptr) return std::nullopt;
@@ -43,7 +43,7 @@ class Run {
   Run(const Suite& suite, const Options& options, const std::atomic<bool>& stop)
       : suite_(suite), options_(options), stop_(stop) {}
 
-  // Order: the fastest tests first; timing last, when nothing else runs.
+  // The fastest tests run first, the flights in real time last.
   Result<std::vector<Item>> fly() {
     if (auto flown = fly_all(false); !flown) return tl::unexpected(flown.error());
     if (suite_.dialogue && (wanted("protocol") || wanted("parameters")) && !done()) {
@@ -146,7 +146,7 @@ class Run {
     return found;
   }
 
-  /// The checks of a flight and its ending.
+  /// Converts the results of the checks, and how the flight ended, to items.
   Items judged(const Flight& flight, const std::string& name, const drive::Run& run) const {
     if (flight.faults) {
       const bool fault = run.ending.kind == Ending::Kind::target_fault;
@@ -158,7 +158,7 @@ class Run {
     Items found{item(flight.requirement, name + " ends", run.ending.detail, flown_to_its_end)};
     if (run.ending.kind != Ending::Kind::completed) return found;
     for (const checks::CheckResult& check : run.verdict.checks) {
-      // Virtual time cannot measure timing; the flights in real time do.
+      // Timing is not measured in lockstep; the suite's flights in real time judge it.
       if (!flight.real_time && check.outcome == Outcome::not_measured) continue;
       found.push_back(
           {.requirement = suite_.find(check.requirement) != nullptr ? check.requirement : flight.requirement,

@@ -48,7 +48,8 @@ struct Acceptance {
   [[nodiscard]] checks::Outcome outcome() const;
 };
 
-/// Error: the suite cannot be flown (usage or configuration). A target that fails is a finding.
+/// Error: the suite cannot be flown (usage or configuration). A failing target is no Error: the findings
+/// report it.
 Result<Acceptance> accept(const Suite& suite, const Options& options, const std::atomic<bool>& stop);
 
 /// Flies the suite's flights in this process, with rounded and unrounded frames, and writes their references.

@@ -29,7 +29,7 @@ double distance(const SignalInfo& signal, double a, double b) {
 double Series::mean(std::size_t signal) const {
   double sum = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    // Angles are unwrapped relative to the first one, so that a heading near south has a mean.
+    // Angles are unwrapped relative to the first one, because headings near south jump between +-180 deg.
     const double first = value(0, signal), now = value(i, signal);
     sum += turns(*signals[signal]) ? first + std::remainder(now - first, full_turn_deg) : now;
   }

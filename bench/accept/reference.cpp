@@ -168,7 +168,7 @@ std::string departure(const Reference& reference, const Answers& answers, double
         });
       }
       if (signal.name.ends_with("_counter") || signal.name.ends_with("_us"))
-        continue;  // the mean of such a signal has no meaning
+        continue;  // the mean of a counter or of a time of validity has no meaning
       const double now = series->mean(s);
       const double mean_tolerance =
           share * ((counts(signal) ? 1.01 / static_cast<double>(count) : in_the_mean * step) +

@@ -1,12 +1,12 @@
 // The answers of the reference target in one flight, stored as text, with the allowed deviation of a target.
 //
-// Two correct targets differ by rounding: the steps of the DBC's signals, and their effect on an estimate
-// through the filter. The latter is measured when the reference is made, by a flight with unrounded frames.
-// The deviation of a target may be `share` times
+// Two correct targets differ by rounding: each signal is rounded to its step in the DBC, and the filter
+// propagates the rounded inputs into its estimates. A second flight, with unrounded frames, measures this
+// effect when the reference is made. The deviation of a target may be `share` times
 //   at an instant:  2 steps + 4 times the largest effect of rounding over the flight
 //   in the mean:    1/4 step + 4 times the effect of rounding on the mean
-// Flags, states and counts may not differ at an instant, unless rounding changes them, and in the mean by one
-// answer.
+// Flags, states and counts must be equal at an instant, unless rounding changes them; in the mean they may
+// differ by one answer.
 #pragma once
 
 #include <filesystem>
@@ -46,8 +46,9 @@ Result<Reference> read_reference(const std::filesystem::path& file);
 /// first time of that deviation; empty: nowhere.
 std::string departure(const Reference& reference, const Answers& answers, double share = 1);
 
-/// The same for two flights of one target that must agree: within `steps` of each signal and `relative` to
-/// the second's value. Compares messages that both have, except heartbeats, which name the algorithm.
+/// The same for two flights of one target that must agree. A value may deviate by `steps` steps of its signal
+/// plus `relative` times the value in `other`. Compares the messages in `one`, except heartbeats, which name
+/// the algorithm.
 std::string difference(const Answers& one, const Answers& other, double steps, double relative);
 
 }  // namespace canhil::accept

@@ -163,7 +163,7 @@ class Reader {
   std::string file_;
   Section root_;
   Suite suite_;
-  std::optional<Error> error_;  // of a file that is named
+  std::optional<Error> error_;  // the first error in a file that the suite names
 };
 
 }  // namespace

@@ -31,11 +31,11 @@ struct SameAs {
   double relative = 0;  ///< tolerance relative to the value
 };
 
-/// A signal whose mean changes compared with another flight.
+/// A signal whose mean must be larger, or smaller, in this flight than in another one.
 struct Move {
   std::string flight;  ///< the other flight
   std::string message, signal;
-  bool up = false;  ///< true: its mean magnitude must be larger there; false: smaller
+  bool up = false;  ///< true: the magnitude of the mean must be larger in this flight
   std::string requirement;
 };
 
@@ -46,7 +46,7 @@ struct Flight {
   std::string requirement{};  ///< for checks without a requirement of the suite
   std::optional<std::string>
       reference{};       ///< the requirement that its answers match the reference; none: not tested
-  std::size_t rows = 0;  ///< number kept in the reference
+  std::size_t rows = 0;  ///< number of instants kept in the reference
   std::optional<SameAs> same_as{};
   std::optional<Move> moves{};
   bool real_time = false;
@@ -74,7 +74,7 @@ struct Suite {
 /// Reads folder/suite.toml and the files that it names, except references and campaigns. Error: one line.
 Result<Suite> read_suite(const std::filesystem::path& folder);
 
-/// The folders of suites within a folder, sorted by name. Error: one line; there is none.
+/// The folders of suites within a folder, sorted by name. Error: one line; the folder contains no suite.
 Result<std::vector<std::filesystem::path>> suites_in(const std::filesystem::path& folder);
 
 }  // namespace canhil::accept

@@ -24,12 +24,12 @@ std::pair<std::string, std::optional<double>> figure(std::string_view stem, doub
 
 std::string time_or_never(std::optional<double> t_s) { return t_s ? fmt::format("{:g} s", *t_s) : "never"; }
 
-/// " (3 values missing)": no bar is met if values are missing.
+/// " (3 values missing)": no limit is met if values are missing.
 std::string missing_note(std::size_t missing) {
   return missing == 0 ? "" : fmt::format(" ({} values missing)", missing);
 }
 
-/// Formats the limit of a bar.
+/// Formats a limit with its unit.
 using Words = std::function<std::string(double)>;
 Words in(const quantities::Unit& unit) {
   return [unit](double bar) { return with_unit(bar, unit); };
@@ -37,7 +37,7 @@ Words in(const quantities::Unit& unit) {
 std::string percent(double fraction) { return fmt::format("{:g} %", 100 * fraction); }
 std::string times(double ratio) { return fmt::format("{:g} times", ratio); }
 
-/// The bars of an answer: each call adds its expectation as text and whether it is met.
+/// The limits of an answer: each call adds a limit as text, and whether the value meets it.
 class Bars {
  public:
   Bars(Answer& answer, bool complete) : answer_(answer), complete_(complete) {}
@@ -65,7 +65,7 @@ class Bars {
 
  private:
   Answer& answer_;
-  bool complete_;  // false: a run is missing, so no bar is met
+  bool complete_;  // false: a run is missing, so no limit is met
 };
 
 std::size_t missing_in(std::span<const CurvePoint> curve) {
@@ -229,7 +229,7 @@ void answer(const RmsRatio& rule, const Runs& runs, const Runs& other, Answer& o
   Bars(out, missing == 0).at_most(ratio, rule.at_most, times);
 }
 
-// A run without a value counts as the worst one, so it is not counted as missing.
+// paired_fraction() counts a run without a value as the worst one, so no run is missing.
 void answer(const Paired& rule, const Runs& runs, const Runs& other, Answer& out) {
   const PairedFraction paired = paired_fraction(runs, other, *rule.quantity, rule.at_us, rule.confidence);
   out.measured =

@@ -20,10 +20,10 @@ struct Answer {
   std::string requirement;
   std::string variant;
   std::string measured{};        ///< with its unit
-  std::string expected{};        ///< the bars as text; empty: none
-  std::optional<bool> passed{};  ///< none: the metric has no bar
+  std::string expected{};        ///< the limits as text; empty: none
+  std::optional<bool> passed{};  ///< none: the metric has no limit
   std::vector<std::pair<std::string, std::optional<double>>>
-      figures{};                    ///< by name with unit; none: never reached
+      figures{};                    ///< by name with unit; none: the value was never reached
   std::vector<CurvePoint> curve{};  ///< for rms_curve, otherwise empty
   const Quantity* quantity = nullptr;
 };

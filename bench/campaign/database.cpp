@@ -14,7 +14,7 @@ namespace {
 int reason_of(int code, const std::string& file, sqlite3* database) {
   int reason = 0;
   if (code == SQLITE_IOERR) sqlite3_file_control(database, "main", SQLITE_FCNTL_LAST_ERRNO, &reason);
-  if (code == SQLITE_CANTOPEN) {  // SQLite retries for reading: its errno is of the retry
+  if (code == SQLITE_CANTOPEN) {  // SQLite retries read-only, so its errno is that of the retry
     const std::filesystem::path path = std::filesystem::absolute(file);
     const bool there = std::filesystem::exists(std::filesystem::symlink_status(path));
     if (access((there ? path : path.parent_path()).c_str(), W_OK) != 0) reason = errno;

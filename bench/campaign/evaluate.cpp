@@ -62,8 +62,8 @@ std::string Evaluation::not_judged() const {
     });
   };
   if (!judged(nullptr)) return "nothing was judged: no [[metric]] has a bar";
-  // In comparisons, a variant without completed runs counts as the worst one, so bars of other variants may
-  // pass.
+  // In comparisons, a variant without completed runs counts as the worst one, so the others may pass. It
+  // therefore needs a limit of its own.
   for (const Endings& one : endings) {
     if (one.completed == 0 && !judged(&one.variant))
       return fmt::format(

@@ -62,8 +62,7 @@ std::optional<double> optional_number(Section& section, const scenario::Key& key
   return std::nullopt;
 }
 
-/// The bars STEM_at_least and STEM_at_most with their suffix. Bars in descending order are rejected: no value
-/// could meet both.
+/// Rejects the limits STEM_at_least and STEM_at_most, with their suffix `ending`, if no value can meet both.
 template <class Value>
 void expect_bars_ordered(Section& section, std::string_view stem, std::string_view ending,
                          const std::optional<Value>& at_least, const std::optional<Value>& at_most) {

@@ -1,4 +1,4 @@
-// [[metric]]: what a campaign evaluates, and the bars that turn the answers into a verdict. A new kind is a
+// [[metric]]: what a campaign evaluates, and the limits that turn the answers into a verdict. A new kind is a
 // struct here, its reader in metric.cpp, and its evaluation in answer.cpp.
 #pragma once
 
@@ -18,7 +18,7 @@ class Section;
 
 namespace canhil::campaign {
 
-/// RMS over runs against time: for reports only, without a bar.
+/// RMS over runs against time: for reports only, without a limit.
 struct RmsCurve {
   static constexpr std::string_view kind = "rms_curve";
   static constexpr std::string_view meaning = "RMS over runs against time. It has no bars.";

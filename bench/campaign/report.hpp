@@ -7,7 +7,7 @@
 
 namespace canhil::campaign {
 
-/// A text report: how runs ended, then every answer with its bar.
+/// A text report: how runs ended, then every answer with its limit.
 std::string text(const Campaign& campaign, const Evaluation& evaluation);
 
 /// One JSON object with the curves; every key states its unit.

@@ -40,8 +40,8 @@ class Digest {
   std::string bytes_;
 };
 
-/// The schema of the table of runs (columns: the quantities of its samples, in their order) for `create
-/// table`, and its columns for `select`.
+/// The columns of the table of runs: row_schema for `create table`, row_columns for `select`. The column
+/// `columns` lists the quantities of the samples, in their order.
 inline constexpr std::string_view row_schema =
     "id integer primary key, variant integer, run integer, ending integer, end_us integer, detail text, "
     "columns text, samples blob, hash integer";

@@ -1,5 +1,5 @@
 // Statistics over the runs of a variant. A run that is missing at a time (it ended early, or its last update
-// is stale) or has no finite value there is counted, never ignored: if any run is missing, no bar is met.
+// is stale) or has no finite value there is counted, never ignored: if a run is missing, no limit is met.
 #pragma once
 
 #include <cstdint>

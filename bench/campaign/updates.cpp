@@ -105,7 +105,7 @@ bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us
   }
   const auto not_asked = [&] { return std::isnan(run.samples.value(index, quantity)); };
   if (!quantity.nan_allowed || !not_asked()) return false;
-  // A filter that coasts does not report updates.
+  // An answer without an update, for example while coasting, omits such a quantity.
   if (run.samples.layout().answers_untold) return true;
   while (index > 0 && t_us - times[--index] <= run.freshness.age_limit_us) {
     if (!not_asked()) return true;

@@ -1,5 +1,5 @@
 // The bench's interface to an estimator. The implementation is in the estimator's folder (bench/estimators);
-// the rest of the bench uses this interface and knows only quantities.
+// the rest of the bench uses this interface and handles only quantities.
 #pragma once
 
 #include <memory>
@@ -67,13 +67,14 @@ struct Estimator {
   std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
                                      std::string_view algorithm) = nullptr;
   std::span<const std::string_view> closing;  ///< the last message of each group of its answers
-  /// The group that keeps its own interval if its stimuli come faster: output_interval_ms.
+  /// The answer group that the target sends at a minimum interval (output_interval_ms) if the stimuli come
+  /// faster; empty: none.
   std::string_view of_own_interval{};
   std::span<const scenario::CheckKind> check_kinds{};  ///< checks that exist for this estimator only
   std::span<const scenario::FormerCheckKind>
       former_check_kinds{};  ///< former checks that existed for this estimator only
-  /// How long its answers stay valid, by the rule of the checks (bench/checks/silence.hpp), in runs of a
-  /// scenario.
+  /// How long its answers stay valid in runs of a scenario, by the rule that the checks use
+  /// (bench/checks/silence.hpp).
   quantities::Freshness (*freshness)(const scenario::Scenario& scenario) = nullptr;
 };
 

@@ -26,11 +26,11 @@ struct Evidence {
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
                                                 const quantities::Quantity& quantity);
 
-/// Why timing cannot be compared with a bar [s] at a quantile; empty: it can. The bench can judge the
-/// target's deadlines only if it keeps its own.
+/// Why timing cannot be compared with a limit [s] at a quantile; empty: it can. The bench can judge the
+/// target's deadlines only if the bench keeps its own deadlines.
 std::string unfit(const Evidence& evidence, double quantile, double bar_s);
-/// The largest permitted lateness of the bench, as a fraction of the bar and at the bar's quantile. Above
-/// this limit, the host may have delayed the target by the same amount.
+/// The largest permitted lateness of the bench, as a fraction of the check's limit and at its quantile. If
+/// the bench was later, the host may have delayed the target by the same amount.
 inline constexpr double lateness_share = 0.5;
 
 /// "max", "99 % quantile".

@@ -111,7 +111,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
       finding.outcome = Outcome::not_measured;
       finding.measured = std::move(why);
     }
-    if (!evidence.ended_early.empty()) {  // part of a run neither passes nor fails a check
+    if (!evidence.ended_early.empty()) {  // an incomplete run neither passes nor fails a check
       finding.outcome = Outcome::not_measured;
       finding.measured = "the run ended early";
     }

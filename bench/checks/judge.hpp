@@ -15,11 +15,12 @@ namespace canhil::checks {
 /// Judges every check of the scenario. A run that ended early fails, regardless of its checks.
 Verdict judge(const scenario::Scenario& scenario, Evidence evidence);
 
-/// Whether judge() itself adds a check of this kind if the check does not pass.
+/// Whether judge() adds a check of this kind that the scenario does not contain. The check is in the verdict
+/// only if it does not pass.
 bool is_implied(std::string_view kind);
 
-/// The windows, without duplicates, for which checks need the timing of a message. They are empty; the
-/// stopwatch fills them.
+/// The windows, without duplicates, for which checks need the timing of a message. They contain no times yet;
+/// observe::Stopwatch adds the times during the run.
 std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks,
                                        std::span<const MessageInfo> messages = messages::all_messages);
 
@@ -29,7 +30,7 @@ std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* co
 std::vector<scenario::FormerCheckKind> former_kinds(std::span<const estimators::Estimator* const> estimators);
 
 /// Why no timing of this run can be judged, for example because frames of the target were lost. Empty: timing
-/// can be judged if the bench kept its own deadlines, which each check examines for its own bar.
+/// can be judged if the bench kept its own deadlines, which each check examines for its own limit.
 std::string unfit_for_timing(const Observations& seen);
 
 }  // namespace canhil::checks

@@ -1,4 +1,4 @@
-// Counts of the frames with the id of a message of the target, valid or not.
+// Counts the frames that carry the id of a target's message, by validity and defect.
 #pragma once
 
 #include <cstdint>

@@ -36,8 +36,8 @@ std::int64_t period_ns(const Observations& seen, const MessageInfo& info) {
   return std::min(cycle_ns, sent_ns);
 }
 
-// The number of frames of a message that are queued together: each estimator of a target sends its own
-// heartbeat.
+// The number of frames of a message that are queued together. Several estimators on one target each send a
+// heartbeat, at the same time.
 std::int64_t together(const Observations& seen, const AnswerTiming& timing, std::int64_t period_ns) {
   const std::int64_t run_ns = seen.last_ns - seen.first_ns;
   if (timing.count == 0 || run_ns <= 0) return 1;
@@ -57,7 +57,7 @@ Stream stream_of(const Observations& seen, const wire::Carrier& carrier) {
           .extended = info.extended,
           .sender = is_targets(info) ? "target" : "bench",
           .period_ns = period / burst,
-          .jitter_ns = (burst - 1) * (period / burst),  // so that this many may be queued at once
+          .jitter_ns = (burst - 1) * (period / burst),  // so that `burst` frames may be queued at once
           .length = carrier.longest};
 }
 

@@ -10,10 +10,10 @@
 
 namespace canhil::checks {
 
-/// A message of the bus's DBC (on CAN FD a container), its longest response (see WireResponse) and its bound.
-/// The bound follows from the analysis for the order of the bus's queues and the observed messages, each at
-/// the higher of its observed rate and its rate in the DBC. Response and bound begin when the frame is
-/// queued, so they contain neither the bench's lateness nor the target's computing.
+/// A message of the bus's DBC (on CAN FD a container), its longest response (see WireResponse) and its bound:
+/// the worst case by response-time analysis. The analysis uses the queue order of the bus and the observed
+/// messages, each at the higher of its observed rate and its rate in the DBC. Response and bound begin when
+/// the frame is queued, so they contain neither the bench's lateness nor the target's computing time.
 struct WireBound {
   std::string_view message{};
   bool of_target = false;  ///< its response is a lower bound

@@ -119,7 +119,7 @@ Line jitter_line(const Arguments& arguments, Examination& found) {
 std::vector<Line> who_is_there(const std::string& bus) {
   auto port = open_port(bus, {.node_name = "hil-bench doctor"});
   if (!port) {
-    if (!is_local(bus)) return {};  // the line of the interface has already given the reason
+    if (!is_local(bus)) return {};  // the finding about the interface states the reason
     return {{Grade::weak, "target", "nobody hosts this bus now", "the bench will, when it runs"}};
   }
   return doctor::listen(**port, listen_ns, stop);

@@ -54,7 +54,7 @@ void add_shown(command_line::Command command, Shown& shown) {
 Result<void> check_outputs(const Shown& shown, std::vector<std::string> files, const fs::path& out) {
   files.insert(files.end(), {shown.json, shown.html});
   if (auto distinct = report::check_distinct(files); !distinct) return distinct;
-  std::error_code error;  // the outputs may be in that folder
+  std::error_code error;  // created first, because the output files may be in this folder
   if (!out.empty()) fs::create_directories(out, error);
   if (error) return failure(fmt::format("{}: cannot be a folder: {}", out.string(), error.message()));
   for (const std::string& path : {shown.json, shown.html}) {

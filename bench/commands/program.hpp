@@ -1,5 +1,6 @@
-// A program of the bench: its subcommands, its messages for unknown words, and the programs that it may
-// become. Single runs do not link campaigns and their statistics, and campaigns do not link the papers.
+// What the bench's programs share: subcommands, messages for unknown words, and starting one program from
+// another. The programs are separate so that single runs do not link campaigns and their statistics, and
+// campaigns do not link the papers.
 #pragma once
 
 #include <functional>

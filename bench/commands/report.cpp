@@ -21,7 +21,7 @@ std::string page_path(const std::string& report) {
   return std::filesystem::path(report).replace_extension(".html").string();
 }
 
-// Rejects a pipe: a page beside it would be in a folder of devices.
+// Rejects a pipe, because its page would be written beside it, for example in /dev.
 Result<void> has_room_for_a_page(const std::string& path) {
   std::error_code unknown;
   const auto status = std::filesystem::status(path, unknown);
@@ -77,7 +77,7 @@ ExitCode compare_sides(Sides sides) {
     sides.before = {sides.a};
     sides.after = {sides.b};
   }
-  // A run that is given twice would hide scatter.
+  // A run that is given twice would make the scatter between runs look smaller.
   for (const auto* side : {&sides.before, &sides.after}) {
     if (auto distinct = report::check_distinct(*side); !distinct) return complain(distinct.error());
   }

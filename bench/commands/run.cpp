@@ -105,7 +105,7 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
   options.realtime = arguments.realtime.request();
   if (options.realtime) {
     options.realtime->heap_bytes = heap_bytes;
-    // Another program inherits policy and priority; hil-target also locks its memory.
+    // Every target inherits policy and priority. hil-target gets options too, so that it locks its memory.
     if (arguments.target.empty())
       options.target_arguments = {"--realtime", "--priority", std::to_string(options.realtime->priority)};
   }
@@ -163,8 +163,8 @@ Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
       return failure(
           fmt::format("--bus-of '{}': is the bus of all others, expected another than --bus", text));
   }
-  // Frames on two wires have no common order: the answer to a step could arrive before a sample on the other
-  // wire.
+  // Frames on two buses have no common order: the answer to a step could arrive before a sample on the other
+  // bus.
   if (!arguments.bus_of.empty() && (arguments.lockstep || here))
     return failure("--bus-of: one step over two buses has no order, expected real time");
   if (arguments.lockstep && bus.wire && bus.wire->order == QueueOrder::priority)

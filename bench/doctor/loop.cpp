@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int64_t patience_ns = 100'000'000;  // about a thousand frame times at 1 Mbit/s
 constexpr std::uint8_t classic_size = 8;
-constexpr int settling_looks = 10;                // a hub accepts nodes only while it is polled
-constexpr int hopeless = 10;                      // lost in a row: there is no connection
+constexpr int settling_looks = 10;  // the host of an embedded bus accepts nodes only while it polls
+constexpr int hopeless = 10;        // this many lost in a row: there is no connection
 constexpr std::uint32_t least_urgent_id = 0x7EF;  // CAN 2.0 A did not allow higher ids
 constexpr double good_p99_s = 1e-3;               // two frames at 500 kbit/s take 0.5 ms
 constexpr double weak_p99_s = 10e-3;              // USB: a few milliseconds each way

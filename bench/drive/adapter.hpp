@@ -16,7 +16,7 @@ struct Adapter {
   std::string driver{};   ///< "gs_usb", "vcan"; for a bus without an interface, a description
   std::string address{};  ///< where it is connected: "1-4:1.0", "0000:03:00.0"
   std::string vendor_id{}, product_id{};  ///< hexadecimal digits; USB and PCI only
-  std::string product{};                  ///< the device's own name for itself; USB only
+  std::string product{};                  ///< product name that the device reports; USB only
   std::string serial{};                   ///< USB only; empty: no serial number
   double usb_mbitps = 0;                  ///< 12: full speed; 0: not USB
 };

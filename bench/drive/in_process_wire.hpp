@@ -1,5 +1,5 @@
-// A Device behind a simulated CAN wire, in virtual time: equals a real-time run on a bus of this bit rate
-// with an infinitely fast target, but runs as fast as it can be computed.
+// A Device behind a simulated CAN wire, in virtual time. Its frame times equal those of a real-time run on a
+// bus of this bit rate with an infinitely fast target.
 #pragma once
 
 #include <deque>
@@ -14,11 +14,10 @@ namespace canhil::drive {
 
 /// The bench's port on that wire. Time begins at 0 and advances during waits, from one event on the wire to
 /// the next: the same frames give the same bits and stamps, whatever the host does. A stamp is the end of the
-/// frame on the wire, also for the bench's own frames; the device answers at the end of the frame that it
-/// answers.
+/// frame on the wire, also for the bench's own frames; the device sends an answer at the end of the stimulus.
 class InProcessWire final : public Port {
  public:
-  /// Frames on the wire have the DBC of the format.
+  /// `format`: selects the DBC, and so the layout of the frames on the wire.
   InProcessWire(std::string name, const WireSettings& settings, BusFormat format);
 
   SendOutcome send(const Frame& frame) override;

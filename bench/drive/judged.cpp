@@ -7,8 +7,8 @@ namespace canhil::drive {
 
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario) {
-  // A changed value may make an estimator refuse a group that is otherwise valid; a changed order may make a
-  // group late; after a time of validity in the future, every group up to that time is late.
+  // An estimator may reject a group because of a changed value. A changed order may make a group late. A
+  // wrong time of validity in the future makes all groups up to that time late.
   const faults::Tally befallen = faults.tally();
   seen.expected_counts.most.bad_group += befallen.changed * scenario.targets.size();
   seen.expected_counts.most.late += befallen.overtaken * scenario.targets.size();

@@ -26,7 +26,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch,
       }
     }
     if (!closes_step) continue;
-    std::int64_t deadline_ns = 0;  // set at the first wait: a target in this process has already answered
+    std::int64_t deadline_ns = 0;  // set at the first wait; a target in this process has already answered
     while (!watch.step_done()) {
       if (link.drain() == LinkState::down) {
         return {Ending::Kind::bus_down, t_us, "the bus is gone"};

@@ -1,5 +1,5 @@
-// There is no handshake: the target runs independently, gets time to settle, and shows by its own messages
-// that it is present.
+// A mapped target has no handshake. It runs independently: the bench waits until it has settled, and until
+// one of its messages shows that it is present.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/wait.h>
@@ -82,7 +82,7 @@ class MappedWatch final : public observe::TargetWatch {
   std::set<std::size_t> waits_for_;  // indices of messages that must still echo the play
 };
 
-// The other frames on the bus while no message of the mapping arrives.
+// Collects the ids of frames that are not in the mapping, for the message that no target was found.
 class Strangers final : public observe::Observer {
  public:
   explicit Strangers(const mapping::Places& places) : places_(places) {}
@@ -108,7 +108,7 @@ class Strangers final : public observe::Observer {
 
 Result<void> run_command(std::string_view key, const std::string& command) {
   if (command.empty()) return {};
-  const int status = std::system(command.c_str());  // before and after a run only
+  const int status = std::system(command.c_str());  // blocks, so it is called only before and after a run
   if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   return failure(fmt::format("key 'target.{}': '{}' ended with {}, expected 0", key, command,
                              status != -1 && WIFEXITED(status) ? WEXITSTATUS(status) : -1));

@@ -23,7 +23,8 @@ ifreq request_for(const std::string& bus) {
   return request;
 }
 
-// Returns whether the kernel accepted it.
+// Sets an interface up or down; without `up`, writes its flags unchanged. Returns whether the kernel
+// accepted this.
 bool set_flag(const std::string& bus, std::optional<bool> up) {
   const int any = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (any < 0) return false;
@@ -45,7 +46,7 @@ InterfaceFacts interface_facts(const std::string& bus) {
   std::error_code ignored;
   const bool has_device = std::filesystem::exists("/sys/class/net/" + bus + "/device", ignored);
   return {.kind = has_device ? faults::Place::Interface::controller : faults::Place::Interface::virtual_can,
-          .may_set = set_flag(bus, std::nullopt)};  // sets the flags it already has: nothing changes
+          .may_set = set_flag(bus, std::nullopt)};  // writes the flags unchanged: a test of permission
 }
 
 RunRigControl::RunRigControl(std::string bus, std::optional<TargetProcess>& target,

@@ -324,7 +324,8 @@ ClockKind clock_of(BusTime time, bool lockstep) {
 }
 
 Options in_lockstep_against(std::string command) {
-  static std::atomic<std::uint64_t> buses = 0;  // in this process: flights in other threads use other buses
+  static std::atomic<std::uint64_t> buses =
+      0;  // number of buses, so that flights in other threads use other buses
   Options options;
   options.bus =
       BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));
@@ -386,7 +387,7 @@ Result<Collected> run_in_process(const scenario::Scenario& scenario, const world
 Result<Collected> run_against(const std::string& target, const scenario::Scenario& scenario,
                               const world::FlightRecord& truth, std::uint64_t run_index) {
   Options options = in_lockstep_against(target);
-  // If answers do not name their cause, virtual time cannot know when to advance.
+  // If answers do not name their cause, the bench cannot see when a step of virtual time is complete.
   options.lockstep = scenario.foreign == nullptr || scenario.foreign->answers_by_name;
   options.format = format_of(scenario);
   return fly_for_campaign(scenario, truth, run_index, std::move(options));

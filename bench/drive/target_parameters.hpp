@@ -1,4 +1,4 @@
-// The parameters of the device, from which the bench learns the parameters of hil-target.
+// The parameters of hil-target, for the page of `hil-bench reference`.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct ParametersOf {
   std::vector<TargetParameter> parameters;
 };
 
-/// Read from the parameter tables of the device itself.
+/// Reads the parameter tables of a Device.
 std::vector<ParametersOf> target_parameters();
 
 }  // namespace canhil::drive

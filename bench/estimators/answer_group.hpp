@@ -62,8 +62,9 @@ class AnswerGroup {
   SampleGroup<Messages...> group_;
 };
 
-/// Receives groups whose answers are kept together: each is an AnswerGroup with `add(cause_us, answers)`. An
-/// object serves one run: `seen` must be the same in every call.
+/// Receives the groups of one estimator and adds their answers to one `Answers`. Each of `Groups` is an
+/// AnswerGroup with `add(cause_us, answers)`. An object serves one run: `seen` must be the same in every
+/// call.
 template <class Answers, class... Groups>
 class ReceptionOf : public Reception {
  public:

@@ -20,7 +20,7 @@ std::span<const Estimator* const> in(const scenario::Scenario& scenario);
 const Estimator* find(std::string_view name);
 /// The estimator whose samples have these columns (quantities::names); null if there is none.
 const Estimator* telling(std::string_view columns);
-/// The estimator that sends a message which completes a group of its answers; null: no estimator does.
+/// The estimator that sends a message as a part of its answers; null: none does.
 const Estimator* sending(const MessageInfo& message);
 /// The estimator whose samples a campaign keeps for a scenario.
 const Estimator& of(const scenario::Scenario& scenario);

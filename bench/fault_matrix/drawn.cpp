@@ -155,8 +155,8 @@ bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   return true;
 }
 
-// Draws the times of a fault within the flight: time before it for comparison, time after it for recovery,
-// and long enough to have an effect.
+// Draws the times of a fault. It begins late enough for a comparison with the flight before it, ends early
+// enough for a recovery, and lasts at least two periods of the node.
 void draw_times(FaultText& fault, Times times, double duration_s, double period_s, Draw& draw) {
   constexpr std::array often{1, 2, 5, 10}, seldom{5, 10, 20, 50};
   const double from_s = duration_s * draw.between(0.3, 0.6);

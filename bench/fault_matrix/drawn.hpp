@@ -15,8 +15,8 @@ struct Drawn {
   std::string_view kind, node{};
   bool operator==(const Drawn&) const = default;
 };
-/// The rows for each of these nodes and for the bus: each kind that works in virtual time and without a bit
-/// rate.
+/// All rows for these nodes and for the bus. They contain the kinds of faults that need neither real time nor
+/// a bit rate.
 std::vector<Drawn> drawn_rows(const std::vector<std::string_view>& nodes);
 
 /// The fault of a cell, determined by seed, row, scenario and run alone. None: the scenario has no such node,
@@ -28,7 +28,7 @@ std::optional<FaultText> drawn_fault(const Drawn& row, const Column& column, std
 /// and reads the scenario with it, which takes far longer than the draw.
 bool fits(const Drawn& row, const Column& column, std::uint64_t seed);
 
-/// The faults of a cell with several faults: the rows are drawn too. All faults fit the scenario.
+/// The faults of a cell with several faults. Their rows are drawn from `rows`, all of which fit the scenario.
 std::vector<FaultText> drawn_faults(int count, const std::vector<Drawn>& rows, const Column& column,
                                     std::uint64_t seed, std::uint64_t run);
 

@@ -52,7 +52,7 @@ class Flights {
   }
 
  private:
-  // Uses all cores. Error: the first error that occurred.
+  // Calls fly_one for each index, on all cores. Error: the first error that occurred.
   Result<void> each(std::size_t count, const std::function<Result<void>(std::size_t)>& fly_one) {
     std::atomic<std::size_t> next = 0;
     std::optional<Error> error;

@@ -76,7 +76,7 @@ Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, 
       if (!shows(with(sparser), least.duration_us)) break;
       least.faults[index] = std::move(sparser);
     }
-    if (every >= most_sparse) least.faults[index] = dense;  // the window still contains the first frame
+    if (every >= most_sparse) least.faults[index] = dense;  // the first frame suffices: restore `every`
   }
   return least;
 }

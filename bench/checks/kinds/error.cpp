@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> statistics{"max", "rms", "mean", "final"};
 
-// In the order of the enumeration: the figure that is compared with the bar.
+// The value that is compared with the limit, in the order of the enumeration.
 constexpr std::array<std::string_view, 4> asked{"|error|", "RMS", "mean |error|",
                                                 "|error| of the last answer"};
 

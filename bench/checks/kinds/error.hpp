@@ -1,4 +1,4 @@
-// |estimated - true| of a quantity, or a statistic of it, stays below a bar in a stretch of the run.
+// |estimated - true| of a quantity, or a statistic of it, stays below a limit in a stretch of the run.
 #pragma once
 
 #include "bench/checks/rule.hpp"

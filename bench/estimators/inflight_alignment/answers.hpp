@@ -51,7 +51,8 @@ struct InflightAnswers {
 /// The stretches of a window in which more than two fixes in a row were not answered; empty: none.
 std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Window& window);
 
-/// Whether the time of the position in an answer is known: yes if the filter used or gated the fix.
+/// Whether the position in an answer has a known time, and truth at that time: the filter used or gated the
+/// fix, and its time of validity lies within the record.
 bool tells_of_its_time(const FixAnswer& answer, const world::FlightRecord& truth);
 /// The position error, NED [m].
 world::Vector3 position_error(const FixAnswer& answer, const world::FlightRecord& truth);

@@ -57,7 +57,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   if (truth.engagement == nullptr) return samples;
   const world::EngagementRecord& engagement = *truth.engagement;
-  std::map<std::int64_t, Stretch> stretches;  // by -(time to go), in stretches
+  std::map<std::int64_t, Stretch> stretches;  // key: minus the time to go, in units of stretch_us
   const auto at = [&](double time_to_go) -> Stretch& {
     return stretches[-static_cast<std::int64_t>(
         std::floor(time_to_go * 1e6 / static_cast<double>(stretch_us)))];
