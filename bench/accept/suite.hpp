@@ -43,9 +43,9 @@ struct Move {
 struct Flight {
   std::string name;
   scenario::Scenario scenario{};
-  std::string requirement{};  ///< for checks without a requirement of the suite
+  std::string requirement{};  ///< of checks that name no requirement of the suite
   std::optional<std::string>
-      reference{};       ///< the requirement that its answers match the reference; none: not tested
+      reference{};       ///< requirement: the answers match the reference; none: not compared
   std::size_t rows = 0;  ///< number of instants kept in the reference
   std::optional<SameAs> same_as{};
   std::optional<Move> moves{};

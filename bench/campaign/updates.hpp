@@ -18,9 +18,9 @@ std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int
 
 /// The quantity in a run's update at exactly that time; NaN: no update, or no finite value.
 double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
-/// Whether a run correctly has no value of the quantity at that time. Either it has no update there (it was
-/// lost), and its last update or, if later, the beginning of the window is not yet stale; or the update does
-/// not need the quantity: an unused fix has no NIS.
+/// Whether a missing value at that time is correct. There are two cases. The run has no update there, but its
+/// last update (or the beginning of the window, `from_us`, if later) is not yet stale. Or the update has no
+/// such quantity, as an unused fix has no NIS.
 bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us);
 /// The quantity in a run's last update at or before a time. NaN: no update, stale, not finite, or the run had
 /// ended.
@@ -30,7 +30,8 @@ double last_magnitude(const RunSeries& run, const Quantity& quantity, std::int64
 
 /// Whether a run has answers in every stretch of a window.
 bool answers_throughout(const RunSeries& run, std::int64_t from_us, std::int64_t to_us);
-/// The expected number of samples in a window of the time to go [s], as far as it is flown; 0: unknown.
+/// The expected number of samples in the part of a window of the time to go [s] that the flight covers; 0:
+/// unknown.
 double samples_to_go(const quantities::Freshness& freshness, double least, double most);
 
 }  // namespace canhil::campaign

@@ -13,12 +13,12 @@ inline constexpr std::string_view causes_kind = "causes";
 /// The implied check that fails when the messages of an answer group never form a whole group.
 inline constexpr std::string_view groups_kind = "answer_groups";
 
-/// For each group: answers whose cause time matches no stimulus, and answers whose counter and cause time
-/// belong to different stimuli. One line; empty: none.
+/// Reports, in one line, the groups with wrong causes: the time of the cause matches no stimulus, or counter
+/// and time belong to different stimuli. Empty: none.
 std::string wrong_causes(const Observations& seen);
 
-/// Groups whose messages arrived but never formed a whole group, and the message that prevented it. One line;
-/// empty: none.
+/// Reports, in one line, the groups whose messages arrived but never formed a whole group, and the message
+/// that prevented it. Empty: none.
 std::string broken_groups(const Observations& seen);
 
 }  // namespace canhil::checks

@@ -22,8 +22,7 @@ struct LoadLine {
 };
 LoadLine load_line(std::span<const wire::BitLength> seconds, wire::BitRates rates);
 
-/// Bits on the bus in each second. The second in which the run ended is incomplete, so it is left out unless
-/// it is the only one.
+/// Bits on the bus in each second. The last second is incomplete, so it is omitted if there are others.
 std::span<const wire::BitLength> whole_seconds(std::span<const wire::BitLength> seconds);
 std::span<const wire::BitLength> whole_seconds(const Observations& seen);
 

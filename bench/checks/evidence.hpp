@@ -21,8 +21,8 @@ struct Evidence {
       tracks{};  ///< tracks of the quantities that the rules use; judge() adds them
 };
 
-/// The tracks of a quantity, or of each of its parts, of an estimator; empty: there is no truth for
-/// comparison.
+/// An estimator's tracks of a quantity or, if the quantity has parts, of each part. Empty: there is no truth
+/// to compare with.
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
                                                 const quantities::Quantity& quantity);
 

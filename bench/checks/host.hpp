@@ -7,8 +7,8 @@ namespace canhil::checks {
 
 struct HostRecord {
   std::int64_t clock_step_ns =
-      0;              ///< the largest step of the clock that stamps frames; 0: none, or the clock cannot step
-  double wall_s = 0;  ///< duration of the counts below
+      0;                        ///< largest step of the clock that stamps frames; 0: none, or it cannot step
+  double wall_s = 0;            ///< duration of the counts below
   double cpu_run_s = 0;         ///< time in which the bench ran
   double cpu_wait_s = 0;        ///< time in which the bench was ready to run but other programs held the CPU
   double stolen_share = 0;      ///< fraction of the CPUs' time that the hypervisor gave to other guests

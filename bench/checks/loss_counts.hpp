@@ -16,9 +16,9 @@ struct LossCounts {
 /// Larger than any count of a target.
 inline constexpr std::uint32_t any_count = 1'000'000;
 
-/// Limits for the counts that the target sent last. Lower and upper limit differ where the bench cannot know
-/// how far the target had read when it sent the counts, and where the protocol lets the estimator decide
-/// whether to use a group.
+/// Limits for the counts that the target sent last. Lower and upper limit differ for two reasons: the bench
+/// cannot see which frames the target had read when it sent the counts, and the protocol lets the estimator
+/// decide whether to use a group.
 struct ExpectedCounts {
   LossCounts least{}, most{};
 };

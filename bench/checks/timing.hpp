@@ -51,9 +51,9 @@ PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, dou
 /// The longest time [s] without a message, including the beginning and the end of the run.
 double longest_silence_s(const Observations& seen, std::string_view message);
 
-/// The period [s] that a message should have: the period of its stimulus as sent, or the longer interval that
-/// its group keeps; the cycle time in the DBC if it answers nothing; 0: undefined, because it answers groups
-/// of different rates.
+/// The period [s] that a message should have. For an answer: the period of its stimulus as sent, or the
+/// minimum interval of its group if that is longer; 0 if it answers groups of different rates. For other
+/// messages: the cycle time in the DBC.
 double nominal_period_s(const Observations& seen, std::string_view message);
 
 /// The time [s] from a message's last arrival to the last stimulus in the window; 0 or less if the message

@@ -72,8 +72,8 @@ struct WireResponse {
   std::int64_t max_ns = 0;
 };
 
-/// A message within a window of the run that a check requires, by the time of validity of its cause. For a
-/// message that answers nothing, the window is the whole run.
+/// The timing of a message in a window that a check requires. An answer is in the window if the time of
+/// validity of its cause is. For a message that answers nothing, the window is the whole run.
 struct TimedWindow {
   std::size_t message = 0;  ///< index in TimingRecord::messages
   scenario::Window window{};
@@ -81,12 +81,12 @@ struct TimedWindow {
   Histogram period{};  ///< from one arrival to the next
   /// The time from the deadline of each stimulus until it was on the bus: the delay that the host causes.
   Histogram lateness{};
-  /// The bench's own deviation from the period that the message answers: for each stimulus, the time between
-  /// two stimuli on the bus minus the time between their deadlines. A stimulus that replaces n due stimuli
-  /// counts n times.
+  /// The bench's own deviation from the period of the stimuli that the message answers: for each stimulus,
+  /// the time between two stimuli on the bus minus the time between their deadlines. A stimulus that replaces
+  /// n due stimuli counts n times.
   Histogram stimulus_deviation{};
   std::optional<Arrival> last_arrival{};
-  std::optional<std::int64_t> last_stimulus_ns{};  ///< last one valid up to the end of the window
+  std::optional<std::int64_t> last_stimulus_ns{};  ///< last stimulus valid by the end of the window
 };
 
 /// TargetTiming saturates here [us]: such a value is a lower bound.
@@ -108,8 +108,8 @@ struct LatencyBreakdown {
   bool compute_clipped = false;
 };
 
-/// The same for the stimuli of one sample group. The target accounts for all groups together and reports
-/// nothing for one alone.
+/// The same for the stimuli of one sample group. The target's times stay 0 here, because TargetTiming covers
+/// all groups together.
 struct GroupBreakdown {
   std::string_view group{};
   LatencyBreakdown breakdown{};

@@ -24,7 +24,7 @@ inline constexpr std::string_view reference_summary =
 void add_reference(command_line::Command app, int& code);
 
 /// `hil-bench faults` and its subcommand merge: one flight for each fault, and the target's response. Exit
-/// code 1 if the target violates a requirement and no fault excuses the violation.
+/// code 1 if the target violates a requirement that holds in spite of the faults.
 void add_faults(command_line::Command app, int& code);
 
 /// `hil-bench accept`: the suites of bench/acceptance against a target. Exit code 1 if a requirement is not

@@ -13,8 +13,7 @@
 namespace canhil::doctor {
 namespace {
 
-constexpr std::uint32_t least_bitrate =
-    500'000;  // the bus load of transfer alignment alone is then below 50 %
+constexpr std::uint32_t least_bitrate = 500'000;  // transfer alignment alone: bus load below 50 %
 // Range of sample points without a warning. The kernel's default, as recommended by CiA, is 75 % above 800
 // kbit/s and 87.5 % at 500 kbit/s and below.
 constexpr std::uint32_t earliest_sample_permille = 750, latest_sample_permille = 900;

@@ -17,8 +17,8 @@ namespace canhil::drive {
 /// first. Faults of bus and target act before the nodes at that time.
 class Schedule final : public observe::Observer {
  public:
-  /// `keeper` closes every step, so it transmits last among nodes due at the same time; the schedule ends
-  /// when it ends. `faults`: faults of the run; null: none.
+  /// `keeper`: the node whose frame closes a step. It transmits last among nodes due at the same time, and
+  /// the schedule ends with it. `faults`: faults of the run; null: none.
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
            Rounding rounding = Rounding::as_on_the_bus, std::unique_ptr<faults::Faults> faults = nullptr)
       : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)) {
@@ -72,7 +72,7 @@ class Schedule final : public observe::Observer {
     for (nodes::Node* node : listeners_) node->hear(received.frame);
   }
 
-  /// The run is over, however it ended: faults release what they hold.
+  /// To be called at the end of every run: the faults release the frames and resources that they hold.
   void end() {
     for (const auto& injector : injectors_) injector->end();
   }

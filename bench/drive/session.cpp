@@ -324,8 +324,7 @@ ClockKind clock_of(BusTime time, bool lockstep) {
 }
 
 Options in_lockstep_against(std::string command) {
-  static std::atomic<std::uint64_t> buses =
-      0;  // number of buses, so that flights in other threads use other buses
+  static std::atomic<std::uint64_t> buses = 0;  // numbers the buses: one per flight
   Options options;
   options.bus =
       BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));

@@ -47,7 +47,7 @@ struct Options {
   bool for_verdict = true;       ///< false: observes only the target's frames, not times, load, bus and host
 };
 
-/// The format of a scenario's bus unless another is requested.
+/// The default format of a scenario's bus.
 BusFormat format_of(const scenario::Scenario& scenario);
 
 /// Options of a lockstep flight against this target, started for it on its own local bus.

@@ -57,7 +57,7 @@ struct Alignment {
 template <class Answers>
 void give_alignment(const Alignment& of, const Answers& filter, const quantities::TrackSink& give) {
   using namespace quantities;
-  // Each error gets the sigma of the last filter answer before it, unless that answer is stale.
+  // Each error gets the sigma of the last filter answer before it, or none if that answer is stale.
   const auto fill = [&](Track track, auto error, auto sigma) {
     auto next = filter.begin();
     AnswerTo answer(of.navigation);

@@ -75,7 +75,7 @@ Result<scenario::Scenario> scenario_of(const Column& column, std::uint64_t run,
 std::string text_of(const Column& column, std::uint64_t run, const std::vector<FaultText>& faults,
                     std::int64_t duration_us, const std::string& check, const std::string& comment);
 
-/// A TOML text without the arrays of tables of these names and their comments.
+/// A TOML text without these arrays of tables, and without their comments.
 std::string without_tables(const std::string& text, const std::vector<std::string>& names);
 
 }  // namespace canhil::fault_matrix

@@ -41,8 +41,8 @@ struct Tally {
   std::uint64_t count = 0;  ///< frames or samples affected, or the number of activations
   /// Frames with a changed value but valid protection; number of these whose time was changed.
   std::uint64_t changed = 0, changed_times = 0;
-  /// Frames sent after a newer frame of their message; the time of validity of a one-message sample then
-  /// shows that it is late.
+  /// Frames sent after a newer frame of the same message. If a sample has a single message, the target sees
+  /// by its time of validity that it is late.
   std::uint64_t overtaken = 0;
 };
 

@@ -12,7 +12,7 @@ struct Answering {
       "Passes when answers and heartbeats come without a gap, all values are numbers, and no frame of the "
       "target is damaged.";
   std::vector<Subject> judged;  ///< quantities that are reported with every answer
-  /// Windows in which answers may be missing: faults of the scenario, which may leave no input to answer.
+  /// Windows of the scenario's faults: answers may be missing, because the target may receive no input.
   std::vector<scenario::Window> excused;
 
   static Answering read(scenario::Section& section, const scenario::CheckContext& context);

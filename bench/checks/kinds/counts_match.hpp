@@ -1,4 +1,4 @@
-// The target's own counters (TargetCounters) agree with what the bench withheld and damaged.
+// The target's own counters (TargetCounters) agree with the frames that the bench withheld or damaged.
 #pragma once
 
 #include "bench/checks/rule.hpp"

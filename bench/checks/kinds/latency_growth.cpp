@@ -36,8 +36,8 @@ Finding LatencyGrowth::judge(const Evidence& evidence) const {
     return {Outcome::fail, "no answers", expected};
   const double before_s = early->latency.quantile_ns(median) * 1e-9;
   const double after_s = late->latency.quantile_ns(median) * 1e-9;
-  // A host that slows down delays the bench too: the growth of the bench's own lateness must be small
-  // compared with the limit.
+  // If the host slows down, both programs do. The target is judged only if the growth of the bench's own
+  // lateness is small compared with the limit.
   const double host_s = (late->lateness.quantile_ns(median) - early->lateness.quantile_ns(median)) * 1e-9;
   if (host_s > lateness_share * (ratio_below - 1) * before_s)
     return {Outcome::not_measured,

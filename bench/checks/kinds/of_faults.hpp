@@ -42,12 +42,12 @@ std::vector<Sign> signs_of(const Evidence& evidence, const Disturbance& of,
 /// The known estimators that run.
 std::vector<const estimators::Estimator*> running(const scenario::CheckContext& context);
 
-/// The quantities whose tracks show whether an estimator still answers: errors, which are reported with every
-/// answer.
+/// The quantities that every answer reports (no norms, innovations, NEES or NIS): their tracks show whether
+/// the estimator still answers.
 std::vector<Subject> always_reported(const estimators::Estimator& estimator);
 
-/// The quantity that is silent in a stretch, and the time; empty: none. A stretch no longer than the longest
-/// regular wait for an answer contains no silence.
+/// Reports a quantity without answers in a part of the window, and when. Empty: none. A window no longer than
+/// the longest regular wait for an answer contains no silence.
 std::string silence_of(const Evidence& evidence, const std::vector<Subject>& subjects,
                        const scenario::Window& window);
 

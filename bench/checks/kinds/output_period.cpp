@@ -45,7 +45,7 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
     return {Outcome::not_measured, std::move(why), expected};
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
   if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
-  // If the bench's own stimuli exceed the limit, the target cannot be blamed.
+  // If the stimuli of the bench already exceed the limit, the answers are not the target's fault.
   if (const double off_s = timed->stimulus_deviation.quantile_ns(quantile) * 1e-9;
       off_s > lateness_share * nominal * within) {
     return {Outcome::not_measured, fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3),
