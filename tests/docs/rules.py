@@ -15,7 +15,7 @@ class Rule:
     codes: tuple[int, ...] = (0,)
     says: str = ""  # a regular expression that the command's output must match
     instead: tuple[tuple[str, str], ...] = ()  # replacements in the command: (regular expression, new text)
-    why_not: str = ""  # why the command is not run; the test then only looks up its options in the program's help
+    why_not: str = ""  # why the command is not run; then only its options and files are checked
     pages: str = ""  # a regular expression for the pages of the rule; empty: all pages
 
 

@@ -24,8 +24,8 @@ def ask(folder, *words):
 
 @functools.lru_cache(maxsize=None)
 def readers(folder):
-    """{file: objects of the target that read it}. Ninja records absolute names and names relative to the build
-    folder, depending on the compiler and its cache; the keys are absolute."""
+    """{file: objects of the target that read it}. Ninja records absolute names and names relative to the
+    build folder, depending on the compiler and its cache; the keys are absolute."""
     found, name = {}, None
     for line in ask(folder, "deps").splitlines():
         if line and not line.startswith(" "):

@@ -206,8 +206,8 @@ class Course:
         self.values.append((sort, value))
 
     def settled(self):
-        """(index, value minus the median of its kind of run), without the first quarter of the runs, which execute
-        code for the first time."""
+        """(index, value minus the median of its kind of run), without the first quarter of the runs, in which
+        code is executed for the first time."""
         medians = {sort: statistics.median(v for s, v in self.values if s == sort) for sort, _ in self.values}
         all_of_them = [(i, value - medians[sort]) for i, (sort, value) in enumerate(self.values)]
         return all_of_them[len(all_of_them) // 4:]

@@ -255,8 +255,8 @@ def named_test_breaches(texts):
                 yield f"{PROVEN}:{number}: there is no test {match[1]}.{match[2]}, expected one"
 
 
-# Ids, scales and cycle times may be written only in the DBC. A hexadecimal number is compared with the ids on
-# any line, a decimal number only on a line about an id.
+# Ids, scales and cycle times may be written only in the DBC. A hexadecimal number is compared with the ids
+# on any line, a decimal number only on a line about an id.
 BUILT_FROM = "dbc/canhil.dbc"
 HEX = re.compile(r"\b0[xX]([0-9a-fA-F']+)[uUlL]*\b")
 ABOUT_ID = re.compile(r"(?:\b\w*_?id\w*\s*(?:==|!=|=|\{|\()\s*|\bcase\s+)(\d+)[uUlL]*\b", re.I)
