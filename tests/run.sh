@@ -163,9 +163,9 @@ address_sanitizer() {
     "$dbcgen" dbc/canhil.dbc --python -o $kit.py; } || failure "the contract of $copy"
   # Left out:
   #   tests that compare the documentation with the DBC: the DBC of this copy has one more estimator;
-  #   conformance rules, validity of scenarios, killed campaigns: up to a minute each, and no further memory errors;
+  #   conformance rules, validity of scenarios, killed campaigns: a minute each, and no further memory errors;
   #   long flights in real time: they run the same code as the quick ones;
-  #   tests that wait for the live view: it has the lowest priority, and is too slow with the sanitizer beside other tests.
+  #   tests that wait for the live view: it has the lowest priority, and with the sanitizer it is too slow.
   build asan tests_input tests_processes tests_fuzz tests_fifth_estimator &&
     run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E '[.]Documentation[.]|Defective[.]TargetIsNamed|ScenarioFiles[.]AreAllValid|Killed[.]AndResumed|Bits[.]A|ThePapersFlight|Ecu[.]PassesInRealTime|DefectiveEcu|Faults[.]WhatIsKnown|live[.](Refusals|Run|Terminal)'
   cd "$root" || exit 2

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # debian.sh BUILD: makes the Debian package of a finished build and installs it, with its dependencies, in a
-# minimal Debian 12 (debootstrap). The commands are those of the last stage of packaging/Containerfile. Then it
-# flies the demo there as the package's user, with bench and target over the embedded bus. Needs root and the
-# network.
+# minimal Debian 12 (debootstrap). The commands are those of the last stage of packaging/Containerfile. Then
+# it flies the demo there as the package's user, with bench and target over the embedded bus. Needs root and
+# the network.
 set -euo pipefail
 build=$(realpath "$1")
 for tool in debootstrap dpkg-shlibdeps; do

@@ -129,7 +129,7 @@ TEST_F(WindClaims, NoneIsLostOnlyIfNoVariantLostARun) {
   }
 }
 
-// Limits that no campaign contains, because they compare variants by figures defined for this purpose.
+// A campaign cannot contain these limits, because they compare two variants; the page judges them.
 TEST(InflightClaims, ThatAreBarsFailThePage) {
   MadeUp made_up(papers.at(1));
   const auto heading = [&](const char* campaign, const std::string& variant, const char* figure,

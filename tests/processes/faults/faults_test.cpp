@@ -224,8 +224,8 @@ std::string recommended() {
                      scenario("los_quick"), scenario("wind_recommended"));
 }
 
-// believed.toml lists known faults, each of which makes one estimator report too small sigmas. A fault that
-// has been fixed must be removed from that file and from docs/fault-matrix.md.
+// believed.toml lists known faults, each of which makes one estimator violate the check `honest`. A fault
+// that no longer does must be removed from that file and from docs/fault-matrix.md.
 TEST(Faults, WhatIsKnownToBeBelievedIsEachOfOneEstimator) {
   const Ended ended =
       hil_bench(fmt::format("faults {} --set {}/bench/fault_matrix/believed.toml --out {} --json -",

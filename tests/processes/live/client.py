@@ -36,8 +36,8 @@ class Bench:
         return self
 
     def hurry(self):
-        """Gives the view's thread the normal policy. In real time it has SCHED_IDLE, and would never run on a busy
-        host."""
+        """Gives the view's thread the normal policy. In real time it has SCHED_IDLE, and would never run on a
+        busy host."""
         while self.hurried and self.process.poll() is None:
             for thread in os.listdir(f"/proc/{self.process.pid}/task"):
                 try:
