@@ -161,10 +161,11 @@ address_sanitizer() {
   local dbcgen=build/asan/dbc/codegen/dbcgen kit=docs/examples/kit/canhil_messages
   { build asan dbcgen && "$dbcgen" dbc/canhil.dbc --fd -o dbc/canhil-fd.dbc && "$dbcgen" dbc/canhil.dbc --c -o $kit.h &&
     "$dbcgen" dbc/canhil.dbc --python -o $kit.py; } || failure "the contract of $copy"
-  # Left out: tests that compare the documentation with the contract, which has one more estimator in this copy; conformance rules,
-  # validity of scenarios and killed campaigns, which add nothing for memory errors and take up to a minute each; and long flights in
-  # real time, which run the same code as the quick ones.
-  # The live view has the lowest priority: instrumented and beside other tests it is served too seldom for tests that wait for it.
+  # Left out:
+  #   tests that compare the documentation with the DBC: the DBC of this copy has one more estimator;
+  #   conformance rules, validity of scenarios, killed campaigns: a minute each, and no further memory errors;
+  #   long flights in real time: they run the same code as the quick ones;
+  #   tests that wait for the live view: it has the lowest priority, and with the sanitizer it is too slow.
   build asan tests_input tests_processes tests_fuzz tests_fifth_estimator &&
     run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E '[.]Documentation[.]|Defective[.]TargetIsNamed|ScenarioFiles[.]AreAllValid|Killed[.]AndResumed|Bits[.]A|ThePapersFlight|Ecu[.]PassesInRealTime|DefectiveEcu|Faults[.]WhatIsKnown|live[.](Refusals|Run|Terminal)'
   cd "$root" || exit 2
@@ -176,11 +177,10 @@ thread_sanitizer() {
 }
 
 coverage() {
-  find build/coverage -name '*.gcda' -delete 2>/dev/null # the counts of an earlier run
+  find build/coverage -name '*.gcda' -delete 2>/dev/null # removes the counts of an earlier run
   export GCOV_ERROR_FILE=/dev/null # a process that cannot write its counts would print an extra line, where a test expects one
   # Left out: two tests that prevent the program from writing files, because gcov's counts would be lost too.
-  # The time-out is longer because a long test takes twice its time with less optimisation and
-  # instrumentation.
+  # The time-out is longer, because long tests take twice as long with instrumentation and less optimisation.
   build coverage tests_unit tests_processes tests_pages &&
     run_ctest coverage --timeout 600 -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&
     python3 tests/static/coverage.py build/coverage | tee "$results/coverage.txt" || failure "no figures of coverage"

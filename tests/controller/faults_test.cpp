@@ -30,7 +30,7 @@ struct Outcome {
   }
 };
 
-/// Flies in real time; the fault begins during the run.
+/// Flies in real time. `trouble` is called during the run.
 Outcome run_with(const std::function<void()>& trouble, const std::string& name = "transfer_alignment_quick") {
   const std::string json = scratch("fault.json");
   Outcome outcome;
@@ -60,8 +60,8 @@ TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndTold) {
   EXPECT_EQ(outcome.ended.code, 1);
 }
 
-// An outage of the interface that the scenario injects. Scenarios cannot inject error frames here, because
-// only the controller's driver generates them.
+// The scenario injects an outage of the interface. It cannot inject error frames here, because only the
+// controller's driver generates them.
 TEST(Interface, IsSetDownAndUpByAFaultOfTheScenario) {
   set_up_on_wire();
   const auto with_fault = [](const std::string& kind) {
@@ -119,7 +119,7 @@ TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
 
 TEST(Interface, AdapterPulledAndPluggedInAgainOnTheBenchsSideIsSurvived) {
   set_up_on_wire();
-  run("rmmod canhil_wire");  // it does not notice when a controller disappears
+  run("rmmod canhil_wire");  // the module does not notice that a controller is removed
   const Outcome outcome = run_with([] {
     run("echo 1 >/sys/class/net/can1/device/remove && echo 1 >/sys/bus/pci/rescan && "
         "ip link set can1 up type can bitrate 1000000");

@@ -1,6 +1,6 @@
 #!/bin/sh
-# guest.sh DIR: runs in the guest, on the machine's files. Creates can0 and can1, runs DIR/command, and writes its exit status to the port
-# "status".
+# guest.sh DIR: runs in the guest, which sees the host's files. Creates can0 and can1, runs DIR/command, and
+# writes its exit status to the port "status".
 dir=$1
 export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 die() { echo "canhil: cannot $*" >/dev/console; busybox poweroff -f; }

@@ -1,5 +1,6 @@
 #!/bin/busybox sh
-# The first process of the guest: mounts the machine's files (9p, read-only) under a writable layer in memory, and continues there.
+# The first process of the guest: mounts the host's files (9p, read-only) under a writable layer in memory,
+# and runs guest.sh there.
 /bin/busybox --install -s /bin
 die() { echo "canhil: cannot $*" >/dev/console; poweroff -f; }
 mount -t devtmpfs dev /dev

@@ -35,7 +35,7 @@ if present; then exit 0; fi
 own_lists=(-o "Dir::State::Lists=$cache/lists" -o "Dir::Cache=$cache/apt" -o Debug::NoLocking=1 -o APT::Sandbox::User=root)
 options=(-o APT::Sandbox::User=root)
 depends() { apt-cache "${options[@]}" depends --important "$1" 2>/dev/null | sed -n 's/^ *Depends: //p'; }
-fetch() { # into the present folder
+fetch() { # downloads into the current directory
   local image
   image=$(depends linux-image-amd64 | grep -m 1 '^linux-image-[0-9]')
   if [[ -z "$image" ]]; then echo "E: no package linux-image-amd64 in the lists"; return 1; fi
@@ -65,9 +65,9 @@ for package in "linux-headers-$release" "${headers[@]}"; do unpack "$package"; d
 mkdir -p "$release/modules"
 mv "boot/vmlinuz-$release" "$release/vmlinuz"
 for module in "${modules[@]}"; do mv "lib/modules/$release/kernel/$module" "$release/modules/"; done
-printf '%s\n' "${modules[@]##*/}" >"$release/order" # the order of loading
+printf '%s\n' "${modules[@]##*/}" >"$release/order" # the modules in the order in which they are loaded
 mv usr "$release/"
-# The headers use relative paths to each other, with one exception.
+# One Makefile of the headers uses an absolute path; the others use relative ones.
 build=$release/usr/src/linux-headers-$release
 sed -i 's|^include /usr/src/|include $(dir $(lastword $(MAKEFILE_LIST)))../|' "$build/Makefile"
 ln -s "usr/src/linux-headers-$release" "$release/build"

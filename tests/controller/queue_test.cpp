@@ -53,7 +53,7 @@ TEST(TransmitQueue, FullOfManySendersSaysSoAndLosesNothing) {
   EXPECT_GE(waiting, 11U) << "10 in the queue, one in the controller";
   EXPECT_LE(waiting, 12U) << "and one between them";
 
-  wire("can1 slow 130");  // 1 Mbit/s
+  wire("can1 slow 130");  // 130 us per frame, as at 1 Mbit/s
   for (int sender = 0; sender < senders; ++sender) {
     for (int i = 0; i < 20; ++i) {
       const Frame next = frame(sender);

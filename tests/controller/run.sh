@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # run.sh COMMAND...: runs COMMAND on a machine where can0 and can1 are two SJA1000 controllers (kvaser_pci) on one bus, up, at 1 Mbit/s, in the
 # directory and with the environment of the caller. Its exit status, stdout and stderr are those of COMMAND.
-# The machine is QEMU: a PC emulated in software, which needs no rights, with Debian's kernel and drivers and this machine's files. Changes of
-# files are discarded at the end. docs/controller.md describes what the machine can test.
+# The machine is a PC that QEMU emulates in software, so no rights are needed. It has Debian's kernel and
+# drivers and sees the host's files; changes of files are discarded at the end. docs/controller.md describes
+# what the machine can test.
 # Needs (Debian): qemu-system-x86 busybox iproute2 gzip make gcc-12, and apt for the kernel, which is downloaded once (kernel.sh).
 # CANHIL_CONTROLLER_TIMEOUT_S (600) is the time limit.
 set -u

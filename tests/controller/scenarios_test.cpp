@@ -1,5 +1,5 @@
-// The four estimators over the controllers and their driver: the outputs pass, and are bit for bit those of a
-// run in process.
+// The four estimators over the controllers and their driver: their outputs pass, and equal those of a run in
+// process bit for bit.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 namespace canhil::test {
 namespace {
 
-// In process on the same (emulated) processor, because another one may compute a sine by other instructions.
+// Flies in process in the guest too, because the host's processor may compute a sine with other instructions.
 std::vector<Frame> frames_in_process(const std::string& name) {
   const std::string log = scratch("in_process.log");
   EXPECT_EQ(hil_bench(fmt::format("run {} --bus in-process --log {}", scenario(name), log)).code, 3);
@@ -43,8 +43,8 @@ TEST(LockstepAlso, TransferAlignmentPassesAt500kbps) {
   expect_pass_in_lockstep("transfer_alignment_quick");
 }
 
-// The emulated clock can disturb the timing, but not the outputs. If the machine suspends the whole guest,
-// its programs miss each other; such a run is repeated.
+// The emulated clock can disturb the timing, but not the outputs. If the host suspends the whole guest, bench
+// and target lose frames or time out; such a run is repeated.
 TEST(RealTime, TransferAlignmentPasses) {
   set_up("bitrate 1000000", "bitrate 1000000");
   const std::string name = "transfer_alignment_quick", report = scratch("report.json"),

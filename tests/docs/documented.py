@@ -3,8 +3,9 @@
 
     documented.py PAGE SOURCE BUILD SCRATCH    PAGE as in the project: README.md, docs/campaigns.md
 
-Each must end with 0, or as rules.py says. One that cannot be run here is in rules.py with the reason; its options must be in the
-help of its program. Exit code 1: a command does not do what the page says.
+Each command must end with exit code 0, or with one that rules.py permits. If a command cannot be run here,
+rules.py gives the reason; then only the options, which must be in the help of the command's program, and the
+files, which must exist, are checked. Exit code 1: a command does not do what the page says.
 """
 
 import os
@@ -21,7 +22,7 @@ from pages import Command, commands_of  # noqa: E402
 from rules import PLACEHOLDERS, PREPARED, Rule, rule_of  # noqa: E402
 
 LONGEST_S = 120
-WRITTEN_TO = ("docs", "dbc")  # commands write to these: copied; all others are linked
+WRITTEN_TO = ("docs", "dbc")  # copied, because commands write to them; all other folders are linked
 
 
 def scratch_tree(source: Path, build: Path, scratch: Path) -> None:
@@ -38,7 +39,7 @@ def scratch_tree(source: Path, build: Path, scratch: Path) -> None:
 
 
 class Session:
-    """A user who types the commands of a page."""
+    """The shell of a user who types the commands of a page: keeps the working directory between commands."""
 
     def __init__(self, scratch: Path, build: Path):
         self.root = self.folder = scratch
@@ -58,7 +59,7 @@ class Session:
         return ended.returncode, ended.stdout
 
     def unknown_words(self, text: str) -> list[str]:
-        """Options that the help of the project's programs does not have, and files that it does not have."""
+        """Complaints: options that are not in the help of their program, and files that do not exist."""
         unknown = []
         for call in re.split(r"[;|&]+|\$\(|\|\|", re.sub(r"'[^']*'|\"[^\"]*\"", "QUOTED", text)):
             words = call.replace("[", " ").replace("]", " ").split()
@@ -89,7 +90,7 @@ class Session:
 
 
 def attempt(command: Command, rule: Rule, session: Session) -> str:
-    """What is wrong; empty: nothing."""
+    """The complaint about a command; empty: none."""
     wrong = session.unknown_words(command.text) if rule.why_not else []
     if wrong or rule.why_not:
         return "; ".join(wrong)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every link of a page to a file of the project leads somewhere, its heading included. links.py [ROOT]"""
+"""Checks that each link from a page to a file or heading of the project has a target: links.py [ROOT]"""
 import re
 import sys
 from pathlib import Path

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""Checks that the outputs shown in a page of documentation are those that its commands print; --write makes them anew.
+"""Checks that the outputs shown on a page are those that its commands print; --write replaces them.
 
     outputs.py BUILD PAGE... [--write]
 
-A page's ```sh blocks are run in their order, in a scratch folder that has the project's folders and BUILD as build/default. A
-```text block that follows shows what the block printed (stdout and stderr together). A comment between the two says how:
+A page's ```sh blocks are run in their order, in a scratch folder that has the project's folders and BUILD as
+build/default. The ```text block after a ```sh block shows what the commands printed (stdout and stderr
+together). HTML comments before a block:
 
     <!-- shown: REGEX -->   only the lines in which REGEX is found; '...' stands for the others
-    <!-- varies -->         differs from run to run (real time, this host): remade by --write, its blocks are not run otherwise
-    <!-- not run -->        before a ```sh block: what it does is not for a test (installs, clones, builds)
+    <!-- varies -->         the output differs between runs or hosts: the commands are run only with --write
+    <!-- not run -->        before a ```sh block that installs, clones or builds, which a test must not do
 
 """
 import argparse

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The reference of scenario and campaign files: reference_test.py HIL_BENCH SOURCE.
 
-It is that of the documentation, each key has a meaning, and it has each key of the files that are shipped.
+Checks that the page in the documentation equals what hil-bench prints, that each key has a meaning, and that
+the reference contains each key of the project's scenario and campaign files.
 """
 
 import json
@@ -19,11 +20,11 @@ def printed(*options: str) -> str:
     return subprocess.run([hil_bench, "reference", *options], check=True, capture_output=True, text=True).stdout
 
 
-# The page.
+# The page equals what hil-bench prints.
 if not page.exists() or page.read_text() != printed():
     wrong.append(f"{page}: is not what the program prints, make it again by: hil-bench reference > docs/scenario-reference.md")
 
-# Meanings.
+# Each key has a meaning.
 parts = {part["title"]: part["tables"] for part in json.loads(printed("--json"))["parts"]}
 keys = {(title, table["name"]): [key["key"] for key in table["keys"]] for title, tables in parts.items() for table in tables}
 count = sum(map(len, keys.values()))
@@ -34,7 +35,7 @@ if count < 500:
     wrong.append(f"{count} keys, expected hundreds")
 
 
-# Keys of the files.
+# The reference contains each key of the project's files.
 def is_known(key: str, title: str, *tables: str) -> bool:
     known = [name for table in tables for name in keys.get((title, table), [])]
     stems = [name.removesuffix("_UNIT") for name in known if name.endswith("_UNIT")]

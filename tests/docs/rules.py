@@ -1,7 +1,8 @@
-"""What a command of the documentation cannot be run as it stands for, and what is done in its place.
+"""Rules for commands of the documentation that a test cannot run exactly as the page shows them.
 
-A command without a rule is run as it is and must end with 0. The first rule whose pattern is found in it holds. A rule that no
-page needs any more is a failure (rules_test.py).
+A rule changes the command, permits other exit codes, or states why the command is not run. The first rule
+whose pattern occurs in the command applies. A command without a rule is run unchanged and must end with exit
+code 0. rules_test.py fails if a rule matches no command.
 """
 
 import re
@@ -14,8 +15,8 @@ class Rule:
     codes: tuple[int, ...] = (0,)
     says: str = ""  # a regular expression that the command's output must match
     instead: tuple[tuple[str, str], ...] = ()  # replacements in the command: (regular expression, new text)
-    why_not: str = ""  # why it is not run; its options are looked up in its program's help
-    pages: str = ""  # a regular expression; empty: any
+    why_not: str = ""  # why the command is not run; then only its options and files are checked
+    pages: str = ""  # a regular expression for the pages of the rule; empty: all pages
 
 
 # Placeholders in the documentation, and their replacements in this test.
@@ -30,10 +31,10 @@ PLACEHOLDERS = (
 
 NO_INTERFACE = r"cannot open 'no|nov?can\d"
 PASSES = (0, 3)  # timing is not measured in virtual time, nor on a busy host
-BARS = (0, 1, 3)  # a campaign's bars are derived for its own number of runs
+BARS = (0, 1, 3)  # campaigns may fail, because their limits are derived for more runs than a test flies
 IN_VIRTUAL_TIME = ((r"$", " --lockstep"),)
 FEW_RUNS = ((r"$", " --runs 2"),)
-ANY_PORT = (r"--live\b( \d+)?", "--live 0")  # tests run side by side
+ANY_PORT = (r"--live\b( \d+)?", "--live 0")  # tests run in parallel and would compete for a fixed port
 
 RULES = (
     # Commands that cannot be run here, or that another test runs.
@@ -76,7 +77,7 @@ RULES = (
 )
 
 RUN = "hil-bench run bench/flights/transfer_alignment_quick.toml --lockstep"
-# Files that the commands of a page require.
+# Commands that make the files which the commands of a page require.
 PREPARED = {
     "README.md": tuple(f"{RUN} --json {name}.json" for name in ("before", "after", "a1", "a2", "b1", "b2")),
     "docs/dbc.md": ("cp tests/data/dbc/multiplexed.dbc motion.dbc",),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether each rule is of a command that the documentation still shows: rules_test.py SOURCE PAGE..."""
+"""Checks that each rule matches a command in the documentation: rules_test.py SOURCE PAGE..."""
 
 import sys
 from pathlib import Path

@@ -44,7 +44,7 @@ def with_lines(name: str, text: str) -> str:
 
 
 def contract(text: str) -> str:
-    """The nodes join BU_, the estimator joins the lists of estimators, and the rest comes at the end."""
+    """Adds the nodes to BU_, the estimator to the lists of estimators, and the rest at the end."""
     own = (ROOT / HERE / "contract.dbc").read_text()
     nodes, rest = own.split("\n", 1)
     lines = []

@@ -1,4 +1,4 @@
-// Baro-inertial height: a sample is an answer to a barometric height.
+// Baro-inertial height: the target answers each barometric height with one sample of the estimate.
 #pragma once
 
 #include "bench/checks/estimator.hpp"

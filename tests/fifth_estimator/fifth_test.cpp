@@ -56,7 +56,7 @@ TEST(FifthEstimator, ItsDefectsFail) {
       fmt::format("run {} --bus in-process", with("fix_noise_vertical_m = 2.0", "gate_nis = 1e-9")));
   EXPECT_EQ(gated.code, 1) << gated.out;
   EXPECT_TRUE(std::regex_search(gated.out, std::regex("FAIL +answers"))) << gated.out;
-  // With an assumed barometer noise of a fifth of the true one, the NIS shows it.
+  // If the filter assumes a fifth of the true barometer noise, the NIS is too large.
   const Ended sure = hil_bench(fmt::format("run {} --bus in-process",
                                            with("fix_noise_vertical_m = 2.0", "fix_noise_vertical_m = 0.4")));
   EXPECT_EQ(sure.code, 1) << sure.out;

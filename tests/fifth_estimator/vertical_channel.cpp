@@ -35,7 +35,7 @@ void VerticalChannel::propagate(const strapdown::ImuIncrement& imu, const Settin
 
 Outcome VerticalChannel::update(double height, const Settings& settings) {
   const double R = settings.barometer_sigma * settings.barometer_sigma;
-  const double innovation = nav_.height - height;  // estimated - measured: an observation of dh
+  const double innovation = nav_.height - height;  // estimated - measured height, which measures the error dh
   const double S = P_(height_error, height_error) + R;
   nis_ = innovation * innovation / S;
   if (settings.gate > 0 && nis_ > settings.gate) return Outcome::gated;

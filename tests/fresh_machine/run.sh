@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Runs a command of this project on a machine with nothing installed: a minimal Debian 12 in a chroot, a fresh clone in it.
 #   sudo bash tests/fresh_machine/run.sh [--keep] COMMAND...        e.g.  bash tests/run.sh
-# Run by hand before a release; takes as long as the installation of all packages and the command itself.
-# Packages come from where this machine's apt takes them: its sources, keys, proxies and credentials are copied.
-# Only what is committed is tried. Exit code: that of COMMAND; 2 when the machine could not be made.
+# To be run by hand before a release. It first installs all packages, then runs the command.
+# The chroot uses the package sources of the host: apt's sources, keys, proxies and credentials are copied.
+# Uncommitted changes are not tested. Exit code: that of COMMAND; 2 if the chroot could not be made.
 set -euo pipefail
 
 die() { echo "fresh_machine: $*" >&2; exit 2; }
@@ -49,8 +49,7 @@ trap cleanup EXIT
 chmod 755 "$machine"
 tar -C "$machine" -xf "$minimal"
 
-# apt is configured as on this machine, and gets the host names and certificates that it needs to reach its
-# sources.
+# Copies the host's apt configuration, and the host names and certificates with which apt reaches its sources.
 rm -rf "$machine/etc/apt"
 cp -aL /etc/apt "$machine/etc/apt"
 cp -aL /usr/share/keyrings/. "$machine/usr/share/keyrings/"
@@ -66,7 +65,7 @@ pass_on=()
 for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
   if [[ -n "${!name:-}" ]]; then pass_on+=("$name=${!name}"); fi
 done
-# Own mount and process namespaces: whatever happens in there, nothing stays mounted or running.
+# Separate mount and process namespaces: at the end, the kernel unmounts and ends everything in them.
 code=0
 unshare --mount --pid --fork --kill-child bash -euc '
   machine=$1; shift

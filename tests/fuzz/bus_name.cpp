@@ -1,5 +1,5 @@
-// Any text as the name of a bus (`--bus`) gives settings within their limits, or one line that states what
-// was expected.
+// Reads any text as the name of a bus (`--bus`). It must return settings within their limits, or one error
+// line that states what was expected.
 #include <cstdint>
 
 #include "bench/drive/buses.hpp"

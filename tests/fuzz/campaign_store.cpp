@@ -1,6 +1,6 @@
-// Any file as the results of a campaign gives a report, or is rejected with one line. The input either
-// changes bytes of a valid file, which then gives the original report or is rejected, or defines runs with
-// arbitrary samples, which are stored correctly and must give a report.
+// Reads any file as the results of a campaign. It must print a report, or reject the file with one line. The
+// input is either a list of changes to the bytes of a valid file, which must then give the original report or
+// be rejected, or runs with arbitrary samples, which must be stored correctly and give a report.
 #include <unistd.h>
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Any text as a campaign, over a scenario of its own, gives a Campaign or one line that names the file. The
-// input also covers the settings that variants and sweeps put into a scenario.
+// Reads any text as a campaign over its own scenario. It must return a Campaign, or one error line that names
+// the file. The input also covers the settings that variants and sweeps put into a scenario.
 #include <cstdint>
 
 #include "bench/campaign/campaign.hpp"

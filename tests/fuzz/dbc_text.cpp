@@ -1,5 +1,5 @@
-// Any text as a DBC gives, in both readers, a Database that the codec can use, or one line that contains the
-// place.
+// Reads any text as a DBC with both readers, the strict and the lenient one. Each must return a Database that
+// the codec can use, or one error line that contains the place.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

@@ -1,5 +1,5 @@
-// Any line or packet of a log gives an entry or one line of error. An entry that is written is read back as
-// the same frame.
+// Reads any line or packet of a log. A line must give an entry or one error line, and an entry that is
+// written must be read back as the same frame.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

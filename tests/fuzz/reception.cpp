@@ -75,7 +75,7 @@ class Answers {
   [[nodiscard]] const std::vector<Frame>& all() const { return all_; }
 
  private:
-  // Packing converts NaN to the smallest angle of the message, -180 deg.
+  // NaN must not reach the bus: packing converts it to the smallest angle of the message, -180 deg.
   static void expect_pitch(double pitch_deg) { expect(std::abs(pitch_deg) < 90.01); }
   // All messages of a group are sent equally often; they are adjacent in the directory.
   void expect_whole_groups() const {
@@ -184,7 +184,7 @@ void run(canhil::target::Device& device, Script& script, std::vector<Frame>& fed
           for (std::size_t k = 0; k < running; ++k) {
             if (aided)
               bench.aid(chosen[k].estimator, k == 0 ? spoil : Spoil{}, bench.t_us, (header & gps) != 0);
-            if (k == 0 || !is_inertial(chosen[0]) || !is_inertial(chosen[k]))  // one IMU serves both
+            if (k == 0 || !is_inertial(chosen[0]) || !is_inertial(chosen[k]))  // two alignments share one IMU
               bench.drive(chosen[k].estimator, spoil, interval_us);
           }
           spoil = {};

@@ -1,6 +1,7 @@
-// Any JSON as a report of a run gives a page and a comparison, or one line with the missing key. The input is
-// either the text of a file, or a list of changes (remove, move, replace values) to the report of a run flown
-// at the start: changing bytes of this report, 30 kB, would soon give invalid JSON.
+// Reads any JSON as the report of a run. It must give a page and a comparison, or one line with the missing
+// key. The input is either the text of a file, or a list of changes (remove, move, replace values) to the
+// report of a run that is flown at the start. Changing bytes of that report, 30 kB, would soon give invalid
+// JSON.
 #include <sys/mman.h>
 #include <unistd.h>
 

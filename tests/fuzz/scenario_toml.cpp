@@ -1,5 +1,5 @@
-// Any text as a scenario gives a Scenario, or one line that names the file. A short scenario is then prepared
-// as for a run: its truth, its nodes and their first transmissions.
+// Reads any text as a scenario. It must return a Scenario, or one error line that names the file. A short
+// scenario is then prepared as for a run: its truth, its nodes and their first transmissions.
 #include <cstdint>
 
 #include "bench/drive/contract.hpp"

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 class DoesNotBuild(Exception):
-    """The first line of the compiler's error output."""
+    """Holds the first error line of the compiler or linker."""
 
 
 def ask(folder, *words):
@@ -24,7 +24,8 @@ def ask(folder, *words):
 
 @functools.lru_cache(maxsize=None)
 def readers(folder):
-    """{file: objects of the target that read it}; a file is named whole or from the build folder, as the compiler or a cache named it"""
+    """{file: objects of the target that read it}. Ninja records absolute names and names relative to the
+    build folder, depending on the compiler and its cache; the keys are absolute."""
     found, name = {}, None
     for line in ask(folder, "deps").splitlines():
         if line and not line.startswith(" "):
@@ -68,7 +69,7 @@ def source_again(place, file, source):
 
 
 def compile_again(folder, place, file, name):
-    """The object `name` with the file of `place` in the project's place."""
+    """Compiles the object `name` with the changed file in `place`; returns the path of the new object."""
     words, again = shlex.split(compilations(folder)[name]), place / name
     again.parent.mkdir(parents=True, exist_ok=True)
     kept, skip = [], 0

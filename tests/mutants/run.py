@@ -70,7 +70,7 @@ class Progress:
 
 
 def run(command, longest_s=None, **more):
-    """(exit code, output); None for the exit code: not done in time. Nothing that it started outlives it."""
+    """(exit code, output); exit code None: time limit exceeded. Kills all processes of the command."""
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                errors="replace", start_new_session=True, **more)
     try:
@@ -87,8 +87,8 @@ def run(command, longest_s=None, **more):
 
 
 def accept(target, estimator, families, folder):
-    """(requirement, observation) of the first requirement that the target violates; None: it meets all that were
-    measured."""
+    """(requirement, observation) of the first requirement that the target violates; None: it violates no
+    measured requirement."""
     report = Path(folder, "report.json")
     report.unlink(missing_ok=True)
     wanted = [word for family in families for word in ("--family", family)]

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# debian.sh BUILD: makes the Debian package of a finished build, installs it with its dependencies in a fresh Debian 12 that has
-# nothing else (debootstrap), by the lines of the last stage of packaging/Containerfile, and flies the demo there as its user: program
-# and target over the embedded bus. Needs root and the network.
+# debian.sh BUILD: makes the Debian package of a finished build and installs it, with its dependencies, in a
+# minimal Debian 12 (debootstrap). The commands are those of the last stage of packaging/Containerfile. Then
+# it flies the demo there as the package's user, with bench and target over the embedded bus. Needs root and
+# the network.
 set -euo pipefail
 build=$(realpath "$1")
 for tool in debootstrap dpkg-shlibdeps; do
@@ -16,7 +17,7 @@ package=$(ls "$work"/*.deb)
 echo "package: $(basename "$package"), $(du -h "$package" | cut -f1)"
 dpkg-deb --field "$package" Package Version Depends
 
-# Uses the mirror and the proxy of this machine's apt.
+# Uses the mirror and the proxy of the host's apt.
 mirror=$( (grep -rhvE '^ *#' /etc/apt/sources.list /etc/apt/sources.list.d 2>/dev/null || true) | grep -oE '(https?|file)://[^ ]+/debian/?( |$)' | head -n 1 | tr -d ' ' || true)
 eval "$(apt-config shell http_proxy Acquire::http::Proxy https_proxy Acquire::https::Proxy)"
 export http_proxy https_proxy

@@ -4,7 +4,7 @@
 #   install.sh tests       build, and the packages for tests/run.sh
 #   install.sh coverage    tests, and the packages for tests/run.sh --coverage
 #   install.sh tidy        packages for tests/run.sh --tidy and --analyse
-#   install.sh package     packages for tests/package/debian.sh, too
+#   install.sh package     build, and the packages for tests/package/debian.sh
 #   install.sh docs        packages for the API pages (target api), and the pictures and figures in docs
 #   install.sh full        all packages for tests/run.sh --full and tests/perf/run.sh
 #   install.sh list SET    prints the package names of a set
@@ -32,8 +32,8 @@ package_packages=(dpkg-dev file debootstrap help2man) # builds a Debian package 
 full_packages=(
   rt-tests valgrind libclang-rt-14-dev
   qemu-system-x86 make gcc-12 libelf1 # two CAN controllers with the kernel's driver, in an emulated PC; its kernel is not installed
-  chromium chromium-driver python3-selenium # looks at the live view's page
-  help2man systemd # manual pages, for a package; systemd-analyze reads its unit, nothing is started
+  chromium chromium-driver python3-selenium # tests the live view's page in a browser
+  help2man systemd # manual pages for a package; systemd-analyze checks the package's unit without starting it
   slurm-wlm munge # a cluster of one machine, for campaigns as job arrays; started by the test itself, never as a service
 )
 

@@ -38,7 +38,7 @@ PATIENCE_S = 60  # a run that takes longer hangs
 
 
 class Contract:
-    """Messages of the bench's nodes and their signals, from the DBC; kinds of faults, from the bench's own error message."""
+    """Messages and signals of the emulated nodes, from the DBC; kinds of faults, from the bench."""
 
     def __init__(self, bench, folder):
         self.messages = {}  # by node: {message: [(signal, least, most)]}
@@ -58,7 +58,7 @@ class Contract:
                 self.kinds.append(kind)
 
     def all_kinds(self, bench, probe):
-        """The kinds of faults that the bench knows; its error message for an unknown kind lists them."""
+        """All kinds of faults, from the bench's error message for an unknown kind, which lists them."""
         probe.write_text(scenario("transfer_alignment_quick", 1, 1, [{"kind": "?"}]))
         told = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True).stderr
         found = re.search(r"expected one of:? (.*)", told)
@@ -67,7 +67,7 @@ class Contract:
 
     @staticmethod
     def flies(bench, probe, fault):
-        """Whether a fault of this kind with these keys can be flown in process."""
+        """Whether the bench accepts this fault in a run in process."""
         probe.write_text(scenario("transfer_alignment_quick", 1, 1, [timed(fault, 0.2, 0.5, 2)]))
         told = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True)
         return told.returncode != 2
@@ -100,7 +100,7 @@ class Contract:
             "flood": {"period_us": draw.randint(200, 1000)},
         }.get(kind, {"messages": [name] if draw.random() < 0.5 else sorted(messages)})
         if kind == "invalid" and all((least, most) != (0, 1) for signals in messages.values() for _, least, most in signals):
-            kind = "silent"  # no signal of this node is a flag
+            kind = "silent"  # the node has no flag that could be set to invalid
         return {"kind": kind} | keys
 
 
@@ -116,7 +116,7 @@ def toml(value):
 
 
 def scenario(base, seed, duration_s, faults):
-    """A shipped scenario, shortened, with these faults; its only check is that something was answered."""
+    """A scenario of bench/flights, shortened, with these faults. Its only check requires one answer."""
     text = (ROOT / f"bench/flights/{base}.toml").read_text().split("[[check]]")[0]
     text = re.sub(r"(?m)^duration_s = .*", f"duration_s = {duration_s}", text)
     text = re.sub(r"(?m)^seed = .*", f"seed = {seed}", text)
@@ -138,7 +138,7 @@ def random_scenario(draw, contract, longest_s):
 
 
 def tree(pid):
-    """A process and those that it started."""
+    """The ids of a process and of all processes below it."""
     found = [pid]
     for one in found:
         try:
@@ -196,30 +196,29 @@ def fly(command, environment, log):
 
 
 class Course:
-    """A number after each run, with the kind of that run, and whether it grows with the number of runs."""
+    """A number taken after each run, with the kind of the run. Tests whether it grows with the runs."""
 
     def __init__(self, name, unit, most_growth, why):
         self.name, self.unit, self.most_growth, self.why = name, unit, most_growth, why
-        self.values = []  # (sort of the run, value)
+        self.values = []  # (kind of run, value)
 
     def add(self, sort, value):
         self.values.append((sort, value))
 
     def settled(self):
-        """(index, value minus the median of its kind of run), after the first quarter of the runs: by then every path
-        has been used once."""
+        """(index, value minus the median of its kind of run), without the first quarter of the runs, in which
+        code is executed for the first time."""
         medians = {sort: statistics.median(v for s, v in self.values if s == sort) for sort, _ in self.values}
         all_of_them = [(i, value - medians[sort]) for i, (sort, value) in enumerate(self.values)]
         return all_of_them[len(all_of_them) // 4:]
 
     def slope(self):
-        """A run, by least squares."""
+        """Growth per run, by least squares."""
         points = self.settled()
         return statistics.linear_regression(*zip(*points)).slope if len(points) > 2 else 0.0
 
     def growth(self):
-        """Median of the last third minus median of the first third, so that a peak in one run does not
-        count."""
+        """Median of the last third minus median of the first third. A median ignores a peak in one run."""
         values = [value for _, value in self.settled()]
         third = max(1, len(values) // 3)
         return statistics.median(values[-third:]) - statistics.median(values[:third])
@@ -262,7 +261,7 @@ def soak(arguments):
     host = subprocess.Popen([bench, "bus", bus], env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
     time.sleep(0.5)
     target = subprocess.Popen([*target_program, "--bus", bus], env=environment, stdin=subprocess.DEVNULL)
-    time.sleep(0.5)  # of python, where it is a wrapper
+    time.sleep(0.5)  # time for python to start, if the target is a script that starts the program
     end = time.monotonic() + 60 * arguments.minutes
     line = time.monotonic() + 60 * arguments.minutes / 10
     runs = silent = 0
@@ -285,8 +284,8 @@ def soak(arguments):
                 silent += 1
             runs += 1
             ended[how] = ended.get(how, 0) + 1
-            # A fault that leaves no IMU sample for more than 200 ms ends an alignment, and the target reports
-            # the reason.
+            # A fault may suppress all IMU samples for more than 200 ms. The target then ends the alignment
+            # and reports input_silent.
             if (how != "completed" and "input_silent" not in how) or target.poll() is not None:
                 unexpected.append(f"run {runs}, {base}, {mode}, faults {faults}: {how}")
                 if target.poll() is not None:
@@ -330,7 +329,7 @@ def main():
     for why in unexpected:
         print(f"unexpected: {why}")
     print(f"{runs} runs: " + ", ".join(f"{count} {how}" for how, count in sorted(ended.items())))
-    few = runs < 8  # too few runs to show growth
+    few = runs < 8  # growth cannot be seen in so few runs
     good = not unexpected and not few and not any(course.grows() for course in all_courses.values())
     print("soak: " + ("all runs ended as they should, nothing grows" if good else "FAILED" + ", too few runs" * few))
     if good:

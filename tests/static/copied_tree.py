@@ -9,9 +9,10 @@ PARTS = ("CMakeLists.txt", "CMakePresets.json", "README.md", "bench", "cmake", "
 
 
 def copy_tree(target, changed=lambda name, content: content, made=()):
-    """Copies the project into the folder `target`: of each file what changed(name, content) gives, and nothing that it has not.
+    """Copies the project into the folder `target`. The content of each file is changed(name, content).
 
-    What the copy makes itself, `made`, is copied once and then left to it."""
+    Deletes files of the copy that the project does not have. `made` are files that the build of the copy
+    generates: they are copied only if they do not exist."""
     names = set()
     for part in PARTS:
         path = ROOT / part
@@ -31,4 +32,4 @@ def copy_tree(target, changed=lambda name, content: content, made=()):
     for part in PARTS:
         for file in (target / part).rglob("*"):
             if file.is_file() and file.relative_to(target).as_posix() not in names:
-                file.unlink()  # no longer in the project
+                file.unlink()  # the project does not have this file

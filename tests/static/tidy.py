@@ -21,7 +21,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 LONGEST_S = 900
-PARTS = ("bench/", "dbc/", "target/", "tests/unit/", "tests/")  # the first match counts
+PARTS = ("bench/", "dbc/", "target/", "tests/unit/", "tests/")  # a source belongs to the first match
 ANALYSER = {True: "clang-analyzer-*", False: "-clang-analyzer-*"}
 
 
@@ -30,7 +30,7 @@ class Source:
         self.file = entry["file"]
         self.name = os.path.relpath(self.file, ROOT)
         self.object = None
-        self.flags = []  # tuples of one or two words
+        self.flags = []  # tuples: an option, or an option and its value
         words = iter(shlex.split(entry["command"]))
         for word in words:
             if word == "-o":
@@ -43,7 +43,7 @@ class Source:
 
 
 def sources_of(build):
-    """Each source once, only those of the project, none that is generated."""
+    """The sources of the project in the compile commands, each once, without generated ones."""
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         files = [entry["file"]]
@@ -57,7 +57,7 @@ def sources_of(build):
 
 
 def recorded_includes(build):
-    """{object file: [files it was built from]}, for those whose record is up to date."""
+    """{object file: [files it was built from]}, for objects whose record in Ninja is up to date."""
     text = subprocess.run(["ninja", "-C", build, "-t", "deps"], capture_output=True, text=True, check=True).stdout
     found = {}
     for block in text.split("\n\n"):
@@ -68,7 +68,7 @@ def recorded_includes(build):
 
 
 class Cache:
-    """What was clean."""
+    """Remembers in BUILD_FOLDER/tidy which versions of the sources were clean."""
 
     def __init__(self, build, each):
         self.folder = build / "tidy"
@@ -118,7 +118,8 @@ def flags_of(sources):
 
 
 def write_joined(file, sources):
-    """Three lines a source: programs have a main() each, which may not be there twice."""
+    """Writes a file that includes the sources, three lines for each. Renames every main() except the first,
+    because a file can have only one."""
     text, mains = "", 0
     for source in sources:
         mains += re.search(r"^int main\(", Path(source.file).read_text(), re.MULTILINE) is not None
@@ -129,12 +130,11 @@ def write_joined(file, sources):
 
 
 def wrong_ones(file, sources, output):
-    """The sources with compiler errors, either in the source or in a header that it was the first to
-    include."""
+    """The sources with compiler errors in themselves, or in a header that no source before them included."""
     found, number = set(), None
     for line in output.splitlines():
         stack = re.match(rf"In file included from {re.escape(str(file))}:(\d+):", line)
-        if stack:  # the compiler repeats the stack only when it changes
+        if stack:  # the compiler prints the include stack only when it changes
             number = int(stack[1]) // 3
         elif number is not None and re.search(r": (fatal )?error: ", line):
             found.add(sources[number].file)
@@ -153,7 +153,7 @@ def join(file, sources):
         wrong = wrong_ones(file, held, output)
         rest = [source for source in held if source.file not in wrong] or held[:1]
         if compiles or len(rest) == len(held):
-            return held  # clang-tidy reports why these do not compile
+            return held  # if they still do not compile, clang-tidy reports why
         held = rest
 
 

@@ -25,8 +25,7 @@ LIMIT_US = 2.0
 
 
 class Contract:
-    """The sample groups of the DBC: for each CAN id, its group, the group that this one answers, and how to
-    decode it."""
+    """For each CAN id of the DBC: its sample group, the groups that it answers, and how to decode it."""
 
     def __init__(self, dbc):
         matrix = next(iter(canmatrix.formats.loadp(dbc).values()))
@@ -57,9 +56,9 @@ def frames_of(log):
 
 
 def latencies_us(log, contract):
-    """Latencies of each answering message, from the last frame of its stimulus."""
-    stimulus_us = {}  # by (group, time of validity): when its last frame was on the bus
-    group_so_far = collections.defaultdict(list)  # by group of answers: (message, stamp)
+    """{answer message: latencies, each from the last frame of its stimulus}"""
+    stimulus_us = {}  # (group, time of validity): stamp of the last frame of the group
+    group_so_far = collections.defaultdict(list)  # group of answers: [(message, stamp)] that have arrived
     latencies = collections.defaultdict(list)
     for t_us, identifier, data in frames_of(log):
         if identifier not in contract.frames or not contract.group[identifier]:

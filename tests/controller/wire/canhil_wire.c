@@ -151,7 +151,7 @@ static enum hrtimer_restart next_stage(struct hrtimer *timer)
 			disturb(&controllers[c == &controllers[0]], IR_PASSIVE, 128);
 	} else if (wire == BROKEN) {
 		c->request = 0;
-		write_chip(c, MOD, MOD_RESET); // like the chip
+		write_chip(c, MOD, MOD_RESET); // a bus-off chip also enters reset mode
 		raise(c, IR_WARNING | IR_BUS_ERROR, SR_WARNING | SR_BUS_OFF, ecc, 0, 255, 0);
 		return HRTIMER_NORESTART;
 	}
@@ -170,13 +170,13 @@ static int before_write(struct kprobe *probe, struct pt_regs *regs)
 	if (reg == MOD && (value & MOD_RESET)) {
 		c->request = 0;
 		memset(c->seen, 0, sizeof(c->seen));
-	} else if (reg == TXERR) { // the driver starts it again
+	} else if (reg == TXERR) { // the driver restarts the controller
 		memset(c->seen, 0, sizeof(c->seen));
 	} else if (reg == CMR && (value & CMR_ABORT)) {
 		c->request = 0;
 	} else if (reg == CMR && (value & (CMR_TRANSMIT | CMR_SELF_RECEPTION)) && wire_of(c) != SOUND) {
 		c->request = value;
-		regs->dx = 0; // no command
+		regs->dx = 0; // the chip gets no command; the timer sends the frame later
 		hrtimer_start(&c->timer, ns_to_ktime(c->wire == SLOW ? c->frame_us * 1000ULL : step_ns), HRTIMER_MODE_REL);
 	}
 	return 0;
@@ -193,7 +193,7 @@ static int before_read(struct kretprobe_instance *instance, struct pt_regs *regs
 
 	reading->controller = controller_of((const void *)regs->di);
 	reading->reg = (unsigned int)regs->si;
-	return reading->controller && reading->reg < REGS ? 0 : 1; // 1: the return is not looked at
+	return reading->controller && reading->reg < REGS ? 0 : 1; // 1: after_read() is not called
 }
 
 static int after_read(struct kretprobe_instance *instance, struct pt_regs *regs)

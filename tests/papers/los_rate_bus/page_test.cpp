@@ -13,8 +13,8 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
-// Expects that the names of curves, in a wide sans-serif font, end within every drawing of a part of the
-// page.
+// Each figure is drawn twice, wide and narrow. Expects that the name of a curve ends inside both drawings,
+// with 0.63 of the font size per character, as in a wide sans-serif font.
 void expect_names_within(const std::string& html, const std::string& name) {
   const std::regex drawing("viewBox=\"0 0 ([0-9]+) [0-9]+\"");
   const std::regex label(

@@ -23,7 +23,8 @@ Settings filter(Algorithm algorithm, double sigma_0_deg) {
 const Settings kalman_1 = filter(Algorithm::kalman, 1), kalman_5 = filter(Algorithm::kalman, 5),
                h2_filter = filter(Algorithm::robust_h2, 1);
 
-// Paper: 14.4 / 15.6 / never; reference 14.7 / 16.2 / never.
+// Time to converge to 3 / 2 / 1 mrad [s]. Paper: 14.4 / 15.6 / never; reference simulation: 14.7 / 16.2 /
+// never.
 TEST(TransferAlignmentPaper, KalmanFilterToldOneDegreeIsSlow) {
   const auto runs = monte_carlo({kalman_1}, {}, run_count, first_seed).front();
   EXPECT_GT(convergence_time(runs, k3mrad), 13.8);
@@ -31,7 +32,8 @@ TEST(TransferAlignmentPaper, KalmanFilterToldOneDegreeIsSlow) {
   EXPECT_GT(convergence_time(runs, k1mrad), 18.0);
 }
 
-// Paper: 11.4 / 11.7 / 12.9; reference with the same, implementable alpha: 12.3 / 12.9 / 15.5.
+// Paper: 11.4 / 11.7 / 12.9 s; reference simulation with the same alpha, which can be implemented: 12.3 /
+// 12.9 / 15.5 s.
 TEST(TransferAlignmentPaper, H2IsFasterThanThatKalmanFilter) {
   const auto results = monte_carlo({h2_filter, kalman_1}, {}, run_count, first_seed);
   const auto &h2 = results[0], &kalman = results[1];
@@ -53,8 +55,8 @@ TEST(TransferAlignmentPaper, KalmanFilterToldTheTruthIsFasterThanH2) {
   EXPECT_GE(share_ahead(kalman, h2, 12), 0.88);
 }
 
-// P0 1 deg with fading memory equals H2. Reference 12.0 / 12.4 / 13.6 for P scaled by exp(2 a dt), a = 0.1
-// /s. Scaled by exp(a dt) it gives 13.1 / 13.9 / 16.5.
+// P0 1 deg with fading memory equals H2. Reference simulation: 12.0 / 12.4 / 13.6 s for P scaled by exp(2 a
+// dt), a = 0.1 /s; 13.1 / 13.9 / 16.5 s for P scaled by exp(a dt).
 TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
   Settings fading = kalman_1;
   fading.fading_per_s = 0.1;
@@ -64,7 +66,7 @@ TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
   EXPECT_NEAR(convergence_time(runs, k1mrad), 13.6, 0.8);
 }
 
-// With master noise. H2 with the true P0 (5 deg) diverges in some runs; it is recorded, not judged.
+// The master has noise. H2 with the true P0 (5 deg) diverges in some runs; its error is recorded, not judged.
 TEST(TransferAlignmentPaper, KalmanFilterConvergesWithMasterNoise) {
   Truth truth;
   truth.master_noise_sigma = 0.05;

@@ -69,7 +69,8 @@ class BarsOf {
   std::vector<Bar> bars_;
 };
 
-// The value of a quantity, which can be derived from others, when all stored quantities are 1.
+// The value of a quantity if all stored quantities are 1. Quantities that are derived from others may differ
+// from 1.
 double itself(const campaign::Variant& variant, const campaign::Answer& answer) {
   return run_at(variant, 0, 1).samples.value(0, *answer.quantity) / answer.quantity->unit.factor;
 }

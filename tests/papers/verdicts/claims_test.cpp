@@ -27,7 +27,8 @@ class LosClaims : public testing::Test {
   MadeUp made_up_{papers.at(2)};
 };
 
-// Within 10 % of the Kalman filter, to either side, in each window after the start-up.
+// The claim requires that in each window after the start-up the RMS is within 10 % of the Kalman filter's, to
+// either side.
 TEST_F(LosClaims, AsGoodAsTheKalmanFilter) {
   for (const auto& [variant, claim] :
        {std::pair{"switched", "switched_as_good"}, std::pair{"combined", "combined_as_good"}}) {
@@ -54,7 +55,8 @@ TEST_F(LosClaims, NoStartUpIsNeeded) {
   EXPECT_FALSE(made_up_.holds("no_start_up"));
 }
 
-// A smaller RMS than the best of three fixed bandwidths, before the manoeuvre and at its onset.
+// The claim requires a smaller RMS than each of three fixed bandwidths, before the manoeuvre and at its
+// onset.
 TEST_F(LosClaims, BetterThanAFixedBandwidthByRms) {
   for (const char* window : {"RMS 3-2", "RMS 1-0.5"}) rms("combined", window, 0.999);
   EXPECT_TRUE(made_up_.holds("better_by_rms"));
@@ -127,7 +129,7 @@ TEST_F(WindClaims, NoneIsLostOnlyIfNoVariantLostARun) {
   }
 }
 
-// Limits that no campaign contains, because they compare variants by figures defined for this purpose.
+// A campaign cannot contain these limits, because they compare two variants; the page judges them.
 TEST(InflightClaims, ThatAreBarsFailThePage) {
   MadeUp made_up(papers.at(1));
   const auto heading = [&](const char* campaign, const std::string& variant, const char* figure,

@@ -98,7 +98,7 @@ class MadeUp {
       }
       results.campaigns.push_back(std::move(flown));
     }
-    // Curves of single runs come from the files.
+    // The page reads the curves of single runs from the campaigns' files.
     for (const char* name : {"table2", "ssbl", "gps"})
       if (const Flown* flown = find(name)) store(*flown);
     // A limit of the in-flight paper that belongs to no campaign: the UKF's median is smaller than the EKF's.

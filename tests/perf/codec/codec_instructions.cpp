@@ -11,7 +11,7 @@ using perf_messages::FourSignals;
 using perf_messages::FourSignalsBig;
 
 extern "C" {
-// NOLINTBEGIN(bugprone-macro-parentheses): a type
+// NOLINTBEGIN(bugprone-macro-parentheses): the macro's argument is a type
 #define CANHIL_COUNTED(Message)                                                                    \
   [[gnu::noinline]] void unpack_##Message(Message& message, const std::uint8_t* bytes) {           \
     message = Message::unpack(std::span<const std::uint8_t, Message::size>(bytes, Message::size)); \

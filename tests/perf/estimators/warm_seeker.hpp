@@ -12,8 +12,8 @@ struct WarmSeeker {
   Measurement measurement;
 };
 
-/// `range` [m] is on either side of the crossing range of 1710 m; unequal noises in the planes require two
-/// gain sets.
+/// `range` [m] selects the side of the crossing range, 1710 m. Unequal noises in the planes require two gain
+/// sets.
 inline WarmSeeker warm_seeker(Algorithm algorithm, double range = 2000, bool equal = true) {
   EngagementSetup setup;
   setup.settings.algorithm = algorithm;

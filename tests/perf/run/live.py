@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""How late hil-bench transmits with the live view's page open, beside the same run without it.
+"""Compares how late hil-bench transmits with and without an open page of the live view.
 
   live.py HIL_BENCH [ROUNDS [SCENARIO]]
 
-Runs with and without a client of the page take turns, in real time and, where that is permitted, at a real-time priority. Lateness:
-of every frame, from its deadline to its being handed to the bus. Prints p99 and max of both sides, their ratios, how many frames
-were counted, and how many the view missed; judges nothing, and fails where something did not run.
+Runs with and without a client of the page take turns, in real time and, if permitted, with real-time
+priority. The lateness of a frame is the time from its deadline until the bench writes it to the bus. Prints
+p99 and maximum of both sides, their ratios, the number of frames, and the number of frames that the view
+missed. There is no verdict; fails if a program did not run.
 """
 
 import collections

@@ -16,8 +16,8 @@ SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, MONITOR = "sensor and truth", "pack", "wi
 LOOP = "device and run loop"
 STAGES = (SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, LOOP, MONITOR)
 GOALS = (("pack + wire + E2E + unpack", (PACK, WIRE, UNPACK), 10), (SENSOR, (SENSOR,), 25))
-# The stage of a source file: that of the first entry whose text occurs in the file's path. None: pack or
-# unpack, depending on the function that contains the line.
+# The first entry whose text occurs in the path of a source file gives its stage. None: the function that
+# contains the line decides between pack and unpack.
 FILES = (
     ("bench/world/", SENSOR), ("bench/nodes/", SENSOR),
     ("messages/canhil.hpp", None), ("dbc/wire/bits", None), ("dbc/wire/quantise", None), ("dbc/wire/message.hpp", None),
@@ -31,17 +31,17 @@ UNPACKS = {"unpack", "load_le", "load_be", "unsigned_bits", "signed_bits", "phys
 
 
 def here(file):
-    """The file in this tree and build; a compiler cache may return an object that names another tree's
-    files."""
+    """The same file in this tree and build: an object from a compiler cache may name the files of another
+    tree."""
     if "/build/" not in file:
         return pathlib.Path(file)
-    below = file.split("/build/")[1].split("/", 1)[1]  # of the folder of the build
+    below = file.split("/build/")[1].split("/", 1)[1]  # path below the build folder
     return pathlib.Path(sys.argv[1]) / below
 
 
 @functools.cache
 def definitions(file):
-    """[(line, function)] of a header of the codec."""
+    """[(line, function)] of the functions that a header of the codec defines."""
     found = []
     for number, text in enumerate(here(file).read_text().splitlines(), 1):
         match = re.search(r"\b(\w+)\(", text)
@@ -51,7 +51,7 @@ def definitions(file):
 
 
 def stage_of(file, line):
-    """The stage of a place in the project's code; None: the place is outside the project."""
+    """The stage of a line of the project; None: the file is not part of the project."""
     for part, stage in FILES:
         if part in file:
             if stage:

@@ -34,8 +34,8 @@ namespace {
 constexpr std::size_t block = 200;  // rounds per block
 constexpr std::int64_t patience_ns = 1'000'000'000;
 constexpr int most_unanswered = 10;
-constexpr std::int64_t breath = 8;  // rests for a part of the time it worked, as Linux stops real-time
-                                    // processes that want a whole CPU
+constexpr std::int64_t breath = 8;  // pauses for 1/8 of the time that it worked, because Linux stops
+                                    // real-time processes that use a whole CPU
 
 struct Estimator {
   std::string name;
@@ -181,7 +181,7 @@ void alternate(const std::vector<Round>& rounds, Side& device, Side& bare) {
 
 Result<void> fly(const std::vector<Round>& rounds, const std::vector<std::string>& buses, Side& device,
                  Side& bare) {
-  // Discards frames of earlier processes: a new process must not receive them.
+  // Discards the frames of earlier processes, so that a new process does not receive them.
   device.settle();
   bare.settle();
   const pid_t child = ::fork();

@@ -167,8 +167,8 @@ TEST(Export, IsATableOfWhatTheRunsTold) {
   expect_done(ended);
   EXPECT_THAT(ended.out,
               testing::StartsWith("variant,run,t_s,quantity,unit,value\nKF master_ins.latency_ms=0,0,"));
-  // 30 runs of four variants with 12 quantities per update: two variants have 29 updates, and two, whose
-  // updates are 150 ms late, have 28.
+  // A header, then 30 runs of four variants with 14 quantities per update. Two variants have 29 updates; the
+  // two others, whose master INS is 150 ms late, have 28.
   EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1 + 30 * (2 * 29 + 2 * 28) * 14);
   EXPECT_THAT(ended.out, testing::ContainsRegex(
                              "\nKF master_ins.latency_ms=0,29,[0-9.]+,attitude.heading,rad,-?[0-9.e-]+\n"));

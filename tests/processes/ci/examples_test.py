@@ -1,8 +1,9 @@
-"""The pipelines of docs/examples/ci, run here as their systems run them: usage examples_test.py BUILD SOURCE.
+"""Runs the pipelines of docs/examples/ci as their CI systems would: examples_test.py BUILD SOURCE.
 
-Each step's shell lines run in a folder that looks like a fresh checkout, with the finished build in the place of its own. Stand-ins:
-apt-get, cmake and curl (a folder takes the place of GitLab's artifacts), tests/setup/install.sh, and tests/vcan/run.sh, which flies on
-the embedded bus, as tests/vcan has tests of its own. What the systems do by themselves (caches, artifacts) is done between the steps.
+The shell lines of each step run in a folder that looks like a fresh checkout, but contains the finished
+build. Five programs are replaced: apt-get, cmake, curl (a folder replaces GitLab's artifacts),
+tests/setup/install.sh, and tests/vcan/run.sh (its replacement uses the embedded bus, because tests/vcan has
+tests of its own). Between the steps, this test does what the CI systems do themselves (caches, artifacts).
 """
 import json
 import os
@@ -66,7 +67,7 @@ class Pipeline(unittest.TestCase):
             os.chmod(path, 0o755)
 
     def run_steps(self, steps):
-        """The output, and the exit code of the step that ended the pipeline."""
+        """(output, exit code) of the pipeline, which ends at the first step that fails."""
         environment = {**os.environ, "PATH": f"{self.here}/bin:/usr/bin:/bin", "CI_API_V4_URL": "x", "CI_PROJECT_ID": "1",
                        "CI_DEFAULT_BRANCH": "main", "CI_JOB_TOKEN": "x"}
         output = ""
@@ -79,8 +80,8 @@ class Pipeline(unittest.TestCase):
         return output, 0
 
     def keep(self, change=None):
-        """Stores the reports as the CI system keeps them after a run of main, where the next run of either
-        system finds them."""
+        """Stores the reports as the CI systems do after a run of main: in the folders where their next runs
+        look."""
         for folder in ("kept", "last_good"):
             os.makedirs(f"{self.here}/{folder}", exist_ok=True)
             for bus in ("local", "vcan"):

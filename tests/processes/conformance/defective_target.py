@@ -1,4 +1,7 @@
-"""The kit's example with one defect of the protocol: defective_target.py KIT_FOLDER DEFECT --bus BUS. DEFECT none: no defect."""
+"""The kit's example with one defect of the protocol, or with none if DEFECT is `none`.
+
+defective_target.py KIT_FOLDER DEFECT --bus BUS
+"""
 
 import itertools
 import sys
@@ -9,7 +12,7 @@ import los_rate  # noqa: E402
 
 
 class Sound(canhil_target.Target):
-    """The base of all defects."""
+    """The target without a defect; each defect is a subclass."""
 
 
 class SlowBeat(Sound):
@@ -22,7 +25,7 @@ class SlowBeat(Sound):
 
 
 class AnyContract(Sound):
-    """Obeys without checking the hash of the contract."""
+    """Obeys commands without checking the hash of the DBC in them."""
 
     def on_command(self, command):
         super().on_command({**command, "dbc_hash": canhil_target.DBC_HASH24})
@@ -72,7 +75,7 @@ class DeafToRepetition(Sound):
 
 
 class EarlyAnswers(Sound):
-    """Answers as soon as it is ready."""
+    """Answers samples in the state ready, before the start command."""
 
     def enter(self, state):
         super().enter(state)
@@ -131,7 +134,7 @@ class Once(Sound):
 
 
 class NewStateInFlight(Sound):
-    """Takes an initial state while it runs."""
+    """Ignores an initial state while it runs, but does not report the error."""
 
     def dispatch(self, group, place, counter, data, signals):
         if group == "TargetInit" and self.state == "running":
@@ -140,7 +143,7 @@ class NewStateInFlight(Sound):
 
 
 class Unforgetting(Sound):
-    """A reset keeps the counts."""
+    """A reset does not clear the counts of losses."""
 
     def forget(self):
         kept = getattr(self, "losses", None)
@@ -149,7 +152,7 @@ class Unforgetting(Sound):
 
 
 class NoCounters(Sound):
-    """Sends no TargetCounters but every second."""
+    """Sends TargetCounters only every half second, not with each heartbeat."""
 
     def send_group(self, group, values):
         if group != "TargetCounters" or self.now_us % 500_000 == 0:
@@ -157,7 +160,7 @@ class NoCounters(Sound):
 
 
 class EarlyStepDone(Sound):
-    """Answers after the step is closed."""
+    """Sends the answers of a step after StepDone."""
 
     def __init__(self, estimator, send):
         self.late = []
@@ -175,7 +178,7 @@ class EarlyStepDone(Sound):
 
 
 class WrongAnswerCrc(Sound):
-    """The CRC of one message of the answer leaves the data id out."""
+    """Computes the CRC of one message of the answer with the data id 0."""
 
     def __init__(self, estimator, send):
         sigma = canhil_target.GROUPS["LosRate"][1][1]
@@ -186,7 +189,7 @@ class WrongAnswerCrc(Sound):
 
 
 class StandingCounter(Sound):
-    """The counter of one message stays where it is."""
+    """The counter of one message never changes."""
 
     def send_group(self, group, values):
         if group == "TargetCounters":
@@ -223,7 +226,7 @@ class OwnCause(Sound):
 
 
 class Chance(Sound):
-    """The answers depend on more than the frames."""
+    """The answers to the same frames differ from flight to flight."""
     flights = itertools.count()
 
     def start(self):
@@ -244,7 +247,7 @@ class NoWrap(Sound):
 
 
 class AnyCrc(Sound):
-    """Looks at no CRC."""
+    """Does not check the CRC of frames."""
 
     def receive(self, identifier, data):
         if identifier in canhil_target.MESSAGES and len(data) == 8:
@@ -253,7 +256,7 @@ class AnyCrc(Sound):
 
 
 class AnySize(Sound):
-    """Takes a frame of any size."""
+    """Accepts a frame that is one byte too short."""
 
     def receive(self, identifier, data):
         if identifier in canhil_target.MESSAGES and len(data) == 7 and data[0] == canhil_target.crc(
@@ -273,7 +276,7 @@ class Repetitions(Sound):
 
 
 class NoLosses(Sound):
-    """Does not count what is missing."""
+    """Does not count lost frames."""
 
     def send_group(self, group, values):
         super().send_group(group, {**values, "frames_lost": 0} if group == "TargetCounters" else values)
@@ -292,14 +295,14 @@ class HalfSamples(Sound):
 
 
 class EightBits(Sound):
-    """Its counts begin anew after 255."""
+    """Reports its counts modulo 256."""
 
     def send_group(self, group, values):
         super().send_group(group, {name: n % 256 for name, n in values.items()} if group == "TargetCounters" else values)
 
 
 class Parrot(Sound):
-    """Reads back the requested value, not the value in force."""
+    """Acknowledges a rejected parameter with the requested value instead of the value in force."""
 
     def send_group(self, group, values):
         if group == "ParamAck" and values["status"] == "out_of_range":
@@ -321,7 +324,7 @@ class AnyParameter(Sound):
 
 
 class KeptParameters(Sound):
-    """A reset keeps the parameters."""
+    """A reset does not restore the default parameters."""
 
     def forget(self):
         kept = getattr(self, "parameters", None)

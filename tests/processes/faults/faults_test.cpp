@@ -137,7 +137,7 @@ every = 20
   const std::string least = out + "/" + cell["replay"].get<std::string>();
   EXPECT_GT(target_frames(out + "/violation-1.log").size(), 1000U);
 
-  // The line states what the report contains.
+  // `faults merge` prints the command that flies the reduced scenario of the report.
   const Ended told = hil_bench(fmt::format("faults merge {}/faults.jsonl", out));
   EXPECT_THAT(told.out, HasSubstr(fmt::format("hil-bench run {} --bus in-process", least)));
   const std::string log = scratch("again.log");
@@ -224,7 +224,8 @@ std::string recommended() {
                      scenario("los_quick"), scenario("wind_recommended"));
 }
 
-// A fault that is fixed must be removed from the file and from docs/fault-matrix.md.
+// believed.toml lists known faults, each of which makes one estimator violate the check `honest`. A fault
+// that no longer does must be removed from that file and from docs/fault-matrix.md.
 TEST(Faults, WhatIsKnownToBeBelievedIsEachOfOneEstimator) {
   const Ended ended =
       hil_bench(fmt::format("faults {} --set {}/bench/fault_matrix/believed.toml --out {} --json -",

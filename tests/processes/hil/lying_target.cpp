@@ -22,7 +22,7 @@ namespace {
 using namespace canhil;
 using namespace canhil::messages;
 
-// Changes a frame, or returns that the frame is not sent.
+// Changes a frame that is to be sent. Returns false if the frame must not be sent.
 using Lie = std::function<bool(Frame&)>;
 
 // If the frame carries this message, replaces its values and keeps its counter.

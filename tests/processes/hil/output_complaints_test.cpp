@@ -14,8 +14,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// A run in virtual time, where timing is not measured; each test changes its report to that of other
-// circumstances.
+// A run in virtual time, where timing is not measured. Each test changes its report, as if the run had ended
+// differently.
 class OutputComplaints : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -25,7 +25,7 @@ class OutputComplaints : public testing::Test {
     of_flown_ = read_json(file);
   }
 
-  // The first check of the kind ended with `outcome`, and so did the run.
+  // Sets the outcome of the first check of this kind, and the verdict of the run, to `outcome`.
   void end_with(const std::string& kind, const std::string& outcome) {
     for (auto& check : report_["checks"]) {
       if (check["kind"] != kind) continue;
@@ -67,7 +67,8 @@ TEST_F(OutputComplaints, NameAnOutputThatWasNotMeasured) {
   EXPECT_THAT(complaints(), ElementsAre(HasSubstr("error attitude.heading")));
 }
 
-// Half of the limits: 5 ms, 50 % of 10 ms, and 0.5 s.
+// A late host excuses a failed timing check only if its lateness exceeds half of the check's limit. The
+// limits are 5 ms, 50 % of 10 ms, and 0.5 s.
 TEST_F(OutputComplaints, ExcuseATimingThatFailedByALateHostAlone) {
   for (const auto& [kind, half_bar_s] :
        {std::pair{"latency", 2.5e-3}, {"output_period", 2.5e-3}, {"heartbeat", 0.25}}) {
@@ -98,7 +99,7 @@ TEST_F(OutputComplaints, NameAnExitCodeAnEndAndTooFewChecks) {
   EXPECT_THAT(complaints(), ElementsAre("4 checks of outputs, expected at least 5"));
 }
 
-// For example: a limit that no estimator meets.
+// A run that fails, here because of a limit that no estimator meets, has complaints.
 TEST_F(OutputComplaints, OfARunThatFailed) {
   const std::string strict = scratch("strict.toml"), file = scratch("strict.json");
   std::string text = read(scenario("transfer_alignment_quick"));

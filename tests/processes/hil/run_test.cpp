@@ -146,8 +146,7 @@ nlohmann::json with_bounds(const std::string& options) {
   return page;
 }
 
-/// A scenario with an additional line after the header of a table, and a check of the period of a message at
-/// the end.
+/// The scenario with an output interval of 60 ms, and with a check of the period of `message`.
 std::string with_interval(const std::string& name, const std::string& message, int within_percent) {
   constexpr std::string_view table = "[target.parameters]\n";
   std::string text = read(scenario(name));

@@ -161,7 +161,7 @@ class Browser(unittest.TestCase):
         folder = pathlib.Path(self.keep)
         faults = pathlib.Path(self.folder.name, "faults.toml")
         faults.write_text(PICTURED_FAULTS)
-        (pathlib.Path(self.folder.name) / PICTURED).write_text((FLIGHTS / PICTURED).read_text())  # the picture shows no path of this machine
+        (pathlib.Path(self.folder.name) / PICTURED).write_text((FLIGHTS / PICTURED).read_text())  # relative, because the picture shows the path
         with Bench(HIL_BENCH, "run", PICTURED, "--faults", faults, "--bus", "local:?bitrate=500000", folder=self.folder.name) as bench:
             set_size(self.browser, DESKTOP)
             self.browser.get(bench.url)

@@ -1,4 +1,4 @@
-"""hil-bench with a live view, and a client of its page made of nothing but sockets."""
+"""Starts hil-bench with a live view, and implements HTTP and WebSocket clients with plain sockets."""
 
 import base64
 import json
@@ -19,7 +19,7 @@ PATIENCE_S = 60
 
 
 class Bench:
-    """hil-bench with these arguments and --live 0, in a folder of its own or this one; ends with the block."""
+    """hil-bench with these arguments and --live 0, in `folder` or a new one; killed at the block's end."""
 
     def __init__(self, program, *arguments, live=("--live", "0"), hurried=True, folder=None):
         self.hurried = hurried
@@ -36,8 +36,8 @@ class Bench:
         return self
 
     def hurry(self):
-        """In real time the view's thread has the policy SCHED_IDLE, so on a busy machine it would never run: sets the normal
-        policy."""
+        """Gives the view's thread the normal policy. In real time it has SCHED_IDLE, and would never run on a
+        busy host."""
         while self.hurried and self.process.poll() is None:
             for thread in os.listdir(f"/proc/{self.process.pid}/task"):
                 try:
@@ -105,7 +105,7 @@ def get(port, target="/", method="GET", **headers):
 
 
 class WebSocket:
-    """Error: ConnectionError, with the status of the refusal."""
+    """A WebSocket client. Raises ConnectionError with the HTTP status if the bench refuses the connection."""
 
     def __init__(self, port, target="/live", **headers):
         self.socket = connect(port)

@@ -100,12 +100,12 @@ class Refusals(unittest.TestCase):
             self.assertEqual(get(bench.port)[0], 0)
             for one in first[:4]:
                 one.close()
-            for _ in range(100):  # the bench frees the places with a delay
+            for _ in range(100):  # the bench notices with a delay that they were closed
                 if get(bench.port)[0] == 200:
                     break
                 time.sleep(0.05)
             self.assertEqual(get(bench.port)[0], 200)
-            silent = [connect(bench.port) for _ in range(MOST)]  # a client that sends nothing loses its place
+            silent = [connect(bench.port) for _ in range(MOST)]  # the bench disconnects silent clients
             for one in silent:
                 one.settimeout(30)
                 self.assertEqual(one.recv(1), b"")
@@ -113,7 +113,7 @@ class Refusals(unittest.TestCase):
 
 
 def without_host(report):
-    """A report without what differs from run to run on any host."""
+    """The report without the entries that differ from run to run."""
     for key in ("wall_s", "timing", "target_timing_us"):
         report.pop(key, None)
     report["provenance"].pop("date")
@@ -130,7 +130,7 @@ class Run(unittest.TestCase):
             self.assertEqual(alone.returncode, code)
             frames = [[line.split()[2:] for line in (folder / name).read_text().splitlines()] for name in ("live.log", "alone.log")]
             self.assertGreater(len(frames[0]), 1000)
-            self.assertEqual(frames[0], frames[1])  # excludes the stamps, which are those of the host
+            self.assertEqual(frames[0], frames[1])  # without the stamps, which come from the host's clock
             live, without = (without_host(json.loads((folder / name).read_text())) for name in ("live.json", "alone.json"))
             bus = live["provenance"].pop("bus"), without["provenance"].pop("bus")  # a private bus is named after its process
             live["provenance"].pop("adapters"), without["provenance"].pop("adapters")  # these contain the bus name too

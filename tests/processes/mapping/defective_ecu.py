@@ -9,14 +9,14 @@ from canhil_target import open_bus
 
 
 class WrongSign(own_ecu.Ecu):
-    """The pitch rate, as of a sensor that is mounted the other way round."""
+    """Uses the pitch rate with the wrong sign, as of a sensor that is mounted the wrong way round."""
 
     def sample(self, rates, force):
         super().sample((rates[0], -rates[1], rates[2]), force)
 
 
 class Stale(own_ecu.Ecu):
-    """Answers with the attitude of 50 ms before."""
+    """Answers with the attitude of 50 ms ago."""
 
     def __init__(self):
         super().__init__()
@@ -31,7 +31,7 @@ class Stale(own_ecu.Ecu):
 
 
 class WrongChecksum(own_ecu.Ecu):
-    """One in a hundred."""
+    """Sends every hundredth answer with a wrong checksum."""
 
     def __init__(self):
         super().__init__()

@@ -88,7 +88,7 @@ TEST_P(DefectiveEcu, IsCaughtByTheCheckThatItIsFor) {
   if (!failed.empty() || std::string(GetParam().name) != "slow") {
     EXPECT_EQ(ended.code, 1) << ended.err;
     EXPECT_THAT(failed, testing::Contains(HasSubstr(GetParam().caught_by))) << ended.out;
-  } else {  // a host that is late itself cannot judge this
+  } else {  // the host was late, so the bench could not judge the latency of the slow ECU
     EXPECT_THAT(checks(seen, "not measured"), testing::Contains(HasSubstr(GetParam().caught_by)))
         << ended.out;
     EXPECT_THAT(ended.out, HasSubstr("this host kept the bench itself")) << ended.out;

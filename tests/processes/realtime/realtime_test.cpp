@@ -76,8 +76,8 @@ TEST(Realtime, IsNotInForceUnlessAskedFor) {
   EXPECT_EQ(process["locked_kib"], 0);
 }
 
-// The state of the started target in /proc in the middle of a run, and the number of page faults of the bench
-// meanwhile.
+// Scheduling and locked memory of the started target in the middle of a run, and the number of page faults of
+// the bench from then on.
 std::string started_target(const std::string& options) {
   const Ended seen = shell(fmt::format(
       "faults() {{ cut -d' ' -f10 /proc/$1/stat; }}; "

@@ -196,7 +196,7 @@ TEST(PythonCan, WritesWhatWeRead) {
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(frames_in_words(theirs), frames_in_words(all_kinds())) << ending;
   }
-  // Through BLF, which python-can reads and writes.
+  // Converts to BLF and back with python-can.
   ASSERT_EQ(others(fmt::format("copy {} {}", all_kinds(), scratch("a.blf"))).code, 0);
   ASSERT_EQ(others(fmt::format("copy {} {}", scratch("a.blf"), scratch("of_blf.log"))).code, 0);
   EXPECT_EQ(frames_in_words(scratch("of_blf.log")), frames_in_words(all_kinds()));

@@ -10,8 +10,8 @@ from pathlib import Path
 CODE = ("dbc", "target", "bench")
 SKIPPED = {".git", "build", "runs", "__pycache__"}
 
-# The longest prefix applies: a file under KEY may include project headers under these prefixes. An entry that ends in .hpp is that
-# file only.
+# A file under KEY may include project headers under these prefixes; the longest KEY applies. An entry that
+# ends in .hpp permits only that header.
 ESTIMATOR_SHARED = ("target/estimators/strapdown/", "target/estimators/filtering/")
 GENERATED = "messages/"  # headers that dbcgen generates from dbc/: code that may include dbc/ may include them
 DEVICE = "target/device/device.hpp"  # the bench may hold a Device, through this header
@@ -66,7 +66,7 @@ def check(root):
 
 
 def without_comments(text, keep_strings=True):
-    """The text with comments (and strings) blanked, lines kept."""
+    """The text with spaces in place of comments (and strings); line breaks stay."""
     def blank(match):
         if keep_strings and match[0].startswith('"'):
             return match[0]
@@ -75,7 +75,7 @@ def without_comments(text, keep_strings=True):
 
 
 def includes(text):
-    """[(line, '<' or '"' or '', name)]; '' where the name is a macro."""
+    """[(line, '<' or '"', name)] of each include; '' in place of '<' if the name is a macro."""
     clean = without_comments(text)
     found = []
     for directive in INCLUDE.finditer(clean):
@@ -93,8 +93,8 @@ def is_project(name):
 
 
 def part(name):
-    """The folder of the layout that contains a file: dbc/wire, bench/world, target/estimators/wind. Its subfolders belong to
-    it."""
+    """The part of the project that contains a file: dbc/wire, bench/world, target/estimators/wind, each with
+    its subfolders."""
     depth = 3 if name.startswith("target/estimators/") else 2
     return "/".join(name.split("/")[:-1][:depth])
 
@@ -183,7 +183,7 @@ def quantity_breaches(sources):
 
 
 def estimator_breaches(sources):
-    """Only its own folder and the registry name an estimator or a message of its answers; see KNOW_ESTIMATORS."""
+    """Only the code in KNOW_ESTIMATORS names an estimator or a message of its answers."""
     own = {n: without_comments(t) for n, t in sources.items() if n.startswith("bench/estimators/")}
     estimators = {n.split("/")[2] for n in own if n.count("/") == 3}
     groups = re.findall(r"\b(?:Answer|Navigation)Group<([^<>;]*)>", " ".join(own.values()))
@@ -201,7 +201,7 @@ def estimator_breaches(sources):
 
 
 def node_breaches(sources, graph):
-    """Only the registry includes a node's header or names its settings; other nodes must not either."""
+    """Only the node itself and the registry include a node's header; only bench/nodes names its settings."""
     headers = {n for n, t in sources.items() if n.startswith("bench/nodes/") and re.search(r"\bextern const struct Kind \w+;", t)}
     settings = {s for n in headers for s in re.findall(r"\bstruct (\w+Settings) \{", sources[n])}
     named = re.compile(rf"\b({'|'.join(sorted(settings))})\b") if settings else None
@@ -241,7 +241,7 @@ def machine_path_breaches(texts):
                 yield f"{name}:{number}: '{match[0]}' is a path of one machine, expected a relative one"
 
 
-# The page that names the test that proves each promise.
+# The page of the target's duties; it names a test for each duty.
 PROVEN = "docs/duty.md"
 NAMED_TEST = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
 TEST = re.compile(r"\bTEST(?:_[FP])?\((\w+),\s*(\w+)\)")
@@ -255,7 +255,8 @@ def named_test_breaches(texts):
                 yield f"{PROVEN}:{number}: there is no test {match[1]}.{match[2]}, expected one"
 
 
-# What the DBC alone may say. An id counts in hexadecimal anywhere, in decimal only where the line is about an id.
+# Ids, scales and cycle times may be written only in the DBC. A hexadecimal number is compared with the ids
+# on any line, a decimal number only on a line about an id.
 BUILT_FROM = "dbc/canhil.dbc"
 HEX = re.compile(r"\b0[xX]([0-9a-fA-F']+)[uUlL]*\b")
 ABOUT_ID = re.compile(r"(?:\b\w*_?id\w*\s*(?:==|!=|=|\{|\()\s*|\bcase\s+)(\d+)[uUlL]*\b", re.I)

@@ -48,7 +48,7 @@ TEST(Merge, GivesTheSameBytesForAnyDivisionAndOrder) {
     ASSERT_TRUE(merged) << merged.error().message;
     EXPECT_EQ(content(b), content(a));
   }
-  ASSERT_TRUE(merge(a, Files{a, even}));  // onto itself
+  ASSERT_TRUE(merge(a, Files{a, even}));  // the output is also one of the inputs
   EXPECT_EQ(content(a), content(b));
   EXPECT_EQ(Store::open(a)->load(1)->at(2).samples.value(0, quantities::attitude_heading), 3e-3);
 }

@@ -35,7 +35,7 @@ inline void add(Samples& samples, std::int64_t t_us, const std::map<const Quanti
   samples.add(t_us, values);
 }
 
-/// The layout of a transfer alignment or, if it does not contain a quantity, the first layout that does.
+/// The layout of transfer alignment if it contains the quantity, otherwise the first layout that contains it.
 inline const quantities::Layout& layout_with(const Quantity& quantity) {
   if (quantities::has(estimators::transfer_alignment.layout, quantity))
     return estimators::transfer_alignment.layout;

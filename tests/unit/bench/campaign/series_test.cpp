@@ -59,7 +59,7 @@ TEST(Series, BytesThatAreNoSamplesAreRefused) {
   bytes.pop_back();
   EXPECT_EQ(decode(bytes, estimators::wind.layout).error().message, "has 71 bytes of samples of 72 each");
   bytes = encode(samples);
-  bytes[7] = 0x7F;  // not a number, or nearly infinite
+  bytes[7] = 0x7F;  // with the next byte, the time of the sample becomes infinite
   bytes[6] = 0xF0;
   EXPECT_EQ(decode(bytes, estimators::wind.layout).error().message, "has a sample at inf s");
 }

@@ -1,4 +1,4 @@
-// Checks of how the target used position fixes, and which gaps it bridged.
+// Checks of how the target used position fixes, and of the gaps that it bridged.
 
 #include <gmock/gmock.h>
 

@@ -51,7 +51,7 @@ TEST_F(ImuLimits, EachErrorIsRefusedWhereItsSixSigmaLeaveTheRangeAndNotBefore) {
         EXPECT_THAT(refused(imu), HasSubstr(key));
       }
     };
-    const Vector3 east = Vector3::UnitY();  // no rotation and no acceleration there
+    const Vector3 east = Vector3::UnitY();  // on this axis the flight has neither rotation nor acceleration
     world::ImuErrorModel imu;
     imu.gyro.bias.value = -share * widest_rad / dt * east;
     expect(imu, "'slave_imu.gyro_bias_degph'");
@@ -126,7 +126,7 @@ TEST(Nodes, SendInAnOrderThatNeverChanges) {
   std::vector<std::string_view> senders;
   for (const auto& node : sensors) {
     nodes::Transmission out;
-    while (out.frames().empty()) node->transmit(out);  // until the first sample that is not lost on purpose
+    while (out.frames().empty()) node->transmit(out);  // skips samples that the node loses on purpose
     senders.push_back(messages::find_message(out.frames().front().id)->sender);
   }
   EXPECT_THAT(senders,

@@ -72,7 +72,8 @@ TEST(InFlight, AlignsFromNinetyDegreesOff) {
             0);
 }
 
-// On the S path the vehicle moves about 60 m east within 30 s, so it crosses the line in the first seconds.
+// On the S path the vehicle moves about 60 m east within 30 s. If it starts just west of 180 deg, it crosses
+// the date line in the first seconds.
 TEST(InFlight, GoesOnAcrossTheDateLineAsAnywhereElse) {
   for (const std::string aiding : {"0", "1"}) {  // ssbl, gps
     const auto at = [&](const std::string& longitude_deg) {

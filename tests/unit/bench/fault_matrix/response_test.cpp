@@ -131,8 +131,8 @@ FaultText fault(const std::string& kind, const std::string& from_s, const std::s
 }
 
 TEST(Minimise, LeavesTheFaultTheWindowAndTheFlightThatAreNeeded) {
-  // The check is violated only if `changed` is active at 5.20 s, affects at least each eighth frame, and the
-  // flight lasts 6.4 s.
+  // The violation needs a flight of at least 6.4 s and the fault `changed`, which must be active at 5.20 s
+  // and affect at least every eighth frame.
   const Shows shows = [](const std::vector<FaultText>& faults, std::int64_t flown_us) {
     if (flown_us != 0 && flown_us < 6'400'000) return false;
     return std::ranges::any_of(faults, [](const FaultText& one) {

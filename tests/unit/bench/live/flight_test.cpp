@@ -18,8 +18,7 @@ scenario::Scenario scenario(const std::string& name) {
   return std::move(*read);
 }
 
-// Observes in the flight's own thread: it processes each frame, and updates the shown flight each half
-// second.
+// Observes in the thread of the flight: processes each frame, and updates the shown flight every half second.
 class LooksOn final : public drive::Onlooker {
  public:
   explicit LooksOn(Flight& flight) : flight_(flight) {}

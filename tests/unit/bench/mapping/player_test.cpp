@@ -199,7 +199,8 @@ TEST(Conversation, FindsTheCauseByWhatIsRepeated) {
     dbc::put_raw_bits(*hear.echo->repeated, repeated, {frame.data.data(), frame.size});
     return cause_of(flown.conversation, hear, frame);
   };
-  // Four bits of the count: the newest with 3 is the 36th (35), 35 mod 16 = 3.
+  // An answer repeats the lowest four bits of the sample count. The newest count with the bits 3 is 35 (35
+  // mod 16 = 3), that of the 36th sample.
   ASSERT_NE(answer(3), nullptr);
   EXPECT_EQ(answer(3)->valid_us, 36 * 20'000);
   EXPECT_EQ(answer(0)->valid_us, 49 * 20'000) << "48 mod 16";

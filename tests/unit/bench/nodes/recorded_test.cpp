@@ -138,7 +138,7 @@ TEST(RecordedGps, TakesItsSignalsByNameAndWrapsAngles) {
   EXPECT_EQ(from_frame<GpsTime>(frames[2]).time_of_validity_us, 500'000U);
 }
 
-// The table of every kind of node can be read from columns of its signals.
+// For every kind of node, recorded samples have a column for each signal of its table.
 TEST(Recorded, EveryKindOfNodeHasColumns) {
   for (const Kind* kind : all()) {
     const auto columns = columns_of(kind->table);

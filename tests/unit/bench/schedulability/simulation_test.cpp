@@ -113,9 +113,9 @@ TEST(FifoAnalysis, HasNoBoundOnAnOverloadedBus) {
     EXPECT_FALSE(response.response_ns);
 }
 
-// By hand: node x queues 1 and 3, node y queues 2 and 4; each frame takes 135 us. In the worst case, 1 is
-// queued behind 3, 4 is on the wire, and 2 wins against 3; the same holds for 3. In the worst case, 2 is
-// queued behind 4, no frame blocks, and 1 and 3 win against 4.
+// Computed by hand; each frame takes 135 us. Node x queues messages 1 and 3, node y queues 2 and 4. In the
+// worst case of 1 or 3, the other one is ahead in the queue, 4 is on the wire, and 2 wins against 3. In the
+// worst case of 2 or 4, the other one is ahead in the queue, no frame blocks, and 1 and 3 win against 4.
 TEST(FifoAnalysis, OfFourMessagesInTwoNodes) {
   const auto stream = [](std::uint32_t id, const char* sender) {
     return Stream{

@@ -70,8 +70,8 @@ RC_GTEST_PROP(RecordedPath, PassesThroughItsSamplesWithTheRatesOfItsCurve, ()) {
     RC_ASSERT(angle_between(truth.C_bn, states[i].C_bn) < 1e-14 * 100);
     RC_ASSERT(displacement_n(truth.position, *states[i].position).norm() < 12 * bend + 1e-6);
   }
-  // The error of central differences with steps of e is e^2 times a third derivative. That of a spline jumps
-  // by as much as its second derivative changes from one sample to the next.
+  // The error of central differences with steps of e is e^2 times a third derivative. The third derivative of
+  // a spline jumps by as much as its second derivative changes from one sample to the next.
   constexpr double e = 1e-5;
   for (double t = 0.3; t < 11; t += 0.777) {
     const Movement before = movement(again.motion, t - e), now = movement(again.motion, t),

@@ -1,4 +1,4 @@
-"""Random frames of any DBC files: canhil and canmatrix decode the same values from them and encode the same bytes.
+"""Checks that canhil and canmatrix decode the same values from random frames, and encode the same bytes.
 
 usage: frames_against_canmatrix.py DECODE_FRAMES FRAMES FILE.dbc...
 FRAMES is the total number of frames for the messages of all files. One half are random bytes, which are decoded. The other half are encoded by canmatrix
@@ -19,7 +19,7 @@ import sys
 logging.disable(logging.CRITICAL)
 import canmatrix.formats  # noqa: E402
 
-LARGEST_EXACT = 1 << 48  # up to about this raw value, doubles are exact with a scale and an offset
+LARGEST_EXACT = 1 << 48  # up to about this raw value, doubles with scale and offset are exact
 
 counts = collections.Counter()
 disagreements = {}
@@ -42,7 +42,7 @@ def raw_limits(signal):
 
 
 def random_raw(generator, signal):
-    """None: no raw value is allowed."""
+    """A random raw value within the limits; None: no value is allowed."""
     if signal.is_float:
         low, high = (float(b) for b in (signal.min, signal.max))
         value = (generator.uniform(max(low, -1e30), min(high, 1e30)) - float(signal.offset)) / float(signal.factor)
@@ -52,7 +52,7 @@ def random_raw(generator, signal):
 
 
 def encoded_by_canmatrix(generator, message):
-    """Bytes of a frame with random values, or None where canmatrix cannot tell what belongs to the frame."""
+    """Bytes of a frame with random values; None: canmatrix cannot tell which signals are in it."""
     multiplexors = {s.name: random_raw(generator, s) for s in message.signals if s.is_multiplexer}
     for name in multiplexors:  # mostly values that select a signal
         asked = [v for s in message.signals if s.muxer_for_signal in (name, None)
@@ -90,7 +90,7 @@ def compare_values(where, line, ours, theirs):
 
 
 def frames_of(generator, message, number):
-    """(data, whether canmatrix encoded it)"""
+    """(data, whether canmatrix encoded it) of `number` random frames."""
     for i in range(number):
         data = None
         if i % 2:
@@ -137,7 +137,7 @@ def compare_file(decoder, file, matrix, per_message):
 
 
 def matrix_of(file):
-    """canmatrix calls a signal by its long name, where an attribute gives one; here by the name of its SG_."""
+    """The file as canmatrix reads it, with the signal names of SG_ and not the long names from attributes."""
     with open(file, "rb") as text:
         without = text.read().replace(b"LongSymbol", b"LongSymbo1")
     return next(iter(canmatrix.formats.load(io.BytesIO(without), "dbc").values()))

@@ -64,8 +64,8 @@ TEST(SoundLayout, AssertsBoundsOverlapAndProtection) {
   EXPECT_FALSE(wire::is_sound({.size = 2, .e2e_data_id = 1}, apart));
 }
 
-/// The rule that is violated if M and N of a sample group of node B have these attributes, and L of group
-/// "Left" belongs to A.
+/// Messages M and N of node B are the sample group "Right" and have these attributes; message L of node A is
+/// the group "Left". Returns the violated rule; empty: none.
 std::string answer_breach(std::string_view of_m, std::string_view of_n) {
   const auto database =
       parse(fmt::format("BS_:\nBU_: A B\nBO_ 1 L: 8 A\nBO_ 2 M: 8 B\nBO_ 3 N: 8 B\n"

@@ -73,7 +73,7 @@ TEST(Unrounded, EveryScaledSignalOfTheContractIsCarried) {
   });
 }
 
-// Therefore protection, groups, lengths and loads are the same as on the bus.
+// The packed bytes are the same as on the bus, so protection, groups, lengths and loads are the same too.
 TEST(Unrounded, ThePackedBytesAreThoseOfTheBus) {
   std::mt19937_64 random(2);
   for_every_message([&]<class Message>() {

@@ -146,7 +146,8 @@ RC_GTEST_PROP(PlanProperty, EncodesAsBitByBit, (double any)) {
   Bytes data(message.size, 0xA5);
   RC_ASSERT(plan.encode(values, data));
 
-  // Multiplexors first, by the number of multiplexors above them.
+  // Sorts the signals by the number of multiplexors above them, so that each multiplexor precedes its
+  // signals.
   std::vector<std::pair<int, std::size_t>> order;
   for (std::size_t i = 0; i < values.size(); ++i) {
     int depth = 0;

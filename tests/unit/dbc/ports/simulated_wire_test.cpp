@@ -134,8 +134,8 @@ TEST(SimulatedWire, AnErrorPassiveReceiverDisturbsNobody) {
   wire.queue(0, frame(0x123), 0);
   const auto carried = wire.next(long_enough);
   ASSERT_TRUE(carried);
-  EXPECT_EQ(carried->attempts, 16);  // 15 times 9 are 135, above 127
-  // After a frame without error, a passive receiver continues from 119.
+  EXPECT_EQ(carried->attempts, 16);  // 15 errors of weight 9 make 135 > 127: error passive
+  // The first frame without an error sets the counter of a passive receiver to 119.
   EXPECT_EQ(wire.receive_errors(1), 119);
   EXPECT_EQ(wire.state(1), NodeState::error_active);
 }

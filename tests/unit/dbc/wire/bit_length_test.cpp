@@ -59,8 +59,9 @@ TEST(BitLength, AStuffBitOpensTheNextRun) {
   EXPECT_EQ(wire.length(), 11);
 }
 
-// By hand: 0|00000000000|0|0 has stuff bits after bits 5 and 10 (zeros) only, FDF follows.
-// FDF 1, res 0, BRS 1; ESI 0, DLC 0000, which ends in five zeros: the first fixed stuff bit takes the place.
+// By hand: the bits before FDF, 0|00000000000|0|0, have stuff bits after bits 5 and 10 only. Then follow FDF
+// 1, res 0, BRS 1; ESI 0, DLC 0000. The last five bits are zeros, but the first fixed stuff bit replaces the
+// stuff bit after them.
 TEST(BitLength, OfAnFdFrameByHand) {
   EXPECT_EQ(bit_length(filled(0, 0, 0, true, true)),
             (BitLength{.nominal = 14 + 2 + 3 + 12, .data = 5 + 4 + 17 + 6 + 1}));

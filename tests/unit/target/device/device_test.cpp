@@ -274,7 +274,8 @@ TEST(Device, IsAfterAResetAsItWasAfterConstruction) {
     }
     return bench.answers();
   };
-  // A restarted bench counts from 0 again; the new one here sends the frames of the old one.
+  // The new device receives the frames that the bench sent to the used device, because a new bench would
+  // count from 0.
   BenchSide again;
   const std::size_t before = used.fed().size();
   const auto answers = session(used);

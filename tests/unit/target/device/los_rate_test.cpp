@@ -46,7 +46,7 @@ los::UpdateResult own_step(los::State& state, const SeekerSample& sample, const 
                    design);
 }
 
-// Half an LSB, or the signal's limit.
+// The value on the bus is the estimator's own value within half an LSB, or the limit of the signal.
 void expect_near(double on_bus, double own, double lsb, double limit, const char* what) {
   EXPECT_NEAR(on_bus, std::clamp(own, -limit, limit), lsb * 0.5000001) << what;
 }

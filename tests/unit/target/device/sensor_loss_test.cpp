@@ -147,8 +147,8 @@ TEST(SensorLoss, AGapTooLongToBridgeEndsTheAlignment) {
   EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_silent, 1);
 }
 
-// A gap is bridged while one frame is processed: steps of 10 us, the interval of this sample, would be 20,000
-// steps.
+// The device bridges the whole gap while it processes one frame. With steps of 10 us, the interval of this
+// sample, it would need 20,000 steps.
 TEST(SensorLoss, AGapBeforeAVeryShortSampleIsBridgedInFewSteps) {
   ImuStream imu;
   imu.start(0, 10'000);

@@ -10,9 +10,8 @@ namespace {
 
 using namespace messages;
 
-// The published run holds the fins of a row until the next row; the target interpolates linearly between
-// samples. A second sample just before the next row turns the line into a hold, except for this share of the
-// row's change.
+// The published run holds the fins of a row until the next row, but the target interpolates linearly between
+// samples. Therefore each row is sent again this long before the next row, and only the rest is interpolated.
 constexpr std::int64_t before_next_us = 10;
 
 struct Misses {

@@ -48,7 +48,7 @@ TEST(Cholesky, FindsWhatIsNotPositiveDefinite) {
   }
 }
 
-// f(x, c) = (x0^2, x1 + c0 x0, c1): moments of a normal distribution known in closed form to second order.
+// f(x, c) = (x0^2, x1 + c x0): its moments for a normal distribution are known in closed form.
 TEST(Unscented, MeanOfASquareIsItsVariance) {
   constexpr int N = 3, K = 2;
   std::mt19937_64 engine(2);

@@ -14,8 +14,9 @@
 namespace canhil::los_rate {
 namespace {
 
-// Continuous gains compared with the integrated equation, from P at 5 km: the sum of thermal and glint noise
-// after 2.2 s, and constant noise alone, for which the closed form is not exact either.
+// The largest relative error of the continuous gains, compared with the equation that is integrated from P at
+// 5 km. It is tested for the sum of thermal and glint noise after 2.2 s, and for constant noise alone, for
+// which the closed form is not exact either.
 double worst_of_combined(const Noise& noise, double r_first, double r_last) {
   const double T = 0.005, q = 300, vc = 900;
   double worst = 0;
@@ -36,7 +37,8 @@ TEST(ClosedGain, CombinedIsCloseToTheIntegratedEquation) {
   EXPECT_LT(worst_of_combined(constant, 4000, 300), 0.023);
 }
 
-// The poles exp(s Ts) of s^2 + 2 zeta b s + b^2, and the covariance of a discrete filter with white noise.
+// The poles of the discrete filter are exp(s Ts) for the poles s of s^2 + 2 zeta b s + b^2, and its sigmas
+// agree with the covariance under white noise.
 TEST(LowPass, HasItsPolesAndItsNoise) {
   for (const double zeta : {0.5, 0.7071, 1.3}) {
     Settings settings;

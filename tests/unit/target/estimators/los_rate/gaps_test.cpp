@@ -54,7 +54,8 @@ TEST(Gaps, AreBridgedWithTheMeanOfTheRatesBeforeAndAfter) {
   EXPECT_NEAR(leg.pull / leg.turn, 50 / 0.5, 1e-9) << "changes of 50 m/s^2 and 0.5 rad/s";
 }
 
-// From 3 s to go on, one sample in ten is lost: a turning missile, a tracking antenna, noise as modelled.
+// The flight from a time to go of 3 s, with a turning missile, a tracking antenna and noise as modelled. One
+// sample in ten is lost.
 TEST(Gaps, CostLittleMoreThanTheSamplesThatAreGone) {
   for (const Algorithm algorithm : algorithms) {
     SCOPED_TRACE(static_cast<int>(algorithm));

@@ -125,8 +125,8 @@ TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
 }
 
 // Coning: rotation vector theta (0, cos wt, sin wt); body rate (-w (1 - cos theta), -w sin theta sin wt, w
-// sin theta cos wt) up to the axis's sign. With x = w dt one sample drifts by theta^2 (x - sin x)/2 a sample,
-// two by theta^2 x^5/60.
+// sin theta cos wt) up to the axis's sign. With x = w dt, the one-sample mechanisation drifts by theta^2 (x -
+// sin x)/2 per sample, the two-sample mechanisation by theta^2 x^5/60.
 Motion coning(double theta, double omega) {
   const auto phi = [=](double t) {
     return Vector3d(0, theta * std::cos(omega * t), theta * std::sin(omega * t));
@@ -161,8 +161,8 @@ TEST(Mechanization, TwoSamplesFollowConingAtUnequalSampleTimes) {
   EXPECT_LT(two.attitude, one.attitude / 30);
 }
 
-// Sculling: roll theta sin wt with an eastward acceleration A sin wt, x = w dt. Of the rectified acceleration
-// theta A/2, the one-sample step misses x^2/6, the two-sample step x^4/30.
+// Sculling: roll theta sin wt with an eastward acceleration A sin wt, x = w dt. The rectified acceleration is
+// theta A/2; the one-sample step has an error of x^2/6 of it, the two-sample step of x^4/30.
 TEST(Mechanization, TwoSamplesFollowSculling) {
   const double theta = 0.02, A = 10, omega = 2 * std::numbers::pi * 5;
   const Motion motion{[=](double t) {

@@ -31,7 +31,7 @@ Dense dense_R(const Settings& s) {
   return R;
 }
 
-// The largest error of entry (i, j), on the scale of the sigmas of its row and column.
+// The largest error of an entry P(i, j), divided by sigma_i sigma_j.
 double scaled_miss(const Dense& P, const Dense& expected) {
   const Dense sigma = entrywise_roots(diagonal(expected));
   return largest(entrywise_quotient(P - expected, sigma * transposed(sigma)));
