@@ -84,7 +84,7 @@ inline constexpr Quantity trusted_over_sigma{
 inline constexpr Quantity degraded{.name = "degraded",
                                    .meaning =
                                        "1 where the answer reports degraded or blind, else 0; for a "
-                                       "LOS rate the fraction in 20 ms of the time to go",
+                                       "LOS rate the share of such answers in 20 ms of the time to go",
                                    .unit = plain};
 
 }  // namespace canhil::quantities
