@@ -37,12 +37,12 @@ Result<void> read_csv(RecordedSettings& own, const NodeTable& table, Section& se
       section
           .optional_time_us(
               {"gap_s",
-               "CSV: longest time without a sample; by default 0.2 s, or three periods if that is longer."},
+               "CSV only: longest time without a sample. Default: 0.2 s, or three periods if that is longer."},
               Limits::above(0))
           .value_or(usual_gap_us(period_us));
   const auto text = section.read_beside(
       {"recorded",
-       "FILE.csv or FILE.log that the node sends in place of what it measures (recorded-data.md)."},
+       "File with the samples that the node sends in place of simulated ones: FILE.csv or FILE.log (recorded-data.md)."},
       "a CSV file", scenario::most_recorded_bytes);
   if (!text) return {};
   return scenario::read_table(*text, own.recorded_from, columns_of(table))
@@ -63,7 +63,7 @@ Result<void> read_log(RecordedSettings& own, const NodeTable& table, Section& se
                    "a CSV file, or no such key");
   if (!section.read_beside(
           {"recorded",
-           "FILE.csv or FILE.log that the node sends in place of what it measures (recorded-data.md)."},
+           "File with the samples that the node sends in place of simulated ones: FILE.csv or FILE.log (recorded-data.md)."},
           "a candump log", scenario::most_recorded_bytes))
     return {};
   return read_frames(table, own.recorded_from, duration_us).and_then([&](LoggedGroup group) {
@@ -79,7 +79,7 @@ NodeSettings read_recorded(const NodeTable& table, Section& section, std::int64_
   own.schedule = read_schedule(section);
   const std::string name = section.text(
       {"recorded",
-       "FILE.csv or FILE.log that the node sends in place of what it measures (recorded-data.md)."});
+       "File with the samples that the node sends in place of simulated ones: FILE.csv or FILE.log (recorded-data.md)."});
   own.recorded_from = section.beside(name);
   const std::int64_t period_us = own.schedule.period_us.value_or(table.closes.cycle_time_us);
   const std::string kind = std::filesystem::path(name).extension().string();

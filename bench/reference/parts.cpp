@@ -116,7 +116,7 @@ Part truth_part() {
                   .about = "Errors of the initial state that the target receives.",
                   .keys = keys_of([](Section& section) { scenario::read_initial_error(section); })},
                  {.name = "[engagement]",
-                  .about = "A missile and its target, drawn anew for each run.",
+                  .about = "A missile and its flight target. Random values are drawn for each run.",
                   .keys = keys_of([](Section& section) { scenario::read_engagement(section); })}}};
   const auto keys = keys_of([](Section& root) {
     Section section = root.table("glide");
@@ -127,7 +127,7 @@ Part truth_part() {
       auto own = in_table(keys, path);
       if (!own.empty())
         part.tables.push_back(
-            {.name = fmt::format("[{}]", path), .about = "Of an unpowered glider.", .keys = std::move(own)});
+            {.name = fmt::format("[{}]", path), .about = "For an unpowered glider.", .keys = std::move(own)});
     }
   }
   return part;

@@ -31,11 +31,11 @@ Error Error::read(scenario::Section& section, const scenario::CheckContext& cont
   rule.statistic = scenario::read_enum<Statistic>(
       section,
       {"statistic",
-       "Of |estimated - true| in the window: the largest, the RMS, the mean, or that of the last answer."},
+       "Statistic of |estimated - true| in the window: its maximum, RMS or mean, or (`final`) its value at the last answer."},
       statistics, Statistic::max);
   rule.stretch = read_stretch(section, context, rule.judged);
   std::tie(rule.below, rule.unit) =
-      read_bar(section, "below", "The statistic is below.", *rule.judged.quantity);
+      read_bar(section, "below", "The statistic must be below this.", *rule.judged.quantity);
   return rule;
 }
 

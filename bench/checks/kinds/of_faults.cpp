@@ -26,7 +26,7 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
     return Disturbance{};
   }
   const std::string name =
-      section.one_of({"fault", "Name of a `[[fault]]` of the scenario, in place of times."}, names);
+      section.one_of({"fault", "Name of a `[[fault]]` of the scenario, in place of the times."}, names);
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
   if (found->window.from_us >= context.duration_us)
@@ -43,7 +43,7 @@ Disturbance read_disturbance(scenario::Section& section, const scenario::CheckCo
     return *fault;
   }
   const std::int64_t t_us =
-      scenario::read_time(section, {"from_s", "Time at which something goes wrong, in place of `fault`."},
+      scenario::read_time(section, {"from_s", "Time at which something goes wrong without a `[[fault]]`, in place of `fault`."},
                           scenario::Limits::at_least(0), context.duration_us);
   return {.fault = {}, .window = {.from_us = t_us, .to_us = t_us}, .valid_from_us = t_us};
 }
@@ -63,7 +63,7 @@ std::int64_t read_within(scenario::Section& section, const scenario::CheckContex
 std::vector<std::string> read_signs(scenario::Section& section, const scenario::CheckContext& context) {
   section.optional("by");
   if (!section.has("by")) return {};
-  return section.some_of({"by", "Signs that count; by default any that did not come in the 5 s before."},
+  return section.some_of({"by", "Signs that count; by default each sign that was absent in the 5 s before the onset."},
                          sign_names(running(context)));
 }
 

@@ -14,7 +14,7 @@ Protection Protection::read(scenario::Section& section, const scenario::CheckCon
   Protection rule;
   if (section.has("message")) {
     rule.message =
-        section.one_of({"message", "One message; by default all of the target."}, context.contract.messages);
+        section.one_of({"message", "Name of the message to judge; by default all messages of the target."}, context.contract.messages);
     if (!section.error() && !context.contract.sent_by.contains(*rule.message))
       section.reject("message", "'" + *rule.message + "' is not a message of the target",
                      "one that it sends");

@@ -27,7 +27,7 @@ RecoversWithin RecoversWithin::read(scenario::Section& section, const scenario::
       return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
     });
     std::tie(rule.below, rule.unit) =
-        read_bar(section, "below", "From then on |estimated - true| is below.", *rule.error->quantity);
+        read_bar(section, "below", "From `within_s` after the end of the fault on, |estimated - true| must be below this.", *rule.error->quantity);
   }
   for (const estimators::Estimator* one : running(context)) {
     const std::vector<Subject> reported = always_reported(*one);
