@@ -81,9 +81,10 @@ TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
   rule.within = section.number(
       {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS must stay.", "within_UNIT"},
       Limits::above(0));
-  rule.at_most_us = section.optional_time_us({"at_most_s", "Limit: the time is at most this. 'Never' fails."}, Limits::at_least(0));
-  rule.never_before_us = section.optional_time_us({"never_before_s", "Limit: the time is at least this. 'Never' passes."},
-                                                  Limits::at_least(0));
+  rule.at_most_us = section.optional_time_us({"at_most_s", "Limit: the time is at most this. 'Never' fails."},
+                                             Limits::at_least(0));
+  rule.never_before_us = section.optional_time_us(
+      {"never_before_s", "Limit: the time is at least this. 'Never' passes."}, Limits::at_least(0));
   scenario::expect_ordered(section, "never_before_s", rule.never_before_us, "at_most_s", rule.at_most_us);
   return rule;
 }
@@ -103,10 +104,12 @@ ValueAt read(Section& section, const Context& context, ValueAt rule) {
   rule.at_us = scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
                                    Limits::at_least(0), context.duration_us);
   rule.at_most = optional_number(
-      section, {checks::key_of("at_most", rule.quantity->unit), "Limit: the RMS is at most this.", "at_most_UNIT"},
+      section,
+      {checks::key_of("at_most", rule.quantity->unit), "Limit: the RMS is at most this.", "at_most_UNIT"},
       Limits::at_least(0));
   rule.at_least = optional_number(
-      section, {checks::key_of("at_least", rule.quantity->unit), "Limit: the RMS is at least this.", "at_least_UNIT"},
+      section,
+      {checks::key_of("at_least", rule.quantity->unit), "Limit: the RMS is at least this.", "at_least_UNIT"},
       Limits::at_least(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   return rule;
@@ -115,7 +118,8 @@ ValueAt read(Section& section, const Context& context, ValueAt rule) {
 quantities::Unit read_unit(Section& section, const Quantity& quantity) {
   if (quantity.unit.name != "mrad") return quantity.unit;
   const std::vector<std::string> units{"mrad", "deg"};
-  return section.one_of({"unit", "Unit of an angle in the result and in the endings of the keys."}, units, "mrad") == "deg"
+  return section.one_of({"unit", "Unit of an angle in the result and in the endings of the keys."}, units,
+                        "mrad") == "deg"
              ? quantities::degrees
              : quantity.unit;
 }
@@ -137,9 +141,11 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
   rule.median_at_least = bar("median_at_least", "Limit: the median is at least this.");
   rule.p90_at_most = bar("p90_at_most", "Limit: the p90 is at most this.");
   rule.fraction_at_least = optional_number(
-      section, {"fraction_at_least", "Limit: the fraction of runs is at least this. Needs `below_UNIT`."}, Limits::between(0, 1));
+      section, {"fraction_at_least", "Limit: the fraction of runs is at least this. Needs `below_UNIT`."},
+      Limits::between(0, 1));
   rule.fraction_at_most = optional_number(
-      section, {"fraction_at_most", "Limit: the fraction of runs is at most this. Needs `below_UNIT`."}, Limits::between(0, 1));
+      section, {"fraction_at_most", "Limit: the fraction of runs is at most this. Needs `below_UNIT`."},
+      Limits::between(0, 1));
   expect_bars_ordered(section, "rms_", rule.unit.ending, rule.rms_at_least, rule.rms_at_most);
   expect_bars_ordered(section, "median_", rule.unit.ending, rule.median_at_least, rule.median_at_most);
   expect_bars_ordered(section, "fraction_", "", rule.fraction_at_least, rule.fraction_at_most);
@@ -147,9 +153,12 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
     section.reject(rule.fraction_at_least ? "fraction_at_least" : "fraction_at_most",
                    "has no effect without a bound", fmt::format("below{} beside it", rule.unit.ending));
   }
-  rule.batch =
-      section.optional_integer({"batch", "Number of runs for which the range of the RMS is computed, by bootstrap. Default: 100, or all runs if there are fewer."}, 2)
-          .value_or(rule.batch);
+  rule.batch = section
+                   .optional_integer({"batch",
+                                      "Number of runs for which the range of the RMS is computed, by "
+                                      "bootstrap. Default: 100, or all runs if there are fewer."},
+                                     2)
+                   .value_or(rule.batch);
   return rule;
 }
 
@@ -158,10 +167,11 @@ WindowMoments read(Section& section, const Context& context, WindowMoments rule)
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.mean_at_most = optional_number(
-      section,
-      {checks::key_of("mean_at_most", rule.quantity->unit), "Limit: the magnitude of the mean is at most this.", "mean_at_most_UNIT"},
-      Limits::at_least(0));
+  rule.mean_at_most =
+      optional_number(section,
+                      {checks::key_of("mean_at_most", rule.quantity->unit),
+                       "Limit: the magnitude of the mean is at most this.", "mean_at_most_UNIT"},
+                      Limits::at_least(0));
   rule.standard_deviation_at_most =
       optional_number(section,
                       {checks::key_of("standard_deviation_at_most", rule.quantity->unit),
@@ -177,8 +187,10 @@ Paired read(Section& section, const Context& context, Paired rule) {
                                    Limits::at_least(0), context.duration_us);
   rule.confidence = section.number({"confidence", "Confidence level of the interval of the fraction."},
                                    Limits::between(0.5, 0.999999), rule.confidence);
-  rule.at_most = optional_number(section, {"at_most", "Limit: the fraction is at most this."}, Limits::between(0, 1));
-  rule.at_least = optional_number(section, {"at_least", "Limit: the fraction is at least this."}, Limits::between(0, 1));
+  rule.at_most =
+      optional_number(section, {"at_most", "Limit: the fraction is at most this."}, Limits::between(0, 1));
+  rule.at_least =
+      optional_number(section, {"at_least", "Limit: the fraction is at least this."}, Limits::between(0, 1));
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }
@@ -190,16 +202,15 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.probability =
-      section.number({"probability", "Probability of the central chi-square interval."},
-                     Limits::between(0.5, 0.999999), rule.probability);
+  rule.probability = section.number({"probability", "Probability of the central chi-square interval."},
+                                    Limits::between(0.5, 0.999999), rule.probability);
   if (section.has("mean_between"))
     rule.mean_between =
         section.interval({"mean_between", "Limit: the mean lies between these."}, Limits::at_least(0));
   section.optional("mean_between");
-  rule.inside_at_least =
-      optional_number(section, {"inside_at_least", "Limit: the fraction of updates inside the interval is at least this."},
-                      Limits::between(0, 1));
+  rule.inside_at_least = optional_number(
+      section, {"inside_at_least", "Limit: the fraction of updates inside the interval is at least this."},
+      Limits::between(0, 1));
   return rule;
 }
 
@@ -208,8 +219,10 @@ Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
   rule.beyond = section.number(
       {checks::key_of("beyond", rule.quantity->unit), "An error beyond this is a divergence.", "beyond_UNIT"},
       Limits::above(0));
-  rule.from_us = section.optional_time_us({"from_s", "Time from which on all errors count. Without the key, only the error at the end of each run counts."},
-                                          Limits{});  // samples by time to go have negative times
+  rule.from_us = section.optional_time_us(
+      {"from_s",
+       "Time from which on all errors count. Without the key, only the error at the end of each run counts."},
+      Limits{});  // samples by time to go have negative times
   rule.at_most = section.optional_integer({"at_most", "Limit: the number of runs is at most this."}, 0);
   rule.at_least = section.optional_integer({"at_least", "Limit: the number of runs is at least this."}, 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
@@ -221,17 +234,21 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.at_most = optional_number(
-      section, {checks::key_of("at_most", rule.quantity->unit), "Limit: the mean over runs is at most this.", "at_most_UNIT"},
-      Limits::at_least(0));
-  rule.at_least = optional_number(
-      section, {checks::key_of("at_least", rule.quantity->unit), "Limit: the mean over runs is at least this.", "at_least_UNIT"},
-      Limits::at_least(0));
+  rule.at_most = optional_number(section,
+                                 {checks::key_of("at_most", rule.quantity->unit),
+                                  "Limit: the mean over runs is at most this.", "at_most_UNIT"},
+                                 Limits::at_least(0));
+  rule.at_least = optional_number(section,
+                                  {checks::key_of("at_least", rule.quantity->unit),
+                                   "Limit: the mean over runs is at least this.", "at_least_UNIT"},
+                                  Limits::at_least(0));
   rule.other = section.one_of({"other", "Variant to compare with."}, context.variants, "");
-  rule.ratio_at_most =
-      optional_number(section, {"ratio_at_most", "Limit: the ratio to `other` is at most this. Needs `other`."}, Limits::above(0));
-  rule.ratio_at_least = optional_number(section, {"ratio_at_least", "Limit: the ratio to `other` is at least this. Needs `other`."},
-                                        Limits::above(0));
+  rule.ratio_at_most = optional_number(
+      section, {"ratio_at_most", "Limit: the ratio to `other` is at most this. Needs `other`."},
+      Limits::above(0));
+  rule.ratio_at_least = optional_number(
+      section, {"ratio_at_least", "Limit: the ratio to `other` is at least this. Needs `other`."},
+      Limits::above(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if ((rule.ratio_at_most || rule.ratio_at_least) && rule.other.empty()) {
@@ -251,19 +268,21 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   std::tie(rule.least, rule.most) =
       section.interval({"time_to_go_s", "Window of the time to go."}, Limits::at_least(0));
   rule.other = section.one_of({"other", "Variant to compare with."}, context.variants, "");
-  rule.rms_at_most = optional_number(
-      section,
-      {checks::key_of("rms_at_most", rule.quantity->unit), "Limit: the RMS is at most this.", "rms_at_most_UNIT"},
-      Limits::at_least(0));
+  rule.rms_at_most = optional_number(section,
+                                     {checks::key_of("rms_at_most", rule.quantity->unit),
+                                      "Limit: the RMS is at most this.", "rms_at_most_UNIT"},
+                                     Limits::at_least(0));
   const std::string mean_between = checks::key_of("mean_between", rule.quantity->unit);
   if (section.has(mean_between))
-    rule.mean_between = section.interval({mean_between, "Limit: the mean lies between these.", "mean_between_UNIT"},
-                                         Limits::at_least(0));
+    rule.mean_between = section.interval(
+        {mean_between, "Limit: the mean lies between these.", "mean_between_UNIT"}, Limits::at_least(0));
   section.optional(mean_between);
-  rule.ratio_at_most = optional_number(section, {"ratio_at_most", "Limit: the ratio to `other` is at most this. Needs `other`."},
-                                       Limits::at_least(0));
-  rule.ratio_at_least = optional_number(section, {"ratio_at_least", "Limit: the ratio to `other` is at least this. Needs `other`."},
-                                        Limits::at_least(0));
+  rule.ratio_at_most = optional_number(
+      section, {"ratio_at_most", "Limit: the ratio to `other` is at most this. Needs `other`."},
+      Limits::at_least(0));
+  rule.ratio_at_least = optional_number(
+      section, {"ratio_at_least", "Limit: the ratio to `other` is at least this. Needs `other`."},
+      Limits::at_least(0));
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if (rule.other.empty() && (rule.ratio_at_most || rule.ratio_at_least)) {
     section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "has nothing to compare with",
@@ -275,7 +294,8 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
 RmsRatio read(Section& section, const Context& context, RmsRatio rule) {
   rule.quantity = read_error(section);
   rule.other = section.one_of({"other", "Variant to compare with."}, context.variants);
-  rule.at_most = optional_number(section, {"at_most", "Limit: the ratio is at most this."}, Limits::at_least(0));
+  rule.at_most =
+      optional_number(section, {"at_most", "Limit: the ratio is at most this."}, Limits::at_least(0));
   return rule;
 }
 
@@ -350,8 +370,8 @@ Metric read_metric(Section& section, const std::vector<std::string>& variants, s
   Metric metric;
   const std::string wanted = section.one_of({"kind", "Kind of the metric."}, scenario::kinds<Rule>());
   metric.requirement = section.text({"requirement", "Id of the requirement, shown in the reports."}, "");
-  metric.variants =
-      section.some_of({"variants", "Names of the variants that the metric applies to; by default all."}, variants);
+  metric.variants = section.some_of(
+      {"variants", "Names of the variants that the metric applies to; by default all."}, variants);
   const Context context{.variants = variants, .duration_us = duration_us};
   metric.rule =
       scenario::read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });

@@ -39,7 +39,9 @@ struct TimeWithin {
 /// How much earlier than `other` the RMS of a variant stays within a limit.
 struct Lead {
   static constexpr std::string_view kind = "lead";
-  static constexpr std::string_view meaning = "How much earlier than in variant `other` the RMS over runs comes within `within_UNIT` and stays there until the end.";
+  static constexpr std::string_view meaning =
+      "How much earlier than in variant `other` the RMS over runs comes within `within_UNIT` and stays there "
+      "until the end.";
   const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;  ///< [SI]
   std::string other;
@@ -59,7 +61,8 @@ struct ValueAt {
 struct Distribution {
   static constexpr std::string_view kind = "distribution";
   static constexpr std::string_view meaning =
-      "Statistics over runs of the absolute value at each run's last update up to `at_s`: RMS with its 5 % to 95 % range, median, p90, mean, and the fraction of runs below `below_UNIT`.";
+      "Statistics over runs of the absolute value at each run's last update up to `at_s`: RMS with its 5 % "
+      "to 95 % range, median, p90, mean, and the fraction of runs below `below_UNIT`.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   quantities::Unit unit;        ///< mrad or deg for angles
@@ -83,7 +86,8 @@ struct WindowMoments {
 struct RunMean {
   static constexpr std::string_view kind = "run_mean";
   static constexpr std::string_view meaning =
-      "Mean of the absolute value over a window of each run; of these means, the mean and standard deviation over runs.";
+      "Mean of the absolute value over a window of each run; of these means, the mean and standard deviation "
+      "over runs.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> at_most, at_least;              ///< limits of the mean over runs [SI]

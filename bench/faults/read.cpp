@@ -78,9 +78,10 @@ std::span<const MessageInfo> messages_of(const FaultContext& context) {
 const scenario::NodeTable* read_node(Section& section, const FaultContext& context) {
   std::vector<std::string> names;
   for (const scenario::NodeSettings& node : context.nodes) names.emplace_back(node.table().key);
-  const std::string name = section.one_of(
-      {"node", "Node that the fault affects. For faults on the bus: all messages of the node, in place of `messages`."},
-      names);
+  const std::string name = section.one_of({"node",
+                                           "Node that the fault affects. For faults on the bus: all messages "
+                                           "of the node, in place of `messages`."},
+                                          names);
   const auto found = std::ranges::find(context.nodes, name,
                                        [](const scenario::NodeSettings& node) { return node.table().key; });
   return found == context.nodes.end() ? nullptr : &found->table();
@@ -177,10 +178,10 @@ double read_size(Section& section, std::string_view stem, const OfValues& of, sc
     given = keys.front();  // for the reference
   }
   const std::string shown = fmt::format("{}_UNIT", stem);
-  const scenario::Key key{
-      given,
-      "Size of the fault. The key ends in the unit of the quantity, as in `by_degps`. With `signal` the key has no ending, and the value is in the signal's unit.",
-      shown};
+  const scenario::Key key{given,
+                          "Size of the fault. The key ends in the unit of the quantity, as in `by_degps`. "
+                          "With `signal` the key has no ending, and the value is in the signal's unit.",
+                          shown};
   return si.empty() ? section.plain_number(key, limits) : section.number(key, limits);
 }
 

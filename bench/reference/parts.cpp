@@ -88,7 +88,9 @@ Part parameters_part() {
       .title = "Parameters of the target",
       .about =
           "`[target.parameters]`: each is set over the bus and read back. Ranges and defaults are those of "
-          "hil-target; a target of your own may have others, and refuses what is out of range.",
+          "hil-target; a target of your own may have others, and refuses what is out of range. 'Set before "
+          "the start': the target "
+          "refuses a change while the estimator runs.",
       .tables = {}};
   for (const drive::ParametersOf& of : drive::target_parameters()) {
     Table table{.name = std::string(of.estimator), .about = "", .keys = {}};

@@ -9,7 +9,8 @@ namespace canhil::checks {
 struct Answering {
   static constexpr std::string_view kind = "answering";
   static constexpr std::string_view meaning =
-      "Passes when answers and heartbeats come without a gap while no fault is active, all values are numbers, and no frame of the target is damaged.";
+      "Passes when answers and heartbeats come without a gap while no fault is active, all values are "
+      "numbers, and no frame of the target is damaged.";
   std::vector<Subject> judged;  ///< quantities that are reported with every answer
   /// Windows in which answers may be missing: faults of the scenario, which may leave no input to answer.
   std::vector<scenario::Window> excused;

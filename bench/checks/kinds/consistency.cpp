@@ -41,9 +41,11 @@ Consistency Consistency::read(scenario::Section& section, const scenario::CheckC
   // innovations are white.
   if (!rule.judged.quantity->white)
     section.reject("probability", "is for innovations (NIS) only", "mean_between = [low, high]");
-  rule.bound = Probability{.value = section.number({"probability",
-                                                    "Only for a NIS, in place of `mean_between`: the mean must lie in the central chi-square interval of this probability."},
-                                                   scenario::Limits::between(0.5, 0.999999))};
+  rule.bound =
+      Probability{.value = section.number({"probability",
+                                           "Only for a NIS, in place of `mean_between`: the mean must lie in "
+                                           "the central chi-square interval of this probability."},
+                                          scenario::Limits::between(0.5, 0.999999))};
   return rule;
 }
 

@@ -28,9 +28,10 @@ Honest Honest::read(scenario::Section& section, const scenario::CheckContext& co
     rule.named = section.one_of({"estimator", "Estimator to judge; by default all that run."}, names);
     std::erase_if(rule.estimators, [&](const estimators::Estimator* one) { return one->name != rule.named; });
   }
-  rule.over_sigma = section.plain_number(
-      {"over_sigma", "Largest ratio of error to sigma in a trusted answer, one with neither of the marks `degraded` and `blind`."},
-      scenario::Limits::above(0), rule.over_sigma);
+  rule.over_sigma = section.plain_number({"over_sigma",
+                                          "Largest ratio of error to sigma in a trusted answer, one with "
+                                          "neither of the marks `degraded` and `blind`."},
+                                         scenario::Limits::above(0), rule.over_sigma);
   return rule;
 }
 

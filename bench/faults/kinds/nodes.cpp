@@ -211,8 +211,7 @@ std::unique_ptr<Node> NodeRestart::wrap(std::unique_ptr<Node> node, const NodeSe
 
 Late Late::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<Late>(section, context, Repeats::each);
-  kind.by_us = section.time_us({"by_ms", "Delay of the sample."},
-                               scenario::Limits::above(0));
+  kind.by_us = section.time_us({"by_ms", "Delay of the sample."}, scenario::Limits::above(0));
   return kind;
 }
 std::string Late::cannot(const Place& place) const { return needs_contract(place); }
@@ -246,8 +245,8 @@ std::unique_ptr<Node> ClockStep::wrap(std::unique_ptr<Node> node, const NodeSett
 
 ClockDrift ClockDrift::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<ClockDrift>(section, context);
-  kind.rate =
-      section.number({"by_ppm", "Relative error of the clock's rate; positive: too fast."}, scenario::Limits::between(-1e5, 1e5));
+  kind.rate = section.number({"by_ppm", "Relative error of the clock's rate; positive: too fast."},
+                             scenario::Limits::between(-1e5, 1e5));
   return kind;
 }
 std::string ClockDrift::cannot(const Place& place) const { return needs_contract(place); }

@@ -10,7 +10,8 @@ namespace canhil::faults {
 /// A frame with an unused id and a random payload.
 struct Stranger {
   static constexpr std::string_view kind = "stranger";
-  static constexpr std::string_view meaning = "The bench sends extra frames with an unused id and random bytes.";
+  static constexpr std::string_view meaning =
+      "The bench sends extra frames with an unused id and random bytes.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   std::int64_t period_us = 0;

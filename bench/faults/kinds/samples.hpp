@@ -24,8 +24,7 @@ struct Swapped {
 /// The sample is flagged invalid.
 struct Invalid {
   static constexpr std::string_view kind = "invalid";
-  static constexpr std::string_view meaning =
-      "The validity flags of the sample say invalid.";
+  static constexpr std::string_view meaning = "The validity flags of the sample say invalid.";
   static constexpr Stage stage = Stage::sensor;
   std::vector<Measured> flags{};
   std::string text{};

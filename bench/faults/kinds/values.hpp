@@ -55,7 +55,8 @@ struct EachValue {
 /// The value is replaced.
 struct Changed : EachValue<Changed> {
   static constexpr std::string_view kind = "changed", stem = "value";
-  static constexpr std::string_view meaning = "The sensor's value is replaced by `value_UNIT`, a flag by 0 or 1.";
+  static constexpr std::string_view meaning =
+      "The sensor's value is replaced by `value_UNIT`, a flag by 0 or 1.";
   static constexpr scenario::Limits limits{};
   static constexpr bool exactly = true;
   void check(scenario::Section& section) const;
@@ -109,7 +110,8 @@ struct Saturated : EachValue<Saturated> {
 /// Additional white noise, 1-sigma per sample.
 struct Noise : EachValue<Noise> {
   static constexpr std::string_view kind = "noise", stem = "sigma";
-  static constexpr std::string_view meaning = "White noise is added to the sensor's value: 1-sigma of a sample is `sigma_UNIT`.";
+  static constexpr std::string_view meaning =
+      "White noise is added to the sensor's value: 1-sigma of a sample is `sigma_UNIT`.";
   static constexpr scenario::Limits limits = {.least = 0};
   static double becomes(double value, double size, const Sampled& sample) {
     return value + size * sample.noise.normal();
