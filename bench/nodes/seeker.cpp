@@ -36,10 +36,11 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
 // run.
 world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
                                  std::string_view of, double sigma) {
-  return {
-      .value = section.number({key, fmt::format("Constant error of {}.", of)}, Limits{}, 0),
-      .sigma = section.number({sigma_key, fmt::format("1-sigma of the error of {}, drawn for each run.", of)},
-                              Limits::at_least(0), sigma)};
+  return {.value = section.number({key, fmt::format("Constant error of {}.", of)}, Limits{}, 0),
+          .sigma = section.number(
+              {sigma_key,
+               fmt::format("1-sigma of a constant error of {} that is drawn for each run and added.", of)},
+              Limits::at_least(0), sigma)};
 }
 
 world::SeekerErrorModel read_errors(Section& section) {

@@ -83,8 +83,8 @@ world::EngagementPlan read_engagement(Section& section) {
   plan.guidance = read_enum<world::Guidance>(
       section,
       {"guidance",
-       "LOS rate that proportional navigation uses. `truth`: the true one; `target`: that of the target's "
-       "answers, so the miss distance depends on the bus."},
+       "LOS rate that proportional navigation uses. `truth`: the true one; `target`: the one in the answers "
+       "of the target under test, so the miss distance depends on the bus."},
       guidances);
   plan.guidance_delay_us =
       section.time_us({"guidance_delay_ms",

@@ -16,7 +16,8 @@ glide::WindProfile read_profile(Section& section) {
     if (section.has("steady_mps")) section.reject("steady_mps", "is given beside season", "one of the two");
     section.optional("steady_mps");
     return glide::WindProfile(read_enum<glide::Season>(
-        section, {"season", "Month whose mean wind blows; it depends on the height."}, glide::season_names));
+        section, {"season", "Month whose mean wind is used. The wind depends on the height."},
+        glide::season_names));
   }
   section.optional("season");
   return glide::WindProfile(section.three({"steady_mps", "Constant wind [N, E, D], in place of `season`."},

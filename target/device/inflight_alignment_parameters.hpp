@@ -46,7 +46,8 @@ inline constexpr std::array inflight_alignment_parameters = [] {
           "Sensor of the fixes. 0: SSBL; 1: GPS. Fixes of the other sensor are refused.",
           [](InflightTuning& t, double v) { t.filter.aiding = static_cast<ia::Aiding>(std::lround(v)); }},
       Row{P::attitude_error_frame, 0, 0, 1, whole, stopped_only,
-          "`ekf`: axes of the tilts. 0: platform, as published; 1: navigation.",
+          "`ekf`, `ukf` with `closed_loop` 1: axes of the tilts that are fed back. 0: platform, as "
+          "published; 1: navigation.",
           [](InflightTuning& t, double v) {
             t.filter.attitude_error_frame = static_cast<ia::AttitudeErrorFrame>(std::lround(v));
           }},
@@ -54,7 +55,8 @@ inline constexpr std::array inflight_alignment_parameters = [] {
           "`ukf`: square root of the covariance. 0: lower Cholesky factor; 1: symmetric root.",
           [](InflightTuning& t, double v) { t.filter.ukf_root = static_cast<ia::UkfRoot>(std::lround(v)); }},
       Row{P::ukf_covariance, 0, 0, 1, whole, stopped_only,
-          "`ukf`: point about which the covariance is computed. 0: the mean; 1: the central sample point.",
+          "`ukf`: point about which the covariance is computed. 0: the mean; 1: the transformed central "
+          "point.",
           [](InflightTuning& t, double v) {
             t.filter.ukf_covariance = static_cast<ia::UkfCovariance>(std::lround(v));
           }},

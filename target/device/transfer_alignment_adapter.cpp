@@ -58,7 +58,7 @@ constexpr std::array rows{
         "being the time between two velocities.",
         [](Tuning& t, double v) { t.filter.velocity_noise_density = v; }},
     Row{Parameter::h2_case, 2, 1, 4, whole, stopped_only,
-        "`robust_h2`: structure of the uncertainty, as the case of the paper.",
+        "`robust_h2`: structure of the uncertainty, by its number in the paper.",
         [](Tuning& t, double v) { t.filter.h2_case = static_cast<ta::H2Case>(std::lround(v)); }},
     Row{Parameter::h2_alpha_rule, 0, 0, 1, whole, stopped_only,
         "`robust_h2`: size alpha of the uncertainty. 0: from the attitude covariance; 1: constant, "

@@ -27,8 +27,8 @@ inline constexpr std::array wind_parameters = [] {
           [](WindTuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
       Row{P::process_noise, 3, 0, 3, whole, any_time,
           "Model of the process noise. 0: block-diagonal; 1: with the correlation of wind and air velocity; "
-          "2: as 1, with the noise of wrong aerodynamic coefficients; 3: two filters, one for wrong "
-          "coefficients and one for gusts, weighted by their likelihood.",
+          "2: as 1, with the noise of wrong aerodynamic coefficients; 3: two filters as in 2, one of them "
+          "with more wind noise for gusts, weighted by their likelihood.",
           [](WindTuning& t, double v) {
             t.filter.process_noise = static_cast<wind::ProcessNoise>(std::lround(v));
           }},
