@@ -43,7 +43,8 @@ Given read_given(Section& section) {
               .scenario = section.text({"scenario", "Scenario file, relative to the campaign's."}),
               .settings = {},
               .line = section.line()};
-  if (auto set = section.optional_table({"set", "Keys of the scenario and their values."})) {
+  if (auto set = section.optional_table(
+          {"set", "Keys of the scenario and the values that replace those of its file."})) {
     given.settings = set->settings();
     refuse_seed(*set, given.settings);
   }

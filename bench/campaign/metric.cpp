@@ -78,11 +78,12 @@ RmsCurve read(Section& section, const Context& /*context*/, RmsCurve rule) {
 TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
   rule.quantity = read_error(section);
   rule.within = section.number(
-      {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS stays.", "within_UNIT"},
+      {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS must stay.", "within_UNIT"},
       Limits::above(0));
-  rule.at_most_us = section.optional_time_us({"at_most_s", "Bar: the time is at most."}, Limits::at_least(0));
-  rule.never_before_us = section.optional_time_us({"never_before_s", "Bar: the time is at least, or never."},
-                                                  Limits::at_least(0));
+  rule.at_most_us = section.optional_time_us({"at_most_s", "Limit: the time is at most this. 'Never' fails."},
+                                             Limits::at_least(0));
+  rule.never_before_us = section.optional_time_us(
+      {"never_before_s", "Limit: the time is at least this. 'Never' passes."}, Limits::at_least(0));
   scenario::expect_ordered(section, "never_before_s", rule.never_before_us, "at_most_s", rule.at_most_us);
   return rule;
 }
@@ -90,22 +91,24 @@ TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
 Lead read(Section& section, const Context& context, Lead rule) {
   rule.quantity = read_error(section);
   rule.within = section.number(
-      {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS stays.", "within_UNIT"},
+      {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS must stay.", "within_UNIT"},
       Limits::above(0));
-  rule.other = section.one_of({"other", "Variant that is compared with."}, context.variants);
-  rule.at_least_us = section.optional_time_us({"at_least_s", "Bar: the lead is at least."}, Limits{});
+  rule.other = section.one_of({"other", "Variant to compare with."}, context.variants);
+  rule.at_least_us = section.optional_time_us({"at_least_s", "Limit: the lead is at least this."}, Limits{});
   return rule;
 }
 
 ValueAt read(Section& section, const Context& context, ValueAt rule) {
   rule.quantity = read_error(section);
-  rule.at_us = scenario::read_time(section, {"at_s", "The last update up to this time counts."},
+  rule.at_us = scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
                                    Limits::at_least(0), context.duration_us);
   rule.at_most = optional_number(
-      section, {checks::key_of("at_most", rule.quantity->unit), "Bar: at most.", "at_most_UNIT"},
+      section,
+      {checks::key_of("at_most", rule.quantity->unit), "Limit: the RMS is at most this.", "at_most_UNIT"},
       Limits::at_least(0));
   rule.at_least = optional_number(
-      section, {checks::key_of("at_least", rule.quantity->unit), "Bar: at least.", "at_least_UNIT"},
+      section,
+      {checks::key_of("at_least", rule.quantity->unit), "Limit: the RMS is at least this.", "at_least_UNIT"},
       Limits::at_least(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   return rule;
@@ -114,7 +117,8 @@ ValueAt read(Section& section, const Context& context, ValueAt rule) {
 quantities::Unit read_unit(Section& section, const Quantity& quantity) {
   if (quantity.unit.name != "mrad") return quantity.unit;
   const std::vector<std::string> units{"mrad", "deg"};
-  return section.one_of({"unit", "Unit of the keys of an angle."}, units, "mrad") == "deg"
+  return section.one_of({"unit", "Unit of an angle in the result and in the endings of the keys."}, units,
+                        "mrad") == "deg"
              ? quantities::degrees
              : quantity.unit;
 }
@@ -122,23 +126,25 @@ quantities::Unit read_unit(Section& section, const Quantity& quantity) {
 Distribution read(Section& section, const Context& context, Distribution rule) {
   rule.quantity = read_error(section);
   rule.unit = read_unit(section, *rule.quantity);
-  rule.at_us = scenario::read_time(section, {"at_s", "The last update up to this time counts."},
+  rule.at_us = scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
                                    Limits::at_least(0), context.duration_us);
   const auto bar = [&](std::string_view stem, std::string_view meaning) {
     return optional_number(
         section, {fmt::format("{}{}", stem, rule.unit.ending), meaning, fmt::format("{}_UNIT", stem)},
         Limits::at_least(0));
   };
-  rule.below = bar("below", "Bound of the fraction.");
-  rule.rms_at_most = bar("rms_at_most", "Bar: the RMS is at most.");
-  rule.rms_at_least = bar("rms_at_least", "Bar: the RMS is at least.");
-  rule.median_at_most = bar("median_at_most", "Bar: the median is at most.");
-  rule.median_at_least = bar("median_at_least", "Bar: the median is at least.");
-  rule.p90_at_most = bar("p90_at_most", "Bar: nine tenths of the runs are at most.");
+  rule.below = bar("below", "Bound for the fraction of runs that is below it.");
+  rule.rms_at_most = bar("rms_at_most", "Limit: the RMS is at most this.");
+  rule.rms_at_least = bar("rms_at_least", "Limit: the RMS is at least this.");
+  rule.median_at_most = bar("median_at_most", "Limit: the median is at most this.");
+  rule.median_at_least = bar("median_at_least", "Limit: the median is at least this.");
+  rule.p90_at_most = bar("p90_at_most", "Limit: the p90 is at most this.");
   rule.fraction_at_least = optional_number(
-      section, {"fraction_at_least", "Bar: the fraction of runs is at least."}, Limits::between(0, 1));
+      section, {"fraction_at_least", "Limit: the fraction of runs is at least this. Needs `below_UNIT`."},
+      Limits::between(0, 1));
   rule.fraction_at_most = optional_number(
-      section, {"fraction_at_most", "Bar: the fraction of runs is at most."}, Limits::between(0, 1));
+      section, {"fraction_at_most", "Limit: the fraction of runs is at most this. Needs `below_UNIT`."},
+      Limits::between(0, 1));
   expect_bars_ordered(section, "rms_", rule.unit.ending, rule.rms_at_least, rule.rms_at_most);
   expect_bars_ordered(section, "median_", rule.unit.ending, rule.median_at_least, rule.median_at_most);
   expect_bars_ordered(section, "fraction_", "", rule.fraction_at_least, rule.fraction_at_most);
@@ -146,9 +152,12 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
     section.reject(rule.fraction_at_least ? "fraction_at_least" : "fraction_at_most",
                    "has no effect without a bound", fmt::format("below{} beside it", rule.unit.ending));
   }
-  rule.batch =
-      section.optional_integer({"batch", "Runs of a batch, of which the range of the RMS is drawn."}, 2)
-          .value_or(rule.batch);
+  rule.batch = section
+                   .optional_integer({"batch",
+                                      "Number of runs for which the range of the RMS is computed, by "
+                                      "bootstrap. Default: 100, or all runs if there are fewer."},
+                                     2)
+                   .value_or(rule.batch);
   return rule;
 }
 
@@ -157,27 +166,30 @@ WindowMoments read(Section& section, const Context& context, WindowMoments rule)
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.mean_at_most = optional_number(
-      section,
-      {checks::key_of("mean_at_most", rule.quantity->unit), "Bar: the mean is at most.", "mean_at_most_UNIT"},
-      Limits::at_least(0));
+  rule.mean_at_most =
+      optional_number(section,
+                      {checks::key_of("mean_at_most", rule.quantity->unit),
+                       "Limit: the magnitude of the mean is at most this.", "mean_at_most_UNIT"},
+                      Limits::at_least(0));
   rule.standard_deviation_at_most =
       optional_number(section,
                       {checks::key_of("standard_deviation_at_most", rule.quantity->unit),
-                       "Bar: the standard deviation is at most.", "standard_deviation_at_most_UNIT"},
+                       "Limit: the standard deviation is at most this.", "standard_deviation_at_most_UNIT"},
                       Limits::at_least(0));
   return rule;
 }
 
 Paired read(Section& section, const Context& context, Paired rule) {
   rule.quantity = read_error(section);
-  rule.other = section.one_of({"other", "Variant that is compared with."}, context.variants);
-  rule.at_us = scenario::read_time(section, {"at_s", "The last update up to this time counts."},
+  rule.other = section.one_of({"other", "Variant to compare with."}, context.variants);
+  rule.at_us = scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
                                    Limits::at_least(0), context.duration_us);
-  rule.confidence = section.number({"confidence", "Confidence of the interval of the fraction."},
+  rule.confidence = section.number({"confidence", "Confidence level of the interval of the fraction."},
                                    Limits::between(0.5, 0.999999), rule.confidence);
-  rule.at_most = optional_number(section, {"at_most", "Bar: at most."}, Limits::between(0, 1));
-  rule.at_least = optional_number(section, {"at_least", "Bar: at least."}, Limits::between(0, 1));
+  rule.at_most =
+      optional_number(section, {"at_most", "Limit: the fraction is at most this."}, Limits::between(0, 1));
+  rule.at_least =
+      optional_number(section, {"at_least", "Limit: the fraction is at least this."}, Limits::between(0, 1));
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }
@@ -189,16 +201,15 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.probability =
-      section.number({"probability", "Probability that the central chi-square interval holds."},
-                     Limits::between(0.5, 0.999999), rule.probability);
+  rule.probability = section.number({"probability", "Probability of the central chi-square interval."},
+                                    Limits::between(0.5, 0.999999), rule.probability);
   if (section.has("mean_between"))
     rule.mean_between =
-        section.interval({"mean_between", "Bar: the mean lies between."}, Limits::at_least(0));
+        section.interval({"mean_between", "Limit: the mean lies between these."}, Limits::at_least(0));
   section.optional("mean_between");
-  rule.inside_at_least =
-      optional_number(section, {"inside_at_least", "Bar: the fraction inside the interval is at least."},
-                      Limits::between(0, 1));
+  rule.inside_at_least = optional_number(
+      section, {"inside_at_least", "Limit: the fraction of updates inside the interval is at least this."},
+      Limits::between(0, 1));
   return rule;
 }
 
@@ -207,10 +218,12 @@ Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
   rule.beyond = section.number(
       {checks::key_of("beyond", rule.quantity->unit), "An error beyond this is a divergence.", "beyond_UNIT"},
       Limits::above(0));
-  rule.from_us = section.optional_time_us({"from_s", "From this time on, in place of the end of the run."},
-                                          Limits{});  // samples by time to go have negative times
-  rule.at_most = section.optional_integer({"at_most", "Bar: at most."}, 0);
-  rule.at_least = section.optional_integer({"at_least", "Bar: at least."}, 0);
+  rule.from_us = section.optional_time_us(
+      {"from_s",
+       "Time from which on all errors count. Without the key, only the error at the end of each run counts."},
+      Limits{});  // samples by time to go have negative times
+  rule.at_most = section.optional_integer({"at_most", "Limit: the number of runs is at most this."}, 0);
+  rule.at_least = section.optional_integer({"at_least", "Limit: the number of runs is at least this."}, 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }
@@ -220,17 +233,21 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.at_most = optional_number(
-      section, {checks::key_of("at_most", rule.quantity->unit), "Bar: at most.", "at_most_UNIT"},
-      Limits::at_least(0));
-  rule.at_least = optional_number(
-      section, {checks::key_of("at_least", rule.quantity->unit), "Bar: at least.", "at_least_UNIT"},
-      Limits::at_least(0));
-  rule.other = section.one_of({"other", "Variant that is compared with."}, context.variants, "");
-  rule.ratio_at_most =
-      optional_number(section, {"ratio_at_most", "Bar: the ratio to `other` is at most."}, Limits::above(0));
-  rule.ratio_at_least = optional_number(section, {"ratio_at_least", "Bar: the ratio to `other` is at least."},
-                                        Limits::above(0));
+  rule.at_most = optional_number(section,
+                                 {checks::key_of("at_most", rule.quantity->unit),
+                                  "Limit: the mean over runs is at most this.", "at_most_UNIT"},
+                                 Limits::at_least(0));
+  rule.at_least = optional_number(section,
+                                  {checks::key_of("at_least", rule.quantity->unit),
+                                   "Limit: the mean over runs is at least this.", "at_least_UNIT"},
+                                  Limits::at_least(0));
+  rule.other = section.one_of({"other", "Variant to compare with."}, context.variants, "");
+  rule.ratio_at_most = optional_number(
+      section, {"ratio_at_most", "Limit: the ratio to `other` is at most this. Needs `other`."},
+      Limits::above(0));
+  rule.ratio_at_least = optional_number(
+      section, {"ratio_at_least", "Limit: the ratio to `other` is at least this. Needs `other`."},
+      Limits::above(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if ((rule.ratio_at_most || rule.ratio_at_least) && rule.other.empty()) {
@@ -249,20 +266,22 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   });
   std::tie(rule.least, rule.most) =
       section.interval({"time_to_go_s", "Window of the time to go."}, Limits::at_least(0));
-  rule.other = section.one_of({"other", "Variant that is compared with."}, context.variants, "");
-  rule.rms_at_most = optional_number(
-      section,
-      {checks::key_of("rms_at_most", rule.quantity->unit), "Bar: the RMS is at most.", "rms_at_most_UNIT"},
-      Limits::at_least(0));
+  rule.other = section.one_of({"other", "Variant to compare with."}, context.variants, "");
+  rule.rms_at_most = optional_number(section,
+                                     {checks::key_of("rms_at_most", rule.quantity->unit),
+                                      "Limit: the RMS is at most this.", "rms_at_most_UNIT"},
+                                     Limits::at_least(0));
   const std::string mean_between = checks::key_of("mean_between", rule.quantity->unit);
   if (section.has(mean_between))
-    rule.mean_between = section.interval({mean_between, "Bar: the mean lies between.", "mean_between_UNIT"},
-                                         Limits::at_least(0));
+    rule.mean_between = section.interval(
+        {mean_between, "Limit: the mean lies between these.", "mean_between_UNIT"}, Limits::at_least(0));
   section.optional(mean_between);
-  rule.ratio_at_most = optional_number(section, {"ratio_at_most", "Bar: the ratio to `other` is at most."},
-                                       Limits::at_least(0));
-  rule.ratio_at_least = optional_number(section, {"ratio_at_least", "Bar: the ratio to `other` is at least."},
-                                        Limits::at_least(0));
+  rule.ratio_at_most = optional_number(
+      section, {"ratio_at_most", "Limit: the ratio to `other` is at most this. Needs `other`."},
+      Limits::at_least(0));
+  rule.ratio_at_least = optional_number(
+      section, {"ratio_at_least", "Limit: the ratio to `other` is at least this. Needs `other`."},
+      Limits::at_least(0));
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if (rule.other.empty() && (rule.ratio_at_most || rule.ratio_at_least)) {
     section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "has nothing to compare with",
@@ -273,8 +292,9 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
 
 RmsRatio read(Section& section, const Context& context, RmsRatio rule) {
   rule.quantity = read_error(section);
-  rule.other = section.one_of({"other", "Variant that is compared with."}, context.variants);
-  rule.at_most = optional_number(section, {"at_most", "Bar: at most."}, Limits::at_least(0));
+  rule.other = section.one_of({"other", "Variant to compare with."}, context.variants);
+  rule.at_most =
+      optional_number(section, {"at_most", "Limit: the ratio is at most this."}, Limits::at_least(0));
   return rule;
 }
 
@@ -348,9 +368,9 @@ std::vector<MetricKind> metric_kinds() {
 Metric read_metric(Section& section, const std::vector<std::string>& variants, std::int64_t duration_us) {
   Metric metric;
   const std::string wanted = section.one_of({"kind", "Kind of the metric."}, scenario::kinds<Rule>());
-  metric.requirement = section.text({"requirement", "Id that reports carry."}, "");
-  metric.variants =
-      section.some_of({"variants", "Names of the variants that it is for; by default all."}, variants);
+  metric.requirement = section.text({"requirement", "Id of the requirement, shown in the reports."}, "");
+  metric.variants = section.some_of(
+      {"variants", "Names of the variants that the metric applies to; by default all."}, variants);
   const Context context{.variants = variants, .duration_us = duration_us};
   metric.rule =
       scenario::read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });
@@ -358,7 +378,7 @@ Metric read_metric(Section& section, const std::vector<std::string>& variants, s
   const std::string by_default = std::visit(
       [](const auto& rule) { return fmt::format("{} {}{}", rule.kind, rule.quantity->name, subject(rule)); },
       metric.rule);
-  metric.name = section.text({"name", "Unique name, by default kind and quantity."},
+  metric.name = section.text({"name", "Unique name; by default kind and quantity."},
                              metric.variants.empty()
                                  ? by_default
                                  : fmt::format("{}: {}", by_default, fmt::join(metric.variants, ", ")));

@@ -21,7 +21,7 @@ namespace canhil::campaign {
 /// RMS over runs against time: for reports only, without a limit.
 struct RmsCurve {
   static constexpr std::string_view kind = "rms_curve";
-  static constexpr std::string_view meaning = "RMS over runs against time. It has no bars.";
+  static constexpr std::string_view meaning = "RMS over runs against time. It has no limits.";
   const Quantity* quantity = &quantities::attitude_heading;
 };
 
@@ -29,7 +29,7 @@ struct RmsCurve {
 struct TimeWithin {
   static constexpr std::string_view kind = "time_within";
   static constexpr std::string_view meaning =
-      "The first update from which the RMS stays within the bound to the end, or never.";
+      "The first update from which the RMS over runs stays within `within_UNIT` until the end, or 'never'.";
   const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;                            ///< [SI]
   std::optional<std::int64_t> at_most_us;       ///< a time that is never reached fails
@@ -39,7 +39,9 @@ struct TimeWithin {
 /// How much earlier than `other` the RMS of a variant stays within a limit.
 struct Lead {
   static constexpr std::string_view kind = "lead";
-  static constexpr std::string_view meaning = "How much earlier than `other` that is.";
+  static constexpr std::string_view meaning =
+      "How much earlier than in variant `other` the RMS over runs comes within `within_UNIT` and stays there "
+      "until the end.";
   const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;  ///< [SI]
   std::string other;
@@ -49,7 +51,7 @@ struct Lead {
 /// RMS over runs at the last update at or before a time.
 struct ValueAt {
   static constexpr std::string_view kind = "value_at";
-  static constexpr std::string_view meaning = "RMS at the last update up to a time.";
+  static constexpr std::string_view meaning = "RMS over runs at the last update up to `at_s`.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   std::optional<double> at_most, at_least;  ///< [SI]
@@ -59,8 +61,8 @@ struct ValueAt {
 struct Distribution {
   static constexpr std::string_view kind = "distribution";
   static constexpr std::string_view meaning =
-      "RMS with its 5 % to 95 % range, median, p90, mean, and the fraction of runs below a bound, at each "
-      "run's last update up to a time.";
+      "Statistics over runs of the absolute value at each run's last update up to `at_s`: RMS with its 5 % "
+      "to 95 % range, median, p90, mean, and the fraction of runs below `below_UNIT`.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   quantities::Unit unit;        ///< mrad or deg for angles
@@ -84,7 +86,8 @@ struct WindowMoments {
 struct RunMean {
   static constexpr std::string_view kind = "run_mean";
   static constexpr std::string_view meaning =
-      "Mean of the absolute value over a window of each run; mean and standard deviation of it over runs.";
+      "Mean of the absolute value over a window of each run; of these means, the mean and standard deviation "
+      "over runs.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> at_most, at_least;              ///< limits of the mean over runs [SI]
@@ -107,7 +110,7 @@ struct ToGo {
 /// RMS over runs at their ends, divided by the RMS of `other`.
 struct RmsRatio {
   static constexpr std::string_view kind = "rms_ratio";
-  static constexpr std::string_view meaning = "RMS over runs at their ends over that of `other`.";
+  static constexpr std::string_view meaning = "RMS over runs at their ends, divided by the RMS of `other`.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::string other;
   std::optional<double> at_most;
@@ -144,7 +147,7 @@ struct Consistency {
 struct Diverged {
   static constexpr std::string_view kind = "divergence";
   static constexpr std::string_view meaning =
-      "Runs that ended early, or whose error is beyond a bound or no number.";
+      "Number of runs that ended early, or whose error is beyond `beyond_UNIT` or not a number.";
   const Quantity* quantity = &quantities::attitude_heading;
   double beyond = 0;                              ///< [SI]
   std::optional<std::int64_t> from_us;            ///< none: at the end

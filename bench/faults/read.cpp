@@ -57,7 +57,7 @@ std::vector<const MessageInfo*> messages_by_name(Section& section, const FaultCo
       sent.emplace_back(message.name);
   }
   for (const std::string& name :
-       section.some_of({"messages", "The messages that it strikes, by name."}, sent))
+       section.some_of({"messages", "Names of the messages that the fault affects."}, sent))
     all.push_back(&*std::ranges::find(messages_of(context), std::string_view(name), &MessageInfo::name));
   return all;
 }
@@ -78,9 +78,10 @@ std::span<const MessageInfo> messages_of(const FaultContext& context) {
 const scenario::NodeTable* read_node(Section& section, const FaultContext& context) {
   std::vector<std::string> names;
   for (const scenario::NodeSettings& node : context.nodes) names.emplace_back(node.table().key);
-  const std::string name = section.one_of(
-      {"node", "The node that it strikes; of faults on the bus all its messages, in place of `messages`."},
-      names);
+  const std::string name = section.one_of({"node",
+                                           "Node that the fault affects. For faults on the bus: all messages "
+                                           "of the node, in place of `messages`."},
+                                          names);
   const auto found = std::ranges::find(context.nodes, name,
                                        [](const scenario::NodeSettings& node) { return node.table().key; });
   return found == context.nodes.end() ? nullptr : &found->table();
@@ -122,8 +123,8 @@ const mapping::Stimulus* read_quantity(Section& section, const FaultContext& con
     if (on_the_bus(context, one.node)) names.push_back(one.name);
   }
   return mapping::find_stimulus(section.one_of(
-      {key, key == "quantity" ? "The quantity that it changes: what a node measures (faults.md)."
-                              : "The other quantity, of the same node and unit."},
+      {key, key == "quantity" ? "Quantity, measured by a node, that the fault changes (faults.md)."
+                              : "The other quantity; it must have the same node and unit."},
       names));
 }
 
@@ -142,7 +143,7 @@ OfValues read_values(Section& section, const FaultContext& context) {
   const auto messages = messages_by_name(section, context);
   if (messages.empty()) section.missing("quantity", "a quantity, or messages and signal");
   const std::string name =
-      section.text({"signal", "Signal of the `messages` that it changes, in place of `quantity`."});
+      section.text({"signal", "Signal of the `messages` that the fault changes, in place of `quantity`."});
   of.text = words_of(messages);
   for (const MessageInfo* message : messages) {
     if (context.contract.foreign != nullptr) {
@@ -177,11 +178,10 @@ double read_size(Section& section, std::string_view stem, const OfValues& of, sc
     given = keys.front();  // for the reference
   }
   const std::string shown = fmt::format("{}_UNIT", stem);
-  const scenario::Key key{
-      given,
-      "The value, with the ending of the quantity's unit (`by_degps`). Of a signal the key has "
-      "no ending, and the signal's unit.",
-      shown};
+  const scenario::Key key{given,
+                          "Size of the fault. The key ends in the unit of the quantity, as in `by_degps`. "
+                          "With `signal` the key has no ending, and the value is in the signal's unit.",
+                          shown};
   return si.empty() ? section.plain_number(key, limits) : section.number(key, limits);
 }
 

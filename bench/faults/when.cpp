@@ -12,10 +12,12 @@ constexpr double longest_s = 86'400;
 
 void read_periods(scenario::Section& section, When& when) {
   const auto for_us = section.optional_time_us(
-      {"for_s", "Duration of the fault, in place of `to_s`; with `each_s` that of each repetition."},
+      {"for_s", "Duration of the fault, in place of `to_s`; with `each_s` the duration of each repetition."},
       Limits::above(0));
-  const auto each_us = section.optional_time_us(
-      {"each_s", "The fault comes again after each such time. Only beside `for_s`."}, Limits::above(0));
+  const auto each_us = section.optional_time_us({"each_s",
+                                                 "Time from one repetition of the fault to the next; without "
+                                                 "the key it does not repeat. Only beside `for_s`."},
+                                                Limits::above(0));
   if (each_us && !for_us) section.reject("each_s", "is given alone", "for_s beside it");
   if (!for_us) return;
   if (each_us) {
@@ -32,19 +34,26 @@ void read_periods(scenario::Section& section, When& when) {
 
 When read_when(scenario::Section& section, const scenario::FaultContext& context, Repeats repeats) {
   When when;
-  when.from_us = section.time_us({"from_s", "Begin of the fault, by time of transmission."},
+  when.from_us = section.time_us({"from_s", "Time of transmission at which the fault begins."},
                                  Limits::between(0, longest_s), 0);
-  when.to_us =
-      section.time_us({"to_s", "End of the fault, by time of transmission; by default that of the run."},
-                      Limits::between(0, longest_s), longest_s);
+  when.to_us = section.time_us(
+      {"to_s", "Time of transmission at which the fault ends; by default the end of the run."},
+      Limits::between(0, longest_s), longest_s);
   scenario::expect_within_run(section, "from_s", when.from_us, context.duration_us);
   if (when.to_us < when.from_us) section.reject("to_s", "is before from_s", "a later time");
   read_periods(section, when);
   if (repeats == Repeats::stretch) return when;
-  when.every = section.optional_integer({"every", "Strikes the first of each so many frames or samples."}, 1)
+  when.every = section
+                   .optional_integer({"every",
+                                      "N: the fault affects only the first of every N frames of a message, "
+                                      "or of every N samples. Default: 1, all of them."},
+                                     1)
                    .value_or(1);
-  when.share = 0.01 * section.plain_number({"percent", "Share of those that it strikes, at random."},
-                                           Limits::between(0, 100), 100);
+  when.share =
+      0.01 *
+      section.plain_number(
+          {"percent", "Probability with which the fault affects a frame or sample that `every` selects."},
+          Limits::between(0, 100), 100);
   return when;
 }
 

@@ -18,9 +18,10 @@ FixFaults read_fix_faults(scenario::Section& section) {
       .invalid_probability =
           section.number({"invalid_percent", "Share of the fixes that are sent as invalid."}, share, 0),
       .outlier_probability = section.number(
-          {"outlier_percent", "Share of the fixes that jump by `outlier_m`. Both keys or none."}, share, 0),
-      .outlier = section.number({"outlier_m", "Size of a jump, in a random horizontal direction."},
-                                Limits::between(0, largest_outlier_m), 0),
+          {"outlier_percent", "Share of the fixes that jump by `outlier_m`. Needs that key."}, share, 0),
+      .outlier = section.number(
+          {"outlier_m", "Size of a jump, in a random horizontal direction. Needs `outlier_percent`."},
+          Limits::between(0, largest_outlier_m), 0),
       .silence_us = {}};
   // An explicit 0 % is allowed, because a sweep may begin with it.
   const bool size_alone = faults.outlier > 0 && !section.has("outlier_percent");
@@ -28,8 +29,8 @@ FixFaults read_fix_faults(scenario::Section& section) {
     section.reject(faults.outlier > 0 ? "outlier_m" : "outlier_percent", "is given alone",
                    "outlier_percent and outlier_m, both above 0");
   }
-  faults.silence_us = section.optional_interval_us({"silence_s", "Time of validity in which no fix is sent."},
-                                                   Limits::at_least(0));
+  faults.silence_us = section.optional_interval_us(
+      {"silence_s", "Fixes with a time of validity in this interval are not sent."}, Limits::at_least(0));
   return faults;
 }
 

@@ -21,12 +21,16 @@ NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   GpsSettings node;
   node.schedule = read_schedule(section);
-  node.bias = {.value = section.three({"bias_m", "Constant error of the position, [N, E, D]."}),
-               .sigma = section.three({"bias_sigma_m", "1-sigma of that error, drawn for each run."}, sigma)};
-  node.noise = section.three({"noise_m", "White noise, 1-sigma a fix."}, sigma);
+  node.bias = {
+      .value = section.three({"bias_m", "Constant error of the position, [N, E, D]."}),
+      .sigma = section.three(
+          {"bias_sigma_m", "1-sigma of a further constant error that is drawn for each run and added."},
+          sigma)};
+  node.noise = section.three({"noise_m", "White noise of the position, 1-sigma a fix."}, sigma);
   if (section.has("lowest_height_m"))
     node.lowest_height = section.number(
-        {"lowest_height_m", "Height below which no fix is valid. By default every height has fixes."},
+        {"lowest_height_m",
+         "Height below which all fixes are invalid. Default: fixes are valid at every height."},
         Limits{});
   section.optional("lowest_height_m");
   node.faults = read_fix_faults(section);

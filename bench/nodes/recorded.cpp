@@ -33,17 +33,16 @@ Result<void> check_period(std::int64_t median_us, std::int64_t period_us, std::s
 Result<void> read_csv(RecordedSettings& own, const NodeTable& table, Section& section,
                       std::int64_t duration_us, std::int64_t period_us) {
   const std::int64_t from_us = scenario::read_from_us(section);
-  const std::int64_t gap_us =
-      section
-          .optional_time_us(
-              {"gap_s",
-               "CSV: longest time without a sample; by default 0.2 s, or three periods if that is longer."},
-              Limits::above(0))
-          .value_or(usual_gap_us(period_us));
-  const auto text = section.read_beside(
-      {"recorded",
-       "FILE.csv or FILE.log that the node sends in place of what it measures (recorded-data.md)."},
-      "a CSV file", scenario::most_recorded_bytes);
+  const std::int64_t gap_us = section
+                                  .optional_time_us({"gap_s",
+                                                     "CSV only: longest time without a sample. Default: 0.2 "
+                                                     "s, or three periods if that is longer."},
+                                                    Limits::above(0))
+                                  .value_or(usual_gap_us(period_us));
+  const auto text = section.read_beside({"recorded",
+                                         "File with the samples that the node sends in place of simulated "
+                                         "ones: FILE.csv or FILE.log (recorded-data.md)."},
+                                        "a CSV file", scenario::most_recorded_bytes);
   if (!text) return {};
   return scenario::read_table(*text, own.recorded_from, columns_of(table))
       .and_then([&](const scenario::Table& rows) {
@@ -61,10 +60,10 @@ Result<void> read_log(RecordedSettings& own, const NodeTable& table, Section& se
   for (const std::string_view key : {"latency_ms", "from_s", "gap_s"})
     section.refuse(key, "has no effect on a log, whose frames are sent when they were",
                    "a CSV file, or no such key");
-  if (!section.read_beside(
-          {"recorded",
-           "FILE.csv or FILE.log that the node sends in place of what it measures (recorded-data.md)."},
-          "a candump log", scenario::most_recorded_bytes))
+  if (!section.read_beside({"recorded",
+                            "File with the samples that the node sends in place of simulated ones: FILE.csv "
+                            "or FILE.log (recorded-data.md)."},
+                           "a candump log", scenario::most_recorded_bytes))
     return {};
   return read_frames(table, own.recorded_from, duration_us).and_then([&](LoggedGroup group) {
     own.frames = std::make_shared<const RecordedFrames>(std::move(group.frames));
@@ -77,9 +76,9 @@ Result<void> read_log(RecordedSettings& own, const NodeTable& table, Section& se
 NodeSettings read_recorded(const NodeTable& table, Section& section, std::int64_t duration_us) {
   RecordedSettings own;
   own.schedule = read_schedule(section);
-  const std::string name = section.text(
-      {"recorded",
-       "FILE.csv or FILE.log that the node sends in place of what it measures (recorded-data.md)."});
+  const std::string name = section.text({"recorded",
+                                         "File with the samples that the node sends in place of simulated "
+                                         "ones: FILE.csv or FILE.log (recorded-data.md)."});
   own.recorded_from = section.beside(name);
   const std::int64_t period_us = own.schedule.period_us.value_or(table.closes.cycle_time_us);
   const std::string kind = std::filesystem::path(name).extension().string();

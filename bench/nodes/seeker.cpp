@@ -36,23 +36,25 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
 // run.
 world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
                                  std::string_view of, double sigma) {
-  return {
-      .value = section.number({key, fmt::format("Constant error of {}.", of)}, Limits{}, 0),
-      .sigma = section.number({sigma_key, fmt::format("1-sigma of the error of {}, drawn for each run.", of)},
-                              Limits::at_least(0), sigma)};
+  return {.value = section.number({key, fmt::format("Constant error of {}.", of)}, Limits{}, 0),
+          .sigma = section.number(
+              {sigma_key,
+               fmt::format("1-sigma of a constant error of {} that is drawn for each run and added.", of)},
+              Limits::at_least(0), sigma)};
 }
 
 world::SeekerErrorModel read_errors(Section& section) {
   const Limits sigma = Limits::at_least(0);
   return {
-      .thermal =
-          section.number({"thermal_noise_radpm2",
-                          "Thermal noise of an error angle, 1-sigma a sample, over the square of the range."},
-                         sigma, 1e-10),
+      .thermal = section.number(
+          {"thermal_noise_radpm2",
+           "Thermal noise of an error angle: 1-sigma of a sample, divided by the square of the range."},
+          sigma, 1e-10),
       .glint = section.number(
-          {"glint_noise_m", "Glint noise of an error angle, 1-sigma a sample, times the range."}, sigma, 0.5),
-      .glint_correlation =
-          section.number({"glint_correlation_ms", "Correlation time of the glint; 0: white."}, sigma, 0),
+          {"glint_noise_m", "Glint noise of an error angle: 1-sigma of a sample, multiplied by the range."},
+          sigma, 0.5),
+      .glint_correlation = section.number(
+          {"glint_correlation_ms", "Correlation time of the glint noise; 0: it is white."}, sigma, 0),
       .constant =
           section.number({"constant_noise_mrad",
                           "Noise of an error angle that does not depend on the range, 1-sigma a sample."},
@@ -67,15 +69,17 @@ world::SeekerErrorModel read_errors(Section& section) {
                                   "the missile's acceleration", 0.2),
       .range_noise = section.number({"range_noise_m", "Noise of the range, 1-sigma a sample."}, sigma, 5),
       .range_bias = read_constant(section, "range_bias_m", "range_bias_sigma_m", "the range", 15),
-      .full_errors_beyond =
-          section.number({"range_errors_full_beyond_m", "Range below which the errors of the range shrink."},
-                         Limits::above(0), 1000),
+      .full_errors_beyond = section.number(
+          {"range_errors_full_beyond_m",
+           "Range below which the errors of the measured range become smaller, in proportion to the range."},
+          Limits::above(0), 1000),
       .closing_speed_noise = section.number(
           {"closing_speed_noise_mps", "Noise of the closing speed, 1-sigma a sample."}, sigma, 3),
       .closing_speed_bias = read_constant(section, "closing_speed_bias_mps", "closing_speed_bias_sigma_mps",
                                           "the closing speed", 5),
       .field_of_view = section.number(
-          {"field_of_view_deg", "Angle from the antenna's axis up to which the target is seen."},
+          {"field_of_view_deg",
+           "Largest angle from the antenna's axis at which the seeker sees the flight target."},
           Limits::above(0, 37), 8)};
 }
 
@@ -83,8 +87,9 @@ NodeSettings read(const NodeTable& table, Section& section) {
   const Limits share = Limits::between(0, 100);
   SeekerSettings node;
   node.schedule = read_schedule(section);
-  node.jitter_us = section.time_us({"jitter_ms", "Each sample is late by a random time from 0 to this."},
-                                   Limits::between(0, 1000), 0);
+  node.jitter_us =
+      section.time_us({"jitter_ms", "Each sample is sent later by a random time between 0 and this."},
+                      Limits::between(0, 1000), 0);
   node.errors = read_errors(section);
   node.loss_probability =
       section.number({"loss_percent", "Share of the samples that are not sent."}, share, 0);
@@ -92,8 +97,8 @@ NodeSettings read(const NodeTable& table, Section& section) {
       section.number({"invalid_percent", "Share of the samples whose angles are invalid."}, share, 0);
   node.invalid_range_probability =
       section.number({"invalid_range_percent", "Share of the samples whose range is invalid."}, share, 0);
-  node.blackout_us =
-      section.optional_interval_us({"blackout_s", "Time in which nothing is seen."}, Limits::at_least(0));
+  node.blackout_us = section.optional_interval_us(
+      {"blackout_s", "Time in which the seeker does not see the flight target."}, Limits::at_least(0));
   return {table, node};
 }
 

@@ -67,7 +67,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
                           "1-sigma of each misalignment of the accelerometers, drawn for each run."},
                          sigma, 0)};
   node.loss_probability = section.number(
-      {"loss_percent", "Share of the sample groups that are not sent. Their increments are gone."},
+      {"loss_percent", "Share of the sample groups that are not sent. Their increments are lost."},
       Limits::between(0, 100), 0);
   return {table, node};
 }

@@ -22,10 +22,14 @@ NodeSettings read(const NodeTable& table, Section& section) {
       section.three({"ship_velocity_mps", "Velocity of the ship, [N, E, D]."}, Limits::between(-50, 50));
   node.ship_error = {
       .value = section.three({"ship_error_m", "Constant error of the position that the ship reports."}),
-      .sigma = section.three({"ship_error_sigma_m", "1-sigma of that error, drawn for each run."}, sigma)};
+      .sigma = section.three(
+          {"ship_error_sigma_m", "1-sigma of a further constant error that is drawn for each run and added."},
+          sigma)};
   node.bias = {
       .value = section.three({"bias_m", "Constant error of the vehicle's position relative to the ship."}),
-      .sigma = section.three({"bias_sigma_m", "1-sigma of that error, drawn for each run."}, sigma)};
+      .sigma = section.three(
+          {"bias_sigma_m", "1-sigma of a further constant error that is drawn for each run and added."},
+          sigma)};
   node.noise = section.three(
       {"noise_m", "White noise of the vehicle's position relative to the ship, 1-sigma a fix."}, sigma);
   node.range_noise =

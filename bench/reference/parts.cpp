@@ -88,7 +88,9 @@ Part parameters_part() {
       .title = "Parameters of the target",
       .about =
           "`[target.parameters]`: each is set over the bus and read back. Ranges and defaults are those of "
-          "hil-target; a target of your own may have others, and refuses what is out of range.",
+          "hil-target; a target of your own may have others, and refuses what is out of range. 'Set before "
+          "the start': the target "
+          "refuses a change while the estimator runs.",
       .tables = {}};
   for (const drive::ParametersOf& of : drive::target_parameters()) {
     Table table{.name = std::string(of.estimator), .about = "", .keys = {}};
@@ -116,7 +118,7 @@ Part truth_part() {
                   .about = "Errors of the initial state that the target receives.",
                   .keys = keys_of([](Section& section) { scenario::read_initial_error(section); })},
                  {.name = "[engagement]",
-                  .about = "A missile and its target, drawn anew for each run.",
+                  .about = "A missile and its flight target. Random values are drawn for each run.",
                   .keys = keys_of([](Section& section) { scenario::read_engagement(section); })}}};
   const auto keys = keys_of([](Section& root) {
     Section section = root.table("glide");
@@ -127,7 +129,7 @@ Part truth_part() {
       auto own = in_table(keys, path);
       if (!own.empty())
         part.tables.push_back(
-            {.name = fmt::format("[{}]", path), .about = "Of an unpowered glider.", .keys = std::move(own)});
+            {.name = fmt::format("[{}]", path), .about = "For an unpowered glider.", .keys = std::move(own)});
     }
   }
   return part;

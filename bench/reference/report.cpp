@@ -108,7 +108,10 @@ std::string markdown(const std::vector<Part>& parts) {
       "the guide. A key without 'required' may be left out. UNIT stands for the ending of a quantity's unit "
       "([quantities.md](quantities.md)). 'One number or three' are `[N, E, D]` or `[x, y, z]`, or one number "
       "for all "
-      "three.\n\n";
+      "three. The keys of other files are described elsewhere: those of an acceptance suite in "
+      "[accept.md](accept.md#writing-a-suite), those of a mapping file in "
+      "[mapping.md](mapping.md#the-mapping) "
+      "and [protection.md](protection.md).\n\n";
   for (const Part& part : parts) {
     const std::vector<std::string> shared = shared_rows(part);
     text += fmt::format("## {}\n\n", part.title);

@@ -24,12 +24,12 @@ Check read_check(Section& section, const CheckContext& context) {
       section.reject("kind", fmt::format("'{}' is a former kind", given), found->now);
   }
   check.kind = section.one_of({"kind", "Kind of the check."}, names);
-  check.requirement = section.text({"requirement", "Id that reports carry."}, "");
+  check.requirement = section.text({"requirement", "Id of the requirement, shown in the reports."}, "");
   const auto kind = std::ranges::find(kinds, std::string_view(check.kind), &CheckKind::name);
   RuleRead read;
   if (kind != kinds.end()) read = kind->read(section, context);
   check.rule = std::move(read.rule);
-  check.name = section.text({"name", "Unique name, by default kind and subject."},
+  check.name = section.text({"name", "Unique name; by default the kind and what is judged."},
                             check.kind + (read.subject.empty() ? "" : " " + read.subject));
   section.finish();
   return check;

@@ -16,7 +16,7 @@ Manoeuvre read_manoeuvre(Section& section) {
   static constexpr std::array<std::string_view, 3> kinds{"none", "step", "weave"};
   Manoeuvre manoeuvre;
   manoeuvre.kind = read_enum<Manoeuvre::Kind>(
-      section, {"manoeuvre", "What the target does in each plane, to either side at random."}, kinds,
+      section, {"manoeuvre", "Manoeuvre of the flight target in each plane; its side is random."}, kinds,
       Manoeuvre::Kind::step);
   if (manoeuvre.kind != Manoeuvre::Kind::weave)
     section.refuse("manoeuvre_period_s", "has no effect here", "manoeuvre = \"weave\"");
@@ -51,13 +51,13 @@ world::EngagementPlan read_engagement(Section& section) {
   static constexpr std::array<std::string_view, 3> planes{"both", "pitch", "yaw"};
   const Limits sigma = Limits::at_least(0);
   world::EngagementPlan plan;
-  plan.range =
-      section.number({"range_m", "Distance between missile and target at the start. They fly head-on."},
-                     Limits::between(100, 26'000), 5000);
+  plan.range = section.number(
+      {"range_m", "Distance between missile and flight target at the start. They fly head-on."},
+      Limits::between(100, 26'000), 5000);
   plan.missile_speed =
       section.number({"missile_speed_mps", "Speed of the missile, constant."}, Limits::above(0, 3000), 600);
-  plan.target_speed =
-      section.number({"target_speed_mps", "Speed of the target, constant."}, Limits::above(0, 1000), 300);
+  plan.target_speed = section.number({"target_speed_mps", "Speed of the flight target, constant."},
+                                     Limits::above(0, 1000), 300);
   plan.heading_error = section.number({"heading_error_deg", "Error of the missile's heading at the start."},
                                       Limits::between(-45, 45), 0);
   plan.heading_error_sigma = section.number(
@@ -66,8 +66,9 @@ world::EngagementPlan read_engagement(Section& section) {
   plan.pointing_error_sigma =
       section.number({"pointing_error_sigma_mrad", "1-sigma of the antenna's pointing error at the start."},
                      Limits::between(0, 100), 5);
-  plan.planes = read_enum<world::ActivePlanes>(
-      section, {"planes", "The planes that have errors and a manoeuvre."}, planes, world::ActivePlanes::both);
+  plan.planes =
+      read_enum<world::ActivePlanes>(section, {"planes", "Planes in which there are errors and a manoeuvre."},
+                                     planes, world::ActivePlanes::both);
   plan.manoeuvre = read_manoeuvre(section);
   plan.navigation_constant =
       section.number({"navigation_constant", "Navigation constant of the guidance law."}, sigma, 4);
@@ -82,20 +83,20 @@ world::EngagementPlan read_engagement(Section& section) {
   plan.guidance = read_enum<world::Guidance>(
       section,
       {"guidance",
-       "`truth`: proportional navigation on the true LOS rate; `target`: on the LOS rate that the target "
-       "answers, so the miss distance depends on the bus."},
+       "LOS rate that proportional navigation uses. `truth`: the true one; `target`: the one in the answers "
+       "of the target under test, so the miss distance depends on the bus."},
       guidances);
   plan.guidance_delay_us =
       section.time_us({"guidance_delay_ms",
-                       "Time from the transmission of a sample to the command that follows from its answer. "
-                       "With guidance `target` at least the cycle of Sync, 10."},
+                       "Time from the transmission of a seeker sample to the guidance command from its "
+                       "answer. With `guidance` `target` at least 10, the cycle time of Sync."},
                       Limits::between(0, 1000), 10);
   if (plan.guidance == world::Guidance::truth)
     section.refuse("guidance_predicts", "has no effect here", "guidance = \"target\"");
   plan.guidance_predicts =
       section.flag({"guidance_predicts",
-                    "The command uses the answered rate as it will be in the middle of the time for which "
-                    "the command is held. Only with guidance `target`."});
+                    "The command uses the answered rate, extrapolated to the middle of the time for which "
+                    "the command is held. Only with `guidance` `target`."});
   section.finish();
   return plan;
 }

@@ -32,7 +32,7 @@ Fault read_fault(Section& section, const FaultContext& context, const std::vecto
   fault.from_us = read.from_us;
   fault.to_us = read.to_us;
   fault.name =
-      section.text({"name", "Unique name, by default kind and what the fault strikes."},
+      section.text({"name", "Unique name; by default the kind and what the fault affects."},
                    name_by_default(fault.kind + (read.subject.empty() ? "" : " " + read.subject), before));
   if (const auto same = std::ranges::find(before, fault.name, &Fault::name); same != before.end())
     section.reject("name",

@@ -16,7 +16,8 @@ glide::WindProfile read_profile(Section& section) {
     if (section.has("steady_mps")) section.reject("steady_mps", "is given beside season", "one of the two");
     section.optional("steady_mps");
     return glide::WindProfile(read_enum<glide::Season>(
-        section, {"season", "Mean wind of a month, by height."}, glide::season_names));
+        section, {"season", "Month whose mean wind is used. The wind depends on the height."},
+        glide::season_names));
   }
   section.optional("season");
   return glide::WindProfile(section.three({"steady_mps", "Constant wind [N, E, D], in place of `season`."},
@@ -38,16 +39,18 @@ void read_wind(Section section, world::GlidePlan& plan) {
 void read_airframe(Section section, world::GlidePlan& plan) {
   using glide::ErrorKind;
   glide::CoefficientErrorModel& errors = plan.coefficients;
-  errors.level = section.number({"coefficient_error_percent",
-                                 "1-sigma of the errors of the aerodynamic coefficients, by which the truth "
-                                 "differs from the filter's model."},
-                                Limits::between(0, 100), 0);
+  errors.level = section.number(
+      {"coefficient_error_percent",
+       "1-sigma of the errors by which the true aerodynamic coefficients differ from the filter's model."},
+      Limits::between(0, 100), 0);
   errors.kind = read_enum<ErrorKind>(
       section,
-      {"coefficient_error", "How the errors change with time: `held` draws new ones every `hold_ms`."},
+      {"coefficient_error",
+       "How the errors change with time. `white`: new at each step of the truth; `held`: new every "
+       "`hold_ms`; `markov`: correlated over `markov_time_s`; `constant`: drawn once for each run."},
       glide::error_kind_names, ErrorKind::held);
-  const std::int64_t hold_us =
-      section.time_us({"hold_ms", "Time for which `held` errors stay."}, Limits::between(10, 1e6), 50);
+  const std::int64_t hold_us = section.time_us({"hold_ms", "Time for which `held` errors stay constant."},
+                                               Limits::between(10, 1e6), 50);
   if (errors.kind != ErrorKind::markov)
     section.refuse("markov_time_s", "has no effect here", "coefficient_error = \"markov\" beside it");
   const std::int64_t markov_us =
@@ -56,10 +59,13 @@ void read_airframe(Section section, world::GlidePlan& plan) {
   errors.time_us = errors.kind == ErrorKind::markov ? markov_us : hold_us;
   const std::vector<std::string> scopes{"term", "total"};
   errors.per_part =
-      section.one_of({"per", "An error for each term of a coefficient, or one for the coefficient in total."},
-                     scopes, "term") == "term";
+      section.one_of(
+          {"per",
+           "`term`: one error for each term of a coefficient; `total`: one error for the whole coefficient."},
+          scopes, "term") == "term";
   const std::vector<std::string> reaches{"forces_and_moments", "forces"};
-  errors.moments = section.one_of({"of", "What the errors apply to."}, reaches, reaches[0]) == reaches[0];
+  errors.moments =
+      section.one_of({"of", "Coefficients that have the errors."}, reaches, reaches[0]) == reaches[0];
   plan.density_error =
       section.number({"density_error_percent", "Error of the air density."}, Limits::between(-50, 50), 0);
   section.finish();

@@ -168,32 +168,39 @@ std::int64_t read_from_us(Section& section) {
 
 world::Position read_position(Section& section) {
   // NED axes have no north at a pole, hence 89 degrees.
-  return {.latitude = section.number(
-              {"latitude_deg", "Latitude of the start. Of `recorded` only for a file without positions."},
-              Limits::between(-89, 89)),
-          .longitude = section.number(
-              {"longitude_deg", "Longitude of the start. Of `recorded` only for a file without positions."},
-              Limits::between(-180, 180)),
-          .height = section.number(
-              {"height_m",
-               "Height of the start above the ellipsoid. Of `recorded` only for a file without positions."},
-              Limits::between(-1000, 50'000))};
+  return {.latitude = section.number({"latitude_deg",
+                                      "Latitude of the start. With `recorded`: required for a file without "
+                                      "positions, refused for a file with them."},
+                                     Limits::between(-89, 89)),
+          .longitude = section.number({"longitude_deg",
+                                       "Longitude of the start. With `recorded`: required for a file without "
+                                       "positions, refused for a file with them."},
+                                      Limits::between(-180, 180)),
+          .height = section.number({"height_m",
+                                    "Height of the start above the ellipsoid. With `recorded`: required for "
+                                    "a file without positions, refused for a file with them."},
+                                   Limits::between(-1000, 50'000))};
 }
 
 world::Flight read_recorded_flight(Section& section, std::int64_t duration_us) {
   Wanted wanted{
       .from_us = read_from_us(section),
-      .gap_us = section.time_us({"gap_s", "Longest time from a row of the file to the next."},
-                                Limits::above(0), usual_gap_s),
+      .gap_us = section.time_us(
+          {"gap_s", "Longest time from a row of the file to the next; a file with a longer gap is refused."},
+          Limits::above(0), usual_gap_s),
       .duration_us = duration_us,
-      .agree_within = section.number(
-          {"agree_within_m", "Largest contradiction between the positions and the velocities of the file."},
-          Limits::above(0), usual_agreement_m)};
+      .agree_within = section.number({"agree_within_m",
+                                      "Largest difference between the positions of the file and those that "
+                                      "follow from its velocities; a file with a larger one is refused."},
+                                     Limits::above(0), usual_agreement_m)};
   std::vector<std::string> names;
   for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
   const auto text = section.read_beside({"file", "CSV file of the flight, relative to the scenario file."},
                                         "a CSV file", most_recorded_bytes);
-  if (!text) return {};
+  if (!text) {
+    read_position(section);  // for the reference: the file would show whether the keys are needed
+    return {};
+  }
   const auto table = read_table(
       *text, section.beside(section.text({"file", "CSV file of the flight, relative to the scenario file."})),
       names);

@@ -74,8 +74,8 @@ std::optional<bool> read_fd(Section& root) {
   if (!root.has("dbc")) return std::nullopt;
   static const std::vector<std::string> names{"canhil", "canhil-fd"};
   return root.one_of({"dbc",
-                      "Contract of the bus: classic CAN or CAN FD. Must agree with `--dbc`; without either "
-                      "it is `canhil`."},
+                      "DBC of the bus: classic CAN or CAN FD. It must agree with `--dbc`. Without the key "
+                      "and `--dbc` it is `canhil`."},
                      names) == "canhil-fd";
 }
 

@@ -6,13 +6,13 @@
 namespace canhil::scenario {
 
 Schedule read_schedule(Section& section) {
-  return {
-      .period_us = section.optional_time_us({"period_ms",
-                                             "Time from a sample to the next. By default the cycle time in "
-                                             "the DBC; the report names another value."},
-                                            Limits::between(1, 10'000)),
-      .latency_us = section.time_us({"latency_ms", "Time from the validity of a sample to its transmission."},
-                                    Limits::between(0, 10'000), 0)};
+  return {.period_us = section.optional_time_us({"period_ms",
+                                                 "Time from a sample to the next. Default: the cycle time in "
+                                                 "the DBC; if the value is another one, the report says so."},
+                                                Limits::between(1, 10'000)),
+          .latency_us = section.time_us(
+              {"latency_ms", "Time from the time of validity of a sample to its transmission."},
+              Limits::between(0, 10'000), 0)};
 }
 
 Schedule read_glide_schedule(Section& section) {

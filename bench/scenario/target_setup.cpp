@@ -19,7 +19,8 @@ InitialSigma read_initial_sigma(Section section, const TargetSetup& target) {
       .tilt = section.number({"tilt_deg", "1-sigma of the misalignments about north and east."},
                              Limits::above(0, 90)),
       .heading = section.number(
-          {"heading_deg", "1-sigma of the heading. At most 180, or 600 for `sin_cos`: an unknown heading."},
+          {"heading_deg",
+           "1-sigma of the heading. At most 180; with `sin_cos` up to 600, for an unknown heading."},
           Limits::above(0, 600)),
       .position = section.number({"position_m", "1-sigma of each component of the initial position."},
                                  Limits::above(0))};
@@ -56,22 +57,27 @@ std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& con
 /// Without a handshake the target receives no parameters or initial state, so none can be set.
 TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
   static const std::vector<std::string> none{"none"};
-  section.one_of({"handshake", "With `mapping`: the target gets no commands."}, none, none.front());
-  section.text(
-      {"mapping", "Mapping of a target that has a DBC of its own (mapping.md)."});  // already read to choose
-                                                                                    // the vocabulary
+  section.one_of({"handshake", "Only with `mapping`; `none` is the only value: the bench sends no commands."},
+                 none, none.front());
+  section.text({"mapping",
+                "Mapping file of a target that has a DBC of its own, relative to the scenario file "
+                "(mapping.md)."});  // already read to choose
+                                    // the vocabulary
   TargetSetup target;
   target.estimator = contract.estimators.front();
   target.own_start = {
-      .settle_us = section.time_us(
-          {"settle_s",
-           "With `mapping`: time from the start of the target, or of the bench, to the first sample."},
-          Limits::between(0, 3600), 0.5),
-      .silence_us =
-          section.time_us({"silence_s", "With `mapping`: silence after which the target counts as gone."},
-                          Limits::above(0, 3600), 1.0),
-      .before = section.text({"before", "With `mapping`: shell command before the run."}, ""),
-      .after = section.text({"after", "With `mapping`: shell command after the run."}, "")};
+      .settle_us =
+          section.time_us({"settle_s", "With `mapping`: time that the bench waits before the first sample."},
+                          Limits::between(0, 3600), 0.5),
+      .silence_us = section.time_us(
+          {"silence_s",
+           "With `mapping`, in real time: the run ends if the target sends nothing for longer than this."},
+          Limits::above(0, 3600), 1.0),
+      .before = section.text(
+          {"before", "With `mapping`: shell command that is run before the flight; it must exit with 0."},
+          ""),
+      .after = section.text(
+          {"after", "With `mapping`: shell command that is run after the flight; it must exit with 0."}, "")};
   section.finish();
   return target;
 }
@@ -81,10 +87,13 @@ TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
   for (const std::string_view key : {"handshake", "settle_s", "silence_s", "before", "after"})
     section.refuse(key, "is for a target with a mapping", "the key 'mapping' beside it");
   TargetSetup target;
-  target.estimator =
-      section.one_of({"estimator", "Estimator of the DBC's value table Estimator."}, contract.estimators);
-  target.algorithm = section.one_of(
-      {"algorithm", "Algorithm of that estimator, of the DBC's value table Algorithm."}, contract.algorithms);
+  target.estimator = section.one_of(
+      {"estimator", "Estimator that the target runs, by its name in the DBC's value table Estimator."},
+      contract.estimators);
+  target.algorithm = section.one_of({"algorithm",
+                                     "Algorithm of the estimator, by its name in the DBC's value table "
+                                     "Algorithm. scenarios.md lists the algorithms of each estimator."},
+                                    contract.algorithms);
   target.algorithm_where = fmt::format("{}: key '{}'", section.where("algorithm"), section.path("algorithm"));
   // Every target receives an initial state at the start; an estimator that does not navigate ignores this
   // state.

@@ -48,37 +48,47 @@ constexpr std::array rows{
         "1-sigma of the gyro biases at the start.",
         [](Tuning& t, double v) { t.filter.gyro_bias_sigma_0.setConstant(v * degph); }},
     Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, real, any_time,
-        "White noise assumed of the accelerometers.",
+        "Density of the accelerometers' white noise that the filter assumes.",
         [](Tuning& t, double v) { t.filter.accel_noise_density = v * ug; }},
-    Row{Parameter::gyro_noise_degprth, 0.125, 0, 1e4, real, any_time, "White noise assumed of the gyros.",
+    Row{Parameter::gyro_noise_degprth, 0.125, 0, 1e4, real, any_time,
+        "Density of the gyros' white noise that the filter assumes.",
         [](Tuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
     Row{Parameter::velocity_noise_m2ps, 0.01, 1e-9, 1e4, real, any_time,
-        "Density R of the master's velocity noise, (m/s)^2 s; the filter uses R/dt.",
+        "Density R of the master's velocity noise, in (m/s)^2 s. The filter uses the covariance R/dt, dt "
+        "being the time between two velocities.",
         [](Tuning& t, double v) { t.filter.velocity_noise_density = v; }},
-    Row{Parameter::h2_case, 2, 1, 4, whole, stopped_only, "`robust_h2`: uncertainty structure.",
+    Row{Parameter::h2_case, 2, 1, 4, whole, stopped_only,
+        "`robust_h2`: structure of the uncertainty, by its number in the paper.",
         [](Tuning& t, double v) { t.filter.h2_case = static_cast<ta::H2Case>(std::lround(v)); }},
     Row{Parameter::h2_alpha_rule, 0, 0, 1, whole, stopped_only,
-        "`robust_h2`: 0: alpha from the attitude covariance; 1: constant.",
+        "`robust_h2`: size alpha of the uncertainty. 0: from the attitude covariance; 1: constant, "
+        "`h2_alpha_mps2`.",
         [](Tuning& t, double v) { t.filter.alpha_rule = static_cast<ta::AlphaRule>(std::lround(v)); }},
-    Row{Parameter::h2_alpha_mps2, 0, 0, 1e3, real, any_time, "`robust_h2`: alpha of rule 1.",
+    Row{Parameter::h2_alpha_mps2, 0, 0, 1e3, real, any_time, "`robust_h2`: alpha if `h2_alpha_rule` is 1.",
         [](Tuning& t, double v) { t.filter.alpha_constant = v; }},
-    Row{Parameter::fading_per_s, 0, 0, 10, real, any_time, "`kalman`: fading memory.",
+    Row{Parameter::fading_per_s, 0, 0, 10, real, any_time,
+        "`kalman`: fading memory. Over a time t the sigmas grow by the factor exp(`fading_per_s` t); 0: "
+        "none.",
         [](Tuning& t, double v) { t.filter.fading_per_s = v; }},
     Row{Parameter::mechanization, 1, 0, 1, whole, stopped_only,
-        "0: one sample, as the published vectors; 1: two samples, coning and sculling.",
+        "Mechanisation. 0: by one sample, as in the published vectors; 1: by two samples, with correction of "
+        "coning and sculling.",
         [](Tuning& t, double v) {
           t.filter.mechanization = static_cast<strapdown::Mechanization>(std::lround(v));
         }},
     Row{Parameter::closed_loop, 2, 0, 2, whole, stopped_only,
-        "0: the INS is never corrected; 1: it is, as published; 2: it is, by an invariant error, with a "
-        "guarded H2 and gated velocities.",
+        "0: the INS is not corrected; 1: it is corrected as published; 2: it is corrected by an invariant "
+        "error, H2 is guarded, and velocities beyond `gate_nis` are refused.",
         [](Tuning& t, double v) { t.filter.loop = static_cast<ta::Loop>(std::lround(v)); }},
     Row{Parameter::gate_nis, 2000, 0, 1e9, real, any_time,
-        "`closed_loop` 2: velocities whose normalised innovation squared is beyond are refused; 0: none.",
+        "`closed_loop` 2: velocities with a larger normalised innovation squared (NIS) are refused; 0: no "
+        "gate.",
         [](Tuning& t, double v) { t.filter.gate_nis = v; }},
-    Row{Parameter::gate_recovery, 5, 0, 1e6, whole, any_time, "Refusals in a row after which one is taken.",
+    Row{Parameter::gate_recovery, 5, 0, 1e6, whole, any_time,
+        "The gate refuses at most this many velocities in a row; the next one is used.",
         [](Tuning& t, double v) { t.filter.gate_recovery = static_cast<std::uint32_t>(std::lround(v)); }},
-    Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time, "Least time between navigation answers.",
+    Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time,
+        "Minimum time between navigation answers.",
         [](Tuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
 };
 

@@ -26,7 +26,7 @@ constexpr std::array rows{
     Row{Parameter::fix_noise_vertical_m, 1, 1e-3, 1e4, false, true, "White noise assumed of a fix, 1-sigma.",
         [](baro_inertial::Settings& s, double v) { s.barometer_sigma = v; }},
     Row{Parameter::gate_nis, 0, 0, 1e6, false, true,
-        "Fixes whose normalised innovation squared is beyond are rejected; 0: none.",
+        "Fixes with a larger normalised innovation squared (NIS) are refused; 0: no gate.",
         [](baro_inertial::Settings& s, double v) { s.gate = v; }},
 };
 

@@ -9,8 +9,8 @@ namespace canhil::checks {
 struct Answering {
   static constexpr std::string_view kind = "answering";
   static constexpr std::string_view meaning =
-      "Passes when answers and heartbeats come without a gap, all values are numbers, and no frame of the "
-      "target is damaged.";
+      "Passes when answers and heartbeats come without a gap while no fault is active, all values are "
+      "numbers, and no frame of the target is damaged.";
   std::vector<Subject> judged;  ///< quantities that are reported with every answer
   /// Windows of the scenario's faults: answers may be missing, because the target may receive no input.
   std::vector<scenario::Window> excused;

@@ -26,11 +26,14 @@ Answers Answers::read(scenario::Section& section, const scenario::CheckContext& 
     const std::string at_least = key("at_least"), at_most = key("at_most"), before = key("before_s");
     Count count{
         .mark = std::string(mark.name),
-        .at_least =
-            section.optional_integer({at_least, "So many answers have the mark.", "MARK_at_least"}, 0),
-        .at_most = section.optional_integer({at_most, "No more answers have the mark.", "MARK_at_most"}, 0),
+        .at_least = section.optional_integer(
+            {at_least, "Minimum number of answers in the window that have the mark.", "MARK_at_least"}, 0),
+        .at_most = section.optional_integer(
+            {at_most, "Maximum number of answers in the window that have the mark.", "MARK_at_most"}, 0),
         .before_us = section.optional_time_us(
-            {before, "The first answer that has the mark comes before.", "MARK_before_s"}, Limits::above(0))};
+            {before, "The first answer of the run that has the mark must come before this time.",
+             "MARK_before_s"},
+            Limits::above(0))};
     scenario::expect_ordered(section, at_least, count.at_least, at_most, count.at_most);
     if (count.before_us) scenario::expect_within_run(section, before, *count.before_us, context.duration_us);
     if (count.at_least || count.at_most || count.before_us) rule.counts.push_back(std::move(count));

@@ -8,8 +8,8 @@ namespace canhil::checks {
 struct Answers {
   static constexpr std::string_view kind = "answers";
   static constexpr std::string_view meaning =
-      "Passes when so many answers of the window have a mark. MARK stands for each mark of the estimator "
-      "(scenarios.md).";
+      "Passes when the answers with a mark meet the limits; at least one limit is needed. MARK stands for a "
+      "mark of the estimator (scenarios.md).";
   struct Count {
     std::string mark;  ///< one of the estimator's marks
     std::optional<std::int64_t> at_least{}, at_most{};

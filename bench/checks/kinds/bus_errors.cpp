@@ -11,18 +11,24 @@ namespace canhil::checks {
 BusErrorLimits BusErrorLimits::read(scenario::Section& section, const scenario::CheckContext& /*context*/) {
   return {
       .bus_off_at_most =
-          section.optional_integer({"bus_off_at_most", "Number of bus-offs; 0 if not given."}, 0).value_or(0),
-      .down_at_most =
-          section.optional_integer({"down_at_most", "Number of outages of the interface; 0 if not given."}, 0)
+          section.optional_integer({"bus_off_at_most", "Maximum number of bus-offs; 0 if not given."}, 0)
               .value_or(0),
-      .passive_at_most =
-          section.optional_integer({"passive_at_most", "Times that the controller became error passive."}, 0),
-      .warning_at_most =
-          section.optional_integer({"warning_at_most", "Times that the controller reported a warning."}, 0),
+      .down_at_most =
+          section
+              .optional_integer(
+                  {"down_at_most", "Maximum number of outages of the interface; 0 if not given."}, 0)
+              .value_or(0),
+      .passive_at_most = section.optional_integer(
+          {"passive_at_most", "Maximum number of times that the controller becomes error passive."}, 0),
+      .warning_at_most = section.optional_integer(
+          {"warning_at_most", "Maximum number of times that the controller reports an error warning."}, 0),
       .error_frames_at_most =
-          section.optional_integer({"error_frames_at_most", "Number of error frames."}, 0),
-      .late_in_queue_at_most = section.optional_integer(
-          {"late_in_queue_at_most", "Frames that waited in the queue too long."}, 0)};
+          section.optional_integer({"error_frames_at_most", "Maximum number of error frames."}, 0),
+      .late_in_queue_at_most =
+          section.optional_integer({"late_in_queue_at_most",
+                                    "Maximum number of frames that wait in the transmit queue for longer "
+                                    "than 10 ms, the cycle time of Sync."},
+                                   0)};
 }
 
 Finding BusErrorLimits::judge(const Evidence& evidence) const {

@@ -8,7 +8,9 @@ namespace canhil::checks {
 /// Limits; an absent limit is not judged.
 struct BusErrorLimits {
   static constexpr std::string_view kind = "bus_errors";
-  static constexpr std::string_view meaning = "Passes when each count of bus errors stays within its bound.";
+  static constexpr std::string_view meaning =
+      "Passes when each count of bus errors is within its limit. A count without a limit is not judged; "
+      "bus-offs and outages have the limit 0 if none is given.";
   std::int64_t bus_off_at_most = 0;
   std::int64_t down_at_most = 0;  ///< outages of the bench's interface
   std::optional<std::int64_t> passive_at_most{}, warning_at_most{}, error_frames_at_most{};

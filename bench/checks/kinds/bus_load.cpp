@@ -27,16 +27,18 @@ BusLoad BusLoad::read(scenario::Section& section, const scenario::CheckContext& 
   constexpr std::int64_t kilo = 1000;
   constexpr std::int64_t fastest = 1000, fastest_data = 8000;  // ISO 11898-2
   rule.bitrate =
-      section.integer({"bitrate_kbitps", fmt::format("Bit rate of the load, at most {}.", fastest)}, 1) *
+      section.integer(
+          {"bitrate_kbitps", fmt::format("Bit rate for which the load is computed, at most {}.", fastest)},
+          1) *
       kilo;
   if (rule.bitrate > fastest * kilo)
     section.reject("bitrate_kbitps", "is faster than CAN", fmt::format("kbit/s, at most {}", fastest));
   rule.data_bitrate =
       section
           .optional_integer(
-              {"data_bitrate_kbitps",
-               fmt::format("Bit rate of the data phase of FD frames, from `bitrate_kbitps` to {}.",
-                           fastest_data)},
+              {"data_bitrate_kbitps", fmt::format("Bit rate of the data phase of CAN FD frames, from "
+                                                  "`bitrate_kbitps` to {}. Default: as `bitrate_kbitps`.",
+                                                  fastest_data)},
               1)
           .value_or(0) *
       kilo;
@@ -45,7 +47,7 @@ BusLoad BusLoad::read(scenario::Section& section, const scenario::CheckContext& 
     section.reject("data_bitrate_kbitps", fmt::format("is {}", rule.data_bitrate / kilo),
                    fmt::format("from bitrate_kbitps to {}", fastest_data));
   }
-  rule.below = section.plain_number({"below_percent", "The load of each whole second is below."},
+  rule.below = section.plain_number({"below_percent", "The load of each whole second must be below this."},
                                     Limits::above(0, 100)) /
                100;
   return rule;

@@ -9,7 +9,7 @@ namespace canhil::checks {
 struct BusLoad {
   static constexpr std::string_view kind = "bus_load";
   static constexpr std::string_view meaning =
-      "Passes when all frames, by their exact length, keep the bus busy for less than that share of each "
+      "Passes when the frames, by their exact lengths, occupy the bus for less than `below_percent` of each "
       "whole second.";
   std::int64_t bitrate = 0;       ///< [bit/s]
   std::int64_t data_bitrate = 0;  ///< bit rate of the data phase of FD frames [bit/s]; 0: the nominal rate

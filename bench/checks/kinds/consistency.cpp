@@ -31,7 +31,7 @@ Consistency Consistency::read(scenario::Section& section, const scenario::CheckC
   rule.window = scenario::read_window(section, context.duration_us);
   if (!section.has("probability")) {
     const auto [low, high] =
-        section.interval({"mean_between", "The mean lies between."}, scenario::Limits::at_least(0));
+        section.interval({"mean_between", "The mean must lie between these."}, scenario::Limits::at_least(0));
     rule.bound = MeanBetween{.low = low, .high = high};
     section.optional("probability");
     return rule;
@@ -41,10 +41,11 @@ Consistency Consistency::read(scenario::Section& section, const scenario::CheckC
   // innovations are white.
   if (!rule.judged.quantity->white)
     section.reject("probability", "is for innovations (NIS) only", "mean_between = [low, high]");
-  rule.bound = Probability{.value = section.number({"probability",
-                                                    "Of a NIS, in place of `mean_between`: the mean lies in "
-                                                    "the central chi-square interval of this probability."},
-                                                   scenario::Limits::between(0.5, 0.999999))};
+  rule.bound =
+      Probability{.value = section.number({"probability",
+                                           "Only for a NIS, in place of `mean_between`: the mean must lie in "
+                                           "the central chi-square interval of this probability."},
+                                          scenario::Limits::between(0.5, 0.999999))};
   return rule;
 }
 

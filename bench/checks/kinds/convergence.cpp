@@ -15,10 +15,10 @@ Convergence Convergence::read(scenario::Section& section, const scenario::CheckC
     return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
   });
   std::tie(rule.within, rule.unit) =
-      read_bar(section, "within", "|estimated - true| is within.", *rule.judged.quantity);
-  rule.before_us =
-      scenario::read_time(section, {"before_s", "Time before which the error is within for good."},
-                          scenario::Limits::above(0), context.duration_us);
+      read_bar(section, "within", "Bound of |estimated - true|.", *rule.judged.quantity);
+  rule.before_us = scenario::read_time(
+      section, {"before_s", "Time before which |estimated - true| must have come within the bound for good."},
+      scenario::Limits::above(0), context.duration_us);
   rule.end_us = context.duration_us;
   return rule;
 }

@@ -9,7 +9,8 @@ namespace canhil::checks {
 struct Convergence {
   static constexpr std::string_view kind = "convergence";
   static constexpr std::string_view meaning =
-      "Passes when |estimated - true| stays within the bound for good before that time.";
+      "Passes when |estimated - true| comes within `within_UNIT` before `before_s` and stays there until the "
+      "end of the run.";
   Subject judged;
   double within = 0;  ///< [SI]
   quantities::Unit unit{};

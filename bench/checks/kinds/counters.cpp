@@ -12,13 +12,14 @@ namespace canhil::checks {
 
 Counters Counters::read(scenario::Section& section, const scenario::CheckContext& /*context*/) {
   const Counters rule{
-      .frames_lost_at_most =
-          section.optional_integer({"frames_lost_at_most", "Frames that the target counts as lost."}, 0),
-      .bad_crc_at_most =
-          section.optional_integer({"bad_crc_at_most", "Frames that it counts with a bad CRC."}, 0),
-      .bad_group_at_most =
-          section.optional_integer({"bad_group_at_most", "Groups that it counts as not whole."}, 0),
-      .late_at_most = section.optional_integer({"late_at_most", "Groups that it counts as late."}, 0)};
+      .frames_lost_at_most = section.optional_integer(
+          {"frames_lost_at_most", "Maximum number of frames that the target counts as lost."}, 0),
+      .bad_crc_at_most = section.optional_integer(
+          {"bad_crc_at_most", "Maximum number of frames that the target counts as having a wrong CRC."}, 0),
+      .bad_group_at_most = section.optional_integer(
+          {"bad_group_at_most", "Maximum number of groups that the target counts as incomplete."}, 0),
+      .late_at_most = section.optional_integer(
+          {"late_at_most", "Maximum number of groups that the target counts as late."}, 0)};
   if (!rule.frames_lost_at_most && !rule.bad_crc_at_most && !rule.bad_group_at_most && !rule.late_at_most)
     section.reject("frames_lost_at_most", "is missing, as are all other limits", "at least one limit");
   return rule;

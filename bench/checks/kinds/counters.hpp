@@ -11,7 +11,7 @@ namespace canhil::checks {
 struct Counters {
   static constexpr std::string_view kind = "counters";
   static constexpr std::string_view meaning =
-      "Passes when the target's own counters stay within their bounds.";
+      "Passes when the target's own counters are within the limits; at least one limit is needed.";
   std::optional<std::int64_t> frames_lost_at_most{}, bad_crc_at_most{}, bad_group_at_most{}, late_at_most{};
 
   static Counters read(scenario::Section& section, const scenario::CheckContext& context);

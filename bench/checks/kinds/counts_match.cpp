@@ -36,14 +36,16 @@ Count count(std::string_view what, std::uint64_t reported, std::uint64_t least, 
 }  // namespace
 
 CountsMatch CountsMatch::read(scenario::Section& section, const scenario::CheckContext& /*context*/) {
-  const auto slack = [&](std::string_view key) {
-    return section.optional_integer({key, "So many more or fewer may be counted; 0 if not given."}, 0)
-        .value_or(0);
+  const auto slack = [&](std::string_view key, std::string_view meaning) {
+    return section.optional_integer({key, meaning}, 0).value_or(0);
   };
-  return {.frames_lost_slack = slack("frames_lost_slack"),
-          .bad_crc_slack = slack("bad_crc_slack"),
-          .bad_group_slack = slack("bad_group_slack"),
-          .late_slack = slack("late_slack")};
+  return {.frames_lost_slack =
+              slack("frames_lost_slack", "Tolerance of the count of lost frames; 0 if not given."),
+          .bad_crc_slack =
+              slack("bad_crc_slack", "Tolerance of the count of frames with a wrong CRC; 0 if not given."),
+          .bad_group_slack =
+              slack("bad_group_slack", "Tolerance of the count of incomplete groups; 0 if not given."),
+          .late_slack = slack("late_slack", "Tolerance of the count of late groups; 0 if not given.")};
 }
 
 Finding CountsMatch::judge(const Evidence& evidence) const {

@@ -8,7 +8,7 @@ namespace canhil::checks {
 struct DelayBelow {
   static constexpr std::string_view kind = "delay";
   static constexpr std::string_view meaning =
-      "Passes when the delay of the quantity against the truth is below the bar (mapping.md).";
+      "Passes when the delay of the quantity relative to the truth is below `below_ms` (mapping.md).";
   Subject judged;
   scenario::Window window;
   std::int64_t below_us = 0;

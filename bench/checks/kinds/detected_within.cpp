@@ -12,7 +12,8 @@ namespace canhil::checks {
 DetectedWithin DetectedWithin::read(scenario::Section& section, const scenario::CheckContext& context) {
   DetectedWithin rule;
   rule.disturbance = read_disturbance(section, context);
-  rule.within_us = read_within(section, context, rule.disturbance.window.from_us);
+  rule.within_us = read_within(section, context, rule.disturbance.window.from_us,
+                               "Longest time from the onset to the first sign.");
   rule.by = read_signs(section, context);
   return rule;
 }

@@ -8,7 +8,8 @@ namespace canhil::checks {
 struct DetectedWithin {
   static constexpr std::string_view kind = "detected_within";
   static constexpr std::string_view meaning =
-      "Passes when the target gives a sign soon enough after the onset.";
+      "Passes when the target gives a sign within `within_s` of the onset of the fault (scenarios.md: "
+      "signs).";
   Disturbance disturbance;
   std::int64_t within_us = 0;
   std::vector<std::string> by;  ///< names of signs; empty: any new sign

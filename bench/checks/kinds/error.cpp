@@ -28,14 +28,15 @@ Error Error::read(scenario::Section& section, const scenario::CheckContext& cont
   rule.judged = read_subject(section, context, [](const quantities::Quantity& quantity) {
     return quantity.degrees_of_freedom == 0 && !quantity.white;
   });
-  rule.statistic = scenario::read_enum<Statistic>(
-      section,
-      {"statistic",
-       "Of |estimated - true| in the window: the largest, the RMS, the mean, or that of the last answer."},
-      statistics, Statistic::max);
+  rule.statistic =
+      scenario::read_enum<Statistic>(section,
+                                     {"statistic",
+                                      "Statistic of |estimated - true| in the window: its maximum, RMS or "
+                                      "mean, or (`final`) its value at the last answer."},
+                                     statistics, Statistic::max);
   rule.stretch = read_stretch(section, context, rule.judged);
   std::tie(rule.below, rule.unit) =
-      read_bar(section, "below", "The statistic is below.", *rule.judged.quantity);
+      read_bar(section, "below", "The statistic must be below this.", *rule.judged.quantity);
   return rule;
 }
 

@@ -9,7 +9,7 @@ namespace canhil::checks {
 struct Error {
   static constexpr std::string_view kind = "error";
   static constexpr std::string_view meaning =
-      "Passes when the statistic of |estimated - true| in the window is below the bar.";
+      "Passes when the statistic of |estimated - true| in the window is below `below_UNIT`.";
   enum class Statistic : std::uint8_t { max, rms, mean, final };
   Subject judged;  ///< if the quantity has parts, the norm of the parts
   Statistic statistic = Statistic::max;

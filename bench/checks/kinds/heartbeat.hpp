@@ -10,7 +10,7 @@ namespace canhil::checks {
 struct Heartbeat {
   static constexpr std::string_view kind = "heartbeat";
   static constexpr std::string_view meaning =
-      "Passes when no gap between heartbeats is longer than the bound.";
+      "Passes when no gap between heartbeats is longer than `silent_at_most_s`.";
   std::string message{messages::TargetHeartbeat::info.name};
   std::int64_t silent_at_most_us = 0;
 

@@ -25,12 +25,13 @@ Honest Honest::read(scenario::Section& section, const scenario::CheckContext& co
                    "another kind");
   section.optional("estimator");
   if (section.has("estimator")) {
-    rule.named = section.one_of({"estimator", "By default all that run."}, names);
+    rule.named = section.one_of({"estimator", "Estimator to judge; by default all that run."}, names);
     std::erase_if(rule.estimators, [&](const estimators::Estimator* one) { return one->name != rule.named; });
   }
-  rule.over_sigma = section.plain_number(
-      {"over_sigma", "Largest error over sigma of an answer that the target vouches for."},
-      scenario::Limits::above(0), rule.over_sigma);
+  rule.over_sigma = section.plain_number({"over_sigma",
+                                          "Largest ratio of error to sigma in a trusted answer, one with "
+                                          "neither of the marks `degraded` and `blind`."},
+                                         scenario::Limits::above(0), rule.over_sigma);
   return rule;
 }
 

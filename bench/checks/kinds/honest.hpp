@@ -7,7 +7,8 @@ namespace canhil::checks {
 
 struct Honest {
   static constexpr std::string_view kind = "honest";
-  static constexpr std::string_view meaning = "Passes when no answer is sure and wrong (honesty.md).";
+  static constexpr std::string_view meaning =
+      "Passes when no trusted answer has an error of more than `over_sigma` times its sigma (honesty.md).";
   std::vector<const estimators::Estimator*> estimators;
   std::string named;      ///< the estimator of the check; empty: all that run
   double over_sigma = 5;  ///< upper limit of the quantity trusted.over_sigma

@@ -17,7 +17,7 @@ using scenario::Limits;
 std::string read_answer(scenario::Section& section, const scenario::CheckContext& context) {
   const std::vector<std::string>& answers = context.contract.answers;
   std::string message =
-      section.one_of({"message", "Message of an answer, by name."}, context.contract.messages);
+      section.one_of({"message", "Name of a message that belongs to an answer."}, context.contract.messages);
   if (std::ranges::find(answers, message) == answers.end()) {
     section.reject("message", fmt::format("'{}' answers nothing", message),
                    answers.empty() ? std::string("one with 'answers' in the mapping, which has none")
@@ -31,9 +31,11 @@ Latency Latency::read(scenario::Section& section, const scenario::CheckContext& 
   Latency rule;
   rule.message = read_answer(section, context);
   rule.window = scenario::read_window(section, context.duration_us);
-  rule.below_us = section.time_us({"below_ms", "The latency is below."}, Limits::above(0));
+  rule.below_us =
+      section.time_us({"below_ms", "The quantile of the latencies must be below this."}, Limits::above(0));
   rule.quantile =
-      section.number({"quantile", "Quantile of the latencies; 1: the largest."}, Limits::above(0, 1), 1);
+      section.number({"quantile", "Quantile of the latencies that is judged; 1: the largest latency."},
+                     Limits::above(0, 1), 1);
   return rule;
 }
 

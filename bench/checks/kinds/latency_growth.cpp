@@ -18,9 +18,10 @@ LatencyGrowth LatencyGrowth::read(scenario::Section& section, const scenario::Ch
   const std::int64_t third_us = (window.to_us - window.from_us) / 3;
   rule.first = {.from_us = window.from_us, .to_us = window.from_us + third_us};
   rule.last = {.from_us = window.to_us - third_us, .to_us = window.to_us};
-  rule.ratio_below = section.number(
-      {"ratio_below", "The median of the last third of the window over that of the first is below."},
-      Limits::above(1));
+  rule.ratio_below = section.number({"ratio_below",
+                                     "The median latency of the last third of the window, divided by that of "
+                                     "the first third, must be below this."},
+                                    Limits::above(1));
   return rule;
 }
 

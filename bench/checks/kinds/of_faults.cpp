@@ -26,7 +26,7 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
     return Disturbance{};
   }
   const std::string name =
-      section.one_of({"fault", "Name of a `[[fault]]` of the scenario, in place of times."}, names);
+      section.one_of({"fault", "Name of a `[[fault]]` of the scenario, in place of the times."}, names);
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
   if (found->window.from_us >= context.duration_us)
@@ -42,16 +42,15 @@ Disturbance read_disturbance(scenario::Section& section, const scenario::CheckCo
     section.refuse("from_s", "has no effect beside fault", "one of the two");
     return *fault;
   }
-  const std::int64_t t_us =
-      scenario::read_time(section, {"from_s", "Time at which something goes wrong, in place of `fault`."},
-                          scenario::Limits::at_least(0), context.duration_us);
+  const std::int64_t t_us = scenario::read_time(
+      section, {"from_s", "Time at which something goes wrong without a `[[fault]]`, in place of `fault`."},
+      scenario::Limits::at_least(0), context.duration_us);
   return {.fault = {}, .window = {.from_us = t_us, .to_us = t_us}, .valid_from_us = t_us};
 }
 
 std::int64_t read_within(scenario::Section& section, const scenario::CheckContext& context,
-                         std::int64_t after_us) {
-  const std::int64_t within_us =
-      section.time_us({"within_s", "Longest time until then."}, scenario::Limits::above(0));
+                         std::int64_t after_us, std::string_view meaning) {
+  const std::int64_t within_us = section.time_us({"within_s", meaning}, scenario::Limits::above(0));
   if (after_us + within_us > context.duration_us)
     section.reject(
         "within_s", fmt::format("after {:g} s ends after the run", static_cast<double>(after_us) * 1e-6),
@@ -63,8 +62,9 @@ std::int64_t read_within(scenario::Section& section, const scenario::CheckContex
 std::vector<std::string> read_signs(scenario::Section& section, const scenario::CheckContext& context) {
   section.optional("by");
   if (!section.has("by")) return {};
-  return section.some_of({"by", "Signs that count; by default any that did not come in the 5 s before."},
-                         sign_names(running(context)));
+  return section.some_of(
+      {"by", "Signs that count; by default each sign that was absent in the 5 s before the onset."},
+      sign_names(running(context)));
 }
 
 std::vector<Sign> signs_of(const Evidence& evidence, const Disturbance& of,

@@ -28,9 +28,10 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
 /// Reads `fault`, or the time of a disturbance, `from_s`.
 Disturbance read_disturbance(scenario::Section& section, const scenario::CheckContext& context);
 
-/// Reads `within_s` and adds it to a time. Error: the sum lies after the end of the run.
+/// Reads `within_s`, with its meaning for the reference, and adds it to a time. Error: the sum lies after the
+/// end of the run.
 std::int64_t read_within(scenario::Section& section, const scenario::CheckContext& context,
-                         std::int64_t after_us);
+                         std::int64_t after_us, std::string_view meaning);
 
 /// `by`: names of signs; empty: any.
 std::vector<std::string> read_signs(scenario::Section& section, const scenario::CheckContext& context);

@@ -47,13 +47,16 @@ quantities::Unit read_unit(scenario::Section& section, std::string_view stem, co
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates) {
   if (candidates.size() == 1)
     return section.one_of(
-        {"estimator", "The estimator that is meant, where several that run send the quantity."}, candidates,
-        candidates.front());
+        {"estimator",
+         "Estimator to judge. May be omitted if the check can mean only one of the scenario's estimators."},
+        candidates, candidates.front());
   // Reported before the keys that depend on the estimator.
   if (!section.has("estimator"))
     section.reject("estimator", "is missing", fmt::format("one of: {}", fmt::join(candidates, ", ")));
   return section.one_of(
-      {"estimator", "The estimator that is meant, where several that run send the quantity."}, candidates);
+      {"estimator",
+       "Estimator to judge. May be omitted if the check can mean only one of the scenario's estimators."},
+      candidates);
 }
 
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
@@ -91,7 +94,8 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
     section.refuse(key, "has no effect beside time_to_go_s", "one of the two");
   return {.window = {.from_us = 0, .to_us = context.duration_us},
           .to_go_s = section.interval(
-              {"time_to_go_s", "Part of an engagement by its time to go, in place of `from_s` and `to_s`."},
+              {"time_to_go_s",
+               "Window of the time to go, in place of `from_s` and `to_s`; only for an engagement."},
               scenario::Limits::at_least(0))};
 }
 

@@ -26,13 +26,15 @@ void expect_sent(scenario::Section& section, const scenario::CheckContext& conte
 
 OutputPeriod OutputPeriod::read(scenario::Section& section, const scenario::CheckContext& context) {
   OutputPeriod rule;
-  rule.message = section.one_of({"message", "Message of the target."}, context.contract.messages);
+  rule.message =
+      section.one_of({"message", "Name of a message that the target sends."}, context.contract.messages);
   expect_sent(section, context, rule.message);
   rule.window = scenario::read_window(section, context.duration_us);
-  rule.within = section.number(
-      {"within_percent", "The deviation from the period is within this share of it."}, Limits::above(0));
+  rule.within =
+      section.number({"within_percent", "Largest deviation, as a share of the period."}, Limits::above(0));
   rule.quantile =
-      section.number({"quantile", "Quantile of the deviations; 1: the largest."}, Limits::above(0, 1), 1);
+      section.number({"quantile", "Quantile of the deviations that is judged; 1: the largest deviation."},
+                     Limits::above(0, 1), 1);
   return rule;
 }
 

@@ -8,7 +8,8 @@ namespace canhil::checks {
 struct OutputPeriod {
   static constexpr std::string_view kind = "output_period";
   static constexpr std::string_view meaning =
-      "Timing. Passes when that quantile of the deviation from the message's period is within the bound.";
+      "Timing. Passes when the quantile of the deviations from the message's period is within "
+      "`within_percent`.";
   std::string message;
   scenario::Window window;
   double within = 0;    ///< fraction of the period: 0.1 is 10 %

@@ -14,7 +14,8 @@ Protection Protection::read(scenario::Section& section, const scenario::CheckCon
   Protection rule;
   if (section.has("message")) {
     rule.message =
-        section.one_of({"message", "One message; by default all of the target."}, context.contract.messages);
+        section.one_of({"message", "Name of the message to judge; by default all messages of the target."},
+                       context.contract.messages);
     if (!section.error() && !context.contract.sent_by.contains(*rule.message))
       section.reject("message", "'" + *rule.message + "' is not a message of the target",
                      "one that it sends");
@@ -23,13 +24,17 @@ Protection Protection::read(scenario::Section& section, const scenario::CheckCon
   if (context.contract.foreign == nullptr)
     section.reject("kind", "'protection' is for targets with a mapping",
                    "'counters', which asks the target itself");
-  const auto most = [&](std::string_view key) {
-    return section.optional_integer({key, "So many frames may be wrong; 0 if not given."}, 0).value_or(0);
+  const auto most = [&](std::string_view key, std::string_view meaning) {
+    return section.optional_integer({key, meaning}, 0).value_or(0);
   };
-  rule.wrong_checksums_at_most = most("wrong_checksums_at_most");
-  rule.wrong_counters_at_most = most("wrong_counters_at_most");
-  rule.wrong_sizes_at_most = most("wrong_sizes_at_most");
-  rule.lost_at_most = most("lost_at_most");
+  rule.wrong_checksums_at_most =
+      most("wrong_checksums_at_most", "Maximum number of frames with a wrong checksum; 0 if not given.");
+  rule.wrong_counters_at_most = most(
+      "wrong_counters_at_most", "Maximum number of frames with a wrong or repeated counter; 0 if not given.");
+  rule.wrong_sizes_at_most =
+      most("wrong_sizes_at_most", "Maximum number of frames with a wrong size; 0 if not given.");
+  rule.lost_at_most =
+      most("lost_at_most", "Maximum number of frames that are missing by the counter; 0 if not given.");
   return rule;
 }
 

@@ -8,7 +8,8 @@ namespace canhil::checks {
 struct Protection {
   static constexpr std::string_view kind = "protection";
   static constexpr std::string_view meaning =
-      "For a target with a mapping. Passes when its messages are protected as the mapping says.";
+      "Only for a target with a mapping. Passes when the counters and checksums of its messages are as the "
+      "mapping says.";
   std::optional<std::string> message{};  ///< none: all messages of the target
   std::int64_t wrong_checksums_at_most = 0, wrong_counters_at_most = 0, wrong_sizes_at_most = 0,
                lost_at_most = 0;

@@ -18,7 +18,8 @@ RecoversWithin RecoversWithin::read(scenario::Section& section, const scenario::
   if (!rule.disturbance.fault.empty() && rule.disturbance.window.to_us >= context.duration_us)
     section.reject("fault", fmt::format("'{}' lasts to the end of the run", rule.disturbance.fault),
                    "one that ends");
-  rule.within_us = read_within(section, context, rule.disturbance.window.to_us);
+  rule.within_us = read_within(section, context, rule.disturbance.window.to_us,
+                               "Longest time from the end of the fault to the last sign.");
   rule.by = read_signs(section, context);
   section.optional("quantity");
   section.optional("estimator");
@@ -27,7 +28,9 @@ RecoversWithin RecoversWithin::read(scenario::Section& section, const scenario::
       return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
     });
     std::tie(rule.below, rule.unit) =
-        read_bar(section, "below", "From then on |estimated - true| is below.", *rule.error->quantity);
+        read_bar(section, "below",
+                 "From `within_s` after the end of the fault on, |estimated - true| must be below this.",
+                 *rule.error->quantity);
   }
   for (const estimators::Estimator* one : running(context)) {
     const std::vector<Subject> reported = always_reported(*one);

@@ -9,7 +9,8 @@ namespace canhil::checks {
 struct RecoversWithin {
   static constexpr std::string_view kind = "recovers_within";
   static constexpr std::string_view meaning =
-      "Passes when no sign comes any more soon enough after the end, and answers do.";
+      "Passes when the signs of the fault stop within `within_s` of its end, and answers come from then on "
+      "(scenarios.md: signs).";
   Disturbance disturbance;
   std::int64_t within_us = 0;
   std::vector<std::string> by;     ///< names of signs; empty: any sign that was absent before the fault

@@ -8,7 +8,7 @@ namespace canhil::checks {
 struct SigmaGrows {
   static constexpr std::string_view kind = "sigma_grows";
   static constexpr std::string_view meaning =
-      "Passes when the sigma of the quantity grows while there is nothing to measure.";
+      "Passes when the sigma of the quantity grows in the window, while there is nothing to measure.";
   Subject judged;
   std::string fault;  ///< empty: the check gives the window
   scenario::Window window;

@@ -8,7 +8,8 @@ namespace canhil::checks {
 struct WireResponseRule {
   static constexpr std::string_view kind = "wire_response";
   static constexpr std::string_view meaning =
-      "Passes when no frame took longer over the bus than its bound. Needs a bus whose bit rate is known.";
+      "Passes when no frame takes longer over the bus than the bound of its message (report.md). Needs a bus "
+      "whose bit rate is known.";
 
   static WireResponseRule read(scenario::Section& /*section*/, const scenario::CheckContext& /*context*/) {
     return {};

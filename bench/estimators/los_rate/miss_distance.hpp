@@ -8,7 +8,7 @@ namespace canhil::estimators {
 struct MissDistance {
   static constexpr std::string_view kind = "miss_distance";
   static constexpr std::string_view meaning =
-      "Passes when the closest approach of the engagement is below the bar.";
+      "Passes when the closest approach of missile and flight target is below `below_m`.";
   double below = 0;  ///< [m]
 
   static MissDistance read(scenario::Section& section, const scenario::CheckContext& context);

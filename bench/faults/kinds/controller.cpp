@@ -62,8 +62,8 @@ class Downs final : public Switched {
 
 ErrorFrames ErrorFrames::read(scenario::Section& section, const scenario::FaultContext& context) {
   return {.when = read_when(section, context, Repeats::stretch),
-          .period_us =
-              section.time_us({"period_ms", "Time from an error to the next."}, scenario::Limits::above(0))};
+          .period_us = section.time_us({"period_ms", "Time from a reported error to the next."},
+                                       scenario::Limits::above(0))};
 }
 std::string ErrorFrames::cannot(const Place& place) const { return needs_vcan(place); }
 std::unique_ptr<Injector> ErrorFrames::injector(const InRun& run) const {

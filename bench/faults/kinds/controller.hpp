@@ -8,7 +8,7 @@ namespace canhil::faults {
 /// Periodic error frames: protocol errors that the controller detected.
 struct ErrorFrames {
   static constexpr std::string_view kind = "error_frame";
-  static constexpr std::string_view meaning = "The driver reports errors on the bus.";
+  static constexpr std::string_view meaning = "The driver reports an error on the bus every `period_ms`.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   std::int64_t period_us = 0;
@@ -21,7 +21,8 @@ struct ErrorFrames {
 struct ErrorPassive {
   static constexpr std::string_view kind = "error_passive";
   static constexpr std::string_view meaning =
-      "The driver reports that the controller is error passive, then active. Needs `for_s`.";
+      "The driver reports that the controller is error passive, and after `for_s` that it is error active. "
+      "Needs `for_s`.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   static ErrorPassive read(scenario::Section& section, const scenario::FaultContext& context);
@@ -33,7 +34,8 @@ struct ErrorPassive {
 struct BusOff {
   static constexpr std::string_view kind = "bus_off";
   static constexpr std::string_view meaning =
-      "The driver reports that the controller is off the bus, then restarted. Needs `for_s`.";
+      "The driver reports that the controller is bus-off, and after `for_s` that it restarted. Needs "
+      "`for_s`.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   static BusOff read(scenario::Section& section, const scenario::FaultContext& context);
@@ -44,7 +46,8 @@ struct BusOff {
 /// The interface is set down, then up again.
 struct InterfaceDown {
   static constexpr std::string_view kind = "interface_down";
-  static constexpr std::string_view meaning = "The interface is set down, then up. Needs `for_s`.";
+  static constexpr std::string_view meaning =
+      "The interface is set down, and after `for_s` up again. Needs `for_s`.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   static InterfaceDown read(scenario::Section& section, const scenario::FaultContext& context);

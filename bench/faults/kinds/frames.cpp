@@ -82,7 +82,8 @@ Damaged Damaged::read(scenario::Section& section, const scenario::FaultContext& 
   Damaged kind;
   kind.of = read_messages(section, context);
   kind.when = read_when(section, context, Repeats::each);
-  kind.bits = section.optional_integer({"bits", "So many random bits change. By default one."}, 1);
+  kind.bits = section.optional_integer(
+      {"bits", "Number of random bits that are flipped. Default: one bit, at a fixed place."}, 1);
   return kind;
 }
 

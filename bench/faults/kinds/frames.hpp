@@ -60,14 +60,16 @@ struct TooLong : EachFrame<TooLong> {
 /// The frame is extended, with a 29-bit id.
 struct ForeignFormat : EachFrame<ForeignFormat> {
   static constexpr std::string_view kind = "foreign";
-  static constexpr std::string_view meaning = "The frame comes as an extended frame, with 29 bits of id.";
+  static constexpr std::string_view meaning =
+      "The frame is sent as an extended frame, with an id of 29 bits.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 };
 
 /// Bits of the payload are flipped, the CRC is unchanged.
 struct Damaged : Frames {
   static constexpr std::string_view kind = "damaged";
-  static constexpr std::string_view meaning = "A bit of the payload changes, and the CRC stays.";
+  static constexpr std::string_view meaning =
+      "A bit of the payload is flipped, and the CRC is not recomputed.";
   std::optional<std::int64_t> bits{};  ///< how many random bits; none: one bit of the first measured signal
   static Damaged read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;

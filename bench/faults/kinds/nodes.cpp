@@ -198,9 +198,9 @@ std::unique_ptr<Node> Silent::wrap(std::unique_ptr<Node> node, const NodeSetting
 NodeRestart NodeRestart::read(Section& section, const FaultContext& context) {
   NodeRestart kind;
   kind.table = read_node(section, context);
-  kind.when.from_us = section.time_us({"from_s", "Begin of the fault, by time of transmission."},
+  kind.when.from_us = section.time_us({"from_s", "Time of transmission at which the fault begins."},
                                       scenario::Limits::at_least(0));
-  kind.when.to_us = kind.when.from_us + section.time_us({"silent_s", "Time in which the node is silent."},
+  kind.when.to_us = kind.when.from_us + section.time_us({"silent_s", "Time for which the node is silent."},
                                                         scenario::Limits::at_least(0));
   return kind;
 }
@@ -211,8 +211,7 @@ std::unique_ptr<Node> NodeRestart::wrap(std::unique_ptr<Node> node, const NodeSe
 
 Late Late::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<Late>(section, context, Repeats::each);
-  kind.by_us = section.time_us({"by_ms", "Size of the delay, or of the step of the clock."},
-                               scenario::Limits::above(0));
+  kind.by_us = section.time_us({"by_ms", "Delay of the sample."}, scenario::Limits::above(0));
   return kind;
 }
 std::string Late::cannot(const Place& place) const { return needs_contract(place); }
@@ -223,7 +222,7 @@ std::unique_ptr<Node> Late::wrap(std::unique_ptr<Node> node, const NodeSettings&
 
 Slow Slow::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<Slow>(section, context);
-  kind.longer = 1 + section.number({"longer_percent", "So much longer is the period."},
+  kind.longer = 1 + section.number({"longer_percent", "Percentage by which the period is longer."},
                                    scenario::Limits::above(0, 100));
   return kind;
 }
@@ -235,7 +234,7 @@ std::unique_ptr<Node> Slow::wrap(std::unique_ptr<Node> node, const NodeSettings&
 
 ClockStep ClockStep::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<ClockStep>(section, context);
-  kind.by_us = section.time_us({"by_ms", "Size of the delay, or of the step of the clock."}, {});
+  kind.by_us = section.time_us({"by_ms", "Size of the step: it is added to the times of validity."}, {});
   return kind;
 }
 std::string ClockStep::cannot(const Place& place) const { return needs_contract(place); }
@@ -246,8 +245,8 @@ std::unique_ptr<Node> ClockStep::wrap(std::unique_ptr<Node> node, const NodeSett
 
 ClockDrift ClockDrift::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<ClockDrift>(section, context);
-  kind.rate =
-      section.number({"by_ppm", "So much faster is the clock."}, scenario::Limits::between(-1e5, 1e5));
+  kind.rate = section.number({"by_ppm", "Relative error of the clock's rate; positive: too fast."},
+                             scenario::Limits::between(-1e5, 1e5));
   return kind;
 }
 std::string ClockDrift::cannot(const Place& place) const { return needs_contract(place); }

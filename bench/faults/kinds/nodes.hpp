@@ -26,7 +26,8 @@ struct OfNode {
 struct Silent : OfNode<Silent> {
   static constexpr std::string_view kind = "silent";
   static constexpr std::string_view meaning =
-      "The node sends nothing, and goes on where it stopped. Increments of that time are gone.";
+      "The node sends nothing; afterwards its counters continue where they stopped. The increments of that "
+      "time are lost.";
   static Silent read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
                                                   const scenario::NodeSettings& settings,
@@ -36,7 +37,8 @@ struct Silent : OfNode<Silent> {
 /// Silent for a time, then its counters restart at 0. The measurements of that time are lost.
 struct NodeRestart : OfNode<NodeRestart> {
   static constexpr std::string_view kind = "restart";
-  static constexpr std::string_view meaning = "The node is silent for a time; then its counters begin at 0.";
+  static constexpr std::string_view meaning =
+      "The node is silent for `silent_s`; then its counters begin at 0.";
   static NodeRestart read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
                                                   const scenario::NodeSettings& settings,
@@ -46,7 +48,7 @@ struct NodeRestart : OfNode<NodeRestart> {
 /// Its samples are sent late, but with the right time of validity.
 struct Late : OfNode<Late> {
   static constexpr std::string_view kind = "late";
-  static constexpr std::string_view meaning = "The sample leaves later; its time of validity is right.";
+  static constexpr std::string_view meaning = "The sample is sent later; its time of validity is right.";
   static constexpr Stage stage = Stage::sensor;
   std::int64_t by_us = 0;
   static Late read(scenario::Section& section, const scenario::FaultContext& context);
@@ -60,7 +62,8 @@ struct Late : OfNode<Late> {
 struct Slow : OfNode<Slow> {
   static constexpr std::string_view kind = "slow";
   static constexpr std::string_view meaning =
-      "The node's period is longer: it sends its newest sample, with the increments of those between.";
+      "The node's period is longer. It sends its newest sample each time; the increments include those of "
+      "the samples that were left out.";
   double longer = 0;  ///< additional period as a fraction of the right period
   static Slow read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
@@ -72,7 +75,7 @@ struct Slow : OfNode<Slow> {
 /// Its reported times have an offset.
 struct ClockStep : OfNode<ClockStep> {
   static constexpr std::string_view kind = "clock_step";
-  static constexpr std::string_view meaning = "The times of validity of the node are off.";
+  static constexpr std::string_view meaning = "The times of validity of the node are wrong by `by_ms`.";
   std::int64_t by_us = 0;
   static ClockStep read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
@@ -85,7 +88,8 @@ struct ClockStep : OfNode<ClockStep> {
 struct ClockDrift : OfNode<ClockDrift> {
   static constexpr std::string_view kind = "clock_drift";
   static constexpr std::string_view meaning =
-      "The clock of the node is too fast, and so are the intervals that it sends.";
+      "The clock of the node is too fast: its times of validity gain on the right ones, and the intervals "
+      "that it sends are too long.";
   double rate = 0;
   static ClockDrift read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;

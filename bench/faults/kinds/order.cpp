@@ -52,7 +52,7 @@ Delayed Delayed::read(scenario::Section& section, const scenario::FaultContext& 
   Delayed kind;
   kind.of = read_messages(section, context);
   kind.when = read_when(section, context, Repeats::each);
-  kind.by_us = section.time_us({"by_ms", "Size of the delay."}, scenario::Limits::above(0));
+  kind.by_us = section.time_us({"by_ms", "Delay of the frame."}, scenario::Limits::above(0));
   return kind;
 }
 

@@ -8,7 +8,7 @@ namespace canhil::faults {
 /// Delayed by a time; unaffected frames overtake it.
 struct Delayed : Frames {
   static constexpr std::string_view kind = "delayed";
-  static constexpr std::string_view meaning = "The frame comes to the bus later.";
+  static constexpr std::string_view meaning = "The frame is sent later.";
   std::int64_t by_us = 0;
   static Delayed read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
@@ -17,7 +17,7 @@ struct Delayed : Frames {
 /// The frame is sent after the next frame of the same message.
 struct Reordered : Frames {
   static constexpr std::string_view kind = "reordered";
-  static constexpr std::string_view meaning = "The frame comes after the next one of its message.";
+  static constexpr std::string_view meaning = "The frame is sent after the next frame of the same message.";
   static Reordered read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };

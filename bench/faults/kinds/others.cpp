@@ -57,7 +57,7 @@ Stranger Stranger::read(scenario::Section& section, const scenario::FaultContext
   kind.id = max_standard_id;
   while (kind.id > 0 && is_known(context, kind.id)) --kind.id;
   if (const auto id =
-          section.optional_integer({"id", "Id of the frames; by default the highest that nobody has."}, 0)) {
+          section.optional_integer({"id", "Id of the frames; by default the highest unused one."}, 0)) {
     kind.id = static_cast<std::uint32_t>(std::min<std::int64_t>(*id, max_standard_id));
     if (*id > max_standard_id || is_known(context, kind.id))
       section.reject("id", fmt::format("{} is used by the DBC, or has more than 11 bits", *id),
@@ -78,7 +78,7 @@ Flood Flood::read(scenario::Section& section, const scenario::FaultContext& cont
   if (kind.period_us)
     section.refuse("load_percent", "is given beside period_us", "one of the two");
   else
-    kind.load = section.number({"load_percent", "Load that the frames make, of the bus's bit rate."},
+    kind.load = section.number({"load_percent", "Share of the bus's bit rate that the extra frames occupy."},
                                Limits::above(0, 100));
   if (is_known(context, urgent.id))
     section.reject("kind", "'flood' uses the id of a message", "a DBC without id 0");

@@ -10,7 +10,8 @@ namespace canhil::faults {
 /// A frame with an unused id and a random payload.
 struct Stranger {
   static constexpr std::string_view kind = "stranger";
-  static constexpr std::string_view meaning = "Frames of an id that nobody has, with random bytes.";
+  static constexpr std::string_view meaning =
+      "The bench sends extra frames with an unused id and random bytes.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   std::int64_t period_us = 0;
@@ -22,7 +23,7 @@ struct Stranger {
 /// Frames of the highest priority: they precede all others.
 struct Flood {
   static constexpr std::string_view kind = "flood";
-  static constexpr std::string_view meaning = "Frames of the highest priority.";
+  static constexpr std::string_view meaning = "The bench sends extra frames of the highest priority.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   std::optional<std::int64_t> period_us{};

@@ -69,7 +69,9 @@ std::unique_ptr<Injector> CounterStuck::injector(const InRun& run) const {
 
 CounterJump CounterJump::read(scenario::Section& section, const scenario::FaultContext& context) {
   auto kind = read_protected<CounterJump>(section, context);
-  kind.by = section.integer({"by", "So much is the counter ahead; less than a whole turn."}, 1);
+  kind.by = section.integer(
+      {"by", "Number that is added to the counter; less than a whole turn of the counter, so at most 14."},
+      1);
   if (kind.by >= e2e::counter_period)
     section.reject("by", fmt::format("{} is a whole turn of the counter or more", kind.by),
                    fmt::format("1 to {}", e2e::counter_period - 1));

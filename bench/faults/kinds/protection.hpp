@@ -17,7 +17,7 @@ struct WrongCrc : Frames {
 struct CounterStuck : Frames {
   static constexpr std::string_view kind = "counter_stuck";
   static constexpr std::string_view meaning =
-      "The counter stays at that of the first frame. The CRC is right.";
+      "The counter keeps the value of the first frame that the fault affects. The CRC is right.";
   static CounterStuck read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
@@ -25,7 +25,7 @@ struct CounterStuck : Frames {
 /// The counter is too high; the CRC is right.
 struct CounterJump : Frames {
   static constexpr std::string_view kind = "counter_jump";
-  static constexpr std::string_view meaning = "The counter is ahead. The CRC is right.";
+  static constexpr std::string_view meaning = "The counter is too high by `by`. The CRC is right.";
   std::int64_t by = 1;
   static CounterJump read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;

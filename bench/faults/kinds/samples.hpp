@@ -9,7 +9,7 @@ namespace canhil::faults {
 /// Two values of a sample are swapped.
 struct Swapped {
   static constexpr std::string_view kind = "swapped";
-  static constexpr std::string_view meaning = "Two quantities of a node have each other's value.";
+  static constexpr std::string_view meaning = "The values of two quantities of a node are exchanged.";
   static constexpr Stage stage = Stage::sensor;
   OfValues one{};
   Measured other{};
@@ -24,8 +24,7 @@ struct Swapped {
 /// The sample is flagged invalid.
 struct Invalid {
   static constexpr std::string_view kind = "invalid";
-  static constexpr std::string_view meaning =
-      "The flags by which the sensor vouches for the sample say invalid.";
+  static constexpr std::string_view meaning = "The validity flags of the sample say invalid.";
   static constexpr Stage stage = Stage::sensor;
   std::vector<Measured> flags{};
   std::string text{};

@@ -62,13 +62,14 @@ std::unique_ptr<Injector> Paused::injector(const InRun& run) const {
 }
 
 Slowed Slowed::read(scenario::Section& section, const scenario::FaultContext& context) {
-  Slowed kind{.when = {.from_us = section.time_us({"from_s", "Begin of the fault."}, Limits::at_least(0), 0),
-                       .to_us = section.time_us({"to_s", "End of the fault, by default that of the run."},
-                                                Limits::at_least(0),
-                                                1e-6 * static_cast<double>(context.duration_us))},
+  Slowed kind{.when = {.from_us = section.time_us({"from_s", "Time at which the fault begins."},
+                                                  Limits::at_least(0), 0),
+                       .to_us = section.time_us(
+                           {"to_s", "Time at which the fault ends; by default the end of the run."},
+                           Limits::at_least(0), 1e-6 * static_cast<double>(context.duration_us))},
               .share = section.number({"cpu_percent", "Share of each period in which the process runs."},
                                       {.least = 1, .most = 99}),
-              .period_us = section.time_us({"period_ms", "Period in which the process stands still once."},
+              .period_us = section.time_us({"period_ms", "Time from one stop of the process to the next."},
                                            Limits::between(1, 1000), 10)};
   scenario::expect_within_run(section, "to_s", kind.when.to_us, context.duration_us);
   if (kind.when.to_us < kind.when.from_us) section.reject("to_s", "is before from_s", "a later time");
@@ -84,8 +85,8 @@ std::unique_ptr<Injector> Slowed::injector(const InRun& run) const {
 
 Restarted Restarted::read(scenario::Section& section, const scenario::FaultContext& context) {
   Restarted kind;
-  kind.when.from_us = scenario::read_time(section, {"from_s", "Begin of the fault."}, Limits::at_least(0),
-                                          context.duration_us);
+  kind.when.from_us = scenario::read_time(section, {"from_s", "Time at which the fault begins."},
+                                          Limits::at_least(0), context.duration_us);
   kind.when.to_us = kind.when.from_us;
   return kind;
 }

@@ -9,7 +9,7 @@ namespace canhil::faults {
 struct Paused {
   static constexpr std::string_view kind = "paused";
   static constexpr std::string_view meaning =
-      "The target's process stands still (SIGSTOP), then goes on. Needs `for_s`.";
+      "The target's process is stopped (SIGSTOP), and after `for_s` continued. Needs `for_s`.";
   static constexpr Stage stage = Stage::target;
   When when{};
   static Paused read(scenario::Section& section, const scenario::FaultContext& context);
@@ -21,7 +21,7 @@ struct Paused {
 struct Slowed {
   static constexpr std::string_view kind = "slowed";
   static constexpr std::string_view meaning =
-      "The target's process stands still for the rest of each period.";
+      "In each period the target's process runs for `cpu_percent` of the time and is stopped for the rest.";
   static constexpr Stage stage = Stage::target;
   When when{};
   double share = 1;
@@ -36,7 +36,8 @@ struct Slowed {
 struct Restarted {
   static constexpr std::string_view kind = "restarted";
   static constexpr std::string_view meaning =
-      "The target's process is killed and started again, with the state of that time.";
+      "The target's process is killed and started again. The bench then initialises it with the state of "
+      "that time.";
   static constexpr Stage stage = Stage::target;
   When when{};
   static Restarted read(scenario::Section& section, const scenario::FaultContext& context);

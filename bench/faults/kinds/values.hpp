@@ -55,7 +55,8 @@ struct EachValue {
 /// The value is replaced.
 struct Changed : EachValue<Changed> {
   static constexpr std::string_view kind = "changed", stem = "value";
-  static constexpr std::string_view meaning = "A sensor's value is this; a flag is 0 or 1.";
+  static constexpr std::string_view meaning =
+      "The sensor's value is replaced by `value_UNIT`, a flag by 0 or 1.";
   static constexpr scenario::Limits limits{};
   static constexpr bool exactly = true;
   void check(scenario::Section& section) const;
@@ -65,7 +66,7 @@ struct Changed : EachValue<Changed> {
 /// A constant offset.
 struct Bias : EachValue<Bias> {
   static constexpr std::string_view kind = "bias", stem = "by";
-  static constexpr std::string_view meaning = "A sensor's value is so much more.";
+  static constexpr std::string_view meaning = "`by_UNIT` is added to the sensor's value.";
   static constexpr scenario::Limits limits{};
   static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
 };
@@ -74,7 +75,7 @@ struct Bias : EachValue<Bias> {
 struct Drift : EachValue<Drift> {
   static constexpr std::string_view kind = "drift", stem = "by";
   static constexpr std::string_view meaning =
-      "A sensor's value is so much more with each second since `from_s`.";
+      "`by_UNIT` is added to the sensor's value for each second since `from_s`.";
   static constexpr scenario::Limits limits{};
   static double becomes(double value, double size, const Sampled& sample) {
     return value + size * 1e-6 * static_cast<double>(sample.since_us);
@@ -85,7 +86,7 @@ struct Drift : EachValue<Drift> {
 struct Spike : EachValue<Spike> {
   static constexpr std::string_view kind = "spike", stem = "by";
   static constexpr std::string_view meaning =
-      "As `bias`, of single samples: needs `every` above 1 or `percent` below 100.";
+      "As `bias`, but for single samples: needs `every` above 1 or `percent` below 100.";
   static constexpr scenario::Limits limits{};
   void check(scenario::Section& section) const;
   static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
@@ -94,14 +95,14 @@ struct Spike : EachValue<Spike> {
 /// The value remains as it was at the start of the fault.
 struct Stuck : EachValue<Stuck> {
   static constexpr std::string_view kind = "stuck";
-  static constexpr std::string_view meaning = "A sensor's value stays what it was at the start.";
+  static constexpr std::string_view meaning = "The sensor's value stays as it was at the start of the fault.";
   static double becomes(double value, double size, const Sampled& sample);
 };
 
 /// The magnitude of the value is limited.
 struct Saturated : EachValue<Saturated> {
   static constexpr std::string_view kind = "saturated", stem = "at";
-  static constexpr std::string_view meaning = "A sensor's value is no larger than this, to either side.";
+  static constexpr std::string_view meaning = "The magnitude of the sensor's value is limited to `at_UNIT`.";
   static constexpr scenario::Limits limits = {.least = 0};
   static double becomes(double value, double size, const Sampled& sample);
 };
@@ -109,7 +110,8 @@ struct Saturated : EachValue<Saturated> {
 /// Additional white noise, 1-sigma per sample.
 struct Noise : EachValue<Noise> {
   static constexpr std::string_view kind = "noise", stem = "sigma";
-  static constexpr std::string_view meaning = "White noise is added to the sensor's own, 1-sigma a sample.";
+  static constexpr std::string_view meaning =
+      "White noise is added to the sensor's value: 1-sigma of a sample is `sigma_UNIT`.";
   static constexpr scenario::Limits limits = {.least = 0};
   static double becomes(double value, double size, const Sampled& sample) {
     return value + size * sample.noise.normal();
@@ -119,7 +121,7 @@ struct Noise : EachValue<Noise> {
 /// The sign is wrong.
 struct Reversed : EachValue<Reversed> {
   static constexpr std::string_view kind = "reversed";
-  static constexpr std::string_view meaning = "A sensor's value has the wrong sign.";
+  static constexpr std::string_view meaning = "The sign of the sensor's value is reversed.";
   static double becomes(double value, double /*size*/, const Sampled& /*sample*/) { return -value; }
 };
 
