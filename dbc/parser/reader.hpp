@@ -54,7 +54,7 @@ class Reader {
   std::int64_t whole(std::string_view what);
   /// A real number; one too large for a double becomes a finding and returns the largest double.
   double limit(std::string_view what);
-  /// A natural number with a '-' in front of it: the end of a range.
+  /// The upper end of a range such as "3-5", whose "-5" the lexer reads as one number. Returns 5.
   std::uint64_t natural_after_minus(std::string_view what);
 
   /// Reports the next token as unexpected and leaves the section.
@@ -76,8 +76,8 @@ inline constexpr std::string_view nobody = "Vector__XXX";
 /// Name -> index in a list. Lists may have tens of thousands of entries.
 using Index = std::map<std::string, std::size_t, std::less<>>;
 
-/// A Database under construction. Left-out objects stay until finish() removes them, as later sections may
-/// refer to them.
+/// A Database under construction. Messages and signals that are left out stay here until finish() removes
+/// them, as later sections may refer to them.
 struct Draft {
   explicit Draft(Findings& all) : findings(all) {}
 
@@ -97,7 +97,8 @@ inline constexpr std::uint32_t extended_flag = 0x8000'0000;
 inline constexpr std::uint32_t last_standard_id = 0x7FF;
 inline constexpr std::uint32_t last_extended_id = 0x1FFF'FFFF;
 
-/// An id as it should be in the text: with the flag if only an extended id can be that large.
+/// The id in the notation of a DBC. Some files omit the flag of an extended id; it is added if the id needs
+/// more than 11 bits.
 constexpr std::uint64_t text_id(std::uint64_t id) {
   return id > last_standard_id && id <= last_extended_id ? id | extended_flag : id;
 }

@@ -44,7 +44,7 @@ class FdGroups final : public Port {
       if (const SendOutcome outcome = inner_->send(*due); outcome != SendOutcome::sent) return outcome;
       packer_.clear();
     }
-    FdPacker packer = packer_;  // a copy, kept only if the bus accepts the frames that it packs
+    FdPacker packer = packer_;  // a copy: it replaces packer_ only if the bus accepts its container
     if (const auto full = packer.put(frame)) {
       if (const SendOutcome outcome = inner_->send(*full); outcome != SendOutcome::sent) return outcome;
     }
@@ -171,8 +171,8 @@ Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions opt
   if (joined || !is_local(bus)) return joined;
   options.fd = format != BusFormat::classic;
   auto hosted = host_local_bus(bus, options, std::move(rules));
-  // If hosting failed although the join found no host, reports why hosting failed; otherwise another process
-  // hosts the bus, and the reason for the failed join is more helpful.
+  // Two attempts failed; returns the more helpful error. If joining found no host, that is the error of
+  // hosting; otherwise another process hosts the bus, and it is the error of joining.
   if (!hosted && joined.error().message.starts_with(nobody_hosts)) return tl::unexpected(hosted.error());
   if (!hosted) return joined;
   return format == BusFormat::fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);

@@ -6,7 +6,7 @@
 // While one node has no room, the bus stalls until that node reads or dies; senders see queue_full. Every
 // node must therefore read: the hub drops a node that stalls the bus for too long.
 //
-// A bus belongs to one user: its sockets are in a directory of mode 0700 (`canhil` in XDG_RUNTIME_DIR, or
+// A bus belongs to one user: its sockets are in a directory of mode 0700 (`canhil` in XDG_RUNTIME_DIR, else
 // /tmp/canhil-uid-UID), and host and node each check the user of the other process (SO_PEERCRED).
 //
 // `local:NAME?bitrate=500000` adds a simulated wire (simulated_wire.hpp) that runs in real time: a frame

@@ -134,9 +134,9 @@ class SimulatedWire {
     std::vector<Pending> queue{};  ///< oldest first
     int tec = 0;
     int rec = 0;
-    std::int64_t silent_until_ns = long_ago;  ///< an error passive sender lets others go first
+    std::int64_t silent_until_ns = long_ago;  ///< end of the suspend transmission of an error passive sender
     bool off = false;
-    std::int64_t recessive_runs = 0;          ///< of 11 bits, while bus-off
+    std::int64_t recessive_runs = 0;          ///< runs of 11 recessive bits since the node went bus-off
     BusEvent level = BusEvent::error_active;  ///< the last reported state
   };
   struct Candidate {
@@ -169,8 +169,9 @@ class SimulatedWire {
   Disturb disturb_;
   std::vector<Node> nodes_;
   std::optional<Running> running_{};
-  std::int64_t free_ns_ = long_ago;  ///< since when the wire is free
-  std::int64_t idle_ns_ = free_ns_;  ///< until when its recessive bits are counted
+  std::int64_t free_ns_ = long_ago;  ///< the time since which the wire has been free
+  std::int64_t idle_ns_ =
+      free_ns_;  ///< the time up to which the recessive bits of the free wire have been counted
   std::deque<WireReport> reports_{};
   WireCounters counters_{};
 };

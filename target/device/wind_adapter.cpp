@@ -121,7 +121,7 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
       default:
         break;
     }
-    return Health::good;  // the filter starts again by itself
+    return Health::good;  // not a fault: the filter restarts by itself
   }
 
   Health tick(Context context) override {
@@ -135,7 +135,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     if (completes<Message>(group_, frame, counter, context)) on_navigation(context);
   }
 
-  // The latest plausible time of validity of an arrived sample. A run may start before its first Sync.
+  // The latest plausible time of validity of a sample that has arrived. It is relative to the last Sync, or
+  // to the start of a run whose first Sync has not arrived.
   [[nodiscard]] std::int64_t latest_us(const Context& context) const {
     return std::max(context.now_us, start_us_) + lead_limit_us;
   }
@@ -155,8 +156,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     }
   }
 
-  // Answers each complete group that does not update the filter, or updates it outside the range of the model
-  // or with late or refused fins. Of the other groups it answers one per output interval.
+  // Answers one group per output interval. Answers also every other complete group that did not update the
+  // filter, or updated it outside the range of the model or with late or refused fins.
   void on_navigation(Context& context) {
     const auto& horizontal = group_.get<GliderNavVelocityNE>();
     const auto& attitude = group_.get<GliderNavAttitude>();

@@ -82,7 +82,8 @@ class History {
       return result;
     }
     last_update_us_ = epoch_us(epoch);
-    prediction_count_ = 0;  // earlier ones are unreachable after this update, later ones are repeated
+    prediction_count_ =
+        0;  // predictions before this update can no longer be reached; later ones are repeated below
     for (std::size_t i = epoch; i < count_; ++i) {
       at(i).before = then.ins;
       step(then, at(i).increment, epoch_us(i + 1), settings);
@@ -122,8 +123,8 @@ class History {
     }
   }
 
-  // Stores the state before the filter predicts at t_us. If full, drops the oldest, and with it earlier
-  // epochs.
+  // Stores the state before the filter predicts at t_us. If there is no room, drops the oldest stored state:
+  // earlier epochs can then no longer be reached.
   void remember_prediction(const State& state, std::int64_t t_us) {
     if (prediction_count_ == Predictions) {
       forgotten_us_ = predictions_.front().t_us;
@@ -133,8 +134,7 @@ class History {
     predictions_[prediction_count_++] = {state, t_us};
   }
 
-  // The state at an epoch: `ins` at that epoch, and the other members as they were before the first later
-  // prediction.
+  // The state at an epoch: `ins` as at that epoch, the other members as before the first prediction after it.
   State state_at(const State& now, std::size_t epoch) {
     const State* then = &now;
     for (std::size_t i = prediction_count_; i > 0 && predictions_[i - 1].t_us > epoch_us(epoch); --i)
@@ -150,7 +150,7 @@ class History {
   std::int64_t longest_us_;
   std::size_t first_ = 0, count_ = 0, prediction_count_ = 0;
   std::int64_t now_us_ = 0, last_update_us_ = 0;
-  std::int64_t forgotten_us_ = 0;  // the filter's state before this epoch has been dropped
+  std::int64_t forgotten_us_ = 0;  // states before this epoch have been dropped
 };
 
 }  // namespace canhil::filtering
