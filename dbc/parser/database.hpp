@@ -84,9 +84,8 @@ struct Signal {
   std::string name;
   std::string unit;
   std::string comment;
-  unsigned start_bit =
-      0;  ///< position in the DBC's count: of the least (Intel) or most (Motorola) significant bit
-  unsigned length = 0;  ///< bits, 1..64
+  unsigned start_bit = 0;  ///< DBC position of the least (Intel) or most (Motorola) significant bit
+  unsigned length = 0;     ///< bits, 1..64
   ByteOrder byte_order = ByteOrder::little_endian;
   RawType type = RawType::unsigned_integer;
   double scale = 1;
@@ -96,9 +95,8 @@ struct Signal {
   std::vector<std::string> receivers;
   std::vector<ValueName> values;
   bool multiplexor = false;
-  std::string multiplexed_by;  ///< name of the multiplexor; empty: always present
-  std::vector<MuxRange>
-      mux_ranges;  ///< the signal is present if the multiplexor's raw value is in one of these
+  std::string multiplexed_by;        ///< name of the multiplexor; empty: always present
+  std::vector<MuxRange> mux_ranges;  ///< present if the multiplexor's raw value is in one of these
   Attributes attributes;
   Position at;
 

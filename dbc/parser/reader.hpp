@@ -23,9 +23,9 @@ class Reader {
     return tokens_[std::min(index_ + ahead, tokens_.size() - 1)];
   }
   const Token& take() { return tokens_[index_ + 1 < tokens_.size() ? index_++ : index_]; }
-  /// The next token is the first on its line and a keyword that can begin a section.
+  /// True if the next token is the first on its line and a keyword that can begin a section.
   [[nodiscard]] bool at_section() const;
-  /// The next token is ';', or the section ends without one.
+  /// True if the next token is ';', or if the section ends without one.
   [[nodiscard]] bool at_section_end() const {
     return at_mark(';') || at_section() || peek().kind == TokenKind::end;
   }
@@ -35,7 +35,7 @@ class Reader {
   [[nodiscard]] bool at_word(std::string_view word) const {
     return peek().kind == TokenKind::word && peek().text == word;
   }
-  /// The next token is one that word() accepts.
+  /// True if word() accepts the next token.
   [[nodiscard]] bool at_name() const {
     return at_name_with_digit() || (peek().kind == TokenKind::word && !is_keyword(peek().text));
   }

@@ -34,10 +34,9 @@ struct BusErrors {
   std::uint64_t lost_arbitration = 0;
   std::uint64_t no_ack = 0;
   std::uint64_t tx_timeout = 0;
-  std::uint64_t protocol = 0;   ///< bit, form, stuff, CRC and acknowledgement errors with their kind
-  std::uint64_t bus_error = 0;  ///< bus error interrupts; most protocol errors come with one
-  std::uint64_t rx_overflow =
-      0;  ///< the controller's own buffers overflowed: frames were lost before the kernel read them
+  std::uint64_t protocol = 0;     ///< bit, form, stuff, CRC and acknowledgement errors with their kind
+  std::uint64_t bus_error = 0;    ///< bus error interrupts; most protocol errors come with one
+  std::uint64_t rx_overflow = 0;  ///< the controller's own buffers overflowed, before the kernel read them
   std::uint64_t tx_overflow = 0;
   std::uint64_t transceiver = 0;
   std::uint8_t tx_counter = 0;  ///< the controller's error counters as last reported

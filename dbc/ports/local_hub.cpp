@@ -382,8 +382,7 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
 
 void run_hub(Port& hub, const std::function<bool()>& stop) {
   constexpr std::int64_t look_up_ns = 100'000'000;
-  constexpr int at_most =
-      1000;  // frames between two calls of stop(), which a fully loaded bus would otherwise prevent
+  constexpr int at_most = 1000;  // frames between two calls of stop(), so that a full bus cannot prevent them
   while (!stop()) {
     wait(hub, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + look_up_ns);
     for (int n = 0; n < at_most && hub.receive(); ++n) {

@@ -170,8 +170,7 @@ class SimulatedWire {
   std::vector<Node> nodes_;
   std::optional<Running> running_{};
   std::int64_t free_ns_ = long_ago;  ///< the time since which the wire has been free
-  std::int64_t idle_ns_ =
-      free_ns_;  ///< the time up to which the recessive bits of the free wire have been counted
+  std::int64_t idle_ns_ = free_ns_;  ///< the recessive bits of the free wire are counted up to this time
   std::deque<WireReport> reports_{};
   WireCounters counters_{};
 };

@@ -23,12 +23,10 @@
 namespace canhil {
 namespace {
 
-constexpr std::int64_t retry_ns = 200'000;  // about 1.5 full classic frames at 1 Mbit/s
-constexpr std::int64_t blocking_ns =
-    20'000'000;  // SO_RCVTIMEO: the longest time that a call waits for a frame
-constexpr std::int64_t look_again_ns =
-    10'000'000;                             // time between two checks whether an interface is up again
-constexpr int large_queue_bytes = 4 << 20;  // about 5000 frames: half a second of a full bus
+constexpr std::int64_t retry_ns = 200'000;          // about 1.5 full classic frames at 1 Mbit/s
+constexpr std::int64_t blocking_ns = 20'000'000;    // the longest wait of one call for a frame (SO_RCVTIMEO)
+constexpr std::int64_t look_again_ns = 10'000'000;  // between two checks whether an interface is up again
+constexpr int large_queue_bytes = 4 << 20;          // about 5000 frames: half a second of a full bus
 
 canfd_frame to_kernel(const Frame& frame) {
   canfd_frame raw{};
@@ -223,8 +221,7 @@ class SocketCan final : public Port {
     received.t_ns = said.software_ns;
     received.hardware_ns = said.hardware_ns;
     received.source = said.hardware_ns != 0 ? StampSource::hardware : StampSource::kernel;
-    if (said.software_ns ==
-        0) {  // the kernel enables stamping a little after setsockopt(): the first frames may have no stamp
+    if (said.software_ns == 0) {  // one of the first frames: the kernel enables stamping with a delay
       received.t_ns = clock_ns(CLOCK_REALTIME);
       if (said.hardware_ns == 0) received.source = StampSource::process;
     }

@@ -60,7 +60,7 @@ class ImuStream {
   /// Epoch of the INS.
   [[nodiscard]] std::int64_t now_us() const { return now_us_; }
 
-  /// Faults if the IMU has been silent too long by the bench's time.
+  /// Returns a fault if the IMU has been silent for too long in the bench's time base.
   Health tick(Context& context) const {
     if (context.now_us - now_us_ <= silence_limit_us) return Health::good;
     context.errors.input_silent = true;
@@ -112,8 +112,7 @@ class ImuStream {
 
   static constexpr double us = 1e-6;
   static constexpr std::int64_t bridge_limit_us = 200'000;  // a longer gap ends the run
-  static constexpr std::int64_t most_parts =
-      400;  // increments that bridge one gap; a single frame triggers all of them
+  static constexpr std::int64_t most_parts = 400;           // increments per gap; one frame triggers them all
   static constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of the IMU is an error
 
   template <class Message, class Step>

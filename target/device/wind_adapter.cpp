@@ -26,7 +26,7 @@ constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of navig
 // redrawn every 50 ms, average out over many such intervals, but the gains after a start are too high for
 // this averaging: of 200 flights with errors of 20 %, 15 erred by more than 5 sigma within 0.3 s.
 constexpr std::int64_t settling_us = 1'000'000;
-// Physical limits; below the limits of the bus, so that the bus can also carry invalid values.
+// Physical limits. They are below the limits of the bus, so that the bus can also carry invalid values.
 constexpr double ground_speed_most = 600;
 constexpr double rate_most = 300 * deg;
 
@@ -80,7 +80,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     design_ = wind::make_bank(tuning_.filter);
     return status;
   }
-  // Without the air velocity at release the wind is unknown: the first usable sample then starts the filter.
+  // If the air velocity at release is not given, the wind is unknown, and the first usable sample starts the
+  // filter.
   void start(const InitialState& initial) override {
     wind::Settings& filter = tuning_.filter;
     filter.velocity_sigma_0 = std::max(initial.velocity_sigma, 1e-3);

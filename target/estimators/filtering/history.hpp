@@ -16,12 +16,14 @@ namespace canhil::filtering {
 ///     UpdateResult with a member `outcome` of enum Outcome (ok, not_reached, out_of_order,
 ///     older_than_history, ...)
 ///   step(state, increment, settings)
-///   update(state, earlier, share, measurement, settings): for a measurement valid at the state's epoch minus
-///     `share` of the increment that began with the ins `earlier` (null: at the epoch)
+///   update(state, earlier, share, measurement, settings): updates by a measurement valid at the state's
+///   epoch
+///     (earlier == nullptr), or before it by the fraction `share` of the last increment; at the start of that
+///     increment the ins was `*earlier`
 ///   keep_refusal(state, tried): copies from the tried state the members that a refused update changes
 ///   applied_at(t_us, now_us, settings): the epoch at which to apply a measurement valid at t_us
-/// A filter that also predicts between measurements (Predictions > 0: the largest number of predictions
-/// within the history) adds
+/// For a filter that also predicts between measurements, Predictions > 0 is the largest number of predictions
+/// within the history, and the Model also defines
 ///   prediction_is_due(state, settings), predict(state, settings)
 template <class Model, std::size_t Capacity, std::size_t Predictions = 0>
 class History {
@@ -82,8 +84,7 @@ class History {
       return result;
     }
     last_update_us_ = epoch_us(epoch);
-    prediction_count_ =
-        0;  // predictions before this update can no longer be reached; later ones are repeated below
+    prediction_count_ = 0;  // earlier ones can no longer be reached; later ones are repeated below
     for (std::size_t i = epoch; i < count_; ++i) {
       at(i).before = then.ins;
       step(then, at(i).increment, epoch_us(i + 1), settings);

@@ -31,13 +31,12 @@ struct State {
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  // estimate, subtracted from the IMU [m/s^2]
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   // estimate, subtracted from the IMU [rad/s]
   Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();    // estimate, subtracted from fixes, NED [m]
-  std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>>
-      errors;                    // estimated errors of the INS; algorithm and aiding determine N
-  std::uint32_t updated_at = 0;  // step of the last update
-  std::uint32_t rejected = 0;    // fixes gated in a row
-  std::uint32_t repairs = 0;     // how often P lost its positive definiteness
-  bool to_be_levelled = false;   // sin_cos: the first IMU sample levels the INS
-  bool handed_over = false;      // sin_cos: tilt and heading were fed back at the last fix
+  std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of the INS; N from the settings
+  std::uint32_t updated_at = 0;                                         // step of the last update
+  std::uint32_t rejected = 0;                                           // fixes gated in a row
+  std::uint32_t repairs = 0;    // how often P lost its positive definiteness
+  bool to_be_levelled = false;  // sin_cos: the first IMU sample levels the INS
+  bool handed_over = false;     // sin_cos: tilt and heading were fed back at the last fix
 };
 
 /// How a fix was processed.

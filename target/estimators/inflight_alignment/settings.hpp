@@ -19,8 +19,9 @@ enum class Algorithm : std::uint8_t { ekf, ukf, sin_cos };
 /// The source of fixes. ssbl: fixes have a constant bias, which adds three states.
 enum class Aiding : std::uint8_t { ssbl, gps };
 
-/// The axes of the tilts of ekf and ukf when a closed loop feeds them back: `platform` rotates their rows of
-/// P by the heading correction, `navigation` does not. An open loop uses platform axes, like the paper.
+/// The axes in which ekf and ukf estimate the tilts in a closed loop. When tilts and heading are fed back,
+/// `platform` rotates the rows of P for the tilts by the heading correction, `navigation` does not. An open
+/// loop uses platform axes, like the paper.
 enum class AttitudeErrorFrame : std::uint8_t { platform, navigation };
 
 /// The square root of P whose columns are the sample points' offsets.

@@ -100,8 +100,8 @@ void start(State& state, Plane error, const Design& design, UpdateResult& result
   result.outcome = Outcome::started;
 }
 
-// Predicts P over a leg, increased by the sigmas of unmeasured motion: `turn` [rad] of the antenna, `pull`
-// [m/s] of the missile.
+// Predicts P over a leg and adds the variances of unmeasured motion, from its sigmas: `turn` [rad] of the
+// antenna, `pull` [m/s] of the missile.
 void predict_covariance(State& state, Geometry end, double dt, double turn, double pull,
                         const Design& design) {
   const double w = pull / end.range;
@@ -212,7 +212,8 @@ void advance(State& state, const Measurement& m, const Sample& sample, bool rang
   const bool low_pass = settings.algorithm == Algorithm::low_pass;  // uses neither range nor acceleration
   const bool measured =
       sample.error_ok && sample.antenna_ok && (low_pass || (sample.acceleration_ok && range_ok));
-  // A closed gain is valid for one nominal step from its steady state. After a gap or a coast P is larger.
+  // A closed gain is valid for one nominal step from its steady state. After a gap or a coast P is larger, so
+  // the update uses a Kalman gain.
   const bool uneven = !low_pass && (sample.gap > 0 || state.coasted_s > 0);
   const bool kalman = settings.algorithm == Algorithm::kalman || state.start_up_s > 0 || uneven;
   if (!state.covariance && (!measured || kalman)) {

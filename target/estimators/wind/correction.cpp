@@ -15,8 +15,7 @@ using ByShare = Eigen::Matrix<double, 1, part_count>;
 // residual = innovation - h dx.
 void absorb(Correction& c, int index, const StateVector& Ph, double S, double residual) {
   const double scale = 1 / std::sqrt(S);
-  const StateVector q =
-      scale * Ph;  // both factors of the product are this vector, so P stays exactly symmetric
+  const StateVector q = scale * Ph;  // both factors of q q' are one vector: P stays exactly symmetric
   const double normalised = scale * residual;
   c.P.noalias() -= q.lazyProduct(q.transpose());
   c.dx += normalised * q;

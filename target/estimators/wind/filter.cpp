@@ -160,8 +160,7 @@ void use(State& state, const Navigation& n, const Observation& y, double gap, co
       return;
     }
     forget(state);
-    state.x.tail<3>()
-        .setZero();  // either navigation or the wind estimate was wrong, so the wind is unknown now
+    state.x.tail<3>().setZero();  // navigation or the wind estimate was wrong, so the wind is unknown now
     state.sensitivity.bottomRows<3>().setZero();
     state.P.block<3, 3>(wind_at, wind_at) = squared(settings.wind_sigma_0) * Matrix3d::Identity();
     start(state, n, settings);

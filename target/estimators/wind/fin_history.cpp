@@ -42,8 +42,8 @@ ActingFins FinHistory::over(std::int64_t from_us, std::int64_t to_us) const {
   // Integrates backwards from the interval's end: `later` is the end of a piece, `at` the deflection there.
   std::size_t age = 0;
   while (age + 1 < kept && back(age).t_us >= to_us && back(age + 1).t_us >= to_us) ++age;
-  const auto between = [&](std::size_t newer,
-                           std::int64_t t) {  // interpolates between sample `newer` and the one before it
+  // Interpolates between sample `newer` and the one before it.
+  const auto between = [&](std::size_t newer, std::int64_t t) {
     const Sample& b = back(newer);
     if (newer + 1 >= kept) return b.deflection;
     const Sample& a = back(newer + 1);

@@ -35,8 +35,7 @@ struct Densities {
   double rate = 0.2 * rad_per_deg;       // [rad/s]
   double attitude = 0.01 * rad_per_deg;  // [rad]
   double wind = 0.3;                     // includes wind shear times sink rate [m/s]
-  double coefficient =
-      0.0022;  // relative error of each part of each coefficient: errors of 1 % that are constant for 50 ms
+  double coefficient = 0.0022;  // relative, of each part of each coefficient: 1 %, constant for 50 ms
 };
 
 /// The settings of the estimator.
@@ -69,18 +68,17 @@ struct Settings {
   double attitude_sigma_0 = 0.1 * rad_per_deg;  // [rad]
   double wind_sigma_0 = 20;                     // of each component, for an unknown wind [m/s]
 
-  Densities degraded{1, 10 * rad_per_deg, 0.01 * rad_per_deg, 0.3,
-                     0};              // the least noise while the model is unreliable
-  double longest_prediction = 0.025;  // longer steps are divided [s]
-  double coast_limit = 2;             // longer times without navigation restart the filter [s]
-  double stale_limit = 0.1;           // navigation that does not change for longer is stale [s]
-  double fins_late = 0.03;            // the estimate is flagged if deflections are older [s]
-  double fins_missing = 0.1;          // the model is unreliable if deflections are older [s]
-  double velocity_gate = 50;          // a larger innovation is refused as a jump [m/s]
-  double attitude_gate = 0.5;         // likewise [rad]
-  int jumps_limit = 25;               // the filter restarts at this many jumps in a row
-  double ground_speed_most = 1000;    // a faster navigation sample is not physical [m/s]
-  double rate_most = 10;              // likewise [rad/s]
+  Densities degraded{1, 10 * rad_per_deg, 0.01 * rad_per_deg, 0.3, 0};  // minimum if the model is unreliable
+  double longest_prediction = 0.025;                                    // longer steps are divided [s]
+  double coast_limit = 2;           // longer times without navigation restart the filter [s]
+  double stale_limit = 0.1;         // navigation that does not change for longer is stale [s]
+  double fins_late = 0.03;          // the estimate is flagged if deflections are older [s]
+  double fins_missing = 0.1;        // the model is unreliable if deflections are older [s]
+  double velocity_gate = 50;        // a larger innovation is refused as a jump [m/s]
+  double attitude_gate = 0.5;       // likewise [rad]
+  int jumps_limit = 25;             // the filter restarts at this many jumps in a row
+  double ground_speed_most = 1000;  // a faster navigation sample is not physical [m/s]
+  double rate_most = 10;            // likewise [rad/s]
 };
 
 /// True if the reported sigmas include the effect of constant coefficient errors. The H-infinity filter has a
