@@ -122,7 +122,8 @@ void check_size(Findings& findings, Message& message) {
   }
 }
 
-/// False: the signal has no length that can be decoded.
+/// Checks length, scale and limits of a signal; removes impossible limits. False: the length is outside 1..64
+/// bits, so the signal cannot be decoded.
 bool check_numbers(Findings& findings, const Message& message, Signal& signal) {
   const std::string name = full_name(message, signal);
   const auto find = [&](Rule rule, std::string what) { findings.add(rule, signal.at, std::move(what)); };

@@ -96,8 +96,8 @@ class SimulatedWire {
   /// not queued, as the queue is full or the node is bus-off.
   bool queue(std::size_t node, const Frame& frame, std::int64_t t_ns);
 
-  /// The next frame sent by until_ns; none: call again later, or after report() if has_report(). All frames
-  /// due before until_ns must be queued first.
+  /// The next frame that has been sent, with its intermission, by until_ns; none: call again later, or after
+  /// report() if has_report(). All frames due before until_ns must be queued first.
   std::optional<Carried> next(std::int64_t until_ns);
 
   /// The next report of a node with reports_errors, in order of time. Reports that exist when next() returns

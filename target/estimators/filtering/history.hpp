@@ -17,9 +17,8 @@ namespace canhil::filtering {
 ///     older_than_history, ...)
 ///   step(state, increment, settings)
 ///   update(state, earlier, share, measurement, settings): updates by a measurement valid at the state's
-///   epoch
-///     (earlier == nullptr), or before it by the fraction `share` of the last increment; at the start of that
-///     increment the ins was `*earlier`
+///     epoch (earlier == nullptr), or before it by the fraction `share` of the last increment; at the start
+///     of that increment the ins was `*earlier`
 ///   keep_refusal(state, tried): copies from the tried state the members that a refused update changes
 ///   applied_at(t_us, now_us, settings): the epoch at which to apply a measurement valid at t_us
 /// For a filter that also predicts between measurements, Predictions > 0 is the largest number of predictions

@@ -45,7 +45,7 @@ enum class Outcome : std::uint8_t {
   updated,
   coasting,      // predicted only; `fault` says why
   out_of_order,  // the sample is not later than the last one: ignored
-  non_finite,    // the result would not be finite and positive definite: the next sample restarts it
+  non_finite,    // the result would not be finite and positive definite: restarts with the next sample
 };
 
 /// Why a sample of navigation was not used.
