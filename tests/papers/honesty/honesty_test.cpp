@@ -13,7 +13,7 @@ TEST(Honesty, OfTheInflightAlignment) {
   expect_bars_met("bench/monte_carlo/honesty/inflight_alignment.toml", 117, 40);
 }
 TEST(Honesty, OfTheLosRate) { expect_bars_met("bench/monte_carlo/honesty/los_rate.toml", 44, 60); }
-TEST(Honesty, OfTheWind) { expect_bars_met("bench/monte_carlo/honesty/wind.toml", 21, 24); }
+TEST(Honesty, OfTheWind) { expect_bars_met("bench/monte_carlo/honesty/wind.toml", 23, 24); }
 
 }  // namespace
 }  // namespace canhil::papers
