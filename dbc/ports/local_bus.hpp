@@ -13,9 +13,9 @@
 // takes the time of its bits, the lowest id wins, and every node has a queue of 64 frames, which it sends in
 // the order of queueing or, with `&queue=priority`, of priority. `&data-bitrate=2000000` sets the data bit
 // rate of CAN FD. The stamp is the end of the frame on that wire, exact to the nanosecond even if the hub's
-// process runs late. `&bit-error-rate=1e-6&seed=3` adds bit errors: a node then receives the error frames of
-// its own controller and loses its queued frames when that controller goes bus-off. Only the host needs these
-// settings.
+// process runs late.
+// `&bit-error-rate=1e-6&seed=3` adds bit errors: a node then receives the error frames of its own controller
+// and loses its queued frames when that controller goes bus-off. Only the host needs these settings.
 #pragma once
 
 #include <functional>
