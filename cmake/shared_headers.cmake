@@ -51,7 +51,7 @@ function(canhil_share_headers folder)
   list(REMOVE_DUPLICATES ways)
   foreach(way IN LISTS ways)
     list(LENGTH ${way}_targets count)
-    if(count LESS 4) # compiling the header takes as long as it saves
+    if(count LESS 4) # for so few targets compiling the header takes as long as it saves
       continue()
     endif()
     string(SUBSTRING ${way} 0 6 short)

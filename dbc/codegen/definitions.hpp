@@ -7,8 +7,8 @@
 
 namespace canhil::dbc {
 
-/// True if the signals that packing rounds fit as doubles behind the packed bytes in a Frame. False if one of
-/// them is multiplexed: only the packed bytes show whether it is present.
+/// True if a Frame has room behind the packed bytes for one double per signal that packing rounds. False if
+/// such a signal is multiplexed: only the packed bytes show whether the frame holds it.
 bool can_travel_unrounded(const Message& message);
 
 /// Definitions of a message's signals() and scaled(), and assertions on its layout and resolution.

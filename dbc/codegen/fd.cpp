@@ -21,8 +21,8 @@ using wire::FdContainer;
 constexpr std::array fd_sizes{8U, 12U, 16U, 20U, 24U, 32U, 48U, 64U};
 constexpr std::int64_t data_bitrate = 2'000'000;
 
-/// The messages that share a frame of the FD contract, in the order of transmission. A message without a
-/// group is a part by itself.
+/// The messages that one frame of the FD contract carries, in the order of transmission. A message without a
+/// group is the only one in its frame.
 struct Part {
   std::string name;
   std::vector<const Message*> messages;
@@ -196,7 +196,7 @@ Result<Database> on_fd(const Database& classic, std::string_view dbc_name) {
 Result<std::string> fd_text(const Database& classic, std::string_view dbc_name) {
   return on_fd(classic, dbc_name).and_then([&](const Database& fd) -> Result<std::string> {
     std::string text = dbc_text(fd);
-    // Parsing the text again reveals everything that the writer cannot express.
+    // Parses the text again: this fails if the writer cannot express something.
     if (auto read = parse(text, fmt::format("{} on CAN FD", dbc_name)); !read)
       return tl::unexpected(read.error());
     return text;

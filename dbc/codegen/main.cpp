@@ -61,7 +61,7 @@ canhil::Result<std::string> text_for(const canhil::dbc::Database& database, cons
 
 bool holds(const std::string& path, const std::string& text) {
   std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown)) return false;  // a device may have no end
+  if (!std::filesystem::is_regular_file(path, unknown)) return false;  // reading a device might never end
   std::ifstream file(path, std::ios::binary);
   return file && std::string{std::istreambuf_iterator<char>(file), {}} == text;
 }
@@ -94,7 +94,7 @@ bool same_file(const std::string& a, const std::string& b) {
   return !a.empty() && !b.empty() && where(a) == where(b);
 }
 
-// Letters, digits and '_' in parts with '::' between them, as in messages::fd.
+// True for a C++ namespace: one or more identifiers separated by '::', such as messages::fd.
 bool is_namespace(std::string_view name) {
   static const std::regex parts("[A-Za-z_][A-Za-z0-9_]*(::[A-Za-z_][A-Za-z0-9_]*)*");
   return std::regex_match(name.begin(), name.end(), parts);

@@ -85,7 +85,8 @@ std::string pack_expression(const Message& message, const Signal& signal) {
 
 std::string raw_name(const Signal& signal) { return "raw_of_" + identifier(signal.name) + "_"; }
 
-/// The condition for the signal's presence, as an expression on the multiplexors' raw values; empty: always.
+/// A C++ condition on the raw values of the multiplexors, true if the frame holds the signal; empty: it
+/// always does.
 std::string presence(const Message& message, const Signal& signal) {
   if (signal.multiplexed_by.empty()) return {};
   const Signal& multiplexor = *find_signal(message, signal.multiplexed_by);

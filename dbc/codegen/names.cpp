@@ -51,7 +51,8 @@ std::vector<ValueName> sorted(std::vector<ValueName> values) {
   return values;
 }
 
-/// The widest signals of a type; the type must hold the raw values of all of them.
+/// The lengths [bits] of the longest unsigned and the longest signed signal that share a type. The type must
+/// hold the raw values of both.
 struct Width {
   unsigned of_unsigned = 0;
   unsigned of_signed = 0;

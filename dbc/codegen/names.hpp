@@ -26,7 +26,8 @@ struct EnumType {
   std::vector<std::string> identifiers;  ///< of the values, unique
 };
 
-/// One type per set of named values: signals with the values of a value table share the table's type.
+/// The enumeration types. Each distinct set of named values is one type: all signals whose values equal a
+/// value table have the type of that table.
 class Enums {
  public:
   explicit Enums(const Database& database);

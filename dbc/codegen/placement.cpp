@@ -14,7 +14,7 @@ std::vector<Piece> pieces_of(const Message& message, const Signal& signal) {
   if (begin + signal.length <= bits) {
     return {{word, motorola ? bits - begin - signal.length : begin, signal.length, 0}};
   }
-  // The signal touches nine bytes: the rest lies at the end of the word that starts one byte later.
+  // The signal touches nine bytes: its remaining bits are at the end of the word that starts one byte later.
   const Word next{word.first + 1, 8, word.order};
   const unsigned here = 64 - begin;
   const unsigned rest = signal.length - here;

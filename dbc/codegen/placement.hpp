@@ -8,7 +8,8 @@
 
 namespace canhil::dbc {
 
-/// A load of up to 8 bytes, least (little-endian) or most significant byte first.
+/// Up to 8 bytes of a message that generated code loads at once. The first byte is the least significant one
+/// (little-endian) or the most significant one (big-endian).
 struct Word {
   unsigned first = 0;
   unsigned bytes = 8;

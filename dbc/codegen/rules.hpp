@@ -1,4 +1,5 @@
-// Rules of canhil's contract beyond the DBC format: protection, and resolution relative to sensor noise.
+// Rules that canhil's contract must keep in addition to the DBC format: protection of messages, and
+// resolution of signals relative to sensor noise.
 #pragma once
 
 #include <optional>

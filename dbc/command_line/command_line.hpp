@@ -57,7 +57,7 @@ class Command {
   Option add_number(const std::string& name, std::optional<std::uint64_t>& value, const std::string& help,
                     std::uint64_t least = 0,
                     std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
-  /// A flag that can be followed by such a number; without a number its value is `usual`.
+  /// A flag that a whole number from `least` to `most` may follow; without a number the value is `usual`.
   Option add_flag_or_number(const std::string& name, std::optional<int>& value, const std::string& help,
                             int usual, int least, int most) const;
   /// A decimal number from `least` to `most`; "nan" is rejected.
@@ -66,7 +66,8 @@ class Command {
 
   Command add_subcommand(const std::string& name, const std::string& help) const;
   void require_subcommands(std::size_t least, std::size_t most) const;
-  /// Sets a callback for the end of parsing if this command was given. Callbacks of subcommands run first.
+  /// Sets a callback that runs at the end of parsing if this command was given. Callbacks of subcommands run
+  /// first.
   void on_given(std::function<void()> callback) const;
 
   /// Valid only after parsing.
@@ -89,8 +90,8 @@ class Program : public Command {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Rejects '' as the value of any option or argument, also of subcommands. Call it after adding all of
-  /// them.
+  /// Rejects '' as the value of every option and argument, including those of subcommands. Call it after
+  /// adding all options, arguments and subcommands.
   void refuse_no_values();
 
   /// Error: what was wrong, in one line. An exit code if help or the version was requested and printed.
@@ -109,7 +110,7 @@ std::string one_line(std::string message);
 /// stderr and returns 2. If `code` is 2, the program has printed its error line already.
 int finish(const char* program, int code);
 
-/// Ends parsing from a callback: "WHAT is required".
+/// For callbacks: ends parsing with the error "WHAT is required".
 [[noreturn]] void throw_required(const std::string& what);
 
 }  // namespace canhil::command_line

@@ -12,7 +12,7 @@ namespace canhil::dbc {
 struct Linted {
   std::string file;               ///< the path as the user gave it
   std::vector<Finding> findings;  ///< by line and column
-  bool loads = false;             ///< the lenient reader accepts it; then:
+  bool loads = false;  ///< the lenient reader accepts the file; only then are the two counts below set
   std::size_t messages = 0;
   std::size_t signals = 0;
 };

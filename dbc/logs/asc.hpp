@@ -34,9 +34,9 @@ class AscParser {
   [[nodiscard]] std::string interface_of(unsigned channel) const;
 
   int base_ = 16;
-  bool relative_ = false;      // times count from the previous event
+  bool relative_ = false;      // each time is relative to the previous event
   std::int64_t start_ns_ = 0;  // of the trigger block
-  std::int64_t last_ns_ = 0;   // of the last event, since the start
+  std::int64_t last_ns_ = 0;   // of the last event, relative to start_ns_
   std::map<unsigned, std::string> names_;
 };
 

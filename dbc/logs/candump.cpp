@@ -14,7 +14,7 @@ namespace {
 
 using logs::ns_per_s;
 constexpr unsigned flag_brs = 1;
-constexpr unsigned flag_fd = 4;  // kernels from 6.1 on set it in every FD frame, and candump shows it
+constexpr unsigned flag_fd = 4;  // Linux 6.1 and later set it in every FD frame, and candump shows it
 
 /// Scans a line and remembers the position of the first error.
 class Cursor {
@@ -193,7 +193,8 @@ class CandumpSource final : public LogSource {
       if (is_remote(text)) continue;
       auto entry = parse_log_line(text, lines_.where());
       if (!entry) return tl::unexpected(entry.error());
-      // A killed recorder may have cut the last line between two bytes; it would look like a shorter frame.
+      // If the recorder was killed, the last line may end between two data bytes and would be read as a
+      // shorter frame.
       if (!(*line)->ended)
         return failure(fmt::format("{}:{}: expected the end of the line: the log is cut", lines_.where(),
                                    text.size() + 1));

@@ -10,7 +10,7 @@
 namespace canhil::logs {
 
 void LineWriter::write(std::string_view text) {
-  if (error_ != 0 || !file_) return;  // a log may end early but has no gaps
+  if (error_ != 0 || !file_) return;  // after an error: a log may end early, but must have no gap
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) error_ = errno;
 }
 

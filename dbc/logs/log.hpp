@@ -53,8 +53,8 @@ class LogSource {
 /// Writes a log, buffered. A write that fails (disk full) makes close() fail.
 class LogWriter {
  public:
-  /// `final_name`: the name that the file gets later. It decides the format and appears in messages; empty:
-  /// `path`.
+  /// `final_name`: the name to which the caller will rename the file; it determines the format and appears in
+  /// messages; empty: `path`.
   static Result<LogWriter> create(const std::string& path, const std::string& final_name = {});
   /// Appends an entry; an error shows in close().
   void write(const LogEntry& entry) { sink_->write(entry); }

@@ -16,7 +16,8 @@
 namespace canhil::dbc {
 namespace {
 
-/// A fast find_attribute(): a DBC may have tens of thousands of messages, signals and definitions.
+/// Finds attributes like find_attribute(), but in logarithmic time: a DBC may have tens of thousands of
+/// messages, signals and definitions.
 class Defaults {
  public:
   explicit Defaults(const Database& database) {
@@ -121,7 +122,8 @@ void check_size(Findings& findings, Message& message) {
   }
 }
 
-/// False: the signal has no length that can be decoded.
+/// Checks length, scale and limits of a signal; removes impossible limits. False: the length is outside 1..64
+/// bits, so the signal cannot be decoded.
 bool check_numbers(Findings& findings, const Message& message, Signal& signal) {
   const std::string name = full_name(message, signal);
   const auto find = [&](Rule rule, std::string what) { findings.add(rule, signal.at, std::move(what)); };
@@ -210,7 +212,7 @@ void check_layout(Findings& findings, const Message& message, LeftOut& left_out)
   }
 }
 
-/// Removes the signals from the message and from its groups.
+/// Removes the signals marked in `left_out` from the message and from its groups.
 void leave_out(Message& message, const LeftOut& left_out) {
   if (std::ranges::find(left_out, true) == left_out.end()) return;
   std::vector<Signal> kept;

@@ -1,5 +1,5 @@
-// A codec for a DBC known only at run time. It finds signals by name, one value at a time: a thin layer over
-// plan.hpp. For more than a few frames use plan.hpp itself.
+// A codec for a DBC known only at run time: a thin layer over plan.hpp that finds signals by name. It is
+// slow; for more than a few frames use plan.hpp.
 #pragma once
 
 #include <cstdint>

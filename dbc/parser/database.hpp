@@ -84,13 +84,13 @@ struct Signal {
   std::string name;
   std::string unit;
   std::string comment;
-  unsigned start_bit = 0;  ///< as the DBC counts: of the least (Intel) or the most (Motorola) significant bit
+  unsigned start_bit = 0;  ///< DBC position of the least (Intel) or most (Motorola) significant bit
   unsigned length = 0;     ///< bits, 1..64
   ByteOrder byte_order = ByteOrder::little_endian;
   RawType type = RawType::unsigned_integer;
   double scale = 1;
   double offset = 0;
-  double minimum = 0;  ///< minimum and maximum both 0: only the limits of the raw value
+  double minimum = 0;  ///< minimum and maximum both 0: limited only by the raw value
   double maximum = 0;
   std::vector<std::string> receivers;
   std::vector<ValueName> values;
@@ -194,7 +194,7 @@ bool is_message_time_ms(double ms);
 /// The range of is_message_time_ms(), for messages.
 inline constexpr std::string_view message_time_range = "0 (none) or 0.001..1e9";
 
-/// True if no frame can hold both signals: different values of a multiplexor above both select them.
+/// True if no frame can hold both signals: both depend on one multiplexor, and no value of it selects both.
 bool mutually_exclusive(const Message& message, const Signal& a, const Signal& b);
 
 /// The raw values that a signal can take: those that fit its bits and lie inside [minimum, maximum].

@@ -12,7 +12,8 @@ namespace {
 
 bool has_multiplexor(const Signal& signal) { return !signal.multiplexed_by.empty(); }
 
-/// Simple multiplexing: the text does not name the multiplexor; it is the only one of the message.
+/// True for simple multiplexing: the text does not name the signal's multiplexor, as the message has only
+/// one.
 bool is_unnamed(const Signal& signal) { return !signal.mux_ranges.empty() && !has_multiplexor(signal); }
 
 void check_type(Findings& findings, const Message& message, const Signal& signal) {

@@ -13,7 +13,8 @@ namespace {
 
 void read_version(Reader& in, Draft& draft) { draft.database.version = in.string("the version"); }
 
-// NS_: a list of names, many of them keywords, up to BS_ or BU_. It does not describe the bus.
+// NS_ lists names, many of them keywords, up to BS_ or BU_. The list does not describe the bus and is
+// skipped.
 void read_new_symbols(Reader& in, Draft& /*draft*/) {
   in.mark(':');
   while (in.peek().kind == TokenKind::word && !in.at_word("BS_") && !in.at_word("BU_")) in.take();
@@ -140,7 +141,7 @@ Inspection inspect(std::string_view text) {
     if (const auto at = first_not_utf8(text))
       findings.add(Rule::windows_1252, *at, "the text is not UTF-8, expected UTF-8");
     Reader in(tokens_of(to_utf8(text), findings), findings);
-    if (!read_sections(in, draft))  // other findings about such a text would not help
+    if (!read_sections(in, draft))  // for a text that is not a DBC, other findings would not help
       return {{}, {{Rule::not_a_dbc, {}, "no section of a DBC file, expected one such as BO_"}}};
     finish(draft);
   } catch (const Findings::Abandoned&) {  // the last finding is the error

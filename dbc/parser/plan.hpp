@@ -17,8 +17,8 @@ namespace canhil::dbc {
 struct BitPlacement {
   std::uint64_t mask = 0;
   std::uint8_t first_byte = 0;  ///< of the window
-  std::uint8_t shift = 0;       ///< of the signal in the window, from its least significant bit
-  std::uint8_t ninth_bits = 0;  ///< of the signal in the byte after the window
+  std::uint8_t shift = 0;       ///< from the least significant bit of the window to that of the signal
+  std::uint8_t ninth_bits = 0;  ///< number of the signal's bits in the byte after the window
   bool big_endian = false;
 
   BitPlacement() = default;
@@ -31,7 +31,7 @@ struct BitPlacement {
   void put(std::uint64_t raw, std::uint8_t* data) const;
 };
 
-/// How raw bits become a physical value: raw * scale + offset.
+/// Converts raw bits to a physical value: raw * scale + offset.
 struct Conversion {
   /// How the raw bits are read; wide_unsigned: 64 bits without a sign.
   enum class Kind : std::uint8_t { integer, wide_unsigned, float32, float64 };

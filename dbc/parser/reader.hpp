@@ -23,9 +23,9 @@ class Reader {
     return tokens_[std::min(index_ + ahead, tokens_.size() - 1)];
   }
   const Token& take() { return tokens_[index_ + 1 < tokens_.size() ? index_++ : index_]; }
-  /// The next token is the first on its line and a keyword that can begin a section.
+  /// True if the next token is the first on its line and a keyword that can begin a section.
   [[nodiscard]] bool at_section() const;
-  /// The next token is ';', or the section ends without one.
+  /// True if the next token is ';', or if the section ends without one.
   [[nodiscard]] bool at_section_end() const {
     return at_mark(';') || at_section() || peek().kind == TokenKind::end;
   }
@@ -35,7 +35,7 @@ class Reader {
   [[nodiscard]] bool at_word(std::string_view word) const {
     return peek().kind == TokenKind::word && peek().text == word;
   }
-  /// The next token is one that word() accepts.
+  /// True if word() accepts the next token.
   [[nodiscard]] bool at_name() const {
     return at_name_with_digit() || (peek().kind == TokenKind::word && !is_keyword(peek().text));
   }
@@ -54,7 +54,7 @@ class Reader {
   std::int64_t whole(std::string_view what);
   /// A real number; one too large for a double becomes a finding and returns the largest double.
   double limit(std::string_view what);
-  /// A natural number with a '-' in front of it: the end of a range.
+  /// The upper end of a range such as "3-5", whose "-5" the lexer reads as one number. Returns 5.
   std::uint64_t natural_after_minus(std::string_view what);
 
   /// Reports the next token as unexpected and leaves the section.
@@ -76,8 +76,8 @@ inline constexpr std::string_view nobody = "Vector__XXX";
 /// Name -> index in a list. Lists may have tens of thousands of entries.
 using Index = std::map<std::string, std::size_t, std::less<>>;
 
-/// A Database under construction. Left-out objects stay until finish() removes them, as later sections may
-/// refer to them.
+/// A Database under construction. Messages and signals that are left out stay here until finish() removes
+/// them, as later sections may refer to them.
 struct Draft {
   explicit Draft(Findings& all) : findings(all) {}
 
@@ -97,7 +97,8 @@ inline constexpr std::uint32_t extended_flag = 0x8000'0000;
 inline constexpr std::uint32_t last_standard_id = 0x7FF;
 inline constexpr std::uint32_t last_extended_id = 0x1FFF'FFFF;
 
-/// An id as it should be in the text: with the flag if only an extended id can be that large.
+/// The id in the notation of a DBC. Some files omit the flag of an extended id; it is added if the id needs
+/// more than 11 bits.
 constexpr std::uint64_t text_id(std::uint64_t id) {
   return id > last_standard_id && id <= last_extended_id ? id | extended_flag : id;
 }

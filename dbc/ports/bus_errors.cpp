@@ -22,7 +22,8 @@ void take_counters(BusErrors& errors, const Frame& frame) {
   errors.rx_counter_max = std::max(errors.rx_counter_max, frame.data[7]);
 }
 
-// Sets the bits of the counters that led to the state, like can_change_state() of the kernel.
+// The bit for the larger error counter, both bits if they are equal, as the kernel's can_change_state() sets
+// them.
 std::uint8_t controller_bits(const ControllerNews& news, unsigned transmit, unsigned receive) {
   return static_cast<std::uint8_t>((news.tx_counter >= news.rx_counter ? transmit : 0U) |
                                    (news.rx_counter >= news.tx_counter ? receive : 0U));

@@ -44,7 +44,7 @@ class FdGroups final : public Port {
       if (const SendOutcome outcome = inner_->send(*due); outcome != SendOutcome::sent) return outcome;
       packer_.clear();
     }
-    FdPacker packer = packer_;  // a copy, kept only if the bus accepts the frames that it packs
+    FdPacker packer = packer_;  // a copy: it replaces packer_ only if the bus accepts its container
     if (const auto full = packer.put(frame)) {
       if (const SendOutcome outcome = inner_->send(*full); outcome != SendOutcome::sent) return outcome;
     }
@@ -73,7 +73,7 @@ class FdGroups final : public Port {
   [[nodiscard]] RoomWait room_wait() const override { return inner_->room_wait(); }
   [[nodiscard]] bool closed() const override { return inner_->closed(); }
   [[nodiscard]] bool up() const override { return inner_->up(); }
-  /// Counts frames on the wire.
+  /// Counts frames on the wire, i.e. containers, not the messages in them.
   [[nodiscard]] PortCounters counters() const override {
     PortCounters counters = inner_->counters();
     counters.foreign += foreign_;
@@ -171,8 +171,8 @@ Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions opt
   if (joined || !is_local(bus)) return joined;
   options.fd = format != BusFormat::classic;
   auto hosted = host_local_bus(bus, options, std::move(rules));
-  // If hosting failed although the join found no host, reports why hosting failed; otherwise another process
-  // hosts the bus, and the reason for the failed join is more helpful.
+  // If both attempts fail, the more helpful error is returned: that of hosting if joining found no host,
+  // else (another process hosts the bus) that of joining.
   if (!hosted && joined.error().message.starts_with(nobody_hosts)) return tl::unexpected(hosted.error());
   if (!hosted) return joined;
   return format == BusFormat::fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);

@@ -89,7 +89,7 @@ class ClassicLogReader {
  public:
   /// Takes over an open log.
   explicit ClassicLogReader(LogReader reader) : reader_(std::move(reader)) {}
-  /// The next entry, with the contract of LogReader::next().
+  /// The next entry; at the end and on errors the same as LogReader::next().
   Result<std::optional<LogEntry>> next();
 
  private:

@@ -6,14 +6,14 @@
 // While one node has no room, the bus stalls until that node reads or dies; senders see queue_full. Every
 // node must therefore read: the hub drops a node that stalls the bus for too long.
 //
-// A bus belongs to one user: its sockets are in a directory of mode 0700 (`canhil` in XDG_RUNTIME_DIR, or
+// A bus belongs to one user: its sockets are in a directory of mode 0700 (`canhil` in XDG_RUNTIME_DIR, else
 // /tmp/canhil-uid-UID), and host and node each check the user of the other process (SO_PEERCRED).
 //
 // `local:NAME?bitrate=500000` adds a simulated wire (simulated_wire.hpp) that runs in real time: a frame
-// takes the time of its bits, the lowest id wins, and every node has a queue of 64 frames, in the order of
-// sending or, with `&queue=priority`, of priority. `&data-bitrate=2000000` sets the data bit rate of CAN FD.
-// The stamp is the end of the frame on that wire, exact to the nanosecond even if the hub's process runs
-// late.
+// takes the time of its bits, the lowest id wins, and every node has a queue of 64 frames, which it sends in
+// the order of queueing or, with `&queue=priority`, of priority. `&data-bitrate=2000000` sets the data bit
+// rate of CAN FD. The stamp is the end of the frame on that wire, exact to the nanosecond even if the hub's
+// process runs late.
 // `&bit-error-rate=1e-6&seed=3` adds bit errors: a node then receives the error frames of its own controller
 // and loses its queued frames when that controller goes bus-off. Only the host needs these settings.
 #pragma once
@@ -44,7 +44,7 @@ class LocalHub : public Port {
 
 /// The hub's limits for nodes, and a callback for nodes that it turns away.
 struct HubRules {
-  std::int64_t hello_limit_ns = 1'000'000'000;  ///< from a node's connection to its Hello
+  std::int64_t hello_limit_ns = 1'000'000'000;  ///< longest time from a node's connection to its Hello
   /// How long a node may stall the bus. Shorter than the 0.4 s for which the bench tolerates a silent target,
   /// so that a node that does not read cannot end a run.
   std::int64_t reading_limit_ns = 250'000'000;

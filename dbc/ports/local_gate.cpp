@@ -13,14 +13,15 @@ namespace {
 
 constexpr int most_reports = 20;
 
-// Each node needs one file descriptor; nodes must not exhaust those of the process.
+// Each node needs one file descriptor. The limit leaves three quarters of the descriptors to the rest of the
+// process.
 std::size_t most_nodes(std::size_t wanted) {
   rlimit files{};
   if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return wanted;
   return std::min<std::size_t>(wanted, files.rlim_cur / 4);
 }
 
-// The time at which the arrears of a node that is behind reach the limit if it takes no further frame.
+// For a node that is behind: the time at which its arrears reach the limit if it takes no further frame.
 std::int64_t overdue_ns(const Peer& peer, const HubRules& rules) {
   return peer.behind_since_ns + rules.reading_limit_ns - peer.arrears_ns;
 }
@@ -69,7 +70,7 @@ void Gate::drop_silent(std::vector<Peer>& peers, bool fd_bus) {
     Datagram none;
     Frame no_frame;
     const Reading last = read(peer, fd_bus, none, no_frame);
-    if (last == Reading::joined) return false;  // its Hello was in time; the hub reads it only now
+    if (last == Reading::joined) return false;  // its Hello arrived in time, but the hub reads it only now
     if (last == Reading::nothing) report(to_text(peer), "sent no Hello and was dropped");
     if (last == Reading::nonsense) report_nonsense(peer);
     return true;

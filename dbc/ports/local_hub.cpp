@@ -31,9 +31,9 @@ using local::HubWire;
 using local::Peer;
 using local::Reading;
 
-constexpr int backlog = 64;                // nodes that wait to be accepted
-constexpr std::size_t ready_limit = 4096;  // frames that the host has not yet received
-constexpr int accept_every = 64;           // reads in a row after which the hub looks for new nodes
+constexpr int backlog = 64;                // connections that may wait for accept()
+constexpr std::size_t ready_limit = 4096;  // most frames that may wait for the host to receive them
+constexpr int accept_every = 64;           // the hub looks for new nodes at the latest after this many reads
 // Nodes may send, join and leave without end. One call therefore handles at most this many of these events;
 // the descriptor stays readable for the rest.
 constexpr int most_at_once = 256;
@@ -74,9 +74,9 @@ class Hub final : public LocalHub {
     return SendOutcome::sent;
   }
 
-  /// Costs one system call if a frame waits. Looks for new nodes only after two searches in a row without a
-  /// frame: a new node wakes a host that waits between them, and a host that only pauses between two frames
-  /// saves the system call.
+  /// Costs one system call if a frame is waiting. Looking for new nodes costs another, so it is done only if
+  /// this search and the previous one found no frame. Nodes are not overlooked: a new node wakes a host that
+  /// waits.
   std::optional<Received> receive() override {
     if (wire_) run_wire();
     if (!ready_.empty()) return next_ready();  // older than all unread frames
@@ -173,8 +173,8 @@ class Hub final : public LocalHub {
     return behind_ == 0;
   }
 
-  /// Delivers one frame to every node that wants it. At most one frame is pending: the next frame is read
-  /// only after all nodes have taken the pending one.
+  /// Delivers one frame to every node that wants it. If a node has no room, the frame stays pending, and the
+  /// next frame is read only after all nodes have taken it.
   void deliver(Datagram& datagram, int origin) {
     for (Peer& peer : peers_) deliver_to(peer, datagram, origin);
     if (behind_ > 0) watch_all();
@@ -304,8 +304,8 @@ class Hub final : public LocalHub {
     if ((!own || own_echo_) && wants(carried.frame)) queue_ready(carried.frame, carried.delivered_ns, own);
   }
 
-  /// Reads frames from the nodes into their queues on the wire, as long as the queues have room, the host
-  /// keeps up with reading, and at most `left` frames.
+  /// Moves at most `left` frames from the nodes into their queues on the wire, as long as the queues have
+  /// room and the host keeps up with receiving.
   void take_in(int& left) {
     for (int n = 0; n < most_let_in && accept_nodes(); ++n) {
     }
@@ -382,7 +382,7 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
 
 void run_hub(Port& hub, const std::function<bool()>& stop) {
   constexpr std::int64_t look_up_ns = 100'000'000;
-  constexpr int at_most = 1000;  // frames in a row, so that stop() is called on a full bus too
+  constexpr int at_most = 1000;  // frames between two calls of stop(), so that a full bus cannot prevent them
   while (!stop()) {
     wait(hub, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + look_up_ns);
     for (int n = 0; n < at_most && hub.receive(); ++n) {

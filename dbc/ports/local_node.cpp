@@ -42,8 +42,8 @@ class LocalNode final : public Port {
     Datagram datagram;
     ssize_t bytes = 0;
     do {
-      // If the hub closes with unread frames of ours, recv() fails once with ECONNRESET; frames that the hub
-      // sent earlier still follow.
+      // If the hub closes before it has read all frames of this node, recv() fails once with ECONNRESET. The
+      // next calls still return frames that the hub had sent before.
       bytes = ::recv(socket_.get(), &datagram, sizeof datagram, 0);
     } while (bytes < 0 && (errno == EINTR || errno == ECONNRESET));
     if (bytes < 0 && errno == EAGAIN) return std::nullopt;

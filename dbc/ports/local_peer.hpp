@@ -24,13 +24,14 @@ struct Peer {
   std::size_t wire_node = 0;
   IdSet wanted;
   std::int64_t behind_since_ns = 0;  ///< CLOCK_MONOTONIC, if it is behind
-  /// The time for which it has stalled the bus, minus worked_off_ns for each frame that it took afterwards.
+  /// How long the node has stalled the bus so far, minus worked_off_ns for each frame that it took
+  /// afterwards.
   std::int64_t arrears_ns = 0;
 };
 
-/// Reduces a node's arrears with each frame that it takes, so that one rule covers nodes that never read and
-/// nodes that read too slowly. The duration of a full frame at 500 kbit/s: on a real wire every node must
-/// keep up with that.
+/// Each frame that a node takes reduces its arrears by this time, so that one rule covers nodes that never
+/// read and nodes that read too slowly. It is the duration of a full frame at 500 kbit/s: on a real wire
+/// every node must keep up with that rate.
 constexpr std::int64_t worked_off_ns = 250'000;
 
 /// For messages: "node 'hil-target' (pid 17 of uid 1000)".

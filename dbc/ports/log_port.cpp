@@ -34,7 +34,7 @@ class LogPort final : public Port {
   std::optional<Received> receive() override {
     while (!closed_) {
       const auto entry = reader_.next();
-      if (!entry || !*entry) {  // checked on opening: an error means that the file has changed since
+      if (!entry || !*entry) {  // the log was checked on opening: the file has changed since then
         closed_ = true;
       } else if (const Frame& frame = (*entry)->frame; passes(frame)) {
         ++counters_.received;

@@ -48,7 +48,8 @@ bool Port::wait_for_frame(std::int64_t deadline_ns) {
 bool Port::wait_for_room(std::int64_t deadline_ns) { return wait_for(*this, room_wait(), deadline_ns); }
 
 bool wait(Port& port, WaitFor what, std::int64_t deadline_ns) {
-  // A socket whose interface is down always has room, and the return of the interface is not a poll() event.
+  // While an interface is down, poll() reports room at once and does not report the return of the interface.
+  // So the wait ends after a pause, to check the interface again.
   if (!port.up()) return wait_for(port, {.events = POLLIN, .pause_ns = look_again_ns}, deadline_ns);
   if (what == WaitFor::frame) return port.wait_for_frame(deadline_ns);
   return port.wait_for_room(deadline_ns);

@@ -29,7 +29,7 @@ struct Received {
   StampSource source = StampSource::process;  ///< of the best stamp; hardware: hardware_ns is set too
   bool own = false;  ///< the echo of a frame that this port sent: its stamp is the transmit time
   bool foreign =
-      false;  ///< FD although the bus's contract is classic, or the reverse: not part of the contract
+      false;  ///< an FD frame on a bus with the classic contract, or the reverse: not part of the contract
   std::uint8_t bus = 0;  ///< index among several buses behind one port, see Port::bus_name()
 };
 
@@ -51,7 +51,7 @@ struct RoomWait {
 struct PortCounters {
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
-  std::uint64_t overflowed = 0;  ///< frames the receive queue lost
+  std::uint64_t overflowed = 0;  ///< frames lost because the receive queue was full
   std::uint64_t error_frames = 0;
   std::uint64_t foreign = 0;  ///< see Received
 };
@@ -82,10 +82,10 @@ enum class BusTime : std::uint8_t {
 
 /// Properties of a bus. Ask its port for them; never infer them from the bus's name.
 struct Capabilities {
-  bool reports_errors = false;  ///< reports every bus error: none reported means that none occurred
+  bool reports_errors = false;  ///< the port reports every bus error: without a report there was no error
   bool in_process = false;      ///< the port's other end is the device: there are no other nodes
   BusTime time = BusTime::host;
-  WireFacts wire{};                             ///< as far as the port knows; a controller's: ask the kernel
+  WireFacts wire{};  ///< as far as the port knows; for a CAN controller ask the kernel
   Rounding rounding = Rounding::as_on_the_bus;  ///< of the frames that it carries
 };
 
@@ -127,9 +127,9 @@ class Port {
   [[nodiscard]] virtual std::int64_t monotonic_ns() const { return clock_ns(CLOCK_MONOTONIC); }
   /// Sets the virtual time since the start of the run, for ports with BusTime::set. Others ignore it.
   virtual void set_time(std::int64_t /*t_ns*/) {}
-  /// As given to --bus.
+  /// The name of the bus, as given to --bus.
   [[nodiscard]] virtual const std::string& name() const = 0;
-  /// For several buses behind one port: the name of one, and the one to which send() passes a frame.
+  /// If several buses are behind one port: the name of the bus with this index.
   [[nodiscard]] virtual const std::string& bus_name(std::uint8_t /*bus*/) const { return name(); }
   /// The index of the bus to which send() passes this frame.
   [[nodiscard]] virtual std::uint8_t bus_of(const Frame& /*frame*/) const { return 0; }

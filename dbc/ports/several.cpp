@@ -78,15 +78,15 @@ class Several final : public Port {
   }
 
  private:
-  // Each controller stamps by its own clock, and a stimulus may have passed another bus than its answer:
-  // frames of several buses are stamped by the kernel's clock, which all of them share.
+  // Discards the stamp of the controller. Each controller stamps by its own clock, but a stimulus and its
+  // answer may be on different buses; the kernel's clock stamps the frames of all buses.
   static void admit(Received& received, std::size_t bus) {
     received.bus = static_cast<std::uint8_t>(bus);
     received.hardware_ns = 0;
     if (received.source == StampSource::hardware) received.source = StampSource::kernel;
   }
 
-  // An interface that returns has a new socket, and the epoll set has dropped the old one.
+  // Adds a port to the epoll set again when its interface has returned.
   void watch(std::size_t i) {
     const bool up = ports_[i]->up();
     if (up && !was_up_[i]) add(readable_, *ports_[i]);

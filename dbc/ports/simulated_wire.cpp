@@ -144,7 +144,7 @@ std::optional<WireError> SimulatedWire::error_of(const Attempt& attempt, bool ac
   std::optional<WireError> error = disturb_ ? disturb_(attempt) : std::nullopt;
   if (error && error->at && state(*error->at) != NodeState::error_active) {
     if (!nodes_[*error->at].off) nodes_[*error->at].rec += receive_error;
-    error.reset();  // the flag of an error passive receiver is recessive: other nodes cannot see it
+    error.reset();  // the error flag of an error passive receiver is recessive, so no other node notices it
   }
   if (error) {
     error->after_ns = std::clamp(error->after_ns, bit_ns_, length_ns - intermission_bits * bit_ns_);
@@ -245,7 +245,7 @@ void SimulatedWire::finish() {
   if (is_passive(sender.tec, sender.rec)) sender.silent_until_ns = free_ns_ + suspend_bits * bit_ns_;
   running_.reset();
   see_recessive(1,
-                free_ns_);  // delimiter, end of frame or rest of the error frame, intermission
+                free_ns_);  // one run: delimiter, end of frame (or rest of the error frame) and intermission
 }
 
 /// Counts the recessive bits of an idle bus.

@@ -96,8 +96,8 @@ class SimulatedWire {
   /// not queued, as the queue is full or the node is bus-off.
   bool queue(std::size_t node, const Frame& frame, std::int64_t t_ns);
 
-  /// The next frame sent by until_ns; none: call again later, or after report() if has_report(). All frames
-  /// due before until_ns must be queued first.
+  /// The next frame that has been sent, with its intermission, by until_ns; none: call again later, or after
+  /// report() if has_report(). All frames due before until_ns must be queued first.
   std::optional<Carried> next(std::int64_t until_ns);
 
   /// The next report of a node with reports_errors, in order of time. Reports that exist when next() returns
@@ -134,9 +134,9 @@ class SimulatedWire {
     std::vector<Pending> queue{};  ///< oldest first
     int tec = 0;
     int rec = 0;
-    std::int64_t silent_until_ns = long_ago;  ///< an error passive sender lets others go first
+    std::int64_t silent_until_ns = long_ago;  ///< end of the suspend transmission of an error passive sender
     bool off = false;
-    std::int64_t recessive_runs = 0;          ///< of 11 bits, while bus-off
+    std::int64_t recessive_runs = 0;          ///< runs of 11 recessive bits since the node went bus-off
     BusEvent level = BusEvent::error_active;  ///< the last reported state
   };
   struct Candidate {
@@ -169,8 +169,8 @@ class SimulatedWire {
   Disturb disturb_;
   std::vector<Node> nodes_;
   std::optional<Running> running_{};
-  std::int64_t free_ns_ = long_ago;  ///< since when the wire is free
-  std::int64_t idle_ns_ = free_ns_;  ///< until when its recessive bits are counted
+  std::int64_t free_ns_ = long_ago;  ///< the time since which the wire has been free
+  std::int64_t idle_ns_ = free_ns_;  ///< the recessive bits of the free wire are counted up to this time
   std::deque<WireReport> reports_{};
   WireCounters counters_{};
 };

@@ -24,8 +24,8 @@ namespace canhil {
 namespace {
 
 constexpr std::int64_t retry_ns = 200'000;          // about 1.5 full classic frames at 1 Mbit/s
-constexpr std::int64_t blocking_ns = 20'000'000;    // the longest that a call waits for a frame
-constexpr std::int64_t look_again_ns = 10'000'000;  // for an interface that is down or removed
+constexpr std::int64_t blocking_ns = 20'000'000;    // the longest wait of one call for a frame (SO_RCVTIMEO)
+constexpr std::int64_t look_again_ns = 10'000'000;  // between two checks whether an interface is up again
 constexpr int large_queue_bytes = 4 << 20;          // about 5000 frames: half a second of a full bus
 
 canfd_frame to_kernel(const Frame& frame) {
@@ -74,7 +74,7 @@ bool configure(int socket, const PortOptions& options) {
   const int on = 1;
   const int own = options.own_echo ? 1 : 0;
   const timeval blocking{.tv_sec = 0, .tv_usec = blocking_ns / 1000};
-  const int smallest = 0;  // the kernel's minimum, see the header
+  const int smallest = 0;  // the kernel raises it to its minimum; for the reason see socketcan.hpp
   const int receive_bytes =
       options.receive_buffer_bytes == 0 ? large_queue_bytes : options.receive_buffer_bytes;
   return set_filters(socket, options.only_ids) && set(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, own) &&
@@ -91,8 +91,9 @@ class SocketCan final : public Port {
   SocketCan(Descriptor socket, std::string name, PortOptions options)
       : socket_(std::move(socket)), name_(std::move(name)), options_(std::move(options)) {}
 
-  /// Binds to the interface that has the name now, unless the socket is bound to it already. When an
-  /// interface is removed, the socket loses its filters. False: errno says why.
+  /// Binds to the interface that has the name now; if the socket is bound to it already, the kernel does
+  /// nothing. Sets the filters too, as the socket loses them when its interface is removed. False: errno says
+  /// why.
   bool bind_to_interface() {
     sockaddr_can at{};
     at.can_family = AF_CAN;
@@ -142,7 +143,8 @@ class SocketCan final : public Port {
   }
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] bool up() const override { return up_; }
-  /// Reads the drop counter from the kernel: SO_RXQ_OVFL would report a loss only with the next queued frame.
+  /// Reads the drop counter by SO_MEMINFO, as SO_RXQ_OVFL would report a loss only with the next queued
+  /// frame.
   [[nodiscard]] PortCounters counters() const override {
     PortCounters counters = counters_;
     std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
@@ -159,7 +161,7 @@ class SocketCan final : public Port {
   /// Reads the waiting frames. False: none waits, or the last read emptied the queue.
   bool fetch() {
     if (!up_) is_back();
-    if (took_all_) {  // saves a call that would find nothing; wait() notices newer frames
+    if (took_all_) {  // the queue was empty: saves a system call; wait() notices frames that came since
       took_all_ = false;
       return false;
     }
@@ -219,7 +221,7 @@ class SocketCan final : public Port {
     received.t_ns = said.software_ns;
     received.hardware_ns = said.hardware_ns;
     received.source = said.hardware_ns != 0 ? StampSource::hardware : StampSource::kernel;
-    if (said.software_ns == 0) {  // the kernel enables stamping with a short delay
+    if (said.software_ns == 0) {  // one of the first frames: the kernel enables stamping with a delay
       received.t_ns = clock_ns(CLOCK_REALTIME);
       if (said.hardware_ns == 0) received.source = StampSource::process;
     }

@@ -10,7 +10,8 @@
 
 namespace canhil {
 
-/// The values of `bitrate=500000&data-bitrate=2000000&queue=priority&bit-error-rate=1e-6&seed=3`.
+/// The settings in a text such as
+/// `bitrate=500000&data-bitrate=2000000&queue=priority&bit-error-rate=1e-6&seed=3`.
 struct WireSettings {
   wire::BitRates rates{};               ///< nominal 0: no wire, frames take no time
   QueueOrder order = QueueOrder::fifo;  ///< of every node's queue

@@ -10,7 +10,7 @@
 namespace canhil::protection {
 namespace {
 
-/// How a profile includes the data id in the checksum.
+/// Which bytes of the data id a profile includes in the checksum.
 enum class DataId : std::uint8_t { both, alternating, low, nibble, list };
 
 /// A field of whole bytes, starting at a byte of the profile.
@@ -65,8 +65,8 @@ Settings short_header(const ProfileChoice& choice, DataId mode) {
   return settings;
 }
 
-/// A profile whose header fields are whole bytes: the first byte and the number of bytes of each field; 0
-/// bytes: not sent.
+/// The header of a profile whose fields are whole bytes. Each field has a first byte and a number of bytes; 0
+/// bytes: the field is not sent.
 struct Header {
   struct Field {
     unsigned byte = 0;

@@ -13,8 +13,8 @@ std::uint8_t byte_of(std::uint32_t value, unsigned index) {
   return static_cast<std::uint8_t>(value >> (8 * index));
 }
 
-// The list has an entry for each value below the modulo. A received counter beyond it selects an arbitrary
-// entry; a later check rejects that counter.
+// data_id_list has an entry for each counter below the modulo. A received counter of the modulo or more
+// selects an arbitrary entry; a later check rejects that counter.
 std::uint8_t added(const AddedByte& byte, const Settings& settings, const Subject& subject,
                    std::uint64_t counter) {
   switch (byte.source) {
@@ -130,7 +130,7 @@ std::uint64_t Protection::next(std::uint64_t counter) const {
 }
 
 std::uint64_t Protection::steps(std::uint64_t from, std::uint64_t to) const {
-  const auto rank = [&](std::uint64_t value) {  // number of allowed values below it
+  const auto rank = [&](std::uint64_t value) {  // number of allowed values below `value`
     if (!settings_.counter) return value;
     const auto& skipped = settings_.counter->skipped;
     return value - static_cast<std::uint64_t>(std::ranges::lower_bound(skipped, value) - skipped.begin());

@@ -24,9 +24,9 @@ class Protection {
   [[nodiscard]] const Settings& settings() const { return settings_; }
   [[nodiscard]] const Subject& subject() const { return subject_; }
 
-  /// Writes constants, counter and checksum into a packed message of the subject's size. Accepts counter
-  /// values that are not allowed, so that faults can be injected; cuts off bits beyond the counter's place.
-  /// Ignores `counter` if the message has none.
+  /// Writes constants, counter and checksum into a packed message of the subject's size. Accepts a counter
+  /// that is not allowed, so that faults can be injected, and writes only as many of its low bits as fit its
+  /// place. Ignores `counter` if the message has none.
   void protect(std::span<std::uint8_t> data, std::uint64_t counter) const;
 
   /// True if size, constants and checksum are right. The data may have any length.
@@ -44,7 +44,7 @@ class Protection {
   [[nodiscard]] std::uint64_t next(std::uint64_t counter) const;
   /// The number of steps from one allowed value to another: 0..period() - 1.
   [[nodiscard]] std::uint64_t steps(std::uint64_t from, std::uint64_t to) const;
-  /// True if both counters have the same values, which messages with a shared counter need.
+  /// True if both counters take the same values. Messages that share a counter need this.
   [[nodiscard]] bool counts_like(const Protection& other) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace canhil::protection {
 namespace {
 
-constexpr unsigned longest_counter = 32;  // sums of its modulo and period cannot overflow 64 bits
+constexpr unsigned longest_counter = 32;  // so sums of modulo and period cannot overflow 64 bits
 constexpr unsigned longest_constant = 64;
 
 /// The fields that the settings write. Each must be inside the message and must not overlap another.

@@ -96,7 +96,7 @@ std::string missing(const Rights& rights, int priority, std::string_view user, s
   std::vector<std::string> lacks;
   if (!rights.may_schedule && rights.priority < static_cast<std::uint64_t>(priority))
     lacks.push_back(fmt::format("real-time priority {} is above the limit of {}", priority, rights.priority));
-  // A finite limit may suffice at the start, but locking fails when the program grows.
+  // A finite limit counts as missing: it may suffice at the start, but locking fails when the program grows.
   if (!rights.may_lock && rights.locked_bytes != std::numeric_limits<std::uint64_t>::max())
     lacks.push_back(
         fmt::format("the limit of {} KiB does not allow locking all memory", rights.locked_bytes / 1024));

@@ -42,14 +42,14 @@ void touch(volatile char* bytes, std::size_t size) {
   for (std::size_t at = 0; at < size; at += page_bytes) bytes[at] = 0;
 }
 
-// Not inlined, so that its stack is free again when it returns.
+// Faults in the pages of the stack. Not inlined: the array must not stay on the stack of the caller.
 [[gnu::noinline]] void touch_stack() {
   std::array<char, stack_bytes> bytes;
   touch(bytes.data(), bytes.size());
 }
 
-// Freed memory stays with the process, and large blocks come from the same heap, so that neither costs page
-// faults later.
+// Faults in `size` bytes of the heap. malloc() will not return freed memory to the kernel, and will allocate
+// large blocks from the heap too, so that neither causes page faults later.
 void touch_heap(std::size_t size) {
   ::mallopt(M_TRIM_THRESHOLD, -1);
   ::mallopt(M_MMAP_MAX, 0);
@@ -110,7 +110,7 @@ Result<void> enter(const Request& request) {
   return {};
 }
 
-// mlockall() faults private pages in as if they were written to.
+// mlockall() copies the private pages that fork() left shared with the child, as a write would.
 bool own_memory_again() { return ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0; }
 
 std::vector<int> cpus() {

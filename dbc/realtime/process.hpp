@@ -19,7 +19,7 @@ inline constexpr int default_priority = 40;
 struct Request {
   int priority = default_priority;   ///< of SCHED_FIFO, 1 to 99
   std::optional<int> cpu{};          ///< the only CPU to run on; none: unchanged
-  std::size_t heap_bytes = 8 << 20;  ///< faulted in beforehand; the heap can still grow beyond
+  std::size_t heap_bytes = 8 << 20;  ///< faulted in beforehand; the heap can grow larger
 };
 
 /// Puts this process under SCHED_FIFO, locks its memory, faults in stack and heap, sets the timer slack to

@@ -18,7 +18,8 @@ std::string label(std::size_t number) {
   return text;
 }
 
-/// "A7": bit 7 of the raw value of signal A; "A7+": also bits of other signals.
+/// The bits of a message as a matrix. Cell "A7": bit 7 of the raw value of signal A; "A7+": other signals use
+/// this bit too.
 std::string matrix(const Message& message) {
   std::vector<std::string> cells(std::size_t{8} * message.size, ".");
   for (std::size_t s = 0; s < message.signals.size(); ++s) {

@@ -28,7 +28,7 @@ struct BitLength {
   friend constexpr bool operator==(const BitLength&, const BitLength&) = default;
 };
 
-/// In bit/s, nominal above 0.
+/// Bit rates [bit/s]; nominal must be above 0.
 struct BitRates {
   std::int64_t nominal = 0;
   std::int64_t data = 0;  ///< in the data phase of FD frames; 0: same as nominal
@@ -76,7 +76,8 @@ class BitStream {
   std::uint32_t crc_ = 0;
 };
 
-/// After every frame, at the nominal bit rate. A frame is stamped before its intermission.
+/// The intermission follows every frame, at the nominal bit rate. The stamp of a frame is the time before its
+/// intermission.
 inline constexpr std::int64_t intermission_bits = 3;
 
 /// Acknowledgement with delimiter, end of frame, intermission.
@@ -123,7 +124,7 @@ constexpr BitLength bit_length(const Frame& frame) {
   const int arbitration = wire.length();
   wire.put(data_length_code(frame.size), 5);  // ESI (0: error active), DLC
   for (const std::uint8_t byte : frame.payload()) wire.put(byte, 8);
-  // No close(): the first fixed stuff bit replaces a stuff bit that is due after the data.
+  // close() is not called: if a stuff bit is due after the data, the first fixed stuff bit takes its place.
   const int data = wire.length() - arbitration + fd_crc_field_bits(frame.size);
   if (!frame.brs) return {.nominal = arbitration + data + frame_end_bits};
   return {.nominal = arbitration + frame_end_bits, .data = data};

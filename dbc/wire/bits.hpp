@@ -13,9 +13,9 @@ namespace canhil::wire {
 
 static_assert(std::endian::native == std::endian::little, "canhil is written for little-endian hosts");
 
-/// The position of bit i of a signal, counted from the DBC's start bit: byte * 8 + bit in the byte (0: least
-/// significant). Intel counts up from the least significant bit; Motorola counts down from the most
-/// significant bit, byte by byte.
+/// The position in the message, byte * 8 + bit in the byte (0: least significant), of bit i of a signal; i
+/// counts from the DBC's start bit. Intel counts up from the least significant bit; Motorola counts down from
+/// the most significant bit, byte by byte.
 constexpr unsigned bit_position(unsigned start_bit, unsigned i, bool big_endian) {
   if (!big_endian) return start_bit + i;
   const unsigned sequential = (start_bit / 8) * 8 + (7 - start_bit % 8) + i;

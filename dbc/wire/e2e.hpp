@@ -19,8 +19,8 @@ inline constexpr std::size_t stride =
     7;  // bytes per step: an 8-byte frame has one step after the CRC byte, a 64-byte frame nine
 
 // advance[k][b]: the CRC of byte b followed by k zero bytes. The CRC is linear, so the CRC of several bytes
-// is the exclusive or of such entries. These look-ups are independent of each other; in a byte-wise loop each
-// would wait for the one before.
+// is the exclusive or of such entries. These look-ups are independent of each other, whereas in a loop over
+// bytes each would wait for the previous one.
 consteval std::array<std::array<std::uint8_t, 256>, stride> crc_tables() {
   std::array<std::array<std::uint8_t, 256>, stride> advance{};
   for (unsigned b = 0; b < 256; ++b) {

@@ -1,4 +1,5 @@
-// Included by every generated header: codec functions, and the checks in its static assertions.
+// Functions for generated headers, which all include this file: those of the codec, and those of its static
+// assertions.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +45,7 @@ enum class Resolution : std::uint8_t {
   enough,
   too_coarse,       ///< LSB / sqrt(12) > sigma / 4
   loses_remainder,  ///< an increment (delta_*) without CarriesRemainder: rounding errors accumulate
-  unknown_sigma     ///< carries a remainder, so it is a measurement, but has no SensorSigma
+  unknown_sigma     ///< CarriesRemainder shows that the signal is a measurement, but it has no SensorSigma
 };
 
 /// Judges a signal by its LSB and the 1-sigma of its sensor, both in the signal's unit; 0: no sensor.

@@ -17,7 +17,7 @@ struct SignalInfo {
   double maximum = 0;
   double sensor_sigma =
       0;  ///< per-sample 1-sigma noise of the sensor in the signal's unit; 0: not a measurement
-  bool carries_remainder = false;  ///< an increment; the sender adds its rounding error to the next sample
+  bool carries_remainder = false;  ///< the sender adds the rounding error of an increment to the next sample
   unsigned start_bit = 0;          ///< as the DBC counts
   unsigned length = 0;             ///< bits
   bool big_endian = false;
@@ -46,7 +46,7 @@ struct MessageInfo {
   std::string_view sender{};
   std::string_view sample_group{};              ///< empty: none
   std::span<const std::string_view> answers{};  ///< sample groups that this message answers
-  bool can_travel_unrounded = false;            ///< its scaled signals fit as doubles behind its bytes
+  bool can_travel_unrounded = false;  ///< a Frame has room for its scaled signals as doubles behind its bytes
 };
 
 }  // namespace canhil

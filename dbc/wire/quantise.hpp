@@ -38,8 +38,8 @@ constexpr double bound(std::int64_t raw) {
   return raw < 0 ? -bound(0 - bits) : bound(bits);
 }
 
-/// x clamped to [low, high]; NaN becomes low. Comparisons in this order compile to minsd, which passes NaN
-/// on, and maxsd, which replaces it.
+/// x clamped to [low, high]; NaN becomes low. With this order of the comparisons the compiler generates
+/// minsd, which passes NaN on, then maxsd, which replaces NaN by low.
 constexpr double clamped(double x, double low, double high) {
   const double at_most = high < x ? high : x;
   return at_most > low ? at_most : low;

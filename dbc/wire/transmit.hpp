@@ -41,7 +41,7 @@ class TransmitCounters {
   std::array<std::uint8_t, messages::all_messages.size()> next_{};
 };
 
-/// A fixed buffer of outgoing frames, with the counters of their sender. Never allocates.
+/// A buffer of fixed size for outgoing frames, with the E2E counters of their sender. Never allocates.
 template <std::size_t capacity>
 class Outbox {
  public:
@@ -61,7 +61,7 @@ class Outbox {
   [[nodiscard]] std::span<const Frame> frames() const { return {frames_.data(), size_}; }
   /// How scaled signals are rounded when sent.
   [[nodiscard]] Rounding rounding() const { return rounding_; }
-  /// Empties the buffer; counters go on.
+  /// Empties the buffer; the counters keep their values.
   void clear() { size_ = 0; }
   /// Sets all counters to 0.
   void reset_counters() { counters_.reset(); }

@@ -21,7 +21,7 @@ namespace wire {
 /// A member of a message that packing rounds.
 struct ScaledMember {
   std::size_t offset = 0;  ///< in the message's struct; the member is a double
-  double lowest = 0;       ///< physical range, to which it saturates as on the bus
+  double lowest = 0;  ///< lowest to highest: the physical range, to which the value saturates as on the bus
   double highest = 0;
 };
 

@@ -12,8 +12,8 @@
 
 namespace canhil::target {
 
-/// The answers to one frame. The maximum: one IMU sample triggers, for each inertial estimator, a navigation
-/// group and the filter groups of all fixes that wait for the IMU; for two estimators 134 frames.
+/// The answers to one frame, at most 134 for two inertial estimators: one IMU sample triggers, for each of
+/// them, a navigation group and the filter groups of all fixes that waited for this sample.
 using Answers = Outbox<160>;
 
 /// Losses since reset, by cause.
@@ -34,8 +34,8 @@ struct Errors {
   bool command = false;
 };
 
-/// The content of the optional group TargetInitAir, for a body that flies in moving air: at the time of the
-/// initial state, in body axes.
+/// The content of the optional group TargetInitAir, for a body that flies in moving air. Valid at the time of
+/// the initial state, body axes.
 struct InitialAir {
   std::array<double, 3> velocity{};  ///< w.r.t. the air [m/s]
   std::array<double, 3> rate{};      ///< [rad/s]
@@ -66,7 +66,7 @@ struct Context {
   Answers& answers;
   Losses& losses;
   Errors& errors;
-  ConsistencyMonitor& consistency;  ///< pass it every innovation; answers carry its verdict
+  ConsistencyMonitor& consistency;  ///< the adapter passes every innovation to it; answers carry its verdict
 };
 
 /// The outcome of a step; `fault` ends the run of the estimator.
@@ -81,7 +81,8 @@ class Adapter {
   virtual ~Adapter() = default;
 
   [[nodiscard]] virtual messages::Estimator estimator() const = 0;
-  /// Restores the state after construction and selects an algorithm; false: unknown algorithm.
+  /// Restores the state that the adapter had after construction, and selects an algorithm; false: unknown
+  /// algorithm.
   virtual bool reset(messages::Algorithm algorithm) = 0;
   /// Sets a parameter; `running` after start. Accepted values take effect at the next step.
   virtual messages::ParameterStatus set(messages::Parameter parameter, double value, bool running) = 0;
@@ -93,7 +94,7 @@ class Adapter {
   virtual void start(const InitialState& initial) = 0;
   /// Processes one frame of a sensor whose protection has been checked; `counter` is its E2E counter.
   virtual Health receive(const Frame& frame, std::uint8_t counter, Context context) = 0;
-  /// The time base has advanced: detects missing inputs.
+  /// Detects missing inputs; called when the time base has advanced.
   virtual Health tick(Context context) = 0;
 };
 

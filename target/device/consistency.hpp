@@ -17,7 +17,8 @@ namespace canhil::target {
 ///   bias   z = each innovation over its sigma: detects innovations that are not white because of a lasting
 ///          error (a model's coefficient, a sensor's scale), even if raised noise makes NIS right again
 ///          (Mehra, 'On the Identification of Variances and Adaptive Kalman Filtering', 1970).
-/// A NIS below its mean raises no alarm: the errors are then smaller than the covariance states.
+/// A NIS below its expected value m raises no alarm, as the errors are then smaller than the covariance
+/// indicates.
 class ConsistencyMonitor {
  public:
   void reset() { *this = {}; }
@@ -60,8 +61,8 @@ class ConsistencyMonitor {
   };
 
   // size_: four outliers in a row raise an alarm, three do not. S reaches 6 standard deviations at a mean NIS
-  // of 1.8 m for m = 3 (size_), and at a mean innovation of 0.19 sigma (bias_). With consistent draws one or
-  // two in a million updates raise an alarm (5e6 draws each for m = 1, 2, 3 and 9).
+  // of 1.8 m for m = 3 (size_), and at a mean innovation of 0.19 sigma (bias_). For a consistent filter one
+  // or two in a million updates raise an alarm (5e6 draws each for m = 1, 2, 3 and 9).
   Chart<20, 6, false> size_;
   std::array<Chart<500, 4, true>, 9> bias_{};
   bool inconsistent_ = false, distrusted_ = false;

@@ -14,7 +14,7 @@ using namespace messages;
 
 constexpr std::int64_t heartbeat_period_us = TargetHeartbeat::info.cycle_time_us;
 constexpr double radians = std::numbers::pi / 180.0;
-// Only the bench's messages; the device ignores messages that the target sends.
+// The device reads all messages except those that the target itself sends.
 constexpr Routes routes([](const MessageInfo& info) { return info.sender != TargetHeartbeat::info.sender; });
 
 constexpr std::uint16_t saturated(std::uint32_t count) {
@@ -58,8 +58,8 @@ std::span<const Frame> Device::receive(const Frame& frame) {
       raise(&Errors::input_lost);
       return {};
     case e2e::Check::repeated:
-      // Commands are always processed: a new bench may start with the counter of the previous bench's last
-      // command.
+      // Commands are processed even with a repeated counter: the first command of a new bench may have the
+      // counter of the previous bench's last one.
       if (frame.id != TargetCommand::info.id) {
         ++losses_.late;
         return {};
@@ -171,7 +171,7 @@ void Device::reset(Estimator estimator, Algorithm algorithm) {
   enter(first, TargetState::idle);
 }
 
-// A bench that missed the answer repeats the command: the estimator is then selected anew.
+// If a bench missed the answer, it repeats the command; the device then selects the estimator again.
 void Device::add(Estimator estimator, Algorithm algorithm) {
   const bool again = current().adapter != nullptr && current().adapter->estimator() == estimator;
   const bool elsewhere =

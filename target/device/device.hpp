@@ -29,8 +29,8 @@ class Device {
   /// Frames that are not for the target are ignored. Allocates nothing.
   std::span<const Frame> receive(const Frame& frame);
 
-  /// A heartbeat for each estimator, not caused by a frame; the process sends them while no bench keeps the
-  /// time base.
+  /// A heartbeat for each estimator, without an input frame. The process sends these heartbeats while no
+  /// bench sends Sync or commands.
   std::span<const Frame> idle_heartbeat();
 
   /// The permitted values of an estimator's parameter; none: it has no such parameter.
@@ -78,7 +78,7 @@ class Device {
   void send_heartbeats();
   void send_counters();
   [[nodiscard]] bool all_in(messages::TargetState state) const;
-  /// The estimator selected last: it gets parameters and initial state.
+  /// The estimator that was selected last. Parameters and initial state are for this one.
   [[nodiscard]] Estimation& current() { return selected_.back(); }
 
   using InitialGroup =

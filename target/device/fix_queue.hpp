@@ -30,7 +30,8 @@ class FixQueue {
     return true;
   }
 
-  /// Calls update(fix) in order for the fixes that the INS has reached, until one faults.
+  /// Removes the fixes whose time of validity the INS has reached, and calls update(fix) for each, in order,
+  /// until one faults.
   template <class Update>
   Health reached(std::int64_t ins_us, const Update& update) {
     std::size_t done = 0;

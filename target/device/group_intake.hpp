@@ -14,8 +14,8 @@ inline void drop_group(Context& context) {
   context.errors.input_lost = true;
 }
 
-/// Adds a frame with one Message of a group; true: the group is complete, read it now. Counts an incomplete
-/// previous group as dropped.
+/// Adds a frame that carries one Message of a group. True: the group is complete and must be read now. If the
+/// frame begins a new group and the previous one is incomplete, that one is counted as dropped.
 template <class Message, class Group>
 bool completes(Group& group, const Frame& frame, std::uint8_t counter, Context& context) {
   const auto outcome = group.put(from_frame<Message>(frame), counter);

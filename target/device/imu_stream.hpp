@@ -60,7 +60,7 @@ class ImuStream {
   /// Epoch of the INS.
   [[nodiscard]] std::int64_t now_us() const { return now_us_; }
 
-  /// Faults if the IMU has been silent too long by the bench's time.
+  /// Returns a fault if the IMU has been silent for too long in the bench's time base.
   Health tick(Context& context) const {
     if (context.now_us - now_us_ <= silence_limit_us) return Health::good;
     context.errors.input_silent = true;
@@ -84,8 +84,8 @@ class ImuStream {
     }
   }
 
-  /// True if the last sample must be answered. An answer may come half an IMU interval early, as the output
-  /// interval need not be a multiple of the IMU interval.
+  /// True if the last sample must be answered. An answer may be up to half an IMU interval early, as the
+  /// output interval need not be a multiple of the IMU interval.
   [[nodiscard]] bool answer_is_due(std::int64_t output_interval_us) const {
     return now_us_ - answered_us_ >= output_interval_us - interval_us_ / 2;
   }
@@ -111,8 +111,8 @@ class ImuStream {
   using Group = SampleGroup<messages::SlaveImuDeltaTheta, messages::SlaveImuDeltaV, messages::SlaveImuStatus>;
 
   static constexpr double us = 1e-6;
-  static constexpr std::int64_t bridge_limit_us = 200'000;   // a longer gap ends the run
-  static constexpr std::int64_t most_parts = 400;            // of a gap; one frame triggers all of them
+  static constexpr std::int64_t bridge_limit_us = 200'000;  // a longer gap ends the run
+  static constexpr std::int64_t most_parts = 400;           // increments per gap; one frame triggers them all
   static constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of the IMU is an error
 
   template <class Message, class Step>
@@ -155,7 +155,7 @@ class ImuStream {
     return Taken::stepped;
   }
 
-  // Bridges a gap with the mean of the rates before and after it, and reports coasting.
+  // Bridges a gap by increments from the mean of the rates before and after it, and reports coasting.
   template <class Step>
   void bridge(const strapdown::ImuIncrement& after, std::int64_t gap_us, const Step& step) {
     coasting_ = true;

@@ -27,12 +27,12 @@ constexpr double ug = 1e-6 * 9.80665;
 constexpr std::int64_t history_us = 5'000'000;
 constexpr std::size_t history_length = 5120;         // increments; at most one arrives per millisecond
 constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix further ahead of the INS is rejected
-constexpr std::size_t pending_limit = 4;             // of queued fixes ahead of the INS
+constexpr std::size_t pending_limit = 4;             // fixes that may wait for the INS
 
 struct Fix {
   FixSource source = FixSource::ssbl;
   ia::GeodeticPosition position;
-  double horizontal_sigma = 0, vertical_sigma = 0;  // as its source states them [m]
+  double horizontal_sigma = 0, vertical_sigma = 0;  // reported by the source of the fix [m]
 };
 
 std::optional<ia::Algorithm> algorithm_of(Algorithm algorithm) {
@@ -212,7 +212,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return refuse(fix, FixOutcome::future, context);
   }
 
-  // The settings for a fix: its noise is the larger of the sigma that the fix states and the settings' sigma.
+  // The settings for a fix, whose noise is the larger of its reported sigma and the sigma in the settings.
   [[nodiscard]] ia::Settings settings_for(const Fix& fix) const {
     ia::Settings filter = tuning_.filter;
     filter.fix_noise_horizontal = std::max(filter.fix_noise_horizontal, fix.horizontal_sigma);

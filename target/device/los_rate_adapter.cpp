@@ -93,7 +93,7 @@ constexpr std::array rows{
     Row{Parameter::range_unchanged_limit_ms, standard.range_unchanged_limit / ms, 0, 1e4, real, stopped_only,
         "A range that does not change at all for longer than this is stale.",
         [](Tuning& t, double v) { t.range_unchanged_limit = v * ms; }},
-    // Below the largest angle that the bus carries, so that a saturated angle is refused.
+    // The maximum is below the largest angle that the bus carries, so that a saturated angle is refused.
     Row{Parameter::field_of_view_rad, standard.field_of_view, 1e-3, 0.6, real, stopped_only,
         "Larger error angles are refused.", [](Tuning& t, double v) { t.field_of_view = v; }},
     Row{Parameter::antenna_rate_sigma_radps, standard.antenna_rate_sigma, 0, 100, real, stopped_only,
@@ -122,7 +122,7 @@ std::optional<los::Algorithm> algorithm_of(Algorithm algorithm) {
   }
 }
 
-// Outcomes and faults have the same numbers on the bus.
+// Outcomes have the same numbers in the estimator and on the bus, as faults do.
 constexpr LosRateOutcome on_bus(los::Outcome outcome) { return static_cast<LosRateOutcome>(outcome); }
 constexpr LosRateFault on_bus(los::Fault fault) { return static_cast<LosRateFault>(fault); }
 static_assert(on_bus(los::Outcome::waiting) == LosRateOutcome::waiting);
@@ -156,8 +156,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return true;
   }
 
-  // The first usable sample starts the estimate. Only the time of the initial state is used, to detect
-  // silence.
+  // The first usable sample starts the estimate. Of the initial state only the time is used, for detecting a
+  // silent seeker.
   void start(const InitialState& initial) override {
     design_ = los::make_design(tuning_);
     acquire();
@@ -230,8 +230,9 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // If the interval of a group begins after the end of the last group, groups between them were lost. If it
-  // begins before that end, its increments do not match the step. The first group has no previous step.
+  // The interval of a group should begin where the last group ended. If it begins later, groups were lost in
+  // between. If it begins earlier, its increments cover more than the step and are not used. The first group
+  // has no previous step.
   los::Measurement measured(std::int64_t t_us) const {
     const auto& antenna = group_.get<SeekerAntenna>();
     const auto& angles = group_.get<SeekerAngles>();

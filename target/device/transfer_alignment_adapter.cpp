@@ -27,7 +27,7 @@ constexpr double ug = 1e-6 * 9.80665;
 constexpr std::int64_t history_us = 500'000;
 constexpr std::size_t history_length = 512;          // increments; at most one arrives per millisecond
 constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix further ahead of the INS is rejected
-constexpr std::size_t pending_limit = 8;             // of queued fixes ahead of the INS
+constexpr std::size_t pending_limit = 8;             // velocities that may wait for the INS
 
 // Parameters in the unit of their name. The defaults are the settings of the paper's reproduction, with the
 // recommended loop.

@@ -26,7 +26,7 @@ constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of navig
 // redrawn every 50 ms, average out over many such intervals, but the gains after a start are too high for
 // this averaging: of 200 flights with errors of 20 %, 15 erred by more than 5 sigma within 0.3 s.
 constexpr std::int64_t settling_us = 1'000'000;
-// Physical limits; below the limits of the bus, so that the bus can also carry invalid values.
+// Physical limits. They are below the limits of the bus, so that the bus can also carry invalid values.
 constexpr double ground_speed_most = 600;
 constexpr double rate_most = 300 * deg;
 
@@ -80,7 +80,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     design_ = wind::make_bank(tuning_.filter);
     return status;
   }
-  // Without the air velocity at release the wind is unknown: the first usable sample then starts the filter.
+  // If the air velocity at release is not given, the wind is unknown, and the first usable sample starts the
+  // filter.
   void start(const InitialState& initial) override {
     wind::Settings& filter = tuning_.filter;
     filter.velocity_sigma_0 = std::max(initial.velocity_sigma, 1e-3);
@@ -121,7 +122,7 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
       default:
         break;
     }
-    return Health::good;  // the filter starts again by itself
+    return Health::good;  // not a fault: the filter restarts by itself
   }
 
   Health tick(Context context) override {
@@ -135,7 +136,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     if (completes<Message>(group_, frame, counter, context)) on_navigation(context);
   }
 
-  // The latest plausible time of validity of an arrived sample. A run may start before its first Sync.
+  // The latest plausible time of validity of a sample that has arrived. It is relative to the last Sync, or
+  // to the start of a run whose first Sync has not arrived.
   [[nodiscard]] std::int64_t latest_us(const Context& context) const {
     return std::max(context.now_us, start_us_) + lead_limit_us;
   }
@@ -155,8 +157,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     }
   }
 
-  // Answers each complete group that does not update the filter, or updates it outside the range of the model
-  // or with late or refused fins. Of the other groups it answers one per output interval.
+  // Answers one group per output interval. Answers also every other complete group that did not update the
+  // filter, or updated it outside the range of the model or with late or refused fins.
   void on_navigation(Context& context) {
     const auto& horizontal = group_.get<GliderNavVelocityNE>();
     const auto& attitude = group_.get<GliderNavAttitude>();

@@ -9,7 +9,8 @@
 
 namespace canhil::target {
 
-/// Only counts on the frame path; news() reports the counts from time to time.
+/// Between two calls of news() events are only counted, so that the frame path stays fast; news() reports the
+/// counts.
 class BusNotes {
  public:
   void error_frame(const Frame& frame) { add(errors_, frame); }
@@ -39,7 +40,7 @@ class BusNotes {
   };
   BusErrors errors_;
   std::uint64_t late_in_queue_ = 0;
-  std::uint64_t unsent_ = 0;  // since the last outage was reported
+  std::uint64_t unsent_ = 0;  // answers not sent since the last report of an outage
   std::uint64_t downs_ = 0;
   bool up_ = true;
   std::int64_t changed_ns_ = 0;

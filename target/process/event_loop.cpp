@@ -24,15 +24,15 @@ constexpr int most_at_once = 256;
 
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 
-// A command shows that a bench is at work, as a Sync does. Otherwise the process would send a heartbeat of
-// its own between start and the first Sync, and a replay would lack it.
+// A command shows that a bench is at work, as a Sync does. If only Sync counted, the process would send an
+// idle heartbeat between the command start and the first Sync, and a replay would not contain it.
 bool from_bench(const Frame& frame) {
   return !frame.extended &&
          (frame.id == messages::Sync::info.id || frame.id == messages::TargetCommand::info.id);
 }
 
-// Sends frames in order. Frames are lost if the bus stays full until the deadline or the interface is down;
-// the loss is counted, and the receiver detects it by the E2E counters.
+// Sends frames in order. Drops frames if the bus is full until the deadline, or if the interface is down.
+// Counts them; the receiver detects the loss by the E2E counters.
 void send(Port& port, std::span<const Frame> frames, BusNotes& notes) {
   std::int64_t deadline_ns = 0;  // set when the queue is first full
   for (const Frame& frame : frames) {
@@ -71,10 +71,10 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
   TimingWindow window;
   BusNotes notes;
   Outbox<1> reports;
-  // When the bench last sent Sync or a command; updated with each report.
+  // When the bench last sent Sync or a command; updated only when a report is due.
   std::int64_t bench_ns = now_ns() - bench_silent_ns;
-  // Before its first frame a target listens for longer than a heartbeat period: two targets on one bus would
-  // corrupt each other's groups.
+  // Before it sends its first frame, a target listens for longer than a heartbeat period, to detect another
+  // target: two on one bus would corrupt each other's groups.
   std::int64_t report_due_ns = now_ns() + period_ns + period_ns / 4;
   bool established = false;
   bool bench_heard = false;  // since the last report
@@ -110,8 +110,8 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
       }
     }
     notes.interface_is(port.up());
-    // A wait without a frame ends when the report is due. While frames keep coming, the clock is read only
-    // after looks_every waits or most_at_once frames.
+    // Reading the clock costs time. If the last wait brought no frame, the report may be due; while frames
+    // keep coming, the clock is read only after looks_every waits or most_at_once frames.
     const bool look = !heard || more || ++unlooked >= looks_every;
     const std::int64_t now = look ? now_ns() : 0;
     if (look) unlooked = 0;
@@ -132,7 +132,7 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
         send(port, reports.frames(), notes);
       }
     }
-    // A port may hold more frames from the last read; wait() does not report these.
+    // A port may still hold frames from its last read, for which wait() would not return.
     heard = more || wait(port, WaitFor::frame, report_due_ns);
   }
   print(notes.news(port, format));

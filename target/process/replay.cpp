@@ -16,8 +16,8 @@ constexpr Routes from_target_route([](const MessageInfo& info) {
 });
 bool from_target(const Frame& frame) { return from_target_route(frame) != Routes::nowhere; }
 
-// Reads the whole log before the first line of a replay is written. A log without frames for the target is
-// not a recording of a run.
+// Reads the whole log, so that a malformed line is an error before anything is written. A log without frames
+// for the target is an error too: it is not the recording of a run.
 Result<void> check(const std::string& log_path) {
   std::error_code unknown;
   const auto status = std::filesystem::status(log_path, unknown);

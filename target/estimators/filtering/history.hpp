@@ -16,12 +16,13 @@ namespace canhil::filtering {
 ///     UpdateResult with a member `outcome` of enum Outcome (ok, not_reached, out_of_order,
 ///     older_than_history, ...)
 ///   step(state, increment, settings)
-///   update(state, earlier, share, measurement, settings): for a measurement valid at the state's epoch minus
-///     `share` of the increment that began with the ins `earlier` (null: at the epoch)
+///   update(state, earlier, share, measurement, settings): updates by a measurement valid at the state's
+///     epoch (earlier == nullptr), or before it by the fraction `share` of the last increment; at the start
+///     of that increment the ins was `*earlier`
 ///   keep_refusal(state, tried): copies from the tried state the members that a refused update changes
 ///   applied_at(t_us, now_us, settings): the epoch at which to apply a measurement valid at t_us
-/// A filter that also predicts between measurements (Predictions > 0: the largest number of predictions
-/// within the history) adds
+/// For a filter that also predicts between measurements, Predictions > 0 is the largest number of predictions
+/// within the history, and the Model also defines
 ///   prediction_is_due(state, settings), predict(state, settings)
 template <class Model, std::size_t Capacity, std::size_t Predictions = 0>
 class History {
@@ -82,7 +83,7 @@ class History {
       return result;
     }
     last_update_us_ = epoch_us(epoch);
-    prediction_count_ = 0;  // earlier ones are unreachable after this update, later ones are repeated
+    prediction_count_ = 0;  // earlier ones can no longer be reached; later ones are repeated below
     for (std::size_t i = epoch; i < count_; ++i) {
       at(i).before = then.ins;
       step(then, at(i).increment, epoch_us(i + 1), settings);
@@ -122,8 +123,8 @@ class History {
     }
   }
 
-  // Stores the state before the filter predicts at t_us. If full, drops the oldest, and with it earlier
-  // epochs.
+  // Stores the state before the filter predicts at t_us. If there is no room, drops the oldest stored state:
+  // earlier epochs can then no longer be reached.
   void remember_prediction(const State& state, std::int64_t t_us) {
     if (prediction_count_ == Predictions) {
       forgotten_us_ = predictions_.front().t_us;
@@ -133,8 +134,7 @@ class History {
     predictions_[prediction_count_++] = {state, t_us};
   }
 
-  // The state at an epoch: `ins` at that epoch, and the other members as they were before the first later
-  // prediction.
+  // The state at an epoch: `ins` as at that epoch, the other members as before the first prediction after it.
   State state_at(const State& now, std::size_t epoch) {
     const State* then = &now;
     for (std::size_t i = prediction_count_; i > 0 && predictions_[i - 1].t_us > epoch_us(epoch); --i)
@@ -150,7 +150,7 @@ class History {
   std::int64_t longest_us_;
   std::size_t first_ = 0, count_ = 0, prediction_count_ = 0;
   std::int64_t now_us_ = 0, last_update_us_ = 0;
-  std::int64_t forgotten_us_ = 0;  // the filter's state before this epoch has been dropped
+  std::int64_t forgotten_us_ = 0;  // states before this epoch have been dropped
 };
 
 }  // namespace canhil::filtering

@@ -1,7 +1,7 @@
 #pragma once
 // Robust H2 filtering for an uncertain A + L Delta N, |Delta| <= 1 (Yang, Shim, Park 2001, after eq. (16)).
-// With Phi = I + (A + P N'N/beta) dt the Riccati equation gains 2 P N'N P/beta + beta L L', an upper bound of
-// the uncertainty's effect for any beta > 0.
+// With Phi = I + (A + P N'N/beta) dt the Riccati equation has two more terms, 2 P N'N P/beta and beta L L'.
+// Their sum bounds the uncertainty's effect from above for any beta > 0.
 #include <Eigen/Core>
 #include <cmath>
 

@@ -18,8 +18,8 @@ struct Tridiagonal {
     Eigen::internal::tridiagonalization_inplace(packed, h);
   }
 
-  // The coefficients of the reflections. Eigen's order of summation depends on whether the result begins at a
-  // multiple of 16 bytes. This address has the alignment that a fixed-size SelfAdjointEigenSolver uses, so
+  // The coefficients of the reflections. Eigen sums in an order that depends on whether the result begins at
+  // a multiple of 16 bytes. Here it has the same alignment as in a fixed-size SelfAdjointEigenSolver, so that
   // the bits are the same.
   Eigen::VectorBlock<ColumnVector> coefficients() {
     const Eigen::Index n = packed.rows();

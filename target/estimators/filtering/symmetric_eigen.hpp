@@ -22,7 +22,7 @@ SymmetricEigen symmetric_eigen(const SquareMatrix& symmetric);
 
 namespace detail {
 double largest_eigenvalue(const SquareMatrix& symmetric);
-double largest_eigenvalue_of_3(const Matrix<3, 3>& symmetric);  // tridiagonal in one step
+double largest_eigenvalue_of_3(const Matrix<3, 3>& symmetric);  // one reflection makes the matrix tridiagonal
 }  // namespace detail
 
 /// The largest eigenvalue of a symmetric matrix. Iterative: the closed form for 3 x 3 loses half the digits

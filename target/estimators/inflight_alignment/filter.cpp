@@ -45,7 +45,7 @@ Errors<N> initial_errors(const Settings& settings) {
   Vector<N> sigma = Vector<N>::Zero();
   sigma.template segment<3>(At::position) = settings.position_sigma_0;
   sigma.template segment<3>(At::velocity) = settings.velocity_sigma_0;
-  // Levelling by delta turns a tilt phi into a heading error phi x delta / 2.
+  // Levelling, a rotation by delta, adds the heading error (phi x delta)_z / 2 for a tilt phi.
   double tilt = settings.tilt_sigma_0, heading = settings.heading_sigma_0;
   if (is_levelled_first(settings)) {
     heading = std::hypot(heading, tilt * levelling_sigma(settings) / std::numbers::sqrt2);
@@ -86,9 +86,9 @@ Vector3d position_difference(const GeodeticPosition& ins, const GeodeticPosition
 
 enum class SensorBiases : std::uint8_t { stay, fed_back };
 
-// Corrects the INS by the estimated errors of position and velocity and by C_pc, the attitude error, and the
-// bias estimates by the errors of the fix bias and, with SensorBiases::fed_back, of the sensor biases. Zeroes
-// these states, except the attitude, which the caller zeroes.
+// Corrects position and velocity of the INS by their estimated errors, and its attitude by C_pc. Adds the
+// estimated errors of the fix bias and, with SensorBiases::fed_back, of the sensor biases to the bias
+// estimates. Zeroes these states except the attitude, which the caller zeroes.
 template <int N>
 void feed_back(State& state, Errors<N>& errors, const Matrix3d& C_pc, SensorBiases biases) {
   using At = Layout<N>;
@@ -127,7 +127,8 @@ void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
     feed_back<N>(state, errors, C_pc, SensorBiases::fed_back);
     errors.x.template segment<3>(6).setZero();
     if (!platform) return;
-    // The remaining errors are angles of the new platform: small rotations about the axes of the old angles.
+    // The errors that remain are small angles relative to the corrected platform. P is converted to them by
+    // the rotation axes of the old angles.
     const Matrix3d axes = rotation_axes(psi);
     errors.P.template middleRows<3>(6) = (axes * errors.P.template middleRows<3>(6)).eval();
     errors.P.template middleCols<3>(6) = (errors.P.template middleCols<3>(6) * axes.transpose()).eval();

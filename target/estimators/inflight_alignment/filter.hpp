@@ -31,7 +31,7 @@ struct State {
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  // estimate, subtracted from the IMU [m/s^2]
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   // estimate, subtracted from the IMU [rad/s]
   Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();    // estimate, subtracted from fixes, NED [m]
-  std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of the INS; the filter sets N
+  std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of the INS; N from the settings
   std::uint32_t updated_at = 0;                                         // step of the last update
   std::uint32_t rejected = 0;                                           // fixes gated in a row
   std::uint32_t repairs = 0;    // how often P lost its positive definiteness
@@ -59,7 +59,7 @@ struct UpdateResult {
   double nis = 0;                                                   // chi-squared of 3 if consistent
   GeodeticPosition position;  // best estimate at the fix's time of validity
   bool gate_opened = false;   // accepted despite a NIS above the gate
-  int repairs = 0;            // of P, in this call
+  int repairs = 0;            // how often this call repaired P
 };
 
 /// The state at the start of an alignment: the INS's own navigation state, with P0 from the settings.

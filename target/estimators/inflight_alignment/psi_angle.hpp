@@ -1,7 +1,7 @@
 #pragma once
-// The paper's model: heading and tilt errors are Euler angles psi from the platform p (the INS's idea of NED)
-// to the computer frame c, C_pc(psi) = Rz(psi_z) Ry(psi_y) Rx(psi_x), C_bc = C_pc C_bp. S and A: the
-// interval's integrals of C_bp f and C_bp; n and e: accelerometer and gyro biases; w = w_ie + w_en:
+// The paper's model: heading and tilt errors are Euler angles psi from the platform p (NED according to the
+// INS's attitude) to the computer frame c, C_pc(psi) = Rz(psi_z) Ry(psi_y) Rx(psi_x), C_bc = C_pc C_bp. S and
+// A: the interval's integrals of C_bp f and C_bp; n and e: accelerometer and gyro biases; w = w_ie + w_en:
 //   dV   += S - C_pc (S - A n) + ...
 //   psi  += E(psi) [(w - C_pc' w) T - A e]
 // (Kang, Kim, Park 2006, eq. (9); corrected: the bias enters through C_pc, and the paper has C_cc for C_pc').

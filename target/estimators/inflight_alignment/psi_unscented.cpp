@@ -8,9 +8,9 @@ namespace {
 
 constexpr double spread = 3;  // N + kappa
 
-// Adds the sigma points of the lower root's columns beyond psi in closed form. These points differ only in
-// the biases, in which the map is linear for a given psi. With `rest`, the covariance of these columns, they
-// add rest G_c' and G_c rest G_c' to the second moments.
+// Adds, in closed form, the sigma points of those columns of the lower root that follow psi. These points
+// differ from the centre only in the biases, and for a given psi the map is linear in the biases. If `rest`
+// is the covariance of these columns, they add rest G_c' and G_c rest G_c' to the second moments.
 template <int N>
 void add_points_of_biases(const PsiMap& centre, filtering::Moments<N, 9>& moments,
                           const Matrix<N - 9, N - 9>& rest) {
@@ -28,8 +28,8 @@ void add_points_of_biases(const PsiMap& centre, filtering::Moments<N, 9>& moment
       attitude_gyro.lazyProduct(added.template middleRows<3>(3));
 }
 
-// The moments over all sigma points; for a lower root the columns beyond psi are added in closed form. Counts
-// the repairs of P.
+// The moments over all sigma points; for a lower root the columns that follow psi are added in closed form.
+// Counts the repairs of P.
 template <int N>
 filtering::Moments<N, 9> moments_about(const PsiMap& centre, Matrix<N, N>& P, UkfRoot kind, int& repairs) {
   const auto parts = [&centre](const auto& d) { return centre.parts(d.template head<15>()); };

@@ -7,8 +7,8 @@
 
 namespace canhil::inflight_alignment {
 
-/// One g [m/s^2].
-inline constexpr double standard_gravity = 9.80665;  // of "g" and "ug" in sensor figures [m/s^2]
+/// One g [m/s^2], the unit of "g" and "ug" in sensor data sheets.
+inline constexpr double standard_gravity = 9.80665;
 /// One degree [rad].
 inline constexpr double rad_per_deg = std::numbers::pi / 180;
 
@@ -16,17 +16,19 @@ inline constexpr double rad_per_deg = std::numbers::pi / 180;
 /// heading works. ekf, ukf: the paper's filters, with psi angles as states.
 enum class Algorithm : std::uint8_t { ekf, ukf, sin_cos };
 
-/// ssbl: fixes have a constant bias, which adds three states.
+/// The source of fixes. ssbl: fixes have a constant bias, which adds three states.
 enum class Aiding : std::uint8_t { ssbl, gps };
 
-/// The axes of the tilts of ekf and ukf when a closed loop feeds them back: `platform` rotates their rows of
-/// P by the heading correction, `navigation` does not. An open loop uses platform axes, like the paper.
+/// The axes in which ekf and ukf estimate the tilts in a closed loop. When tilts and heading are fed back,
+/// `platform` rotates the rows of P for the tilts by the heading correction, `navigation` does not. An open
+/// loop uses platform axes, like the paper.
 enum class AttitudeErrorFrame : std::uint8_t { platform, navigation };
 
 /// The square root of P whose columns are the sample points' offsets.
 enum class UkfRoot : std::uint8_t { lower_cholesky, symmetric };
 
-/// about_central: about the transformed central point; positive semi-definite for any weights.
+/// The point about which the UKF computes second moments. about_central: the transformed central point; P is
+/// then positive semi-definite for any weights.
 enum class UkfCovariance : std::uint8_t { about_mean, about_central };
 
 /// How sin_cos treats tilts and biases (sin_cos.hpp). published: first order in the tilts, which stay in the
@@ -52,7 +54,7 @@ struct Settings {
   double gyro_noise_density = 0.3 * rad_per_deg / 60;     // [rad/s/sqrt(Hz)]
   double fix_noise_horizontal = 2;                        // each of north and east, 1-sigma [m]
   double fix_noise_vertical = 2;                          // [m]
-  double fix_bias_noise_density = 0;                      // random walk of the bias [m/sqrt(s)]
+  double fix_bias_noise_density = 0;                      // random walk of the fix bias [m/sqrt(s)]
   double handover_sigma = 2 * rad_per_deg;  // sin_cos: heading sigma below which attitude is fed back
   double longest_interval = 1.5;            // after this time without a fix the filter predicts [s]
   double gate_nis = 0;                      // the gate refuses fixes with a larger NIS; 0: no gate

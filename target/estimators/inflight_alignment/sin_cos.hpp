@@ -55,10 +55,10 @@ Eigen::Matrix3d axes_of_biases(const Errors<N>& errors);
 template <int N>
 void turn_biases_back(Errors<N>& errors);
 
-/// Removes the tilt that is known in platform axes, phi_p = E[Rz' phi] / E[s^2 + (1 - k)^2] [rad], from x,
-/// for any heading error; returns exp([phi_p x]) for the INS. The rest of exp([phi x]) Rz exp([-phi_p x]) is
-/// phi' = phi - Rz phi_p = phi - phi_p + k phi_p - s e_z x phi_p, which is linear in (s, k); P is mapped
-/// accordingly.
+/// Removes from x the tilt in platform axes, phi_p = E[Rz' phi] / E[s^2 + (1 - k)^2] [rad], which can be
+/// estimated for any heading error. Returns exp([phi_p x]), by which the caller corrects the INS. The rest of
+/// exp([phi x]) Rz exp([-phi_p x]) is phi' = phi - Rz phi_p = phi - phi_p + k phi_p - s e_z x phi_p, which is
+/// linear in (s, k); P is mapped accordingly.
 template <int N>
 Eigen::Matrix3d take_out_tilt(Errors<N>& errors);
 

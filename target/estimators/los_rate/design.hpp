@@ -1,6 +1,6 @@
 #pragma once
-// The design, computed from the settings at start-up: tables of the closed gains, so that a step solves no
-// equation. One set of tables if both planes have equal noise, otherwise two.
+// The design: tables of steady-state gains, computed from the settings at start-up, so that a step solves no
+// equation. There is one set of tables if both planes have equal noise, otherwise two.
 #include <array>
 #include <cmath>
 
@@ -19,7 +19,8 @@ struct Sigma {
 /// The square roots of the diagonal.
 inline Sigma sigma_of(const Covariance& P) { return {std::sqrt(P.ee), std::sqrt(P.ww), std::sqrt(P.aa)}; }
 
-/// A closed gain (discrete, for x) and its 1-sigmas.
+/// A closed gain, i.e. a steady-state gain (discrete, for x) that needs no covariance recursion, and its
+/// 1-sigmas.
 struct ClosedGain {
   Gain K;
   Sigma sigma;

@@ -18,8 +18,8 @@ bool finite(const State& state) {
          (!state.covariance || (finite(state.P.pitch) && finite(state.P.yaw)));
 }
 
-// Evaluates function(plane) for pitch, and for yaw only if its noise differs; `plane` selects a member of a
-// pair.
+// Evaluates function(plane) for pitch, and for yaw only if its noise differs. `plane` is a function that
+// selects the member pitch or yaw of a pair.
 template <class Function>
 auto of_planes(const Design& design, Function function) {
   auto pitch = function([](auto& pair) -> auto& { return pair.pitch; });
@@ -32,7 +32,7 @@ struct Sample {
   double gap, interval;  // duration of the lost samples before it, and its own interval [s]
   Plane error, antenna_increment;
   double roll_increment;
-  Motion motion;  // over its interval; missing values keep their last measurement
+  Motion motion;  // over its interval; a missing value is replaced by its last measurement
   bool error_ok, antenna_ok, acceleration_ok;  // antenna: over the whole step
   bool motion_known;                           // over its interval
   Fault fault;                                 // the first fault
@@ -100,8 +100,8 @@ void start(State& state, Plane error, const Design& design, UpdateResult& result
   result.outcome = Outcome::started;
 }
 
-// Predicts P over a leg, increased by the sigmas of unmeasured motion: `turn` [rad] of the antenna, `pull`
-// [m/s] of the missile.
+// Predicts P over a leg and adds the variances of unmeasured motion, from its sigmas: `turn` [rad] of the
+// antenna, `pull` [m/s] of the missile.
 void predict_covariance(State& state, Geometry end, double dt, double turn, double pull,
                         const Design& design) {
   const double w = pull / end.range;
@@ -165,8 +165,8 @@ void update(State& state, Plane measured, double dt, bool kalman, const Design& 
   }
 }
 
-// While coasting, the estimate may become much worse than the steady state that a closed gain assumes; the
-// Kalman filter's start-up is then used again.
+// A closed gain assumes an estimate with steady-state accuracy. If a coast makes the estimate much worse, the
+// Kalman filter of the start-up runs again.
 void coast(State& state, double dt, const Sample& sample, const Settings& settings, UpdateResult& result) {
   result.outcome = Outcome::coasting;
   state.coasted_s += dt;
@@ -212,7 +212,8 @@ void advance(State& state, const Measurement& m, const Sample& sample, bool rang
   const bool low_pass = settings.algorithm == Algorithm::low_pass;  // uses neither range nor acceleration
   const bool measured =
       sample.error_ok && sample.antenna_ok && (low_pass || (sample.acceleration_ok && range_ok));
-  // A closed gain is valid for one nominal step from its steady state. After a gap or a coast P is larger.
+  // A closed gain is valid for one nominal step from its steady state. After a gap or a coast P is larger, so
+  // the update uses a Kalman gain.
   const bool uneven = !low_pass && (sample.gap > 0 || state.coasted_s > 0);
   const bool kalman = settings.algorithm == Algorithm::kalman || state.start_up_s > 0 || uneven;
   if (!state.covariance && (!measured || kalman)) {
@@ -221,8 +222,8 @@ void advance(State& state, const Measurement& m, const Sample& sample, bool rang
         design, [&](auto plane) { return steady_covariance(settings, plane(settings.noise), begin); });
     state.covariance = true;
   }
-  // A long extrapolation at the clamped range would let the rate grow without bound, by 2 vc/r: the closing
-  // speed is then taken as 0.
+  // At the clamped range a long extrapolation would let the rate grow without bound, by w' = 2 vc/r w. So the
+  // closing speed is set to 0.
   const Geometry end{result.used.range, result.blind && !measured ? 0 : result.used.closing_speed};
   const bool covariance = !measured || kalman;
   if (sample.gap > 0) {

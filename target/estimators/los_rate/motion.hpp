@@ -21,8 +21,8 @@ struct Leg {
   Plane antenna_increment;     // [rad]
   double roll_increment = 0;   // [rad]
   Plane missile_acceleration;  // mean [m/s^2]
-  double turn = 0;             // of the antenna's increment [rad]
-  double pull = 0;             // of the missile's velocity [m/s]
+  double turn = 0;             // sigma of the antenna's increment [rad]
+  double pull = 0;             // sigma of the change of the missile's velocity [m/s]
 };
 
 /// Bridges lost samples over `gap` [s] by the mean of the motions before and after. If the rate steps between

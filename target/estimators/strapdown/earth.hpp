@@ -5,13 +5,13 @@
 namespace canhil::strapdown {
 
 /// Rotation rate of the Earth (WGS-84) [rad/s].
-inline constexpr double earth_rate = 7.292115e-5;  // [rad/s]
+inline constexpr double earth_rate = 7.292115e-5;
 /// Semi-major axis of the WGS-84 ellipsoid [m].
-inline constexpr double semi_major_axis = 6378137.0;  // [m]
+inline constexpr double semi_major_axis = 6378137.0;
 /// Squared eccentricity of the WGS-84 ellipsoid.
 inline constexpr double eccentricity_squared = 6.69437999014e-3;
 /// Decrease of gravity with height [1/s^2].
-inline constexpr double free_air_gradient = 3.086e-6;  // [1/s^2]
+inline constexpr double free_air_gradient = 3.086e-6;
 
 /// Radii, gravity and rates at a place.
 struct LocalEarth {

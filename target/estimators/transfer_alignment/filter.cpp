@@ -17,8 +17,8 @@ struct Prediction {
   bool degraded = false;
 };
 
-// Without a manoeuvre the attitude error keeps its initial size, except for gyro drift. An H2 covariance that
-// has grown beyond its start is not a useful bound, and its H2 terms grow with it.
+// Without a manoeuvre the attitude error keeps its initial size, except for gyro drift. So an H2 covariance
+// larger than P0 is not a useful bound, and its H2 terms grow with it.
 bool beyond_the_start(const Covariance& P, const Settings& settings) {
   return !(P.diagonal().segment<3>(attitude_state).sum() <=
            initial_variance(settings).segment<3>(attitude_state).sum());

@@ -13,11 +13,12 @@
 namespace canhil::transfer_alignment {
 
 /// The correction [12] for gain K [12 x 3] and innovation y [m/s, NED]; its velocity part is J(phi) zeta. The
-/// gain does not depend on the estimate, so the one iteration changes only the mean.
+/// correction is iterated once. This changes only the mean, not P, as the gain does not depend on the
+/// estimate.
 StateVector invariant_correction(const Eigen::Matrix<double, state_count, 3>& K, const Eigen::Vector3d& y);
 
-/// Turns P [12 x 12] of a body-axes error from the NED axes before a correction phi [rad, NED] into those
-/// after it.
+/// Turns P [12 x 12] after a correction phi [rad, NED]. The error is constant in body axes but stored in
+/// computed NED, which the correction changes: P is turned from the axes before it into those after it.
 void turn_with_correction(Covariance& P, const Eigen::Vector3d& phi);
 
 /// The initial tilt variances [rad^2] for stated attitude variances [rad^2, NED] s_t^2 (tilts) and s_D^2

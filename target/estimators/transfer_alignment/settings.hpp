@@ -10,8 +10,8 @@
 
 namespace canhil::transfer_alignment {
 
-/// One g [m/s^2].
-inline constexpr double standard_gravity = 9.80665;  // of "g" and "ug" in sensor figures [m/s^2]
+/// One g [m/s^2], the unit of "g" and "ug" in sensor data sheets.
+inline constexpr double standard_gravity = 9.80665;
 /// One degree [rad].
 inline constexpr double rad_per_deg = std::numbers::pi / 180;
 

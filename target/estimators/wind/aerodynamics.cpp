@@ -50,7 +50,7 @@ Flow flow(const Vector3d& v_a, const Vector3d& omega, const Air& air, const Airf
     f.speed = f.mach * air.speed_of_sound;
   }
   f.alpha = held(std::atan2(v_a.z(), v_a.x()), airframe.alpha, f.outside.alpha);
-  // Equals asin(v/V), without arguments beyond 1.
+  // Equals asin(v/V), but rounding cannot make an argument larger than 1.
   f.beta = held(std::atan2(v_a.y(), std::hypot(v_a.x(), v_a.z())), airframe.beta, f.outside.beta);
   f.sin_alpha = std::sin(f.alpha);
   f.cos_alpha = std::cos(f.alpha);

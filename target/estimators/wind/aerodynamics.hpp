@@ -40,9 +40,9 @@ struct Loads {
 inline constexpr int force_part_count = 9;  ///< the parts of lift, drag and side force
 inline constexpr int part_count = 18;       ///< all parts
 
-/// The contribution of each part to the specific force [m/s^2] and to the moment [N m], body axes, lift
-/// first; their sums are loads(). The induced drag, which depends on the whole lift, belongs to the flow
-/// part.
+/// The contribution of each part to the specific force [m/s^2] and to the moment [N m], body axes, beginning
+/// with the parts of lift. The sums over all parts equal loads(). The induced drag, which depends on the
+/// whole lift, belongs to the flow part.
 struct LoadsByPart {
   Eigen::Matrix<double, 3, force_part_count> specific_force;
   Eigen::Matrix<double, 3, part_count - force_part_count> moment;
@@ -62,7 +62,7 @@ Coefficients coefficients(const Flow& flow, const Deflection& fins, const Airfra
 /// Force and moment of a flow and its coefficients.
 Loads loads(const Flow& flow, const Coefficients& c, const Air& air, const Airframe& airframe);
 
-/// The same, part by part.
+/// Force and moment as in loads(), separately for each part.
 LoadsByPart loads_by_part(const Flow& flow, const Deflection& fins, const Coefficients& c, const Air& air,
                           const Airframe& airframe);
 

@@ -1,12 +1,13 @@
 #pragma once
 // The airframe that is compiled in: a 500-lb body with a planar wing kit. Replace it here to use another one.
-// Not a real weapon's data: the size is that of the Mk-82 class, all coefficients are textbook estimates.
+// These are not the data of a real weapon: the size is that of the Mk-82 class, and all coefficients are
+// textbook estimates.
 #include "target/estimators/wind/airframe.hpp"
 
 namespace canhil::wind {
 
 // clang-format off
-/// The airframe of the filter, and of the truth as far as a scenario does not change it.
+/// The airframe of the filter. The simulated glider has the same airframe except for what a scenario changes.
 inline constexpr Airframe airframe_table{
     .mass = 300,
     .Ixx = 8, .Iyy = 120, .Izz = 125, .Ixz = 0.5,

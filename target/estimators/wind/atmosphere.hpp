@@ -4,7 +4,7 @@
 namespace canhil::wind {
 
 /// Gravity of the model [m/s^2].
-inline constexpr double gravity = 9.80665;  // [m/s^2]
+inline constexpr double gravity = 9.80665;
 
 /// The state of the air.
 struct Air {

@@ -91,7 +91,8 @@ Bank initial(const Start& start, const BankDesign& design) {
 
 UpdateResult step(Bank& bank, const Navigation& navigation, const FinHistory& fins,
                   const BankDesign& design) {
-  for (; bank.count < design.count; ++bank.count) {  // filters enabled since the last sample
+  // Filters that were enabled since the last sample start as copies of the first one.
+  for (; bank.count < design.count; ++bank.count) {
     bank.states[bank.count] = bank.states[0];
     bank.surprise[bank.count] = bank.surprise[0];
   }

@@ -1,13 +1,13 @@
 #pragma once
-// Several filters process the same samples. Each explains the residuals of the airframe model by another
-// cause; the likelihood of the measurements weights them (multiple-model adaptive estimation: Magill 1965,
-// IEEE Trans. AC-10, 434-439).
+// A bank of filters that process the same samples. Each filter attributes the residuals of the airframe model
+// to another cause; its weight follows from the likelihood of the measurements (multiple-model adaptive
+// estimation: Magill 1965, IEEE Trans. AC-10, 434-439).
 //
 //   J_i <- J_i exp(-dt/memory) + nu_i' S_i^-1 nu_i + ln det S_i
 //   w_i = odds_i exp(-J_i/2), scaled to the sum 1
 //   x = sum w_i x_i,   P = sum w_i (P_i + (x_i - x)(x_i - x)')
 //
-// The memory is short, so that a filter regains weight soon after it was wrong. A bank with one filter equals
+// The memory is short, so that a filter that was wrong regains its weight soon. A bank with one filter equals
 // that filter, bit for bit.
 #include <array>
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace canhil::wind {
 
-/// One filter for wrong coefficients, one for gusts.
+/// The largest number of filters: one for wrong coefficients, one for gusts.
 inline constexpr std::size_t bank_most = 2;
 
 /// The designs of a bank's filters.
@@ -40,9 +40,9 @@ struct Bank {
 /// A bank with one filter; with ProcessNoise::likeliest one for each cause.
 BankDesign make_bank(const Settings& settings);
 
-/// The initial bank, without knowledge at release.
+/// The initial bank if the state at release is unknown.
 Bank initial(const BankDesign& design);
-/// The initial bank, with the knowledge at release.
+/// The initial bank for a known state at release.
 Bank initial(const Start& start, const BankDesign& design);
 
 /// Processes one sample with each filter and mixes their states; returns the result of the likeliest filter.

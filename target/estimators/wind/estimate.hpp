@@ -8,15 +8,15 @@ namespace canhil::wind {
 struct Estimate {
   Eigen::Vector3d air_velocity;    // body [m/s]
   Eigen::Vector3d rate, attitude;  // [rad/s]; roll, pitch, heading [rad]
-  Eigen::Vector3d wind;            // towards, NED [m/s]
+  Eigen::Vector3d wind;            // velocity of the air, i.e. where the wind blows to, NED [m/s]
   double wind_speed = 0;           // horizontal [m/s]
-  double wind_from = 0;            // direction it blows from, clockwise from north, 0 to 2 pi [rad]
-  double air_speed = 0;            // [m/s]
-  double alpha = 0, beta = 0;      // [rad]
+  double wind_from = 0;        // direction from which the wind blows, clockwise from north, 0 to 2 pi [rad]
+  double air_speed = 0;        // [m/s]
+  double alpha = 0, beta = 0;  // [rad]
 };
 
-/// 1-sigma values. Along track: the horizontal wind along the horizontal air velocity, which has nearly all
-/// of the error; cross track: to the right of it.
+/// 1-sigma values. Along track: the component of the wind along the horizontal air velocity, which has nearly
+/// all of the error. Cross track: the horizontal component to the right of it.
 struct Uncertainty {
   StateVector state;
   double wind_speed = 0, wind_from = 0;     // [m/s], [rad]; an unknown direction has pi/sqrt(3)

@@ -31,7 +31,7 @@ Fault judged(const Navigation& n, const Observation& y, const Design& design) {
   return Fault::none;
 }
 
-// True if navigation repeats itself bit for bit for too long: its source has stopped.
+// True if navigation has not changed in any bit for too long: its source has stopped.
 bool is_stale(State& state, const Observation& y, double gap, const Settings& settings) {
   state.unchanged_s = y == state.last ? state.unchanged_s + gap : 0;
   state.last = y;
@@ -43,7 +43,7 @@ Sensitivity* sensitivity_of(State& state, const Settings& settings) {
   return considers_coefficients(settings) ? &state.sensitivity : nullptr;
 }
 
-// Restarts the filter; keeps only the wind.
+// Makes the next usable sample restart the filter, which then uses only the wind of this state.
 void forget(State& state) {
   state.started = false;
   state.coasted_s = 0;
@@ -85,7 +85,8 @@ void note_fins(const ActingFins& acting, const Settings& settings, Flags& flags)
   flags.fins_not_physical |= acting.not_physical;
 }
 
-// The altitude after dt, extrapolated with the downward velocity: for the parts of a gap and for coasting.
+// The altitude after dt, extrapolated by the downward velocity. Used within a gap and for coasting, where no
+// sample gives the altitude.
 double reckoned_altitude(const State& state, double dt) {
   const double down = C_bn(state.x.segment<3>(attitude_at)).row(2).dot(state.x.segment<3>(air_velocity_at)) +
                       state.x(wind_at + 2);
@@ -106,7 +107,8 @@ void advance(State& state, double dt, const ActingFins& acting, const Design& de
   flags.outside |= outside;
 }
 
-// Advances from state.t_us to t_us in parts; `reckon`: extrapolates the altitude, as the sample has none.
+// Advances from state.t_us to t_us in parts. `reckon`: the sample is not usable, so the altitude at t_us is
+// extrapolated.
 void advance(State& state, std::int64_t t_us, bool reckon, const FinHistory& fins, const Design& design,
              Flags& flags) {
   const std::int64_t begin = *state.t_us, gap_us = t_us - begin;
@@ -127,8 +129,8 @@ void advance(State& state, std::int64_t t_us, bool reckon, const FinHistory& fin
   state.sample_used = false;
 }
 
-// Adapts the process noise until NIS has its expected value: within a few samples if NIS is far too large, as
-// at release; slowly if NIS only scatters about its mean.
+// Adapts the process noise so that the NIS gets its expected value. This takes a few samples if the NIS is
+// far too large, as at release, and is slow while the NIS only scatters about its mean.
 void adapt(State& state, double nis, double gap, const Settings& settings) {
   const double excess = std::clamp(nis / 9 - 1, -1.0, 50.0);
   state.noise_factor = std::clamp(state.noise_factor * std::exp(excess * gap / settings.adaptation_time), 1.0,
@@ -158,7 +160,7 @@ void use(State& state, const Navigation& n, const Observation& y, double gap, co
       return;
     }
     forget(state);
-    state.x.tail<3>().setZero();  // navigation or the wind estimate was wrong: the wind is unknown now
+    state.x.tail<3>().setZero();  // navigation or the wind estimate was wrong, so the wind is unknown now
     state.sensitivity.bottomRows<3>().setZero();
     state.P.block<3, 3>(wind_at, wind_at) = squared(settings.wind_sigma_0) * Matrix3d::Identity();
     start(state, n, settings);
@@ -263,7 +265,7 @@ UpdateResult step(State& state, const Navigation& navigation, const FinHistory& 
     state = next;
     return result;
   }
-  // Keeps the previous state, of which forget() leaves only the wind, if that state is finite.
+  // If the previous state is finite, it is kept; forget() then leaves only its wind in use.
   result.outcome = Outcome::non_finite;
   if (!is_sound(state)) state = initial(design);
   forget(state);

@@ -33,7 +33,7 @@ struct State {
   double altitude = 0;                     // at t_us [m]
   double coasted_s = 0;                    // since the last update
   double noise_factor = 1;                 // Algorithm::adaptive_q: factor on the variance
-  int jumps = 0;                           // in a row
+  int jumps = 0;                           // navigation samples refused as jumps in a row
   double unchanged_s = 0;                  // time since navigation changed
   Observation last = Observation::Zero();  // the last navigation sample
 };
@@ -41,11 +41,11 @@ struct State {
 /// What a step did.
 enum class Outcome : std::uint8_t {
   waiting,  // not started, and this sample is not usable
-  started,  // started from the sample's attitude, rates and velocity, and the previous wind
+  started,  // the filter started from attitude, rates and velocity of the sample, and from the previous wind
   updated,
   coasting,      // predicted only; `fault` says why
-  out_of_order,  // not after the last sample: ignored
-  non_finite,    // the result would not be finite and positive definite: starts again with the next sample
+  out_of_order,  // the sample is not later than the last one: ignored
+  non_finite,    // the result would not be finite and positive definite: restarts with the next sample
 };
 
 /// Why a sample of navigation was not used.
@@ -63,11 +63,11 @@ enum class Fault : std::uint8_t {
 struct Flags {
   RangeFlags outside;              // the range of the aerodynamic model, the atmosphere or the Euler angles
   bool fins_late = false;          // a deflection is missing or too old
-  bool fins_missing = false;       // none for so long that the model is unreliable
+  bool fins_missing = false;       // no deflection for so long that the model is unreliable
   bool fins_not_physical = false;  // the last frame of the fins was refused
   bool theta_capped = false;       // H-infinity: theta was lowered
-  /// True if the process noise was raised.
-  bool degraded() const { return outside.any() || fins_missing; }  // process noise was raised
+  /// True if the process noise was raised to Settings::degraded.
+  bool degraded() const { return outside.any() || fins_missing; }
 };
 
 /// The result of a step.

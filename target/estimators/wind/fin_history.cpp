@@ -20,7 +20,7 @@ FinOutcome FinHistory::push(std::int64_t t_us, const Deflection& d, double limit
   if (last_refused_) return FinOutcome::not_physical;
   const std::optional<Sample> before = std::exchange(out_of_order_, std::nullopt);
   if (count_ > 0 && t_us <= back(0).t_us) {
-    constexpr std::int64_t overtaken_us = 100'000;  // the largest reordering on a bus that delays frames
+    constexpr std::int64_t overtaken_us = 100'000;  // the largest delay by which a bus reorders frames
     if (!before || t_us <= before->t_us || t_us >= back(0).t_us - overtaken_us) {
       out_of_order_ = {t_us, d};
       return FinOutcome::out_of_order;
@@ -42,7 +42,8 @@ ActingFins FinHistory::over(std::int64_t from_us, std::int64_t to_us) const {
   // Integrates backwards from the interval's end: `later` is the end of a piece, `at` the deflection there.
   std::size_t age = 0;
   while (age + 1 < kept && back(age).t_us >= to_us && back(age + 1).t_us >= to_us) ++age;
-  const auto between = [&](std::size_t newer, std::int64_t t) {  // interpolates up to sample `newer`
+  // Interpolates between sample `newer` and the one before it.
+  const auto between = [&](std::size_t newer, std::int64_t t) {
     const Sample& b = back(newer);
     if (newer + 1 >= kept) return b.deflection;
     const Sample& a = back(newer + 1);
@@ -52,7 +53,7 @@ ActingFins FinHistory::over(std::int64_t from_us, std::int64_t to_us) const {
   const double length = static_cast<double>(to_us - from_us);
   std::int64_t later = to_us;
   Deflection at;
-  if (back(age).t_us < to_us) {  // holds the newest sample
+  if (back(age).t_us < to_us) {  // after the newest sample its deflection is held
     acting.gap_us = to_us - back(age).t_us;
     at = back(age).deflection;
     const std::int64_t held_from = std::max(from_us, back(age).t_us);

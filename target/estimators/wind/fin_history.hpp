@@ -20,8 +20,8 @@ enum class FinOutcome : std::uint8_t {
 /// The mean deflection over an interval.
 struct ActingFins {
   Deflection mean;
-  std::int64_t gap_us = 0;    // longest time without a sample that overlaps the interval
-  bool known = false;         // false: no sample at all; mean is zero
+  std::int64_t gap_us = 0;  // the longest time without a sample, of all such times that overlap the interval
+  bool known = false;       // false: no sample at all; mean is zero
   bool not_physical = false;  // the last frame was refused
 };
 
@@ -33,8 +33,8 @@ class FinHistory {
   /// newest, show that the newest had a wrong time: the history then restarts with these two.
   FinOutcome push(std::int64_t t_us, const Deflection& deflection, double limit);
 
-  /// The mean over [from, to] of the linearly interpolated samples; constant after the newest and before the
-  /// oldest.
+  /// The mean over [from, to] of the deflections, linearly interpolated between samples; constant after the
+  /// newest sample and before the oldest.
   ActingFins over(std::int64_t from_us, std::int64_t to_us) const;
 
  private:

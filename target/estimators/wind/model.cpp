@@ -14,7 +14,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using strapdown::skew;
 
-// Sines and cosines of roll and pitch; the pitch of the kinematics is clamped short of the pole.
+// Sines and cosines of roll and pitch. For the kinematics the pitch is clamped before the pole at 90 deg.
 struct Tilt {
   double sin_roll, cos_roll, sin_pitch, cos_pitch;
   double tan_pitch, sec_pitch;

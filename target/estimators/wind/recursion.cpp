@@ -11,7 +11,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double theta_lambda_most = 0.9;  // P~ exists below 1
+constexpr double theta_lambda_most = 0.9;  // P~ exists only for theta lambda_max < 1
 
 Observation noise_variance(const Settings& s) {
   Observation R;

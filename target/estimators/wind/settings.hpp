@@ -34,8 +34,8 @@ struct Densities {
   double air_velocity = 0.02;            // [m/s]
   double rate = 0.2 * rad_per_deg;       // [rad/s]
   double attitude = 0.01 * rad_per_deg;  // [rad]
-  double wind = 0.3;                     // covers shear times sink rate [m/s]
-  double coefficient = 0.0022;           // relative, of each part of each coefficient: 1 % held for 50 ms
+  double wind = 0.3;                     // includes wind shear times sink rate [m/s]
+  double coefficient = 0.0022;  // relative, of each part of each coefficient: 1 %, constant for 50 ms
 };
 
 /// The settings of the estimator.
@@ -62,7 +62,7 @@ struct Settings {
   double memory = 1;            // of the bank's likelihoods [s]
   double odds_of_gusts = 1e-3;  // prior weight of the gust filter relative to the other
 
-  double air_velocity_sigma_0 = 1;              // known at the start [m/s]
+  double air_velocity_sigma_0 = 1;              // of the air velocity that is known at the start [m/s]
   double velocity_sigma_0 = 0.1;                // ground velocity at the start [m/s]
   double rate_sigma_0 = 0.01 * rad_per_deg;     // [rad/s]
   double attitude_sigma_0 = 0.1 * rad_per_deg;  // [rad]
@@ -81,7 +81,8 @@ struct Settings {
   double rate_most = 10;            // likewise [rad/s]
 };
 
-/// True if the sigmas allow for constant coefficient errors. The H-infinity filter has its own method.
+/// True if the reported sigmas include the effect of constant coefficient errors. The H-infinity filter has a
+/// method of its own.
 constexpr bool considers_coefficients(const Settings& settings) {
   return settings.coefficient_sigma > 0 && follows_loads(settings.process_noise) &&
          settings.algorithm != Algorithm::h_infinity;
