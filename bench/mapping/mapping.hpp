@@ -140,12 +140,11 @@ class Places {
 Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,
                                                     const ReadText& text = read_from_disk);
 
-/// The layout of samples with these quantities, in this order. Each of them must have a truth in the bench.
-/// Repeated calls return the same object, so stored samples and those of a run share it. Null: some quantity
-/// has no truth.
+/// The layout of samples with these quantities, in this order. Repeated calls return the same object, so
+/// stored samples and the samples of a run share it. Null: the bench has no truth for one of the quantities.
 const quantities::Layout* find_layout(std::string_view columns);
 
-/// The mapped target presented as an estimator. The mapping must not move.
+/// The mapped target presented as an estimator, which refers to the mapping. The mapping must not move.
 estimators::Estimator estimator_of(const Mapping& mapping);
 
 /// The vocabulary for reading a scenario: canhil's own, or that of the mapping that the scenario's [target]

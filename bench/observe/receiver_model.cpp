@@ -18,8 +18,7 @@ constexpr Routes bench_messages([](const MessageInfo& info) {
   return info.sender != TargetHeartbeat::info.sender;
 });
 
-// An estimator may drop a group that arrives later than this after its time of validity, or earlier than this
-// before it.
+// An estimator may drop a group that arrives more than this before or after its time of validity.
 constexpr std::int64_t promised_us = 200'000;
 constexpr std::size_t syncs_of_a_period =
     static_cast<std::size_t>(TargetHeartbeat::info.cycle_time_us / Sync::info.cycle_time_us);

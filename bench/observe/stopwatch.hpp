@@ -17,7 +17,7 @@
 
 namespace canhil::observe {
 
-/// Remembers the last `remembered` stimuli of each group; a later answer has no cause.
+/// Remembers the last `remembered` stimuli of each group. An answer to an older stimulus has no cause.
 class Stopwatch {
  public:
   static constexpr std::size_t remembered = 1024;
@@ -34,7 +34,7 @@ class Stopwatch {
 
   /// The bench handed over a frame at `t_ns`, `late_ns` after its deadline.
   void sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
-  /// That frame completed a sample group which the target answers.
+  /// The frame of the last sent() completed a sample group that the target answers.
   void stimulus(std::string_view group, const checks::Stimulus& stimulus);
   /// The bus echoed a frame of the bench; `group`, `valid_us`: the sample group that it completes, if any.
   void echoed(const Received& received, std::string_view group, std::int64_t valid_us);

@@ -46,7 +46,7 @@ struct CheckContext {
   std::int64_t latency_us = 0;  ///< over all nodes: the longest time from validity to transmission
 };
 
-/// A rule, and its subject if a scenario may have several checks of the kind; otherwise empty.
+/// A rule and its subject. The subject is empty for a kind that a scenario may have only once.
 struct RuleRead {
   std::shared_ptr<const checks::Rule> rule;
   std::string subject;

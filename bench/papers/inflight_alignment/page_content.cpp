@@ -131,7 +131,7 @@ void add_paths(Names& names, const Results& results) {
   names["reversed"] = [=](Words&) { return fmt::format("{} of {}", reversed, combinations); };
 }
 
-// The paper's claims, and bars that are in no campaign file. Returns whether these bars are met.
+// The paper's claims, and limits that are in no campaign file. Returns whether these limits are met.
 bool add_claims(Names& names, const Results& results) {
   const auto claim = [&names](std::string name, bool holds) {
     names[std::move(name)] = [=](Words&) { return holds; };
