@@ -291,7 +291,7 @@ class BeastServer final : public Server {
     });
   }
 
-  // The handlers in io_ own the connections, and the connections are counted in site_.
+  // The handlers in io_ own the connections, which count themselves in site_. So site_ must outlive io_.
   Site site_;
   Text whole_;
   std::optional<Snapshot> last_;

@@ -32,8 +32,8 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
          outcome == LosRateOutcome::updated || outcome == LosRateOutcome::coasting;
 }
 
-// Reads KEY, the constant part, and KEY with _sigma before the unit, the sigma of the part drawn for each
-// run.
+// Reads two keys: KEY is the constant part of an error; KEY with _sigma before its unit is the sigma of the
+// part that is drawn for each run.
 world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
                                  std::string_view of, double sigma) {
   return {

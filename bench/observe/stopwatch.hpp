@@ -63,7 +63,7 @@ class Stopwatch {
     std::optional<std::int64_t> to_echo_ns{};
     std::int64_t wire_ns = 0;
     bool answered = false;
-    std::bitset<MessagePlaces::most> answered_by{};  // the last message of each answer
+    std::bitset<MessagePlaces::most> answered_by{};  // index of the last message of each answer
     std::int64_t latency_ns = 0;                     // latency of the last answer so far
     std::int64_t reply_wire_ns = 0;                  // sum over all answers so far
   };
