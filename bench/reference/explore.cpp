@@ -108,8 +108,8 @@ class Explorer {
     };
     const auto any = std::ranges::find_if(found_, same);
     const auto found = std::ranges::find_if(found_, alike);
-    // If a key is present, a reader may request it in more detail. The earlier entry stays, except that a
-    // missing meaning is filled in.
+    // A reader may request a key that is present in more detail. The earlier entry stays, but if it lacks a
+    // meaning, the later entry replaces it.
     if (is_there && any != found_.end()) {
       if (any->meaning.empty() && !key.meaning.empty()) {
         *any = key;

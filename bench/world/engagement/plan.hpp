@@ -32,7 +32,7 @@ struct Manoeuvre {
 
 /// The source of the LOS rate for the guidance.
 enum class Guidance : std::uint8_t { truth, target };
-/// The planes in which heading error and manoeuvre act; noise acts in both.
+/// The planes in which heading error and manoeuvre act. Noise always acts in both planes.
 enum class ActivePlanes : std::uint8_t { both, pitch, yaw };
 
 struct EngagementPlan {
