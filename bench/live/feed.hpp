@@ -28,7 +28,7 @@ class Feed final : public observe::Observer {
 
   explicit Feed(std::size_t room = frames) : events_(room), epochs_(epochs) {}
 
-  /// The record to which the flight adds epochs; the feed copies the epochs. Null: the flight has no
+  /// Sets the record to which the flight adds epochs; the feed copies them. Null: the flight has no
   /// engagement. Must be called before the first frame.
   void follow(const world::EngagementRecord* engagement) {
     engagement_ = engagement;

@@ -22,7 +22,7 @@ constexpr std::int64_t settled_us = 1'500'000;
 double us(double ns) { return ns * 1e-3; }
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
-// Shows errors and statistics; if the truth of the flight is unknown, estimates instead of errors.
+// Whether the view shows a series: a statistic, and an error or, if the truth is unknown, an estimate.
 bool is_shown(report::Series::Kind kind, bool known) {
   using enum report::Series::Kind;
   return kind == statistic || kind == (known ? error : estimate);
@@ -80,8 +80,8 @@ void add_load(Flight& flight, std::span<const wire::BitLength> lengths, wire::Bi
   flight.load_now = whole.empty() ? 0 : wire::bus_load(whole.back(), 1.0, rates);
 }
 
-// The time of the last value that can change a check's result. None: the check has no such limit, or it
-// concerns timing, which is complete only at the end of the run.
+// The end of the window in which a check judges values. None: the check can only be judged after the run,
+// because it compares no values with a limit, judges by time to go, or judges timing.
 std::optional<std::int64_t> over_at_us(const scenario::Check& check) {
   const auto bar = check.rule->bar();
   if (!bar || bar->stretch.to_go_s || !check.rule->timed().empty()) return std::nullopt;
@@ -164,7 +164,8 @@ void FlightInProgress::interface_changed(bool up, std::int64_t t_ns) {
   each_watcher([&](observe::Observer& to) { to.interface_changed(up, t_ns); });
 }
 
-// The newer watcher has also seen all frames since the last update, so the change loses no frame.
+// Replaces the older watcher by the newer one. The newer one has also received all frames since the last
+// update, so the tracks lose no value.
 void FlightInProgress::move_window() {
   window_since_us_ = now_us();
   if (!recent_) return;

@@ -35,8 +35,9 @@ class FlightInProgress final : public observe::Observer {
   /// The record that receives epochs of the engagement; null: the flight has no engagement.
   [[nodiscard]] world::EngagementRecord* engagement() { return engagement_ ? &*engagement_ : nullptr; }
 
-  /// Updates a flight to the current time. `all_seen`: no frame was missed, so checks may be judged. Series
-  /// end 1.5 s in the past, because a late fix brings the sigma of its time; with `landed` they end now.
+  /// Updates a flight to the current time. `all_seen`: the view missed no frame, so checks may be judged.
+  /// Series end 1.5 s before now, because the sigma of a late fix arrives late. `landed`: the run is over, so
+  /// series end now.
   void update(Flight& flight, bool all_seen, bool landed = false);
 
  private:
@@ -60,8 +61,8 @@ class FlightInProgress final : public observe::Observer {
   std::optional<world::EngagementRecord> engagement_{};  // a copy of the record that the flight extends
   observe::LoadMeter load_;
   std::unique_ptr<observe::Watcher> whole_;  // for the whole flight: times and checks
-  // Watchers of the last one to two window_us, for tracks: after each window_us the newer watcher replaces
-  // the older one.
+  // Two watchers for tracks: the older one has received the last one to two window_us. After each window_us
+  // the newer one replaces it, and another one starts.
   std::unique_ptr<observe::Watcher> recent_, next_recent_;
   std::int64_t window_since_us_ = 0;
   std::vector<Known> known_{};

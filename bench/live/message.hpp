@@ -14,7 +14,8 @@ using Sent = std::map<std::string, std::size_t>;
 
 /// The complete snapshot.
 std::string whole_message(const Snapshot& snapshot);
-/// The changes since `sent`, which is updated. At the end of a flight the message contains everything.
+/// The changes since the messages that `sent` counts; updates `sent`. At the end of a flight the message
+/// contains everything.
 std::string next_message(const Snapshot& snapshot, Sent& sent);
 
 }  // namespace canhil::live

@@ -104,7 +104,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
 
   [[nodiscard]] bool open() const { return open_; }
   [[nodiscard]] bool busy() const { return message_ != nullptr; }
-  [[nodiscard]] bool follows() const { return follows_; }  // no message missed since a whole one
+  [[nodiscard]] bool follows() const { return follows_; }  // no message skipped since a whole one
 
   void send(Text message) {
     message_ = std::move(message);
@@ -116,7 +116,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
       if (error) self->open_ = false;
     });
   }
-  // The browser is still receiving the previous message, so this one is not sent to it.
+  // Called in place of send() while the browser is still receiving the previous message.
   void skip() {
     follows_ = false;
     if (std::chrono::steady_clock::now() - began_ > slowest_message) drop();
@@ -276,7 +276,7 @@ class BeastServer final : public Server {
   void accept() {
     accepting_ = true;
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-      if (error) {  // for example no free descriptor; the next snapshot tries again
+      if (error) {  // for example no free descriptor; the next snapshot calls accept() again
         accepting_ = false;
         return;
       }
@@ -291,7 +291,7 @@ class BeastServer final : public Server {
     });
   }
 
-  // The handlers in io_ own the connections, and the connections are counted in site_.
+  // The handlers in io_ own the connections, which count themselves in site_. So site_ must outlive io_.
   Site site_;
   Text whole_;
   std::optional<Snapshot> last_;

@@ -10,8 +10,9 @@
 
 namespace canhil::live {
 
-/// Limits on the load that browsers cause: the number of connections, and one message in transit on each. A
-/// slower browser misses the snapshots in between; one that accepts no data for ten seconds is disconnected.
+/// The number of connections is limited, and each has at most one message in transit: this limits the load
+/// that browsers cause. A slow browser misses snapshots; one that accepts no data for ten seconds is
+/// disconnected.
 inline constexpr std::size_t most_connections = 16;
 inline constexpr std::uint16_t usual_port = 8460;
 inline constexpr const char* loopback_address = "127.0.0.1";

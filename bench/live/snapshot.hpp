@@ -26,7 +26,7 @@ struct TimingLine {
   double p50_us = 0, p99_us = 0, max_us = 0;
   std::uint64_t jitter_count = 0;
   double jitter_p99_us = 0, jitter_max_us = 0;
-  /// The slowest answer in each stretch of time; empty for messages that do not end an answer.
+  /// The largest latency in each stretch of `stretch_s`; empty unless the message is the last of its answer.
   double stretch_s = 0;
   std::vector<double> slowest_us{};  ///< NaN: no answer in this stretch
 };

@@ -62,8 +62,8 @@ void View::Tap::departs(const drive::Departure& departure) {
   view_.asked_ = true;
 }
 
-// After this call, the objects that the departure refers to are destroyed, so it waits until the view no
-// longer uses them.
+// After landed(), the caller destroys the objects that the departure refers to. So landed() waits until the
+// view no longer uses them.
 void View::Tap::landed() {
   std::unique_lock lock(view_.mutex_);
   view_.feed_.follow(nullptr);

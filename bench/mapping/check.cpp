@@ -75,8 +75,8 @@ class Remarks {
   void on(const Mapped& of, const Source& source, const Play& play) {
     const dbc::Signal& signal = *source.signal;
     const SignalInfo* own = observe::signal_of(*source.stimulus->message, source.stimulus->signal);
-    // Converts the node's unit to the signal's. A rate is an increment over its interval, here the shortest
-    // one: the period of the play.
+    // Converts from the node's unit to the signal's. A rate is an increment divided by its interval. The
+    // shortest interval is the period of the play.
     const double interval_s =
         source.stimulus->over == Over::rate ? 1e-6 * static_cast<double>(play.period_us) : 1;
     const double factor = std::abs(source.factor * source.stimulus->factor) / interval_s;

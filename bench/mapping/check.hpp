@@ -19,9 +19,12 @@ struct Remark {
   std::string what;     ///< one line
 };
 
-/// Remarks in the order of plays and hears: signals without a mapped value, or whose value is not used;
-/// ranges and steps that do not suit the node's values and the noise of its sensor (canhil's DBC: limits,
-/// SensorSigma); periods that differ from the DBC's cycle times; unmapped messages of the target.
+/// Remarks in the order of plays and hears, about:
+/// - signals without a mapped value, or with a value that is not used;
+/// - ranges that do not hold the node's values, and steps that are coarse for the noise of its sensor (limits
+///   and SensorSigma of canhil's DBC);
+/// - periods that differ from the DBC's cycle times;
+/// - messages of the target that are not mapped.
 std::vector<Remark> remarks_on(const Mapping& mapping);
 
 /// The bus load of the mapping's messages, with their longest frames. Messages without a cycle time are not

@@ -38,8 +38,8 @@ struct Conversation {
       clipped;  ///< by MESSAGE.SIGNAL: number of values beyond the signal's range
 };
 
-/// Follows frames of the bench on their way to the bus. A fault may drop or change frames of a play; the
-/// target then need not answer it.
+/// Follows frames of the bench on their way to the bus. If a fault drops or changes a frame of a play, the
+/// target need not answer the play.
 class Passing {
  public:
   explicit Passing(const Conversation& conversation)

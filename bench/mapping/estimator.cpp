@@ -97,8 +97,7 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
   return samples;
 }
 
-// All answers, then those of each message. A message that neither answers anything nor carries a quantity has
-// no mark.
+// A mark for all answers, then one for each message that answers a play or carries a quantity.
 std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
   const Answers& answers = seen.of<Answers>();
   estimators::Mark all{.name = "answers"};

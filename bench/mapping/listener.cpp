@@ -31,7 +31,8 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
   for (std::size_t i = 0; i < mapping.hears.size(); ++i) hear_of_[mapping.hears[i].of.index] = i;
 }
 
-// The play that a frame completes; null if the frame is damaged: the target need not answer a damaged play.
+// The transmission of a play that a frame completes. Null: the frame is damaged, so the target need not
+// answer the play.
 const Sent* Listener::closed_by(std::size_t play, const Frame& frame) const {
   const auto& sent = conversation_.sent[play];
   const auto found =

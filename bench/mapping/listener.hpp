@@ -38,7 +38,7 @@ class Listener final : public observe::Watcher {
   std::vector<double> values_;                                   // signal values of one message
   std::vector<protection::Receiver> receivers_;                  // for each hear
   bool virtual_time_ = false, sent_any_ = false;
-  std::int64_t due_us_ = 0, due_ns_ = 0;  // last play due, in bench time and as a time stamp
+  std::int64_t due_us_ = 0, due_ns_ = 0;  // deadline of the last play: time base, stamp clock
 };
 
 }  // namespace canhil::mapping

@@ -140,17 +140,16 @@ class Places {
 Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,
                                                     const ReadText& text = read_from_disk);
 
-/// The layout of samples with these quantities, in this order. Each of them must have a truth in the bench.
-/// Repeated calls return the same object, so stored samples and those of a run share it. Null: some quantity
-/// has no truth.
+/// The layout of samples with these quantities, in this order. Repeated calls return the same object, so
+/// stored samples and the samples of a run share it. Null: the bench has no truth for one of the quantities.
 const quantities::Layout* find_layout(std::string_view columns);
 
-/// The mapped target presented as an estimator. The mapping must not move.
+/// The mapped target presented as an estimator, which refers to the mapping. The mapping must not move.
 estimators::Estimator estimator_of(const Mapping& mapping);
 
-/// The vocabulary for reading a scenario: canhil's own, or that of the mapping that the scenario's [target]
-/// names, relative to the scenario's file. Error: one line; TOML syntax errors are left to the scenario's
-/// reader.
+/// The vocabulary for reading a scenario. If the scenario's [target] names a mapping (a path relative to the
+/// scenario's file), it comes from the mapping, otherwise from canhil's own DBC. Error: one line. TOML syntax
+/// errors are not reported here but by the reader of the scenario.
 Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::string& file,
                                             const scenario::DbcVocabulary& own,
                                             const ReadText& read = read_from_disk);

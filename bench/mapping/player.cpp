@@ -94,7 +94,7 @@ void Player::sample(Played& played) {
   played.node->transmit(own);
   played.valid_us = due_us - played.latency_us;
   played.lost = own.frames().empty();
-  bool closed = played.lost;  // frames of a log arrive one by one
+  bool closed = played.lost;  // a replayed log gives one frame at a time
   for (const Frame& frame : own.frames()) {
     take(played, frame);
     closed = closed || frame.id == played.table->closes.id;

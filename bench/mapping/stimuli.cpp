@@ -11,7 +11,7 @@
 namespace canhil::mapping {
 namespace {
 
-// The time of a sample is not a measurement; a mapping defines its own time signals.
+// Whether a signal is the time of a sample. This is not a measurement: a mapping has its own time signals.
 bool of_the_sample(const SignalInfo& signal) {
   return signal.name.starts_with("time_of_validity") || signal.name.starts_with("interval");
 }

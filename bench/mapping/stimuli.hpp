@@ -26,7 +26,7 @@ struct Stimulus {
   std::string_view node;  ///< required table of the scenario: "slave_imu"
   const MessageInfo* message = nullptr;
   std::string_view signal;  ///< name in the node's message
-  std::string_view column;  ///< in a recording (docs/recorded-data.md): the signal, or the rate in SI
+  std::string_view column;  ///< name in a recording (docs/recorded-data.md): signal, or rate in SI
   double factor = 1;        ///< from the signal's unit to SI
   Over over = Over::newest;
 };

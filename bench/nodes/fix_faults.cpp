@@ -7,8 +7,8 @@ namespace canhil::nodes {
 
 using scenario::Limits;
 
-// The sum of this outlier, the distance to the ship and all errors stays within the range of SsblRelativeNE,
-// the message with the smallest range.
+// The sum of an outlier of this size, the distance to the ship and all errors fits into SsblRelativeNE, the
+// message with the smallest range.
 constexpr double largest_outlier_m = 50'000;
 
 FixFaults read_fix_faults(scenario::Section& section) {
@@ -23,7 +23,7 @@ FixFaults read_fix_faults(scenario::Section& section) {
           {"outlier_m", "Size of a jump, in a random horizontal direction. Needs `outlier_percent`."},
           Limits::between(0, largest_outlier_m), 0),
       .silence_us = {}};
-  // An explicit 0 % is allowed, because a sweep may begin with it.
+  // outlier_m is allowed beside an explicit outlier_percent of 0, because a sweep may begin with 0.
   const bool size_alone = faults.outlier > 0 && !section.has("outlier_percent");
   if (size_alone || (faults.outlier_probability > 0 && faults.outlier <= 0)) {
     section.reject(faults.outlier > 0 ? "outlier_m" : "outlier_percent", "is given alone",

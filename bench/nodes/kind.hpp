@@ -32,7 +32,7 @@ class Befalling {
 struct Run {
   const scenario::Scenario& scenario;
   std::uint64_t index = 0;
-  const world::FlightRecord& flight;              ///< ends with the run
+  const world::FlightRecord& flight;              ///< from the start to the end of the run
   const world::GlideRecord* glide = nullptr;      ///< null: the scenario has no [glide]
   world::EngagementRecord* engagement = nullptr;  ///< null: no [engagement]; filled during the flight
   Befalling* faults = nullptr;                    ///< null: no faults
@@ -41,7 +41,7 @@ struct Run {
   [[nodiscard]] world::Stream stream(std::string_view name) const { return {scenario.seed, index, name}; }
 };
 
-/// A node of type `Made`.
+/// Makes a node of type `Made`.
 template <class Made>
 std::unique_ptr<Node> make(const NodeSettings& node, const Run& run) {
   return std::make_unique<Made>(node, run);

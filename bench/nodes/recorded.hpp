@@ -21,9 +21,9 @@ namespace canhil::nodes {
 /// Recorded samples: the values of the group's signals, message by message in the order of ids.
 struct RecordedSamples {
   std::vector<std::int64_t> valid_us{};     ///< ascending
-  std::vector<std::int64_t> interval_us{};  ///< before each sample, for groups that carry it
+  std::vector<std::int64_t> interval_us{};  ///< since the previous sample, for groups with an interval
   std::vector<double> values{};             ///< sample by sample, in the units of the signals
-  std::size_t signals = 0;                  ///< per sample
+  std::size_t signals = 0;                  ///< number of signals of a sample
 };
 
 /// Frames of a log, unchanged.
@@ -54,12 +54,12 @@ Result<RecordedSamples> read_samples(const NodeTable& table, const scenario::Tab
 /// The columns that read_samples() accepts.
 std::vector<std::string> columns_of(const NodeTable& table);
 
-/// Error: one line about the file. `median_us`: the usual time between samples of the group; 0: too few
-/// samples.
+/// The frames of a sample group in a log.
 struct LoggedGroup {
   RecordedFrames frames;
-  std::int64_t median_us = 0;
+  std::int64_t median_us = 0;  ///< median time between samples; 0: too few samples
 };
+/// Error: one line about the file.
 Result<LoggedGroup> read_frames(const NodeTable& table, const std::string& log, std::int64_t end_us);
 
 /// Makes the node that sends recorded samples.

@@ -46,7 +46,7 @@ std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run
   return run.faults == nullptr ? std::move(made) : run.faults->befallen(std::move(made), node);
 }
 
-// Ordered by the time of the truth that they sample, then by bus priority (the lower id first). So a fin
+// Ordered by the truth that they sample (TruthOf), then by bus priority (the lower id first). So a fin
 // deflection arrives before the navigation group of the same instant is complete.
 std::vector<std::unique_ptr<Node>> make(const Run& run) {
   auto kinds = registered;

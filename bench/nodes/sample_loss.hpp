@@ -8,8 +8,8 @@ namespace canhil::nodes {
 
 struct SampleLoss {
   double probability = 0;            ///< for each sample independently
-  std::int64_t outage_us = 0;        ///< samples valid in the last outage_us of ...
-  std::int64_t outage_every_us = 0;  ///< ... each such period are lost; 0: no outages
+  std::int64_t outage_us = 0;        ///< length of an outage, at the end of each period: its samples are lost
+  std::int64_t outage_every_us = 0;  ///< period of the outages; 0: no outages
 };
 
 /// The keys loss_percent, outage_s and outage_every_s of a node's table.

@@ -22,7 +22,7 @@ class Sampler : public Node {
     return due_us > run_.flight.end_us() ? never_us : due_us;
   }
   void transmit(Transmission& out) final {
-    if (!sample(valid_us_, out)) out.clear();  // counted as sent: the receiver sees the gap
+    if (!sample(valid_us_, out)) out.clear();  // the counter advances: the receiver sees the gap
     valid_us_ += period_us_;
   }
 

@@ -32,8 +32,8 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
          outcome == LosRateOutcome::updated || outcome == LosRateOutcome::coasting;
 }
 
-// Reads KEY, the constant part, and KEY with _sigma before the unit, the sigma of the part drawn for each
-// run.
+// Reads two keys: KEY is the constant part of an error; KEY with _sigma before its unit is the sigma of the
+// part that is drawn for each run.
 world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
                                  std::string_view of, double sigma) {
   return {.value = section.number({key, fmt::format("Constant error of {}.", of)}, Limits{}, 0),
@@ -219,7 +219,7 @@ void Seeker::send(Transmission& out, const world::SeekerMeasurement& measured) {
                          .antenna_increment_pitch_rad = antenna.y(),
                          .antenna_increment_yaw_rad = antenna.z(),
                          .antenna_validity = Validity::valid});
-  out.send(SeekerAngles{.error_pitch_rad = seen ? measured.error.pitch : 0,  // not visible: no information
+  out.send(SeekerAngles{.error_pitch_rad = seen ? measured.error.pitch : 0,  // invalid: carries no angle
                         .error_yaw_rad = seen ? measured.error.yaw : 0,
                         .interval_us = static_cast<double>(measured.interval_us),
                         .error_validity = validity(seen)});
@@ -231,7 +231,7 @@ void Seeker::send(Transmission& out, const world::SeekerMeasurement& measured) {
   out.send(SeekerRange{.range_m = range_invalid ? 0 : measured.range,
                        .time_of_validity_us = wrap_us(measured.t_us),
                        .range_validity = validity(!range_invalid)});
-  if (lost) out.clear();  // counted as sent: the receiver sees the gap
+  if (lost) out.clear();  // the counter advances: the receiver sees the gap
 }
 
 void Seeker::hear(const Frame& frame) {
@@ -248,8 +248,8 @@ void Seeker::hear(const Frame& frame) {
 
 // Extrapolates the estimated LOS rate over dt from the time of the sample to the time of use, with the
 // estimated target acceleration and the missile's own measurements: w' = (2 vc/r) w + (a - a_m)/r with
-// constant vc and accelerations (Na and Lee, eq. (1)). The extrapolation ends at half of the range, because
-// the rate grows without bound. In the antenna's axes at the sample.
+// constant vc and accelerations (Na and Lee, eq. (1)). The extrapolation ends where the range has halved,
+// because the rate grows without bound. The result is in the antenna's axes at the sample.
 world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& estimate,
                                    const LosRateTarget& target, double dt) {
   const double r0 = sample.range;
@@ -263,7 +263,8 @@ world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& es
               a * (target.target_acceleration_y_mps2 - sample.missile_acceleration.yaw)};
 }
 
-// Steers by the answer, in the antenna's axes at its sample, with the closing speed of that sample.
+// Commands the guidance with the answer's LOS rate. The antenna's axes and the closing speed are those of the
+// sample that the answer responds to.
 void Seeker::steer() {
   const auto& estimate = answer_.get<LosRateEstimate>();
   const auto& target = answer_.get<LosRateTarget>();

@@ -7,9 +7,11 @@
 namespace canhil::observe {
 namespace {
 
-// A bench that had no CPU for a while also finds a backlog, but processes it in a fraction of this time.
+// A backlog is a flood from this duration on. A bench that had no CPU for a while also finds a backlog, but
+// processes it in a fraction of this time.
 constexpr std::int64_t flood_ns = 100'000'000;
-// The flooding program may share CPUs with the bench, so the backlog may be empty for a moment.
+// The longest pause within a flood. The flooding program may share CPUs with the bench, so the backlog may be
+// empty for a moment.
 constexpr std::int64_t break_ns = 20'000'000;
 
 }  // namespace

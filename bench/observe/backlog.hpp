@@ -11,7 +11,7 @@
 
 namespace canhil::observe {
 
-/// Counts the frames of a stretch of time by id.
+/// Counts the frames of an interval by id.
 class Shares {
  public:
   void add(const Frame& frame);
@@ -46,9 +46,9 @@ class Backlog {
   /// The bench stops reading frames at `now_ns`. `more`: frames may still be waiting. `overflowed`: the port
   /// has lost frames since the last pause, so frames were waiting all the time, even if the bench had no CPU.
   void pause(bool more, bool overflowed, std::int64_t now_ns);
-  /// The last pause left frames waiting.
+  /// Whether frames were waiting at the last pause.
   [[nodiscard]] bool more() const { return more_; }
-  /// Frames were waiting a moment ago, so pause() must be called after each frame.
+  /// Whether frames were waiting a moment ago. If so, pause() must be called after each frame.
   [[nodiscard]] bool stands() const { return since_ns_.has_value(); }
 
   /// The longest flood so far. A backlog that the bench itself caused is shorter and does not count.

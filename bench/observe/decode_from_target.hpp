@@ -16,7 +16,8 @@ inline constexpr Routes target_messages([](const MessageInfo& info) {
   return info.sender == messages::TargetHeartbeat::info.sender;
 });
 
-/// The message, if the frame is a valid one of this type and not an echo of the bench's own.
+/// The message in a frame; none: the frame is not a valid message of this type, or is an echo of a frame that
+/// the bench sent.
 template <class Message>
 std::optional<Message> decode_from_target(const Received& received) {
   if (received.own || !nodes::is_whole<Message>(received.frame)) return std::nullopt;

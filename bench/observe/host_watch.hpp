@@ -10,8 +10,8 @@
 
 namespace canhil::observe {
 
-/// Finds steps of one clock against another. An adjusted clock drifts by at most 500 ppm (adjtimex); a larger
-/// change between two readings, above 100 us, is a step.
+/// Finds steps of one clock against another. A step is a change of their difference, between two readings, by
+/// more than 100 us plus 500 ppm of the elapsed time: an adjusted clock drifts by at most 500 ppm (adjtimex).
 class ClockSteps {
  public:
   /// Readings of both clocks at one instant.

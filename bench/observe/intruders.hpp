@@ -1,4 +1,4 @@
-// Detects other senders of the bench's own messages: then the target answers to both.
+// Detects other senders of the bench's own messages. The target would answer both senders.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@
 
 namespace canhil::observe {
 
-/// Counts frames of others with the id of a message that the bench has sent in this run.
+/// Counts frames from other senders whose id is that of a message which the bench has sent in this run.
 class Intruders final : public Observer {
  public:
-  /// `messages`: of the bus.
+  /// `messages`: the messages of the bus.
   explicit Intruders(std::span<const MessageInfo> messages = messages::all_messages)
       : messages_(messages), places_(messages), ours_(messages.size()) {}
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;

@@ -18,16 +18,16 @@ namespace canhil::observe {
 /// How a frame is assigned to a second, and which frames count.
 enum class LoadBy : std::uint8_t {
   time_base,        ///< by the second of the last Sync: the same on every bus and in virtual time
-  time_base_alone,  ///< the same without StepDone, which exists in lockstep only: the load of the same run on
-                    ///< a bus
+  time_base_alone,  ///< as time_base, without StepDone, which exists only in lockstep: the load that the run
+                    ///< would cause on a bus
   virtual_time,     ///< by the second of virtual time, if no node sends Sync
-  stamps  ///< by the second in which the frame left the wire, counted from the first stamp: a queued frame
-          ///< does not count yet
+  stamps  ///< by the second of the frame's stamp, counted from the first stamp: a frame that is still queued
+          ///< does not count
 };
 
-/// Adds up the exact length of every frame, sent by the bench or by others, for each second. On CAN FD it
-/// counts frames on the wire: observers see the messages within containers, so it packs them into the same
-/// containers again.
+/// Adds up the exact length of every frame, sent by the bench or by others, for each second. On CAN FD,
+/// observers receive the messages of a container one by one. The meter packs them into the same containers
+/// again, because it counts frames on the wire.
 class LoadMeter final : public Observer {
  public:
   LoadMeter(BusFormat format, LoadBy by) : format_(format), by_(by) {}
@@ -52,8 +52,8 @@ class LoadMeter final : public Observer {
   }
   /// The length of all frames in each second, from time 0 on.
   [[nodiscard]] const std::vector<wire::BitLength>& lengths() const { return lengths_; }
-  /// If the bus had to carry more than its capacity so far: a phrase that explains why nothing is received;
-  /// otherwise empty.
+  /// If the mean load so far is at least 90 %: a phrase that explains why nothing is received; otherwise
+  /// empty.
   [[nodiscard]] std::string full_wire(std::int64_t now_ns, const wire::BitRates& rates) const {
     constexpr double full = 0.9;
     if (rates.nominal == 0 || now_ns <= 0) return {};

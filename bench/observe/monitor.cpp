@@ -29,8 +29,8 @@ concept ClosesStimulus = requires(Message message) {
 }
 &&is_answered(Message::info.sample_group);
 
-// The last message of its group, by the order of the DBC. Two in three of the bench's frames complete no
-// group.
+// The message with the highest id of each sample group that the target answers. A quick test first: two in
+// three of the bench's frames complete no group.
 constexpr Routes closing_messages([](const MessageInfo& info) {
   return is_answered(info.sample_group) && std::ranges::none_of(all_messages, [&](const MessageInfo& other) {
            return other.sample_group == info.sample_group && other.id > info.id;
@@ -142,7 +142,7 @@ void Monitor::received(const Received& received) {
 
 void Monitor::decode(const Frame& frame, std::size_t index) {
   if (estimators::Reception* reception = reception_of_[index]; reception != nullptr) {
-    // The newest arrivals of all messages of a complete group are the answer to its cause.
+    // When the answer is complete, it consists of the newest arrival of each of its messages.
     const auto whole = reception->take(frame, index, now_us_, seen_);
     if (!whole) return;
     for (const std::size_t message : whole->messages) ++seen_.answers[message];

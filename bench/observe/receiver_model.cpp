@@ -18,8 +18,7 @@ constexpr Routes bench_messages([](const MessageInfo& info) {
   return info.sender != TargetHeartbeat::info.sender;
 });
 
-// An estimator may drop a group that arrives later than this after its time of validity, or earlier than this
-// before it.
+// An estimator may drop a group that arrives more than this before or after its time of validity.
 constexpr std::int64_t promised_us = 200'000;
 constexpr std::size_t syncs_of_a_period =
     static_cast<std::size_t>(TargetHeartbeat::info.cycle_time_us / Sync::info.cycle_time_us);
@@ -110,7 +109,8 @@ void ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int
   if (late) may_be_late_ += group.takers;
 }
 
-// An estimator's time follows its fastest samples: while they are missing, later samples must wait.
+// The time of validity that the groups with shorter periods have reached. An estimator's time follows its
+// fastest samples: while they are missing, later samples must wait.
 std::int64_t ReceiverModel::faster_reached_us(const Group& group) const {
   std::int64_t least_us = std::numeric_limits<std::int64_t>::max();
   for (const auto& [name, other] : groups_) {

@@ -32,8 +32,8 @@ class ReceiverModel {
   /// A Sync was handed over.
   void synchronised(bool lockstep);
 
-  /// Limits for the counts that the target sends now. In lockstep it has read all frames up to the last Sync;
-  /// in real time it may be late by less than a period of TargetCounters.
+  /// Limits for the counts that the target sends now. In lockstep the target has read all frames up to the
+  /// last Sync; in real time it may be late by less than a period of TargetCounters.
   [[nodiscard]] checks::ExpectedCounts expected() const;
 
  private:

@@ -11,10 +11,10 @@
 namespace canhil::observe {
 
 /// Watches messages in which a target reports its own state (heartbeats, acknowledgements, ends of steps,
-/// timing, counters). Each message carries a counter that increases by one. A frame that continues an earlier
-/// frame instead of the last one has another sender; several such frames within a short time mean a second
-/// target. Lost frames do not cause this: almost a whole period of the counter would have to be lost
-/// repeatedly, each time within a few heartbeats.
+/// timing, counters). Each message carries a counter that increases by one. If a frame's counter continues an
+/// earlier frame instead of the last one, this frame and the last one have different senders. Several such
+/// frames within a short time mean a second target. Lost frames do not cause this: almost a whole period of
+/// the counter would have to be lost repeatedly, each time within a few heartbeats.
 class SecondTarget final : public Observer {
  public:
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;

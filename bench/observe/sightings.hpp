@@ -12,7 +12,8 @@
 
 namespace canhil::observe {
 
-/// Counts a frame with the id of a message by its defect. True: the frame has no defect.
+/// Looks for a defect in a frame that has the id of `message`, and counts the frame by its defect. True: the
+/// frame has no defect.
 bool look_at(const Frame& frame, const MessageInfo& message, checks::Sighting& sighting);
 
 class Sightings final : public Observer {

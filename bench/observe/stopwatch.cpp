@@ -60,9 +60,9 @@ std::int64_t Stopwatch::on_wire_ns(const Frame& frame) const {
   return rates.nominal == 0 ? 0 : wire::duration_ns(wire::bit_length(frame), rates);
 }
 
-/// The intermission of a container: it belongs to the container's time on the wire, but not to the time from
-/// hand-over to echo, because the stamp comes before the intermission. For the last frame of a classic group,
-/// the time from hand-over to echo includes the intermission of the previous frame instead.
+/// What to subtract from a frame's time on the wire, to compare it with the time from hand-over to echo. The
+/// stamp comes before the intermission, so for a container this is the intermission. For the last frame of a
+/// classic group it is 0: the time from hand-over to echo contains the intermission of the frame before it.
 std::int64_t Stopwatch::no_intermission_ns() const {
   return record_.wire.fd ? wire::duration_ns({.nominal = wire::intermission_bits}, record_.wire.rates) : 0;
 }
@@ -95,7 +95,7 @@ void Stopwatch::echoed(const Received& received, std::string_view group, std::in
     return std::ranges::equal(one.frame.payload(), received.frame.payload());
   });
   const std::optional<Frame> on_wire = closed_by(received.frame, echoes_);
-  std::optional<std::int64_t> on_bus_ns;  // time on the bus of a pending frame
+  std::optional<std::int64_t> on_bus_ns;  // from hand-over to echo
   if (pending != waiting.end()) {
     on_bus_ns = received.t_ns - pending->t_ns;
     record_.transmit[index].echoed.add(pending->late_ns + *on_bus_ns);
@@ -207,7 +207,7 @@ checks::LatencyBreakdown& Stopwatch::split_of(std::string_view group) {
              : all.emplace_back(checks::GroupBreakdown{.group = group, .breakdown = {}}).breakdown;
 }
 
-// A stimulus may have several answers: it counts as answered with the last of them.
+// A stimulus may have several answers. It is counted once, with the latency of the last answer.
 void Stopwatch::split(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
                       std::int64_t latency_ns) {
   sent.reply_wire_ns += wire_ns;
@@ -272,7 +272,7 @@ Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us,
   return same == sent.rend() ? &*found : &*same;
 }
 
-// Called so late that the echo of the oldest stimulus has arrived, if it arrives at all.
+// Called so late that the echo of the oldest stimulus has either arrived or will never arrive.
 void Stopwatch::forget_oldest(std::string_view name, Group& group) {
   const Stimulus stimulus = group.sent.front().stimulus;
   group.sent.pop_front();

@@ -17,7 +17,7 @@
 
 namespace canhil::observe {
 
-/// Remembers the last `remembered` stimuli of each group; a later answer has no cause.
+/// Remembers the last `remembered` stimuli of each group. An answer to an older stimulus has no cause.
 class Stopwatch {
  public:
   static constexpr std::size_t remembered = 1024;
@@ -34,7 +34,7 @@ class Stopwatch {
 
   /// The bench handed over a frame at `t_ns`, `late_ns` after its deadline.
   void sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
-  /// That frame completed a sample group which the target answers.
+  /// The frame of the last sent() completed a sample group that the target answers.
   void stimulus(std::string_view group, const checks::Stimulus& stimulus);
   /// The bus echoed a frame of the bench; `group`, `valid_us`: the sample group that it completes, if any.
   void echoed(const Received& received, std::string_view group, std::int64_t valid_us);
@@ -63,7 +63,7 @@ class Stopwatch {
     std::optional<std::int64_t> to_echo_ns{};
     std::int64_t wire_ns = 0;
     bool answered = false;
-    std::bitset<MessagePlaces::most> answered_by{};  // the last message of each answer
+    std::bitset<MessagePlaces::most> answered_by{};  // index of the last message of each answer
     std::int64_t latency_ns = 0;                     // latency of the last answer so far
     std::int64_t reply_wire_ns = 0;                  // sum over all answers so far
   };

@@ -29,10 +29,11 @@
 
 namespace canhil::papers {
 
-/// Makes a curve: found by its first word; the other words are arguments. The label comes from the document.
+/// The functions that make curves, by the first word after the label in a `curve` line. The other words are
+/// the function's arguments.
 using Curves = std::map<std::string, std::function<Curve(Words&)>, std::less<>>;
 
-/// Throws std::logic_error if the text does not have this form: one line that contains the place.
+/// Throws std::logic_error, one line with the place, if the text does not have this form.
 Page page_of(std::string_view text, const Curves& curves);
 
 }  // namespace canhil::papers

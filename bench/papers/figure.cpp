@@ -138,8 +138,8 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\n", figure.x_range.first,
                         figure.x_range.second, figure.y_range.first, figure.y_range.second,
                         grid_step(length, layout.x_steps));
-  // Axis names are drawn here, because gnuplot would place them next to the tick labels, outside a narrow
-  // figure.
+  // Places the names of the axes explicitly: gnuplot would place them next to the tick labels, outside a
+  // narrow figure.
   script += fmt::format(
       "set label '{}' at screen {:.4f},{:.4f} center\n"
       "set label '{}' at screen {:.4f},{:.4f} center rotate by 90\n",

@@ -1,4 +1,4 @@
-// The campaigns of a paper after their flights, and their answers by name.
+// The flown campaigns of a paper. Here an answer is the result of a metric for a variant.
 #pragma once
 
 #include <atomic>
@@ -46,7 +46,7 @@ struct Flown {
   [[nodiscard]] std::vector<const campaign::Answer*> answers(std::string_view requirement) const;
 };
 
-/// Whether there are answers with this requirement, and all of them met their bars.
+/// Whether answers with this requirement exist and all of them meet their limits.
 bool passed(const Flown& flown, std::string_view requirement);
 
 /// The campaigns of a paper.
@@ -66,7 +66,7 @@ void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double u
 /// The RMS over time [s], every `step`-th point.
 Curve over_time(std::span<const campaign::CurvePoint> points, double unit = 1, std::size_t step = 1);
 
-/// The figure of an answer with this name in the report; NaN: the answer has no such figure.
+/// A figure of an answer, by the figure's name in the report; NaN: the answer has no such figure.
 double figure(const campaign::Answer& answer, std::string_view name);
 
 /// A campaign with the answers computed from its results. Error: results cannot be read, or runs are missing.

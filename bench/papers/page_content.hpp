@@ -1,5 +1,6 @@
 // The content of a paper's page from its campaigns: the values for the names in its templates, its curves,
-// and whether its bars are met. The prose is in page.mustache and the other templates of the paper's folder.
+// and whether its limits are met. The prose is in page.mustache and the other templates of the paper's
+// folder.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +20,8 @@ struct PageContent {
 /// - runs, enough, flights, frames, #too_few_runs, #unrounded;
 /// - {{bars CAMPAIGN REQUIREMENT}}: a row for every answer with that requirement;
 /// - {{reproduces NAME}} and {{pass NAME}}: the verdict of a boolean name.
-/// `runs`: the number of runs of the campaign with the bars. `enough`: the number that the bars are made for.
+/// `runs`: the number of runs of the campaign with the limits. `enough`: the number of runs for which the
+/// limits were derived.
 void add_shared_names(Names& names, const Results& results, std::uint64_t runs, std::uint64_t enough);
 
 // For each paper: the files built into the program (bench/monte_carlo/paper_NAME and its templates), and its

@@ -20,8 +20,8 @@ struct Paper {
   const report::EmbeddedFiles &campaigns, &scenarios, &templates;
   Result<PageContent> (*page_content)(const Results& results, const FlyOptions& options,
                                       const std::filesystem::path& exact);
-  std::string_view judged;  // the campaign with the bars
-  std::uint64_t enough;     // number of runs for which the bars were derived
+  std::string_view judged;  // the campaign with the limits
+  std::uint64_t enough;     // number of runs for which the limits were derived
   bool compares = false;    // compares with results without rounding
 };
 constexpr std::array papers{Paper{.name = "transfer",

@@ -24,11 +24,11 @@ struct Request {
   std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
 };
 
-/// too_few_runs: bars were missed, but the number of runs is too small for a verdict.
+/// too_few_runs: limits were not met, but the number of runs is too small for a verdict.
 enum class Outcome : std::uint8_t { bars_met, bars_missed, too_few_runs, interrupted };
 
-/// `runs`: per variant of the campaign with the bars; `enough`: number of runs for which the bars were
-/// derived.
+/// `runs`: per variant of the campaign with the limits; `enough`: the number of runs for which the limits
+/// were derived.
 Outcome outcome_of(bool bars_met, std::uint64_t runs, std::uint64_t enough);
 
 struct Reproduced {

@@ -26,8 +26,8 @@ class Words {
 
 /// Text for {{name}}, or a boolean that selects {{#name}}...{{/name}} or {{^name}}...{{/name}}.
 using Value = std::variant<std::string, bool>;
-/// Computes the value of a tag: found by its first word; the other words are arguments: {{times table2
-/// kf_p1}}.
+/// The functions that compute the values of tags, by the first word of the tag. The other words are the
+/// function's arguments: {{times table2 kf_p1}}.
 using Names = std::map<std::string, std::function<Value(Words&)>, std::less<>>;
 
 /// Formats a number; the format may come from an argument: {{rms .3g ssbl ekf_90}}.

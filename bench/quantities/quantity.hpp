@@ -1,5 +1,5 @@
 // A quantity: a named scalar with a unit and a time of validity. The bench judges, plots, stores and exports
-// series of quantities; it knows no estimator by name.
+// series of quantities, whichever estimator reports them.
 #pragma once
 
 #include <span>
@@ -25,7 +25,7 @@ struct Quantity {
   std::string_view name;       ///< "attitude.heading"
   std::string_view meaning;    ///< for people, without a full stop
   Unit unit{};                 ///< for reports
-  int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: another quantity
+  int degrees_of_freedom = 0;  ///< for a normalised error squared; 0: for all others
   bool white = false;          ///< an innovation or its square: successive values are independent
   bool nan_allowed = false;    ///< NaN is not an error: it means that the sample has no such value
   bool of_whole_run = false;   ///< the same value in all samples of a run; never becomes stale

@@ -26,11 +26,11 @@ struct Derived {
 struct Layout {
   std::span<const Quantity* const> kept{};
   std::span<const Derived> derived{};
-  /// If positive, a sample covers a stretch of this length of the time to go, and its time is minus the time
-  /// to go at the start of the stretch, so the closest approach is at 0. If 0, a sample is one answer at its
-  /// time of validity.
+  /// If positive, a sample covers an interval of this length in time to go. Its time is minus the time to go
+  /// at the start of the interval, so the closest approach is at 0. If 0, a sample is one answer, at the
+  /// answer's time of validity.
   std::int64_t to_go_stretch_us = 0;
-  const Quantity* end_known_by = nullptr;  ///< NaN in the last sample: unknown end of the flight
+  const Quantity* end_known_by = nullptr;  ///< NaN in the last sample: the end of the flight is unknown
   bool answers_untold = false;             ///< an answer may omit a quantity that it does not need
 };
 
@@ -46,7 +46,7 @@ class Samples {
   /// `layout` must outlive the samples; it belongs to an estimator.
   explicit Samples(const Layout& layout) : layout_(&layout) {}
 
-  /// `values`: of layout().kept.
+  /// `values`: one for each quantity of layout().kept, in its order.
   void add(std::int64_t t_us, std::span<const double> values);
 
   [[nodiscard]] const Layout& layout() const { return *layout_; }

@@ -34,14 +34,14 @@ struct Track {
   std::string title{};           ///< title of a picture of the values: "attitude error about north"
   std::string estimate_title{};  ///< title of a picture of estimate and truth; empty: no picture
   Unit estimate_unit{};          ///< for this picture
-  bool only_if_judged = false;   ///< drawn only if a check has a bar for it
+  bool only_if_judged = false;   ///< drawn only if a check has a limit for it
   Spool<TrackPoint> points{};    ///< in order of time
   /// Describes where due answers are missing between two times, ends included [us]; empty: nowhere. If not
   /// set, any wait longer than longest_wait_us is a gap.
   std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
   double longest_wait_us = 0;       ///< the longest time between answers that does not count as silence
   std::int64_t answers_end_us = 0;  ///< no answers are expected after it
-  /// The time to go at each stimulus of the answers; empty: the flight does not go to a target.
+  /// The time to go at each stimulus; empty: the flight has no closest approach.
   struct ToGo {
     std::int64_t t_us = 0;
     double to_go_s = 0;

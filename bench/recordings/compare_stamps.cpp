@@ -54,8 +54,8 @@ TimesByContent times_of(const std::vector<Stamped>& frames) {
   return times;
 }
 
-// The clock of b minus the clock of a: the median over frames that occur once in each log; without such
-// frames, from the first frames.
+// The clock of b minus the clock of a: the median over the frames that occur once in each log. If there are
+// none, the difference between the first frames of the logs.
 std::int64_t clocks_apart_ns(const std::vector<Stamped>& a, const std::vector<Stamped>& b) {
   const TimesByContent of_b = times_of(b);
   std::vector<std::int64_t> apart_ns;

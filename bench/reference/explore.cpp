@@ -108,8 +108,8 @@ class Explorer {
     };
     const auto any = std::ranges::find_if(found_, same);
     const auto found = std::ranges::find_if(found_, alike);
-    // If a key is present, a reader may request it in more detail. The earlier entry stays, except that a
-    // missing meaning is filled in.
+    // A reader may request a key that is present in more detail. The earlier entry stays, but if it lacks a
+    // meaning, the later entry replaces it.
     if (is_there && any != found_.end()) {
       if (any->meaning.empty() && !key.meaning.empty()) {
         *any = key;
@@ -191,7 +191,8 @@ class Explorer {
     return conditions.empty() ? "" : fmt::format("Only with {}.", fmt::join(conditions, ", or "));
   }
 
-  /// For a key that the reader requests from an empty text: the words of other keys with which it is ignored.
+  /// For a key that the reader requests from an empty text: the words of other keys that make the reader
+  /// ignore this key.
   [[nodiscard]] std::string not_with(std::size_t place) const {
     std::map<std::string, std::vector<std::string>> words;
     for (const Tried& tried : tried_) {
@@ -221,7 +222,8 @@ class Explorer {
     return keys;
   }
 
-  /// Whether the reader requests a key with some value of `path`; the caller has found a value without it.
+  /// Whether the reader requests a key with some value of `path`. The caller has found another value of
+  /// `path` with which the reader does not request the key.
   [[nodiscard]] bool words_differ(const std::string& path, std::size_t place) const {
     return std::ranges::any_of(tried_, [&](const Tried& tried) {
       return tried.settings.size() == 1 && tried.settings.contains(path) && tried.asked.contains(place);

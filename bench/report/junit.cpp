@@ -37,7 +37,7 @@ std::string junit_suite(std::string_view name, const std::vector<CheckResult>& c
   for (const CheckResult& check : cases) {
     page += fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", escaped(check.kind),
                         escaped(check.name));
-    // Properties let a reader see a value approach its bar before the check fails.
+    // Properties let a reader see a value approach its limit before the check fails.
     page += "      <properties>";
     if (!check.requirement.empty()) page += property("requirement", check.requirement);
     page += property("measured", check.measured) + property("expected", check.expected);

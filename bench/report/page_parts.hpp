@@ -45,8 +45,8 @@ std::string histogram(const std::string& title, const Json& distribution);
 /// The largest time in each stretch of the run.
 std::string course(const std::string& title, const Json& line);
 
-/// A drawing of the largest value in each stretch of the run, starting at zero; `scale` converts the numbers
-/// to the unit.
+/// A drawing of the largest value in each stretch of the run, on an axis that begins at zero. `scale`
+/// converts the numbers to the unit.
 std::string from_zero(const std::string& title, const std::string& unit, double stretch_s,
                       const Json& largest, double scale);
 

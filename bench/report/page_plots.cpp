@@ -51,10 +51,11 @@ struct Course {
   }
 };
 
-constexpr double hidden = 0.1;  // as a fraction of the picture's height
+constexpr double hidden = 0.1;  // a smaller fraction of the picture's height is not visible
 
-// The part of a course that stays so close to the late values that a picture of the whole hides it; none:
-// there is no such part. A bar that the whole picture would hide counts as a late value.
+// The end of a course that gets its own picture: the values near those of the last quarter. None: a picture
+// of the whole course shows them. A check's limit that this picture would hide counts as a value of the last
+// quarter.
 std::optional<Part> late_course(const Course& course) {
   constexpr double shown_times = 2.5;  // range of the second picture relative to the late values
   const std::vector<double>& t_s = course.plot.t_s;
@@ -84,8 +85,8 @@ std::optional<Part> late_course(const Course& course) {
   return Part{.first = first, .last = t_s.size()};
 }
 
-// The part of a course whose bars a picture of the whole hides; none: a picture of this part would also hide
-// them.
+// The part of a course for which checks have limits, if a picture of the whole course would hide the limits.
+// None: it shows them, or a picture of this part would not be much finer.
 std::optional<Part> judged_course(const Course& course) {
   constexpr double finer = 0.5;
   const LinePlot& plot = course.plot;
@@ -102,7 +103,7 @@ std::optional<Part> judged_course(const Course& course) {
   return part;
 }
 
-// Adds the bars to the plot and describes them.
+// Adds the limits of checks to the plot and describes them.
 std::string bars(const Json& series, LinePlot& plot) {
   if (!series.contains("bars")) return "";
   std::string words;

@@ -80,8 +80,8 @@ const char* bound_of(const Json& breakdown, const std::string& part) {
   return listed("at_least") ? "&ge; " : listed("at_most") ? "&le; " : "";
 }
 
-// The same for each group of stimuli, because the mean over all stimuli hides groups that are answered
-// rarely.
+// The parts of the mean latency for each group of stimuli, because the mean over all stimuli hides groups
+// that are answered rarely.
 std::string group_table(const Json& breakdown) {
   if (!breakdown.contains("groups") || breakdown.at("groups").size() < 2) return "";
   std::vector<std::string> head{"part, by stimulus"};

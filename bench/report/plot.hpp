@@ -40,7 +40,7 @@ struct Extent {
 
 /// A quantity over time: its range in each stretch of time, between dashed limits.
 struct LinePlot {
-  /// A limit for the absolute value in a part of the time.
+  /// A check's limit for the absolute value, in a part of the time.
   struct Bar {
     double below = 0;
     double from_s = 0, to_s = 0;
@@ -49,7 +49,7 @@ struct LinePlot {
   std::string unit;
   std::vector<double> t_s;
   std::vector<double> low, high;  ///< range of the quantity, one for each time; not finite: a gap
-  std::vector<double> limit{};    ///< dashed at plus and minus this; one each, or none; not finite: a gap
+  std::vector<double> limit{};    ///< dashed lines at +-limit; one for each time, or none; not finite: a gap
   std::vector<double> truth{};    ///< dotted line; one value for each time, or none; not finite: a gap
   std::vector<double> levels{};   ///< dashed horizontal lines
   std::vector<Bar> bars{};        ///< heavy lines with marks at both ends
@@ -58,8 +58,8 @@ struct LinePlot {
 };
 std::string svg(const LinePlot& plot);
 
-/// The range of the picture. Limits and bars are included unless they would hide what lies within them: the
-/// sigma of the first instants is large.
+/// The range of the picture. It includes `limit` and `bars` unless they are so large that they would hide the
+/// quantity, such as the sigma of the first instants.
 Extent extent_of(const LinePlot& plot);
 /// Whether a bar lies within the picture.
 bool shows(const LinePlot& plot, const LinePlot::Bar& bar);

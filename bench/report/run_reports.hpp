@@ -25,16 +25,16 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run);
 std::string junit(const scenario::Scenario& scenario, const drive::Run& run);
 /// Properties of a whole suite: name and value.
 using Properties = std::vector<std::pair<std::string, std::string>>;
-/// A test suite for a JUnit file, with a test case for each check; and the file around suites. `started_s`:
-/// start of the run; 0: unknown.
+/// A test suite for a JUnit file, with a test case for each check. `started_s`: start of the run; 0: unknown.
 std::string junit_suite(std::string_view name, const std::vector<checks::CheckResult>& cases, double wall_s,
                         std::int64_t started_s, const Properties& properties = {});
+/// The JUnit file that contains the suites.
 std::string junit_whole(std::string_view suites);
 
 /// A CSV table with a line for each answer and quantity: t_s (time of validity), estimator, quantity, unit,
-/// estimate, truth, error, sigma, in SI and rad. A field is empty if the value was not reported. A statistic
-/// or an innovation is in `estimate`. Sorted by estimator, quantity and time. `give` receives the table part
-/// by part.
+/// estimate, truth, error, sigma, in SI and rad. A field is empty if the value was not reported. The column
+/// `estimate` also holds statistics and innovations. Lines are sorted by estimator, quantity and time. `give`
+/// receives the table part by part.
 void csv(const scenario::Scenario& scenario, const drive::Run& run, const Sink& give);
 
 /// The value of "schema" in a report.

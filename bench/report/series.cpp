@@ -38,7 +38,7 @@ std::optional<scenario::Window> window_of(const checks::Stretch& stretch, const 
   return window;
 }
 
-// The bars of the checks that judge the errors of a track.
+// The limits of the checks that judge the errors of a track.
 std::vector<Series::Bar> bars_of(std::string_view estimator, const Track& track,
                                  const scenario::Scenario& scenario) {
   std::vector<Series::Bar> bars;

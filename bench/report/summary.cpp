@@ -40,7 +40,7 @@ std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const 
     estimators::ResultLine answers{.name = "answers", .what = "answers by what they say"};
     for (const estimators::Mark& mark : one->marks(run.seen)) {
       const bool known =
-          !mark.t_us.empty() || mark.name == "answers";  // programs also get marks without answers
+          !mark.t_us.empty() || mark.name == "answers";  // the text omits marks without answers
       answers.figures.push_back({.name = std::string(mark.name),
                                  .value = static_cast<double>(mark.t_us.size()),
                                  .text = known ? fmt::format("{} {}", mark.name, mark.t_us.size()) : ""});
@@ -95,7 +95,7 @@ std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   std::vector<std::string> lines;
   if (scenario.foreign != nullptr) return lines;  // its own DBC defines the rates of its messages
   for (const bool at_every_epoch :
-       {true, false}) {  // first the period that is also the interval of the truth
+       {true, false}) {  // first the node whose period is the interval of the truth
     for (const nodes::Kind* kind : nodes::all()) {
       const MessageInfo& closes = kind->table.closes;
       const scenario::NodeSettings* node = scenario.node(kind->table.key);

@@ -43,10 +43,10 @@ struct CheckContext {
   const DbcVocabulary& contract;
   std::span<const std::string> estimators;  ///< the estimators that run
   std::span<const FaultWindow> faults{};    ///< cut at the end of the run
-  std::int64_t latency_us = 0;  ///< over all nodes: the longest time from validity to transmission
+  std::int64_t latency_us = 0;              ///< longest time from validity to transmission of all nodes
 };
 
-/// A rule, and its subject if a scenario may have several checks of the kind; otherwise empty.
+/// A rule and its subject. The subject is empty for a kind that a scenario may have only once.
 struct RuleRead {
   std::shared_ptr<const checks::Rule> rule;
   std::string subject;

@@ -48,8 +48,8 @@ struct FaultKind {
   FaultRead (*read)(Section& section, const FaultContext& context) = nullptr;
 };
 
-/// Indices (from 0) of some [[fault]] tables in a file: the tables of one row in a set, which the key
-/// `together` may name.
+/// Indices (from 0) of some [[fault]] tables in a file. They form one row of a set of faults: a single table,
+/// or the tables with the same value of the key `together`.
 using FaultPlaces = std::vector<std::size_t>;
 
 /// Appends all faults of a file, or some of them.

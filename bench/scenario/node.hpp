@@ -22,10 +22,11 @@ class Section;
 /// nodes.
 enum class TruthOf : std::uint8_t { navigation, glide, engagement };
 
-/// The properties of a node's fixes for an aided estimator.
+/// The properties of a node whose fixes an aided estimator uses.
 struct Aid {
-  double aiding = 0;  ///< value of EstimatorFacts::aided_by's parameter that selects these fixes
-  /// The fraction that is lost at random on purpose: the resulting longer wait does not count as silence.
+  double aiding = 0;  ///< these fixes are selected by this value of the parameter aided_by
+  /// The fraction of the fixes that the node loses at random, as its settings demand. The resulting longer
+  /// wait does not count as silence.
   double (*lost)(const NodeSettings& node) = nullptr;
 };
 

@@ -68,7 +68,7 @@ void read_glider(Section& root, Scenario& scenario, const DbcVocabulary& contrac
   read_nodes(root, scenario, contract, TruthOf::glide);
 }
 
-/// The DBC of the bus, if the scenario selects it.
+/// Whether the scenario selects the DBC of CAN FD; none: it selects no DBC.
 std::optional<bool> read_fd(Section& root) {
   root.optional("dbc");
   if (!root.has("dbc")) return std::nullopt;

@@ -53,7 +53,7 @@ struct Section::State {
   void fail(std::string_view key, std::size_t at, std::string_view what, std::string_view expected) const {
     file->fail(at, fmt::format("key '{}': {}, expected {}", path_of(key), what, expected));
   }
-  /// The text of a key; null: absent, or not a text, and the error is reported.
+  /// The text of a key; null: the key is absent, or is not a text, which is reported as an error.
   const std::string* text(std::string_view key, std::string_view expected, bool may_be_absent) {
     const toml::node* node = ask(key, expected, may_be_absent);
     if (node == nullptr) return nullptr;
@@ -61,7 +61,7 @@ struct Section::State {
     if (value == nullptr) fail(key, line_of(*node), type_of(*node), expected);
     return value == nullptr ? nullptr : &value->get();
   }
-  /// The elements of an array; none if it is not an array, or empty, and the error is reported.
+  /// The elements of an array; none: no node, or an error, which is reported: not an array, or an empty one.
   const toml::array& elements(std::string_view key, const toml::node* node, std::string_view expected) const {
     static const toml::array none;
     if (node == nullptr) return none;

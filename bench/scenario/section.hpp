@@ -113,7 +113,7 @@ class Section {
   struct State;
   struct File;
   std::optional<std::int64_t> whole_number(const Key& key, std::int64_t least, bool required);
-  /// Records for the reference a key that may be missing and is then not requested.
+  /// Records, for the reference, a key that is requested only if it is present.
   void describe_optional(const Key& key, std::string_view type, const Limits& limits);
   explicit Section(std::shared_ptr<State> state) : state_(std::move(state)) {}
 

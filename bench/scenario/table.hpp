@@ -1,8 +1,8 @@
-// A recording as numbers by column name. A converter from another format to a Table (such as a log with a
-// mapping of its signals) makes that format usable like a CSV file. A CSV file has a first line of names,
-// then one row of numbers per line, separated by commas. A name has its unit as suffix, like the keys of a
-// scenario. Any unit of the quantity is accepted: roll_deg, roll_rad or roll_mrad. Columns that are not
-// requested may contain anything.
+// A recording as numbers by column name. To accept another format (such as a log with a mapping of its
+// signals), convert it to a Table. The first line of a CSV file contains the names; each further line is a
+// row of numbers, separated by commas. A name has its unit as suffix, like the keys of a scenario. Any unit
+// of the quantity is accepted: roll_deg, roll_rad or roll_mrad. Columns that are not requested may contain
+// anything.
 #pragma once
 
 #include <cstddef>

@@ -41,8 +41,7 @@ std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& con
   constexpr double largest = 3.4e38;  // ParamSet carries an IEEE single
   std::vector<Parameter> parameters;
   for (const std::string& name : contract.parameters) {
-    const bool given =
-        section.has(name);  // a parameter of another estimator is possible: then the target rejects it
+    const bool given = section.has(name);  // may belong to another estimator; then the target rejects it
     if (!given && !may_be_meant(name)) continue;
     const double value = section.plain_number(name, Limits::between(-largest, largest), 0.0);
     if (!given) continue;

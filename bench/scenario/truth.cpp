@@ -46,7 +46,7 @@ world::Motion read_level_acceleration(Section& section) {
 }
 
 world::Motion read_weave(Section& section) {
-  // Without a motion its period has no effect, but it must not be zero.
+  // If an amplitude is 0, its period has no effect, but the period must not be 0.
   return world::Weave{
       .heading = read_heading(section),
       .speed = section.number({"speed_kmph", "Speed. `level_acceleration`: at the start; `weave`: constant."},
@@ -66,7 +66,7 @@ world::Motion read_weave(Section& section) {
   };
 }
 
-// Dives and surfaces repeatedly; without a depth its period has no effect.
+// The vehicle dives and surfaces repeatedly. If the depth is 0, the period has no effect.
 world::DepthProfile read_depth(Section& section, double speed) {
   const world::DepthProfile profile{
       .depth = section.number({"dive_depth_m",

@@ -25,7 +25,7 @@ namespace canhil::schedulability {
 enum class Release : std::uint8_t {
   cycle,     ///< sent cyclically, GenMsgCycleTime
   interval,  ///< sent on events, at intervals of at least GenMsgDelayTime
-  option,    ///< sent on events, at the caller's minimum interval for all such messages
+  option,    ///< sent on events, at a minimum interval that the caller assumes
   once       ///< sent on events at unknown intervals: assumed due once within any response
 };
 

@@ -30,7 +30,7 @@ std::int64_t time_ns(const dbc::Database& database, const dbc::Message& message,
   return std::llround(time_ms(database, message, attribute) * ns_per_ms);
 }
 
-/// Checks the times of a message other than the cycle time, which the parser has checked.
+/// Checks the time attributes of a message. The parser has already checked the cycle time.
 Result<void> check_times(const dbc::Database& database, const dbc::Message& message) {
   for (const std::string_view attribute : {"GenMsgDelayTime", "GenMsgDeadline", "GenMsgJitter"}) {
     const double ms = time_ms(database, message, attribute);

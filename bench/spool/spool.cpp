@@ -81,8 +81,8 @@ void SpoolFile::into_memory(std::size_t bytes) {
 
 void SpoolFile::enter(std::size_t block) const {
   last_block_.store(block, std::memory_order_relaxed);
-  // The first blocks may stay in memory, so a file no larger than that is never released, whatever the order
-  // of access.
+  // Access to the first most_blocks blocks is not counted. So a file of this size is never released, in
+  // whatever order it is accessed.
   if (file_ < 0 || block < most_blocks ||
       entered_.fetch_add(1, std::memory_order_relaxed) % most_blocks != most_blocks - 1)
     return;

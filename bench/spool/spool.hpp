@@ -42,7 +42,7 @@ class SpoolFile {
 
  private:
   static constexpr std::size_t block_bytes = 64 << 10;  // loaded by a page fault
-  static constexpr unsigned most_blocks = 32;           // accessed before all are released
+  static constexpr unsigned most_blocks = 32;           // number of accesses after which all are released
   static constexpr std::size_t step_bytes = 16 << 20;   // growth step
 
   void enter(std::size_t block) const;

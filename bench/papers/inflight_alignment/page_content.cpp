@@ -18,7 +18,7 @@ constexpr std::size_t drawn_runs = 100;  // the number of runs in the paper
 
 // Heading error at 300 s over the runs of a variant [deg].
 struct Heading {
-  double rms = 0, rms_low = 0, rms_high = 0;  // 5 % and 95 % quantile of the RMS of 100 runs
+  double rms = 0, rms_low = 0, rms_high = 0;  // low and high: 5 % and 95 % quantile for 100 runs
   double median = 0, p90 = 0;
   double below_10_deg = 0;  // fraction of runs
 };
@@ -82,7 +82,7 @@ void add_headings(Names& names, const Results& results) {
     return fmt::format("{:.3g} | {:.2g} to {:.2g} | {:.3g} | {:.3g} | {:.1f} %", h.rms, h.rms_low, h.rms_high,
                        h.median, h.p90, 100 * h.below_10_deg);
   };
-  // Whether a value from the paper's 100 runs lies within the range of the RMS of 100 of our runs.
+  // Whether the paper's RMS of 100 runs lies within the 5 % and 95 % quantiles of our RMS of 100 runs.
   names["in_range"] = [=](Words& words) {
     const double paper_deg = std::stod(std::string(words.next()));
     const Heading ours = of(words);
@@ -131,7 +131,7 @@ void add_paths(Names& names, const Results& results) {
   names["reversed"] = [=](Words&) { return fmt::format("{} of {}", reversed, combinations); };
 }
 
-// The paper's claims, and bars that are in no campaign file. Returns whether these bars are met.
+// The paper's claims, and limits that are in no campaign file. Returns whether these limits are met.
 bool add_claims(Names& names, const Results& results) {
   const auto claim = [&names](std::string name, bool holds) {
     names[std::move(name)] = [=](Words&) { return holds; };

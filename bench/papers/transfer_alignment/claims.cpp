@@ -64,8 +64,8 @@ bool case_2_best(const std::vector<Times>& all) {
   });
 }
 
-// The time from which the heading of a variant of campaign `sizes` stays within a band: 3 mrad, or a tenth of
-// its initial error. The variant's name ends with this error in degrees.
+// The time from which the heading error stays within a band, for a variant of campaign `sizes`. The band is 3
+// mrad, or a tenth of the initial error. The variant's name ends with the initial error in degrees.
 double into(const Results& results, std::string_view band, std::string_view variant) {
   const double initial = std::stod(std::string(variant.substr(variant.rfind("_e") + 2))) * deg;
   return campaign::time_within(results.of("sizes").curve(variant),
@@ -130,8 +130,8 @@ void add_tables(Names& names, const Results& results) {
   };
 }
 
-// Comparisons in which the H2 filter is not faster than the Kalman filter; the page must not present them as
-// a gain. Returns whether all hold.
+// Comparisons in which the H2 filter is expected not to be better than the Kalman filter, so the page must
+// not present them as a gain. Returns whether all hold.
 bool add_guards(Names& names, const Results& results) {
   bool all = true;
   const auto add = [&](std::string name, double kf, double h2, const char* unit) {

@@ -15,7 +15,7 @@ struct Axis {
   std::string_view name;
   const campaign::Quantity* quantity;
   double unit;
-  std::string_view format;  ///< of its errors, in this unit
+  std::string_view format;  ///< number format of the errors in this unit
 };
 inline constexpr std::array axes{Axis{"roll", &quantities::attitude_roll, world::units::mrad, ".2f"},
                                  Axis{"pitch", &quantities::attitude_pitch, world::units::mrad, ".2f"},
@@ -27,7 +27,7 @@ inline constexpr std::array axes{Axis{"roll", &quantities::attitude_roll, world:
 /// RMS over the eight combinations of signs of campaign `cruise`.
 std::vector<campaign::CurvePoint> all_signs(const Results& results);
 
-/// Adds the names of the claims and of the tables of Figs 3 to 7. Returns whether every bar is met.
+/// Adds the names of the claims and of the tables of Figs 3 to 7. Returns whether every limit is met.
 bool add_claims(Names& names, const Results& results);
 
 }  // namespace canhil::papers::transfer_alignment

@@ -65,8 +65,8 @@ void add_times(Names& names, const Results& results) {
     const Flown& flown = results.of(words.next());
     return diverged_runs(flown, words.rest());
   };
-  // The reference, our result, and whether they agree. `counted`: appends the number of diverged runs if our
-  // result diverges.
+  // Three cells: the reference, our result, and whether they agree. `counted`: if our result diverges, also
+  // the number of diverged runs.
   const auto compared = [&results, diverged_runs](bool counted) {
     return [&results, diverged_runs, counted](Words& words) {
       const Times reference = times_in(std::string(words.next()));

@@ -24,7 +24,7 @@ constexpr std::array judged{"table1", "sensitivity", "rates"};
 constexpr const char* all = "wind error";
 constexpr std::array components{"along track", "cross track", "down"};
 
-// The mean over the runs of the mean |wind error| for t >= 10 s of each run [m/s].
+// The mean of |wind error| for t >= 10 s in each run, averaged over the runs [m/s].
 double mean(const campaign::Answer& answer) { return figure(answer, "mean_mps"); }
 std::string score(const campaign::Answer& answer) {
   return fmt::format("{:.2f} ({:.2f})", mean(answer), figure(answer, "standard_deviation_mps"));

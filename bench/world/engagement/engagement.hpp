@@ -55,9 +55,9 @@ class Engagement {
   /// Flies to a time [us] or to the closest approach. Fourth-order Runge-Kutta in steps of at most 1 ms.
   void fly_to(std::int64_t t_us);
 
-  /// Commands the guidance with an LOS rate in n [rad/s] and a closing speed [m/s], effective from a time
-  /// [us] until the next command: a = N vc omega x v/|v|, held. Commands must be in order of time. False: the
-  /// flight had already passed that time, so the command takes effect now.
+  /// Commands the acceleration a = N vc omega x v/|v| from an LOS rate in n [rad/s] and a closing speed
+  /// [m/s]. The acceleration is held from a time [us] until the next command. Commands must be in order of
+  /// time. False: the flight had already passed that time, so the command takes effect now.
   bool command(std::int64_t from_us, const Vector3& omega_los_n, double closing_speed);
 
   [[nodiscard]] EngagementTruth truth() const;

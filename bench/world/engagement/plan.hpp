@@ -26,13 +26,13 @@ struct Manoeuvre {
   Kind kind = Kind::step;
   double acceleration = 4 * units::standard_gravity;  ///< amplitude of a weave [m/s^2]
   double period = 2;                                  ///< period of a weave [s]; its phase is drawn
-  double from_s = 0;                                  ///< the manoeuvre begins at this time ...
-  std::optional<double> at_time_to_go = 1;  ///< ... or when range over closing speed falls to this value [s]
+  double from_s = 0;                        ///< start of the manoeuvre, if there is no at_time_to_go
+  std::optional<double> at_time_to_go = 1;  ///< start: range over closing speed falls to this [s]
 };
 
 /// The source of the LOS rate for the guidance.
 enum class Guidance : std::uint8_t { truth, target };
-/// The planes in which heading error and manoeuvre act; noise acts in both.
+/// The planes in which heading error and manoeuvre act. Noise always acts in both planes.
 enum class ActivePlanes : std::uint8_t { both, pitch, yaw };
 
 struct EngagementPlan {

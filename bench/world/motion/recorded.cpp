@@ -89,7 +89,8 @@ void RecordedPath::integrate(const Position& start) {
     positions_.push_back(advanced_from(positions_.back(), times[i - 1], times[i]));
 }
 
-// Corrects by the mean residual of each of several equal stretches, at its middle.
+// Divides the flight into equal stretches. Adds the mean position residual of each stretch to the correction
+// at the middle of the stretch.
 void RecordedPath::correct(std::span<const RecordedState> states) {
   const auto& times = velocity_.times();
   const double length = times.back() - times.front();
