@@ -111,7 +111,8 @@ class Comparer {
       return false;
     }
     if (one_a_side())
-      say("latency  one run a side: later counts from {:.0f} % of p50, or of p99, on, as runs differ",
+      say("latency  one run a side: counts as worse only if p50 or p99 grew by {:.0f} % or more, because "
+          "runs differ",
           least_share * 100);
     const double p_bar = largest_p / static_cast<double>(2 * messages.size());
     for (const std::string& message : messages) {

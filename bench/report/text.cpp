@@ -114,8 +114,8 @@ std::string split_words(const checks::TimingRecord& timing) {
   }
   if (timing.breakdown_by_group.size() > 1) {
     for (const auto& [group, breakdown] : timing.breakdown_by_group)
-      lines += fmt::format("    {:>8.3f} ms  in all, mean of the {} stimuli of {}\n",
-                           total_s(breakdown) * 1e3, breakdown.stimuli, group);
+      lines += fmt::format("    {:>8.3f} ms  in all for {} alone, mean of its {} stimuli\n",
+                           total_s(breakdown) * 1e3, group, breakdown.stimuli);
   }
   const checks::SlowestAnswer& slowest = timing.slowest;
   if (slowest.message.empty()) return lines;

@@ -43,16 +43,18 @@ inline constexpr Quantity los_mean_nis{
     .nan_allowed = true,
     .once = "los_nis"};
 /// Components of the miss in the axes at the start; NaN: the missile did not pass the target.
-inline constexpr Quantity miss_pitch{.name = "miss.pitch",
-                                     .meaning = "closest approach in pitch, of the axes at the start",
-                                     .unit = metres,
-                                     .of_whole_run = true,
-                                     .once = "miss_pitch"};
-inline constexpr Quantity miss_yaw{.name = "miss.yaw",
-                                   .meaning = "closest approach in yaw, of the axes at the start",
-                                   .unit = metres,
-                                   .of_whole_run = true,
-                                   .once = "miss_yaw"};
+inline constexpr Quantity miss_pitch{
+    .name = "miss.pitch",
+    .meaning = "component of the miss in the pitch plane, in the axes at the start of the run",
+    .unit = metres,
+    .of_whole_run = true,
+    .once = "miss_pitch"};
+inline constexpr Quantity miss_yaw{
+    .name = "miss.yaw",
+    .meaning = "component of the miss in the yaw plane, in the axes at the start of the run",
+    .unit = metres,
+    .of_whole_run = true,
+    .once = "miss_yaw"};
 inline constexpr Quantity miss_distance{.name = "miss.distance",
                                         .meaning = "closest approach in both planes",
                                         .unit = metres,

@@ -38,7 +38,7 @@ inline constexpr Quantity wind_nees{
 /// The reported sigmas.
 inline constexpr Quantity wind_along_sigma{
     .name = "wind.along.sigma",
-    .meaning = "sigma of the wind along the track as the target reports it",
+    .meaning = "sigma of the wind along the horizontal air velocity, as the target reports it",
     .unit = mps,
     .once = "wind_along_sigma"};
 

@@ -76,7 +76,8 @@ TEST(PageSections, TheSplitOfEachGroupStandsBesideThatOfAll) {
   EXPECT_DOUBLE_EQ(groups.at("SlaveImu").at("total_s").get<double>(), 0.5e-3);
   EXPECT_NEAR(groups.at("MasterIns").at("parts_s").at("target_and_waits").get<double>(), 5.4e-3, 1e-12);
   EXPECT_THAT(page_of(run), AllOf(HasSubstr("MasterIns ms (10)"), HasSubstr("<b>5.500</b>")));
-  EXPECT_THAT(text(scenario_of(), run), HasSubstr("5.500 ms  in all, mean of the 10 stimuli of MasterIns"));
+  EXPECT_THAT(text(scenario_of(), run),
+              HasSubstr("5.500 ms  in all for MasterIns alone, mean of its 10 stimuli"));
 }
 
 TEST(PageSections, ShowsEachMessageBesideItsBound) {
