@@ -151,8 +151,9 @@ void answer(const Distribution& rule, const Runs& runs, const Runs& /*other*/, A
   bars.at_most(found.median, rule.median_at_most, in(unit), "median ");
   bars.at_least(found.median, rule.median_at_least, in(unit), "median ");
   bars.at_most(found.p90, rule.p90_at_most, in(unit), "p90 ");
-  bars.at_least(found.below, rule.fraction_at_least, percent, "below in ");
-  bars.at_most(found.below, rule.fraction_at_most, percent, "below in ");
+  const std::string below = rule.below ? fmt::format("below {} in ", with_unit(*rule.below, unit)) : "";
+  bars.at_least(found.below, rule.fraction_at_least, percent, below);
+  bars.at_most(found.below, rule.fraction_at_most, percent, below);
 }
 
 void answer(const WindowMoments& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
