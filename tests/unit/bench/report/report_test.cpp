@@ -273,12 +273,12 @@ TEST(File, ThatAnotherProcessIsWritingIsLeftAlone) {
   const std::filesystem::path folder = test::own_folder();
   const std::string path = folder / "report.json";
   const pid_t other = fork();
-  if (other == 0) _exit(write_file(path, std::string(1 << 20, 'b')) ? 0 : 1);
+  if (other == 0) _exit(write_file(path, std::string(1 << 16, 'b')) ? 0 : 1);
   for (int i = 0; i < 100; ++i) {
-    ASSERT_TRUE(write_file(path, std::string(1 << 20, 'a')));
+    ASSERT_TRUE(write_file(path, std::string(1 << 16, 'a')));
     std::ifstream file(path);
     const std::string content{std::istreambuf_iterator<char>(file), {}};
-    ASSERT_EQ(content, std::string(1 << 20, content.at(0))) << "of one of them alone, and whole";
+    ASSERT_EQ(content, std::string(1 << 16, content.at(0))) << "of one of them alone, and whole";
   }
   int status = -1;
   waitpid(other, &status, 0);
