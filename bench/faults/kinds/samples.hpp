@@ -16,7 +16,7 @@ struct Swapped {
   When when{};
   static Swapped read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string subject() const { return one.text; }
-  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
+  [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
                                                       const scenario::NodeSettings& settings,
                                                       const InRun& run) const;
 };
@@ -31,7 +31,7 @@ struct Invalid {
   When when{};
   static Invalid read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string subject() const { return text; }
-  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
+  [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
                                                       const scenario::NodeSettings& settings,
                                                       const InRun& run) const;
 };

@@ -42,7 +42,7 @@ struct EachValue {
     return kind;
   }
   [[nodiscard]] std::string subject() const { return of.text; }
-  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
+  [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
                                                       const scenario::NodeSettings& settings,
                                                       const InRun& run) const {
     return with_values(

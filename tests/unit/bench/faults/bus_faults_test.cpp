@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "bench/observe/receiver_model.hpp"
-#include "tests/unit/bench/faults/befallen.hpp"
+#include "tests/unit/bench/faults/flown_with_faults.hpp"
 
 namespace canhil::faults {
 namespace {
@@ -30,7 +30,7 @@ std::vector<Frame> left_of(const std::string& fault, std::int64_t t_us, int time
   std::vector<Frame> left;
   for (int i = 0; i < times; ++i) {
     left = imu_frames;
-    faults.injectors().front()->befall(left, t_us);
+    faults.injectors().front()->apply(left, t_us);
   }
   return left;
 }

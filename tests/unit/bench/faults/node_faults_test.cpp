@@ -3,7 +3,7 @@
 #include <set>
 
 #include "dbc/wire/time_base.hpp"
-#include "tests/unit/bench/faults/befallen.hpp"
+#include "tests/unit/bench/faults/flown_with_faults.hpp"
 
 namespace canhil::faults {
 namespace {
@@ -22,9 +22,9 @@ const Flight& right() {
 
 // Compares a number in the flight without and with the fault, sample by sample, within a time window.
 template <class Message, class Number>
-void each(const Flight& befallen, double from_s, double to_s, Number number,
+void each(const Flight& faulty, double from_s, double to_s, Number number,
           const std::function<void(double was, double is, double t_s)>& look) {
-  const auto before = said<Message>(right()), after = said<Message>(befallen);
+  const auto before = said<Message>(right()), after = said<Message>(faulty);
   ASSERT_EQ(before.size(), after.size());
   int looked = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
