@@ -131,8 +131,8 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
       [&](const Mailbox& box) {
         if (!box.heartbeat) return false;
         const bool as_commanded = box.heartbeat->estimator == *estimator &&
-                             box.heartbeat->algorithm == *algorithm &&
-                             box.heartbeat->state == TargetState::idle;
+                                  box.heartbeat->algorithm == *algorithm &&
+                                  box.heartbeat->state == TargetState::idle;
         return as_commanded || box.heartbeat->error_command != 0;
       });
   if (!selected) return selected;

@@ -41,7 +41,7 @@ InRun Faults::in_run(std::size_t index) {
 }
 
 std::unique_ptr<nodes::Node> Faults::with_faults(std::unique_ptr<nodes::Node> node,
-                                              const scenario::NodeSettings& settings) {
+                                                 const scenario::NodeSettings& settings) {
   for (std::size_t i = 0; i < tallies_.size(); ++i)
     node = scenario_.faults[i].rule->with_fault(std::move(node), settings, in_run(i));
   return node;

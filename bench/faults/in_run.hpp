@@ -32,7 +32,7 @@ class Faults final : public nodes::NodeFaults {
          Place place = {}, RigControl* hands = nullptr);
 
   std::unique_ptr<nodes::Node> with_faults(std::unique_ptr<nodes::Node> node,
-                                        const scenario::NodeSettings& settings) override;
+                                           const scenario::NodeSettings& settings) override;
   /// The faults between nodes and bus, in the order of the scenario.
   [[nodiscard]] std::span<const std::unique_ptr<Injector>> injectors() const { return injectors_; }
 

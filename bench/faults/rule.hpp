@@ -5,8 +5,9 @@
 //   static Kind read(scenario::Section&, const scenario::FaultContext&)
 //   std::string subject() const                  what it affects: distinguishes faults of one kind
 // for faults of a sensor or a node
-//   std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node>, const scenario::NodeSettings&, const
-//   InRun&) const                                the wrapped node; the node itself if it is not affected
+//   std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node>, const scenario::NodeSettings&,
+//   const InRun&) const                                the wrapped node; the node itself if it is not
+//   affected
 // for faults of the bus or the target
 //   std::unique_ptr<Injector> injector(const InRun&) const
 // and, where it does not work in every run,
@@ -46,8 +47,8 @@ class Rule {
   /// Null: the fault acts within the nodes.
   [[nodiscard]] virtual std::unique_ptr<Injector> injector(const InRun& run) const = 0;
   [[nodiscard]] virtual std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
-                                                              const scenario::NodeSettings& settings,
-                                                              const InRun& run) const = 0;
+                                                                const scenario::NodeSettings& settings,
+                                                                const InRun& run) const = 0;
 };
 
 template <class Kind>
@@ -64,8 +65,8 @@ class RuleOf final : public Rule {
     return nullptr;
   }
   [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
-                                                      const scenario::NodeSettings& settings,
-                                                      const InRun& run) const override {
+                                                        const scenario::NodeSettings& settings,
+                                                        const InRun& run) const override {
     if constexpr (requires { kind_.with_fault(std::move(node), settings, run); })
       return kind_.with_fault(std::move(node), settings, run);
     return node;

@@ -35,7 +35,7 @@ struct Run {
   const world::FlightRecord& flight;              ///< from the start to the end of the run
   const world::GlideRecord* glide = nullptr;      ///< null: the scenario has no [glide]
   world::EngagementRecord* engagement = nullptr;  ///< null: no [engagement]; filled during the flight
-  NodeFaults* faults = nullptr;                    ///< null: no faults
+  NodeFaults* faults = nullptr;                   ///< null: no faults
 
   /// A stream of random numbers. The name must never change: the results depend on it.
   [[nodiscard]] world::Stream stream(std::string_view name) const { return {scenario.seed, index, name}; }

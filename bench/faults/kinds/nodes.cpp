@@ -69,9 +69,7 @@ class SilentNode final : public FaultyNode {
 class LateNode final : public FaultyNode {
  public:
   LateNode(std::unique_ptr<Node> node, const NodeSettings& settings, const InRun& run, const Late& kind)
-      : FaultyNode(std::move(node), settings, run),
-        by_us_(kind.by_us),
-        occasions_(kind.when, run.stream()) {}
+      : FaultyNode(std::move(node), settings, run), by_us_(kind.by_us), occasions_(kind.when, run.stream()) {}
 
   [[nodiscard]] std::int64_t due_us() const override {
     return waiting_.empty() ? node_due_us() : std::min(node_due_us(), waiting_.front().first);

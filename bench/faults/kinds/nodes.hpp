@@ -15,8 +15,8 @@ struct OfNode {
   When when{};
   [[nodiscard]] std::string subject() const { return table == nullptr ? "" : std::string(table->key); }
   [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
-                                                      const scenario::NodeSettings& settings,
-                                                      const InRun& run) const {
+                                                        const scenario::NodeSettings& settings,
+                                                        const InRun& run) const {
     if (&settings.table() != table) return node;
     return static_cast<const Kind&>(*this).wrap(std::move(node), settings, run);
   }

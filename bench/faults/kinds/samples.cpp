@@ -41,9 +41,7 @@ class WithInvalid final : public FaultyNode {
  public:
   WithInvalid(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run,
               const Invalid& kind)
-      : FaultyNode(std::move(node), settings, run),
-        flags_(kind.flags),
-        occasions_(kind.when, run.stream()) {}
+      : FaultyNode(std::move(node), settings, run), flags_(kind.flags), occasions_(kind.when, run.stream()) {}
 
  private:
   void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
@@ -96,8 +94,8 @@ Swapped Swapped::read(scenario::Section& section, const scenario::FaultContext& 
 }
 
 std::unique_ptr<nodes::Node> Swapped::with_fault(std::unique_ptr<nodes::Node> node,
-                                               const scenario::NodeSettings& settings,
-                                               const InRun& run) const {
+                                                 const scenario::NodeSettings& settings,
+                                                 const InRun& run) const {
   if (!sends(settings.table(), *other.message)) return node;
   return std::make_unique<WithSwapped>(std::move(node), settings, run, *this);
 }
@@ -130,8 +128,8 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
 }
 
 std::unique_ptr<nodes::Node> Invalid::with_fault(std::unique_ptr<nodes::Node> node,
-                                               const scenario::NodeSettings& settings,
-                                               const InRun& run) const {
+                                                 const scenario::NodeSettings& settings,
+                                                 const InRun& run) const {
   if (!sends(settings.table(), *flags.front().message)) return node;
   return std::make_unique<WithInvalid>(std::move(node), settings, run, *this);
 }

@@ -17,8 +17,8 @@ struct Swapped {
   static Swapped read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string subject() const { return one.text; }
   [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
-                                                      const scenario::NodeSettings& settings,
-                                                      const InRun& run) const;
+                                                        const scenario::NodeSettings& settings,
+                                                        const InRun& run) const;
 };
 
 /// The sample is flagged invalid.
@@ -32,8 +32,8 @@ struct Invalid {
   static Invalid read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string subject() const { return text; }
   [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
-                                                      const scenario::NodeSettings& settings,
-                                                      const InRun& run) const;
+                                                        const scenario::NodeSettings& settings,
+                                                        const InRun& run) const;
 };
 
 }  // namespace canhil::faults

@@ -43,8 +43,8 @@ struct EachValue {
   }
   [[nodiscard]] std::string subject() const { return of.text; }
   [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
-                                                      const scenario::NodeSettings& settings,
-                                                      const InRun& run) const {
+                                                        const scenario::NodeSettings& settings,
+                                                        const InRun& run) const {
     return with_values(
         std::move(node), settings, run, of, when,
         [size = size](double value, const Sampled& sample) { return Kind::becomes(value, size, sample); },

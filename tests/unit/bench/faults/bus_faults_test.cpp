@@ -39,7 +39,7 @@ bool crc_is_right(const Frame& frame) {
   return frame.data[0] == e2e::crc(frame.payload(), SlaveImuDeltaTheta::info.e2e_data_id);
 }
 
-TEST(BusFaults, BefallTheirMessageInTheirTime) {
+TEST(BusFaults, AffectTheirMessageInTheirTime) {
   const std::string lost = of_rates("lost", "from_s = 1\nto_s = 2");
   EXPECT_THAT(left_of(lost, 1'000'000), ElementsAre(imu_frames[1]));
   EXPECT_EQ(left_of(lost, 999'999), imu_frames);
@@ -71,7 +71,7 @@ TEST(BusFaults, SoManyBitsAreDamaged) {
   EXPECT_EQ(flipped, 5);
 }
 
-TEST(BusFaults, BefallEverySoManythOrSomeByChanceOrInPeriods) {
+TEST(BusFaults, AffectEverySoManythOrSomeByChanceOrInPeriods) {
   const auto lost = [](const std::string& more) {
     std::vector<std::int64_t> missing_ms;
     const Flight flight(of_rates("lost", more));

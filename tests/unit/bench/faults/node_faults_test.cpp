@@ -120,7 +120,7 @@ TEST(SensorFaults, AnInvalidSampleSaysSo) {
   EXPECT_EQ(accel, 1);
 }
 
-TEST(SensorFaults, ALateSampleTellsItsOwnTime) {
+TEST(SensorFaults, ALateSampleCarriesItsOwnTime) {
   const Flight flight(fault("late", "node = \"master_ins\"\nby_ms = 30\nfrom_s = 1\nto_s = 1"));
   for (const auto& [t_us, one] : said<MasterInsVelocityD>(flight))
     EXPECT_EQ(t_us - one.time_of_validity_us, one.time_of_validity_us == 1'000'000 ? 30'000 : 0);
