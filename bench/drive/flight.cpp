@@ -99,8 +99,9 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
     if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
     if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
   }
-  // The initial state without drawn errors must fit for every run; make_flight() checks the drawn state of
-  // each run.
+  // Even without drawn errors, the initial state must fit into its signals; otherwise the scenario is
+  // rejected here, before its first run. make_flight() checks the initial state with the errors drawn for its
+  // run.
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream none(0, 0, "none");
     const auto start = initial_solution(truth.epochs().front(), world::InitialErrorModel{}, none);

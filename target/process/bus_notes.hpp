@@ -23,8 +23,8 @@ class BusNotes {
   void interface_is(bool up);
 
   /// One line, with the bus's name, for each change since the last call; empty: no change. Events that may
-  /// come in floods (error frames without a change of state, frames of the other contract) appear once per
-  /// second.
+  /// come in floods (error frames without a change of state, FD frames on a classic bus or the reverse) are
+  /// reported at most once per second.
   std::string news(const Port& port, BusFormat format);
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
-// The map of psi_angle.hpp about a state x: the image of x, the even and odd parts for x +- d, and the
-// Jacobian with respect to the biases. It reads only the first 15 states, so it serves 15 and 18 states.
+// The prediction f of psi_angle.hpp over one interval, evaluated about a state x: f(x); its even part
+// (f(x + d) + f(x - d))/2 - f(x) and odd part (f(x + d) - f(x - d))/2; its Jacobian with respect to the
+// biases. f uses only the first 15 states, so it works for the filters with 15 and with 18 states.
 #include "target/estimators/filtering/unscented.hpp"
 #include "target/estimators/inflight_alignment/error_model.hpp"
 

@@ -78,9 +78,9 @@ Planes<Sigma> reported_sigma(const UpdateResult& result, const Design& design);
 /// The state with the signs of the two planes.
 Estimate estimate(const State& state);
 
-/// Predicts the three states over dt until `end` by transition(): the input a - a_m enters through the third
-/// column, the antenna increment is subtracted, and the states are turned by the roll. Inputs are measured in
-/// mid-roll, so they are turned by half of it.
+/// Predicts the three states over one step; `end` is the geometry at its end. Error angle and rate follow
+/// transition() with the input a - a_m; the antenna increment is subtracted from the error angle; then the
+/// states are turned by the roll increment. Inputs are given in the axes at mid-roll, so they turn by half.
 void predict(State& state, Geometry end, double dt, Plane antenna_increment, Plane missile_acceleration,
              double roll_increment);
 

@@ -12,7 +12,7 @@ enum class Fault : std::uint8_t {
   none,
   error_angle,           // invalid or not finite
   field_of_view,         // error angle beyond the field of view
-  antenna,               // antenna or roll increment missing, or bridged over lost samples
+  antenna,               // antenna or roll increment missing, or interpolated over lost samples
   acceleration,          // missile acceleration missing
   range_invalid,         // flagged, not finite, zero or negative
   range_stale,           // unchanged for too long

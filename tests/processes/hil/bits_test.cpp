@@ -51,7 +51,7 @@ TEST_P(BitsOfScenario, InProcessAndLockstepAgree) {
   EXPECT_TRUE(in_process == lockstep);
 }
 
-// The bits of the closed loop are equal only if answers take effect at the same time on every bus.
+// With los_closed_loop, frames agree only if each answer acts on the flight at the same time on every bus.
 INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
                          testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "los_quick",
                                          "los_closed_loop", "los_closed_loop_500hz", "wind_quick",

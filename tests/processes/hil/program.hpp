@@ -38,9 +38,10 @@ nlohmann::json json_of(const std::string& text);
 /// the step.
 std::vector<Frame> target_frames(const std::string& log_path);
 
-/// True if counts and bits of this run in real time can be tested. If the host stalls a program for half a
-/// second, the receive queue of vcan loses frames, the target is silent for too long, or the target's process
-/// sends heartbeats of its own. The programs report this, and the run is repeated.
+/// True if the host did not disturb this run in real time: it completed, lost no frame, and the bench was
+/// never late by 1 s. Only then can frames be counted and their bits be compared. A host that stalls a
+/// program for half a second causes lost frames, a target that counts as silent, or idle heartbeats. If
+/// false, the test repeats the run.
 bool whole(const nlohmann::json& report);
 
 /// The largest lateness of the bench itself; 0 in virtual time.

@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, OfOneEstimator, estimators, by_name);
 TEST(Suites, EachEstimatorHasOne) {
   const auto found = suites_in(shipped);
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->size(), 5U);  // four suites of one estimator, and one of several at once
+  EXPECT_EQ(found->size(), 5U);  // one for each of four estimators, one for several at once
   EXPECT_FALSE(suites_in("/no/such/folder"));
 }
 
