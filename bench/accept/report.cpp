@@ -39,7 +39,7 @@ std::vector<const Item*> shown_items(const Finding& finding) {
   return items;
 }
 
-constexpr std::size_t most_told = 5;
+constexpr std::size_t most_shown = 5;
 
 std::string sign_of(Outcome outcome) {
   const auto [style, sign] = report::look_of(checks::name(outcome));
@@ -65,10 +65,10 @@ std::string section(const Acceptance& suite) {
       if (finding.requirement.family != family) continue;
       std::string seen = all_of(finding);
       const auto wrong = shown_items(finding);
-      for (std::size_t i = 0; i < std::min(wrong.size(), most_told); ++i)
+      for (std::size_t i = 0; i < std::min(wrong.size(), most_shown); ++i)
         seen += fmt::format("<p><b>{}</b>: {}; expected {}</p>", escaped(wrong[i]->name),
                             escaped(wrong[i]->measured), escaped(wrong[i]->expected));
-      if (wrong.size() > most_told) seen += fmt::format("<p>and {} more</p>", wrong.size() - most_told);
+      if (wrong.size() > most_shown) seen += fmt::format("<p>and {} more</p>", wrong.size() - most_shown);
       rows.push_back({escaped(finding.requirement.id), escaped(finding.requirement.text),
                       sign_of(finding.outcome()), seen});
     }
@@ -93,10 +93,10 @@ std::string text(const Report& report) {
         out += fmt::format("  {:<12}  {:<12} {}  ({} looked at)\n", report::label(finding.outcome()),
                            finding.requirement.id, finding.requirement.text, finding.items.size());
         const auto wrong = shown_items(finding);
-        for (std::size_t i = 0; i < std::min(wrong.size(), most_told); ++i)
+        for (std::size_t i = 0; i < std::min(wrong.size(), most_shown); ++i)
           out += fmt::format("      {} {}: {}; expected {}\n", wrong[i]->outcome == Outcome::fail ? "-" : "?",
                              wrong[i]->name, wrong[i]->measured, wrong[i]->expected);
-        if (wrong.size() > most_told) out += fmt::format("      and {} more\n", wrong.size() - most_told);
+        if (wrong.size() > most_shown) out += fmt::format("      and {} more\n", wrong.size() - most_shown);
       }
     }
     out += fmt::format("\n{}: {}: {} ({:.0f} s)\n\n", suite.estimator, checks::name(suite.outcome()),

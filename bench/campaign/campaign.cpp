@@ -199,7 +199,7 @@ std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given,
   return metrics;
 }
 
-void refuse_untold(Section& root, const Campaign& campaign) {
+void reject_unreported(Section& root, const Campaign& campaign) {
   for (const Metric& metric : campaign.metrics) {
     const Quantity& quantity = quantity_of(metric);
     for (const std::size_t index : variants_of(campaign, metric)) {
@@ -252,7 +252,7 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
     shortest_us = std::min(shortest_us, variant.scenario.duration_us);
   }
   if (root.has("metric")) campaign.metrics = read_metrics(root, given, shortest_us);
-  refuse_untold(root, campaign);
+  reject_unreported(root, campaign);
   root.optional("metric");
   root.finish();
   if (const auto error = root.error()) return tl::unexpected(*error);

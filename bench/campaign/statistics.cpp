@@ -127,7 +127,7 @@ WindowStatistics window_statistics(std::span<const RunSeries> runs, const Quanti
       const double value = value_at(run, quantity, t_us);
       if (!std::isnan(value)) {
         values.push_back(value);
-      } else if (!is_untold(run, quantity, t_us, from_us)) {
+      } else if (!may_be_missing(run, quantity, t_us, from_us)) {
         ++statistics.missing;
       }
     }
@@ -240,7 +240,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
     double sum_here = 0;
     std::size_t here = 0, not_asked = 0;
     for (const RunSeries& run : runs) {
-      if (is_untold(run, quantity, t_us, from_us)) {
+      if (may_be_missing(run, quantity, t_us, from_us)) {
         ++not_asked;
         continue;
       }

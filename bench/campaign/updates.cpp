@@ -96,7 +96,7 @@ double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_u
   return std::isfinite(value) ? value : nan;
 }
 
-bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us) {
+bool may_be_missing(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us) {
   const auto times = run.samples.times();
   auto index = static_cast<std::size_t>(std::ranges::lower_bound(times, t_us) - times.begin());
   if (index == times.size() || times[index] != t_us) {
@@ -106,7 +106,7 @@ bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us
   const auto not_asked = [&] { return std::isnan(run.samples.value(index, quantity)); };
   if (!quantity.nan_allowed || !not_asked()) return false;
   // An answer without an update, for example while coasting, omits such a quantity.
-  if (run.samples.layout().answers_untold) return true;
+  if (run.samples.layout().answers_may_omit) return true;
   while (index > 0 && t_us - times[--index] <= run.freshness.age_limit_us) {
     if (!not_asked()) return true;
   }

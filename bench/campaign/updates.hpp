@@ -21,7 +21,7 @@ double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_u
 /// Whether a missing value at that time is correct. There are two cases. The run has no update there, but its
 /// last update (or the beginning of the window, `from_us`, if later) is not yet stale. Or the update has no
 /// such quantity, as an unused fix has no NIS.
-bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us);
+bool may_be_missing(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us);
 /// The quantity in a run's last update at or before a time. NaN: no update, stale, not finite, or the run had
 /// ended.
 double last_value(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);

@@ -31,7 +31,7 @@ std::string wrong_causes(const AnswerTiming& timing) {
     append(line,
            fmt::format("{} answers with the counter of another cause than that of their time, first {}, "
                        "expected {}",
-                       timing.wrong_counter, timing.counter_told, timing.counter_sent));
+                       timing.wrong_counter, timing.counter_reported, timing.counter_sent));
   return line;
 }
 

@@ -59,11 +59,11 @@ std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule&
   for (const estimators::Estimator* one : evidence.estimators) {
     std::string why = scenario::why_no_truth(scenario, one->facts);
     // Even a quantity that is not an error may need the truth, for example to sort samples by time to go.
-    const auto is_untold = [&](const Subject& subject) {
+    const auto has_no_track = [&](const Subject& subject) {
       return subject.estimator == one->name && tracks_of(evidence, one->name, *subject.quantity).empty();
     };
     if (!why.empty() &&
-        (std::ranges::find(held, one->name) != held.end() || std::ranges::any_of(subjects, is_untold)))
+        (std::ranges::find(held, one->name) != held.end() || std::ranges::any_of(subjects, has_no_track)))
       return why;
   }
   return "";

@@ -50,7 +50,7 @@ struct AnswerTiming {
   std::optional<std::int64_t>
       nearest_us{};  ///< for `unpaired`: the smallest difference between a cause's time and a stimulus
   std::uint64_t wrong_counter = 0;  ///< answers that name the time of one cause and the counter of another
-  std::uint8_t counter_told = 0, counter_sent = 0;  ///< in the first such answer
+  std::uint8_t counter_reported = 0, counter_sent = 0;  ///< in the first such answer
   std::int64_t reply_wire_ns =
       0;  ///< sum over `latency`: time on the wire of the answer's frames up to this one
   std::optional<std::int64_t> last_ns{};  ///< last arrival

@@ -117,7 +117,7 @@ std::string answers_no_half_sample(Subject& subject) {
 
 std::string counts_to_the_end(Subject& subject) {
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
-  subject.talk.tell_damaged(static_cast<int>(most_counted) + 100);
+  subject.talk.send_damaged(static_cast<int>(most_counted) + 100);
   const auto counted = subject.talk.hear_in_flight<TargetCounters>(some_flight_us);
   if (!counted) return "no counters in flight";
   return counted->bad_crc == most_counted

@@ -156,8 +156,8 @@ std::string bears_the_wrap_of_time(Subject& subject) {
   subject.talk.shift_time(wrap_us - flight_us / 2);
   std::string wrong = subject.talk.reset();
   if (wrong.empty()) {
-    subject.talk.tell_time();
-    subject.talk.tell_state();
+    subject.talk.send_time();
+    subject.talk.send_state();
     wrong = subject.talk.waits_for(TargetState::ready) ? subject.talk.start() : "no heartbeat says ready";
   }
   if (wrong.empty()) subject.talk.fly(flight_us);

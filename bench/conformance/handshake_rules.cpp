@@ -77,14 +77,14 @@ std::string not_started(Talk& talk, const std::string& when) {
   return when + ": " + described(beat);
 }
 
-std::string starts_only_when_told_its_state(Subject& subject) {
+std::string starts_only_with_a_state(Subject& subject) {
   if (auto wrong = subject.talk.reset(); !wrong.empty()) return wrong;
   return not_started(subject.talk, "start without an initial state");
 }
 
 std::string takes_its_state_whole(Subject& subject) {
   if (auto wrong = subject.talk.reset(); !wrong.empty()) return wrong;
-  subject.talk.tell_state([](const Frame& frame) { return frame.id != TargetInitAttitude::info.id; });
+  subject.talk.send_state([](const Frame& frame) { return frame.id != TargetInitAttitude::info.id; });
   return not_started(subject.talk, "start after an initial state without its attitude");
 }
 
@@ -97,7 +97,7 @@ std::string hears_a_repeated_command(Subject& subject) {
              : "a stop with the counter of the start before it: ignored";
 }
 
-std::string tells_its_state(Subject& subject) {
+std::string reports_its_state(Subject& subject) {
   if (auto wrong = subject.talk.reset(); !wrong.empty()) return wrong;
   return flies(subject);
 }
@@ -126,7 +126,7 @@ std::string starts_again(Subject& subject) {
 
 std::string takes_no_state_while_it_runs(Subject& subject) {
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
-  subject.talk.tell_state();
+  subject.talk.send_state();
   const auto beat = subject.talk.hear_in_flight<TargetHeartbeat>(some_flight_us);
   if (!beat) return "no heartbeat in flight";
   return beat->state == TargetState::running && beat->error_command != 0
@@ -137,7 +137,7 @@ std::string takes_no_state_while_it_runs(Subject& subject) {
 // A reset must clear errors and counts.
 std::string forgets(Subject& subject) {
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
-  subject.talk.tell_damaged(10);
+  subject.talk.send_damaged(10);
   subject.talk.fly(some_flight_us);
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
   const auto counted = subject.talk.hear_in_flight<TargetCounters>(some_flight_us);
@@ -163,10 +163,10 @@ constexpr Rule all[] = {
      refuses_an_unknown_command},
     {"P-STATE", "protocol",
      "The target reports idle, ready and running as commanded, and answers from the start on.",
-     tells_its_state},
+     reports_its_state},
     {"P-NO-STATE", "protocol",
      "An estimator without an initial state does not start, and reports not_initialised.",
-     starts_only_when_told_its_state},
+     starts_only_with_a_state},
     {"P-WHOLE-STATE", "protocol", "An initial state with a missing message is ignored.",
      takes_its_state_whole},
     {"P-REPEAT", "protocol", "A command is obeyed even if its counter repeats the previous one.",

@@ -64,7 +64,7 @@ void Talk::send(Frame frame) {
   static_cast<void>(link_.send(frame, patience_ns));
 }
 
-void Talk::tell_state(const std::function<bool(const Frame&)>& sent) {
+void Talk::send_state(const std::function<bool(const Frame&)>& sent) {
   listener_.frames.clear();
   out_.clear();
   drive::send(flight_.initial.front(), out_);
@@ -73,13 +73,13 @@ void Talk::tell_state(const std::function<bool(const Frame&)>& sent) {
   }
 }
 
-void Talk::tell_time() {
+void Talk::send_time() {
   listener_.frames.clear();
   send(to_frame(Sync{.lockstep = 1},
                 e2e::counter_period - 1));  // so that the first counter of the flight is 0
 }
 
-void Talk::tell_damaged(int frames) {
+void Talk::send_damaged(int frames) {
   Frame frame = to_frame(ParamSet{}, 0);
   frame.data[0] ^= 0xFFU;
   constexpr int at_once = 128;  // a bus drops a node that blocks it, so the target must be able to catch up
@@ -121,7 +121,7 @@ std::string Talk::reset() {
 
 std::string Talk::make_ready() {
   if (auto wrong = reset(); !wrong.empty()) return wrong;
-  tell_state();
+  send_state();
   return waits_for(TargetState::ready) ? "" : "the initial state: no heartbeat says ready";
 }
 

@@ -45,14 +45,14 @@ class Talk {
     static_cast<void>(link_.send(frame, patience_ns));
   }
   /// Sends those frames of the scenario's initial state for which `sent` holds.
-  void tell_state(const std::function<bool(const Frame&)>& sent = [](const Frame&) { return true; });
+  void send_state(const std::function<bool(const Frame&)>& sent = [](const Frame&) { return true; });
   /// Sends parameter frames with a wrong CRC.
-  void tell_damaged(int frames);
+  void send_damaged(int frames);
   /// Shifts every time sent from now on (time base or time of validity).
   void shift_time(std::int64_t shift_us) { shift_us_ = shift_us; }
   /// Sends the time base before a flight, so that the target resolves a 32-bit time of validity to the
   /// nearest time.
-  void tell_time();
+  void send_time();
 
   /// Waits for a message that arrives after the last transmission and satisfies a condition; none: it did not
   /// arrive.

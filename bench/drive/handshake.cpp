@@ -130,10 +130,10 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
       [&](nodes::Transmission& o) { o.send(command(selection, *estimator, *algorithm)); },
       [&](const Mailbox& box) {
         if (!box.heartbeat) return false;
-        const bool as_told = box.heartbeat->estimator == *estimator &&
-                             box.heartbeat->algorithm == *algorithm &&
-                             box.heartbeat->state == TargetState::idle;
-        return as_told || box.heartbeat->error_command != 0;
+        const bool as_commanded = box.heartbeat->estimator == *estimator &&
+                                  box.heartbeat->algorithm == *algorithm &&
+                                  box.heartbeat->state == TargetState::idle;
+        return as_commanded || box.heartbeat->error_command != 0;
       });
   if (!selected) return selected;
   if (dialogue.mailbox().heartbeat->error_command != 0) {

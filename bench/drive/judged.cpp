@@ -9,10 +9,10 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
                                const scenario::Scenario& scenario) {
   // An estimator may reject a group because of a changed value. A changed order may make a group late. A
   // wrong time of validity in the future makes all groups up to that time late.
-  const faults::Tally befallen = faults.tally();
-  seen.expected_counts.most.bad_group += befallen.changed * scenario.targets.size();
-  seen.expected_counts.most.late += befallen.overtaken * scenario.targets.size();
-  if (befallen.changed_times > 0)
+  const faults::Tally tally = faults.tally();
+  seen.expected_counts.most.bad_group += tally.changed * scenario.targets.size();
+  seen.expected_counts.most.late += tally.overtaken * scenario.targets.size();
+  if (tally.changed_times > 0)
     seen.expected_counts.most.late = seen.expected_counts.most.bad_group = checks::any_count;
   return seen;
 }

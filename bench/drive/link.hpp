@@ -46,9 +46,9 @@ class Link {
   [[nodiscard]] std::int64_t now_ns() const { return port_.monotonic_ns(); }
 
   /// Passes the virtual time to the port and the observers.
-  void tell_time(std::int64_t t_ns) {
+  void set_time(std::int64_t t_ns) {
     port_.set_time(t_ns);
-    for (observe::Observer* observer : observers_) observer->time_told(t_ns);
+    for (observe::Observer* observer : observers_) observer->time_set(t_ns);
   }
 
   /// Sleeps until a frame arrives (true), or until `deadline_ns` or a signal (false).

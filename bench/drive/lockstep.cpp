@@ -12,7 +12,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch,
 
   while (schedule.due_us() != nodes::never_us) {
     t_us = schedule.due_us();
-    link.tell_time(t_us * 1000);
+    link.set_time(t_us * 1000);
     if (t_us >= progress_due_us) {
       progress(t_us);
       progress_due_us = t_us + progress_period_us;

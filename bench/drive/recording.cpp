@@ -155,7 +155,7 @@ class Recording {
       if (auto heard = hear(); !heard)
         return tl::unexpected(heard.error());  // before the nodes transmit again
       t_us = schedule_->due_us();
-      load_.time_told(t_us * 1000);
+      load_.time_set(t_us * 1000);
       for (const Frame& frame : schedule_->take()) {
         if (auto heard = hear(); !heard) return tl::unexpected(heard.error());
         if (!frames_.next()) return ended_at(t_us);

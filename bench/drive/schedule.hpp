@@ -52,7 +52,7 @@ class Schedule final : public observe::Observer {
       if (injectors_.empty()) return out_.frames();
       frames_.assign(out_.frames().begin(), out_.frames().end());
     }
-    for (; injected < injectors_.size(); ++injected) injectors_[injected]->befall(frames_, t_us);
+    for (; injected < injectors_.size(); ++injected) injectors_[injected]->apply(frames_, t_us);
     find_next();
     return frames_;
   }

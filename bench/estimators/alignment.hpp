@@ -28,7 +28,7 @@ inline constexpr std::array alignment_derived{
     quantities::Derived{.quantity = &quantities::heading_over_sigma, .of = heading_over_its_sigma}};
 
 /// The quantities of the tracks that give_alignment() creates for every such estimator, innovations excepted.
-inline constexpr std::array<const quantities::Quantity*, 10> alignment_told{
+inline constexpr std::array<const quantities::Quantity*, 10> alignment_reported{
     &quantities::attitude_heading,  &quantities::misalignment_north, &quantities::misalignment_east,
     &quantities::misalignment_down, &quantities::attitude_roll,      &quantities::attitude_pitch,
     &quantities::velocity_north,    &quantities::velocity_east,      &quantities::velocity_down,
@@ -36,9 +36,9 @@ inline constexpr std::array<const quantities::Quantity*, 10> alignment_told{
 
 /// The quantities above plus those of one estimator.
 template <std::size_t count>
-constexpr auto and_alignment_told(const std::array<const quantities::Quantity*, count>& own) {
-  std::array<const quantities::Quantity*, alignment_told.size() + count> all{};
-  std::ranges::copy(own, std::ranges::copy(alignment_told, all.begin()).out);
+constexpr auto and_alignment_reported(const std::array<const quantities::Quantity*, count>& own) {
+  std::array<const quantities::Quantity*, alignment_reported.size() + count> all{};
+  std::ranges::copy(own, std::ranges::copy(alignment_reported, all.begin()).out);
   return all;
 }
 

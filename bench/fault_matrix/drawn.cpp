@@ -41,7 +41,7 @@ class Draw {
   std::mt19937_64 engine_;
 };
 
-enum class Befalls : std::uint8_t {
+enum class Affects : std::uint8_t {
   frames,  // all messages of a node
   value,   // one signal of its messages
   pair,    // two quantities of the node
@@ -61,7 +61,7 @@ enum class Size : std::uint8_t {
 };
 struct Kind {
   std::string_view name;
-  Befalls befalls;
+  Affects affects;
   Times times;
   std::string_view key{};
   Size size = Size::none;
@@ -69,34 +69,34 @@ struct Kind {
 };
 
 constexpr std::array table{
-    Kind{"changed", Befalls::value, Times::each, "value", Size::within},
-    Kind{"bias", Befalls::value, Times::each, "by", Size::range, 1e-5, 0.1},
-    Kind{"drift", Befalls::value, Times::each, "by", Size::range, 1e-5, 0.1},
-    Kind{"spike", Befalls::value, Times::seldom, "by", Size::range, 1e-3, 0.5},
-    Kind{"stuck", Befalls::value, Times::each},
-    Kind{"saturated", Befalls::value, Times::each, "at", Size::positive, 1e-4, 0.5},
-    Kind{"noise", Befalls::value, Times::each, "sigma", Size::positive, 1e-5, 1e-2},
-    Kind{"reversed", Befalls::value, Times::each},
-    Kind{"swapped", Befalls::pair, Times::each},
-    Kind{"invalid", Befalls::node, Times::each},
-    Kind{"late", Befalls::node, Times::each, "by_ms", Size::number, 0.5, 50},
-    Kind{"silent", Befalls::node, Times::stretch},
-    Kind{"slow", Befalls::node, Times::stretch, "longer_percent", Size::number, 1, 100},
-    Kind{"clock_step", Befalls::node, Times::stretch, "by_ms", Size::number, -50, 50},
-    Kind{"clock_drift", Befalls::node, Times::stretch, "by_ppm", Size::number, -1000, 1000},
-    Kind{"restart", Befalls::node, Times::begins, "silent_s", Size::number, 0.01, 0.5},
-    Kind{"lost", Befalls::frames, Times::each},
-    Kind{"repeated", Befalls::frames, Times::each},
-    Kind{"delayed", Befalls::frames, Times::each, "by_ms", Size::number, 0.5, 50},
-    Kind{"reordered", Befalls::frames, Times::each},
-    Kind{"damaged", Befalls::frames, Times::each},
-    Kind{"wrong_crc", Befalls::frames, Times::each},
-    Kind{"counter_stuck", Befalls::frames, Times::each},
-    Kind{"counter_jump", Befalls::frames, Times::each, "by", Size::whole, 1, 14},
-    Kind{"too_short", Befalls::frames, Times::each},
-    Kind{"foreign", Befalls::frames, Times::each},
-    Kind{"stranger", Befalls::bus, Times::stretch, "period_ms", Size::number, 0.5, 20},
-    Kind{"flood", Befalls::bus, Times::stretch, "period_us", Size::whole, 100, 1000},
+    Kind{"changed", Affects::value, Times::each, "value", Size::within},
+    Kind{"bias", Affects::value, Times::each, "by", Size::range, 1e-5, 0.1},
+    Kind{"drift", Affects::value, Times::each, "by", Size::range, 1e-5, 0.1},
+    Kind{"spike", Affects::value, Times::seldom, "by", Size::range, 1e-3, 0.5},
+    Kind{"stuck", Affects::value, Times::each},
+    Kind{"saturated", Affects::value, Times::each, "at", Size::positive, 1e-4, 0.5},
+    Kind{"noise", Affects::value, Times::each, "sigma", Size::positive, 1e-5, 1e-2},
+    Kind{"reversed", Affects::value, Times::each},
+    Kind{"swapped", Affects::pair, Times::each},
+    Kind{"invalid", Affects::node, Times::each},
+    Kind{"late", Affects::node, Times::each, "by_ms", Size::number, 0.5, 50},
+    Kind{"silent", Affects::node, Times::stretch},
+    Kind{"slow", Affects::node, Times::stretch, "longer_percent", Size::number, 1, 100},
+    Kind{"clock_step", Affects::node, Times::stretch, "by_ms", Size::number, -50, 50},
+    Kind{"clock_drift", Affects::node, Times::stretch, "by_ppm", Size::number, -1000, 1000},
+    Kind{"restart", Affects::node, Times::begins, "silent_s", Size::number, 0.01, 0.5},
+    Kind{"lost", Affects::frames, Times::each},
+    Kind{"repeated", Affects::frames, Times::each},
+    Kind{"delayed", Affects::frames, Times::each, "by_ms", Size::number, 0.5, 50},
+    Kind{"reordered", Affects::frames, Times::each},
+    Kind{"damaged", Affects::frames, Times::each},
+    Kind{"wrong_crc", Affects::frames, Times::each},
+    Kind{"counter_stuck", Affects::frames, Times::each},
+    Kind{"counter_jump", Affects::frames, Times::each, "by", Size::whole, 1, 14},
+    Kind{"too_short", Affects::frames, Times::each},
+    Kind{"foreign", Affects::frames, Times::each},
+    Kind{"stranger", Affects::bus, Times::stretch, "period_ms", Size::number, 0.5, 20},
+    Kind{"flood", Affects::bus, Times::stretch, "period_us", Size::whole, 100, 1000},
 };
 
 const Kind& kind_of(std::string_view name) { return *std::ranges::find(table, name, &Kind::name); }
@@ -170,12 +170,12 @@ void draw_times(FaultText& fault, Times times, double duration_s, double period_
 std::optional<FaultText> draw_fault(const Drawn& row, const Column& column, Draw& draw) {
   const Kind& kind = kind_of(row.kind);
   const scenario::NodeSettings* node = column.scenario.node(row.node);
-  if (kind.befalls != Befalls::bus && node == nullptr) return std::nullopt;
+  if (kind.affects != Affects::bus && node == nullptr) return std::nullopt;
   FaultText fault;
   fault.set("kind", in_quotes(kind.name));
   const SignalInfo* signal = nullptr;
-  switch (kind.befalls) {
-    case Befalls::value: {
+  switch (kind.affects) {
+    case Affects::value: {
       const MessageInfo& message = *draw.one_of(messages_of(node->table()));
       signal = draw_signal(kind, message, draw);
       if (signal == nullptr) return std::nullopt;
@@ -183,14 +183,14 @@ std::optional<FaultText> draw_fault(const Drawn& row, const Column& column, Draw
       fault.set("signal", in_quotes(signal->name));
       break;
     }
-    case Befalls::pair:
+    case Affects::pair:
       if (!draw_pair(fault, row.node, draw)) return std::nullopt;
       break;
-    case Befalls::frames:
-    case Befalls::node:
+    case Affects::frames:
+    case Affects::node:
       fault.set("node", in_quotes(row.node));
       break;
-    case Befalls::bus:
+    case Affects::bus:
       break;
   }
   const double size = drawn_size(kind, signal, draw);
@@ -212,7 +212,7 @@ Draw draw_of(const Column& column, std::uint64_t seed, std::uint64_t run, std::s
 std::vector<Drawn> drawn_rows(const std::vector<std::string_view>& nodes) {
   std::vector<Drawn> rows;
   for (const Kind& kind : table) {
-    if (kind.befalls == Befalls::bus) {
+    if (kind.affects == Affects::bus) {
       rows.push_back({.kind = kind.name});
       continue;
     }

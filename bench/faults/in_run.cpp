@@ -40,10 +40,10 @@ InRun Faults::in_run(std::size_t index) {
           .tally = tallies_[index]};
 }
 
-std::unique_ptr<nodes::Node> Faults::befallen(std::unique_ptr<nodes::Node> node,
-                                              const scenario::NodeSettings& settings) {
+std::unique_ptr<nodes::Node> Faults::with_faults(std::unique_ptr<nodes::Node> node,
+                                                 const scenario::NodeSettings& settings) {
   for (std::size_t i = 0; i < tallies_.size(); ++i)
-    node = scenario_.faults[i].rule->befallen(std::move(node), settings, in_run(i));
+    node = scenario_.faults[i].rule->with_fault(std::move(node), settings, in_run(i));
   return node;
 }
 

@@ -25,14 +25,14 @@ struct FaultReport {
 /// Error: one line; a fault does not work in such a run.
 Result<void> check(std::span<const scenario::Fault> faults, const Place& place);
 
-class Faults final : public nodes::Befalling {
+class Faults final : public nodes::NodeFaults {
  public:
   /// `scenario`, `messages` (of the bus) and `hands` must outlive it.
   Faults(const scenario::Scenario& scenario, std::uint64_t run_index, std::span<const MessageInfo> messages,
          Place place = {}, RigControl* hands = nullptr);
 
-  std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
-                                        const scenario::NodeSettings& settings) override;
+  std::unique_ptr<nodes::Node> with_faults(std::unique_ptr<nodes::Node> node,
+                                           const scenario::NodeSettings& settings) override;
   /// The faults between nodes and bus, in the order of the scenario.
   [[nodiscard]] std::span<const std::unique_ptr<Injector>> injectors() const { return injectors_; }
 

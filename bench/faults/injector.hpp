@@ -68,7 +68,7 @@ class Injector {
   virtual ~Injector() = default;
 
   /// Changes the frames of a transmission that is due at `t_us`.
-  virtual void befall(std::vector<Frame>& /*frames*/, std::int64_t /*t_us*/) {}
+  virtual void apply(std::vector<Frame>& /*frames*/, std::int64_t /*t_us*/) {}
   /// Time of its next action of its own; nodes::never_us: none.
   [[nodiscard]] virtual std::int64_t due_us() const { return nodes::never_us; }
   /// Acts at due_us() and appends the frames to be sent.

@@ -24,7 +24,7 @@ OfFrames::OfFrames(const OfMessages& of, const When& when, const InRun& run) : t
     own_.push_back({.message = message, .occasions = Occasions(when, run.stream(message->name))});
 }
 
-void OfFrames::befall(std::vector<Frame>& frames, std::int64_t t_us) {
+void OfFrames::apply(std::vector<Frame>& frames, std::int64_t t_us) {
   before_.swap(frames);
   frames.clear();
   for (const Frame& frame : before_) {

@@ -13,7 +13,7 @@ class OfFrames : public Injector {
  public:
   OfFrames(const OfMessages& of, const When& when, const InRun& run);
 
-  void befall(std::vector<Frame>& frames, std::int64_t t_us) final;
+  void apply(std::vector<Frame>& frames, std::int64_t t_us) final;
 
  protected:
   // The state kept for one message.

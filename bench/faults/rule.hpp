@@ -5,8 +5,9 @@
 //   static Kind read(scenario::Section&, const scenario::FaultContext&)
 //   std::string subject() const                  what it affects: distinguishes faults of one kind
 // for faults of a sensor or a node
-//   std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node>, const scenario::NodeSettings&, const
-//   InRun&) const                                the wrapped node; the node itself if it is not affected
+//   std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node>, const scenario::NodeSettings&,
+//   const InRun&) const                                the wrapped node; the node itself if it is not
+//   affected
 // for faults of the bus or the target
 //   std::unique_ptr<Injector> injector(const InRun&) const
 // and, where it does not work in every run,
@@ -45,9 +46,9 @@ class Rule {
   [[nodiscard]] virtual std::string cannot(const Place& place) const = 0;
   /// Null: the fault acts within the nodes.
   [[nodiscard]] virtual std::unique_ptr<Injector> injector(const InRun& run) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
-                                                              const scenario::NodeSettings& settings,
-                                                              const InRun& run) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
+                                                                const scenario::NodeSettings& settings,
+                                                                const InRun& run) const = 0;
 };
 
 template <class Kind>
@@ -63,11 +64,11 @@ class RuleOf final : public Rule {
     if constexpr (requires { kind_.injector(run); }) return kind_.injector(run);
     return nullptr;
   }
-  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
-                                                      const scenario::NodeSettings& settings,
-                                                      const InRun& run) const override {
-    if constexpr (requires { kind_.befallen(std::move(node), settings, run); })
-      return kind_.befallen(std::move(node), settings, run);
+  [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
+                                                        const scenario::NodeSettings& settings,
+                                                        const InRun& run) const override {
+    if constexpr (requires { kind_.with_fault(std::move(node), settings, run); })
+      return kind_.with_fault(std::move(node), settings, run);
     return node;
   }
 

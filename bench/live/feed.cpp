@@ -25,8 +25,8 @@ std::uint64_t Feed::drain(observe::Observer& to, world::EngagementRecord* engage
       case Event::Kind::foreign:
         to.foreign(event.received);
         break;
-      case Event::Kind::time_told:
-        to.time_told(event.t_ns);
+      case Event::Kind::time_set:
+        to.time_set(event.t_ns);
         break;
       case Event::Kind::interface_changed:
         to.interface_changed(event.up, event.t_ns);

@@ -12,7 +12,7 @@ namespace canhil::live {
 
 /// One call of an observer, stored as a value.
 struct Event {
-  enum class Kind : std::uint8_t { transmitted, received, foreign, time_told, interface_changed };
+  enum class Kind : std::uint8_t { transmitted, received, foreign, time_set, interface_changed };
   Kind kind = Kind::transmitted;
   bool up = false;
   std::int64_t t_ns = 0, late_ns = 0;
@@ -42,7 +42,7 @@ class Feed final : public observe::Observer {
   void foreign(const Received& received) override {
     put({.kind = Event::Kind::foreign, .received = received});
   }
-  void time_told(std::int64_t t_ns) override { put({.kind = Event::Kind::time_told, .t_ns = t_ns}); }
+  void time_set(std::int64_t t_ns) override { put({.kind = Event::Kind::time_set, .t_ns = t_ns}); }
   void interface_changed(bool up, std::int64_t t_ns) override {
     put({.kind = Event::Kind::interface_changed, .up = up, .t_ns = t_ns});
   }

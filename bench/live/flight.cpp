@@ -156,9 +156,9 @@ void FlightInProgress::received(const Received& received) {
 void FlightInProgress::foreign(const Received& received) {
   each_watcher([&](observe::Observer& to) { to.foreign(received); });
 }
-void FlightInProgress::time_told(std::int64_t t_ns) {
-  told_ns_ = t_ns;
-  each_watcher([&](observe::Observer& to) { to.time_told(t_ns); });
+void FlightInProgress::time_set(std::int64_t t_ns) {
+  virtual_ns_ = t_ns;
+  each_watcher([&](observe::Observer& to) { to.time_set(t_ns); });
 }
 void FlightInProgress::interface_changed(bool up, std::int64_t t_ns) {
   each_watcher([&](observe::Observer& to) { to.interface_changed(up, t_ns); });
@@ -173,7 +173,7 @@ void FlightInProgress::move_window() {
 }
 
 std::int64_t FlightInProgress::now_us() const {
-  return (told_ns_ ? *told_ns_ : last_ns_ - first_ns_.value_or(last_ns_)) / 1000;
+  return (virtual_ns_ ? *virtual_ns_ : last_ns_ - first_ns_.value_or(last_ns_)) / 1000;
 }
 
 estimators::Truth FlightInProgress::truth() const {
@@ -186,7 +186,7 @@ estimators::Truth FlightInProgress::truth() const {
 void FlightInProgress::update(Flight& flight, bool all_seen, bool landed) {
   const scenario::Scenario& scenario = departure_.scenario;
   flight.t_s = seconds(std::clamp<std::int64_t>(now_us(), 0, scenario.duration_us));
-  flight.no_timing = told_ns_ ? "virtual time" : "";
+  flight.no_timing = virtual_ns_ ? "virtual time" : "";
   add_load(flight, load_.lengths(), departure_.wire.rates, departure_.format);
   if (!whole_) {
     flight.no_tracks = "the scenario has a mapping: quantities and times are shown at the end of the run";
@@ -194,7 +194,7 @@ void FlightInProgress::update(Flight& flight, bool all_seen, bool landed) {
   }
   if (flight.no_timing.empty()) flight.timing = timing_of(scenario, whole_->observations().timing);
   take_tracks(flight, landed ? std::numeric_limits<std::int64_t>::max() : now_us() - settled_us);
-  if (all_seen) judge_what_is_over(flight);
+  if (all_seen) judge_ended(flight);
 }
 
 void FlightInProgress::take_tracks(Flight& flight, std::int64_t until_us) {
@@ -231,7 +231,7 @@ void FlightInProgress::take(std::string_view estimator, const quantities::Track&
 
 // Judges all checks whose last value has arrived, in one pass over the whole flight. The number of passes
 // never exceeds the number of checks, however long the flight is.
-void FlightInProgress::judge_what_is_over(Flight& flight) {
+void FlightInProgress::judge_ended(Flight& flight) {
   const scenario::Scenario& scenario = departure_.scenario;
   std::vector<std::size_t> due;
   for (std::size_t i = 0; i < scenario.checks.size(); ++i) {

@@ -29,7 +29,7 @@ class FlightInProgress final : public observe::Observer {
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
   void foreign(const Received& received) override;
-  void time_told(std::int64_t t_ns) override;
+  void time_set(std::int64_t t_ns) override;
   void interface_changed(bool up, std::int64_t t_ns) override;
 
   /// The record that receives epochs of the engagement; null: the flight has no engagement.
@@ -53,7 +53,7 @@ class FlightInProgress final : public observe::Observer {
   void take_tracks(Flight& flight, std::int64_t until_us);
   void take(std::string_view estimator, const quantities::Track& track, bool estimates,
             std::int64_t until_us);
-  void judge_what_is_over(Flight& flight);
+  void judge_ended(Flight& flight);
   [[nodiscard]] std::int64_t now_us() const;
   [[nodiscard]] estimators::Truth truth() const;
 
@@ -69,7 +69,7 @@ class FlightInProgress final : public observe::Observer {
   std::vector<std::int64_t> judged_at_us_;  // for each check of the scenario
   std::optional<std::int64_t> first_ns_{};
   std::int64_t last_ns_ = 0;
-  std::optional<std::int64_t> told_ns_{};
+  std::optional<std::int64_t> virtual_ns_{};
 };
 
 }  // namespace canhil::live

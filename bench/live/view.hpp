@@ -45,7 +45,7 @@ class View {
     }
     void received(const Received& received) override { view_.feed_.received(received); }
     void foreign(const Received& received) override { view_.feed_.foreign(received); }
-    void time_told(std::int64_t t_ns) override { view_.feed_.time_told(t_ns); }
+    void time_set(std::int64_t t_ns) override { view_.feed_.time_set(t_ns); }
     void interface_changed(bool up, std::int64_t t_ns) override { view_.feed_.interface_changed(up, t_ns); }
 
    private:

@@ -19,13 +19,13 @@ using scenario::NodeTable;
 using scenario::Section;
 
 /// Wraps a node in the faults of a run.
-class Befalling {
+class NodeFaults {
  public:
-  Befalling() = default;
-  Befalling(const Befalling&) = delete;
-  Befalling& operator=(const Befalling&) = delete;
-  virtual ~Befalling() = default;
-  virtual std::unique_ptr<Node> befallen(std::unique_ptr<Node> node, const NodeSettings& settings) = 0;
+  NodeFaults() = default;
+  NodeFaults(const NodeFaults&) = delete;
+  NodeFaults& operator=(const NodeFaults&) = delete;
+  virtual ~NodeFaults() = default;
+  virtual std::unique_ptr<Node> with_faults(std::unique_ptr<Node> node, const NodeSettings& settings) = 0;
 };
 
 /// The inputs of the nodes in a run; everything that it refers to must outlive the nodes.
@@ -35,7 +35,7 @@ struct Run {
   const world::FlightRecord& flight;              ///< from the start to the end of the run
   const world::GlideRecord* glide = nullptr;      ///< null: the scenario has no [glide]
   world::EngagementRecord* engagement = nullptr;  ///< null: no [engagement]; filled during the flight
-  Befalling* faults = nullptr;                    ///< null: no faults
+  NodeFaults* faults = nullptr;                   ///< null: no faults
 
   /// A stream of random numbers. The name must never change: the results depend on it.
   [[nodiscard]] world::Stream stream(std::string_view name) const { return {scenario.seed, index, name}; }

@@ -43,7 +43,7 @@ std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run
   auto made = recorded == nullptr ? kind.make(node, run)
               : recorded->samples ? make_samples(node, run)
                                   : make_frames({recorded->frames.get()}, run);
-  return run.faults == nullptr ? std::move(made) : run.faults->befallen(std::move(made), node);
+  return run.faults == nullptr ? std::move(made) : run.faults->with_faults(std::move(made), node);
 }
 
 // Ordered by the truth that they sample (TruthOf), then by bus priority (the lower id first). So a fin
@@ -68,7 +68,7 @@ std::vector<std::unique_ptr<Node>> make(const Run& run) {
     for (const NodeSettings* node : of_it) frames.push_back(node->own<RecordedSettings>()->frames.get());
     auto made = make_frames(frames, run);
     for (const NodeSettings* node : of_it)
-      if (run.faults != nullptr) made = run.faults->befallen(std::move(made), *node);
+      if (run.faults != nullptr) made = run.faults->with_faults(std::move(made), *node);
     nodes.push_back(std::move(made));
   }
   return nodes;

@@ -47,7 +47,7 @@ class LoadMeter final : public Observer {
     }
     if (by_ == LoadBy::stamps || !received.own) take(received.frame, received.own ? own_ : others_);
   }
-  void time_told(std::int64_t t_ns) override {
+  void time_set(std::int64_t t_ns) override {
     if (by_ == LoadBy::virtual_time) second_ = static_cast<std::size_t>(t_ns / 1'000'000'000);
   }
   /// The length of all frames in each second, from time 0 on.

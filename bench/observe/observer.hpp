@@ -22,7 +22,7 @@ class Observer {
   /// A frame arrived in a format that this bus does not use: not part of the run.
   virtual void foreign(const Received& /*received*/) {}
   /// The current virtual time of the run [ns].
-  virtual void time_told(std::int64_t /*t_ns*/) {}
+  virtual void time_set(std::int64_t /*t_ns*/) {}
   /// The interface went down or was removed, or is back.
   virtual void interface_changed(bool /*up*/, std::int64_t /*t_ns*/) {}
 };

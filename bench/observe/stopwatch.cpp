@@ -160,7 +160,7 @@ void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view 
     for (const std::size_t index : indices) {
       checks::AnswerTiming& timing = record_.answers[index];
       if (timing.wrong_counter++ > 0) continue;
-      timing.counter_told = *counter;
+      timing.counter_reported = *counter;
       timing.counter_sent = sent->stimulus.counter;
     }
   }

@@ -31,7 +31,7 @@ struct Layout {
   /// answer's time of validity.
   std::int64_t to_go_stretch_us = 0;
   const Quantity* end_known_by = nullptr;  ///< NaN in the last sample: the end of the flight is unknown
-  bool answers_untold = false;             ///< an answer may omit a quantity that it does not need
+  bool answers_may_omit = false;           ///< an answer may omit a quantity that it does not need
 };
 
 /// Whether samples of a layout contain a quantity.

@@ -46,7 +46,7 @@ Outcome run_with(const std::function<void()>& trouble, const std::string& name =
   return outcome;
 }
 
-TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndTold) {
+TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndReported) {
   set_up_on_wire();
   const Outcome outcome = run_with([] {
     set_interface("can1", false);
@@ -91,7 +91,7 @@ TEST(Interface, DownForGoodOnTheBenchsSideEndsTheRun) {
   EXPECT_EQ(outcome.ended.code, 1);
 }
 
-TEST(Interface, DownAndUpAgainOnTheTargetsSideIsSurvivedAndTold) {
+TEST(Interface, DownAndUpAgainOnTheTargetsSideIsSurvivedAndReported) {
   set_up_on_wire();
   const Outcome outcome = run_with([] {
     set_interface("can0", false);
@@ -129,7 +129,7 @@ TEST(Interface, AdapterPulledAndPluggedInAgainOnTheBenchsSideIsSurvived) {
   EXPECT_EQ(outcome_of(outcome.report, "bus_errors"), "fail");
 }
 
-TEST(BusOff, OnTheBenchsSideWithRestartIsSurvivedAndTold) {
+TEST(BusOff, OnTheBenchsSideWithRestartIsSurvivedAndReported) {
   set_up_on_wire("", "restart-ms 50");
   const Outcome outcome = run_with([] {
     wire("can1 broken");
@@ -168,7 +168,7 @@ TEST(BusOff, OnTheBenchsSideWithoutRestartEndsTheRun) {
   EXPECT_EQ(outcome.ended.code, 1);
 }
 
-TEST(BusOff, OnTheTargetsSideWithRestartIsSurvivedAndTold) {
+TEST(BusOff, OnTheTargetsSideWithRestartIsSurvivedAndReported) {
   set_up_on_wire("restart-ms 50", "");
   const Outcome outcome = run_with([] {
     wire("can0 broken");

@@ -67,8 +67,9 @@ class BaroInertialAdapter final : public TunedAdapter<baro_inertial::Settings> {
         break;
     }
     if (frame.id == BarometerHeight::info.id && completes<BarometerHeight>(group_, frame, counter, context)) {
-      const auto& told = group_.get<BarometerHeight>();
-      const At<double> fix{unwrap_us(told.time_of_validity_us, context.now_us), counter, told.height_m};
+      const auto& measured = group_.get<BarometerHeight>();
+      const At<double> fix{unwrap_us(measured.time_of_validity_us, context.now_us), counter,
+                           measured.height_m};
       if (fix.t_us < imu_.now_us()) {
         ++context.losses.late;  // kept simple: no history, so a late fix is lost
       } else if (fix.t_us == imu_.now_us()) {

@@ -7,7 +7,7 @@ namespace canhil::quantities {
 
 inline constexpr Quantity height{.name = "height", .meaning = "error of the height", .unit = metres};
 inline constexpr Quantity height_sigma{
-    .name = "height.sigma", .meaning = "sigma of the height as the target tells it", .unit = metres};
+    .name = "height.sigma", .meaning = "sigma of the height as the target reports it", .unit = metres};
 inline constexpr Quantity height_nees{
     .name = "height.nees",
     .meaning = "error of the height over the sigma that the target reports, squared",

@@ -60,17 +60,17 @@ class Contract:
     def all_kinds(self, bench, probe):
         """All kinds of faults, from the bench's error message for an unknown kind, which lists them."""
         probe.write_text(scenario("transfer_alignment_quick", 1, 1, [{"kind": "?"}]))
-        told = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True).stderr
-        found = re.search(r"expected one of:? (.*)", told)
-        assert found, f"hil-bench names no kinds of faults: {told}"
+        answer = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True).stderr
+        found = re.search(r"expected one of:? (.*)", answer)
+        assert found, f"hil-bench names no kinds of faults: {answer}"
         return re.findall(r"\w+", found[1])
 
     @staticmethod
     def flies(bench, probe, fault):
         """Whether the bench accepts this fault in a run in process."""
         probe.write_text(scenario("transfer_alignment_quick", 1, 1, [timed(fault, 0.2, 0.5, 2)]))
-        told = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True)
-        return told.returncode != 2
+        answer = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True)
+        return answer.returncode != 2
 
     def fault(self, draw, kind, node):
         messages = self.messages[node.replace("_", "")]

@@ -158,7 +158,7 @@ class Overlaying(unittest.TestCase):
         again = overlaid.source_again(self.place, "target/a.cpp", str(self.list))
         self.assertEqual(again.read_text(), f'#include "{self.place}/target/a.cpp"\n#include "{ROOT}/target/b.cpp"\n')
 
-    def test_a_source_that_is_not_among_them_is_told(self):
+    def test_a_source_that_is_not_among_them_is_reported(self):
         with self.assertRaisesRegex(overlaid.DoesNotBuild, "target/c.cpp: not in"):
             overlaid.source_again(self.place, "target/c.cpp", str(self.list))
 

@@ -44,7 +44,7 @@ TEST(Fd, ATargetOfTheOtherContractIsNamedBeforeTheBenchGivesUp) {
             "(canhil)\n");
 }
 
-TEST(Fd, ATargetTellsThatItHearsTheOtherContract) {
+TEST(Fd, ATargetReportsThatItHearsTheOtherContract) {
   EXPECT_EQ(
       with_target("", "cansend vcan0 0A0##10011223344556677"),
       "0\nhil-target: vcan0: received CAN FD frames (canhil-fd), 1 since the start, expected classic frames "

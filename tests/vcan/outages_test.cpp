@@ -54,7 +54,7 @@ Outcome run_with(const std::string& trouble, const std::string& more_checks = ""
   return outcome;
 }
 
-TEST(Outages, ABusOffWithRestartIsSurvivedToldAndFailsTheRun) {
+TEST(Outages, ABusOffWithRestartIsSurvivedReportedAndFailsTheRun) {
   const Outcome outcome = run_with(
       "cansend vcan0 20000204#0020000000008000 && cansend vcan0 20000040#0000000000000000 && "
       "cansend vcan0 20000100#0000000000000000");

@@ -23,7 +23,7 @@ bool runs(const scenario::CheckContext& context, std::string_view estimator) {
   return std::ranges::find(context.estimators, estimator) != context.estimators.end();
 }
 
-bool tells(const estimators::Estimator& estimator, const Quantity& quantity) {
+bool reports(const estimators::Estimator& estimator, const Quantity& quantity) {
   return std::ranges::find(estimator.of_runs, &quantity) != estimator.of_runs.end();
 }
 
@@ -64,7 +64,7 @@ Subject read_subject(scenario::Section& section, const scenario::CheckContext& c
   const auto reported_by = [&](const Quantity& quantity) {
     std::vector<std::string> names;
     for (const estimators::Estimator* one : context.contract.known) {
-      if (runs(context, one->name) && tells(*one, quantity)) names.emplace_back(one->name);
+      if (runs(context, one->name) && reports(*one, quantity)) names.emplace_back(one->name);
     }
     return names;
   };

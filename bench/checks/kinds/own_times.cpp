@@ -25,8 +25,8 @@ Finding OwnTimes::judge(const Evidence& evidence) const {
   const double queue_us = mean_us(breakdown.target_queue_ns, breakdown.accounted);
   const double compute_us = mean_us(breakdown.target_compute_ns, breakdown.accounted);
   const double latency_us = mean_us(breakdown.latency_ns, breakdown.stimuli);
-  const double told_us = queue_us + compute_us;
-  return {pass_if(told_us > 0 && told_us <= latency_us),
+  const double reported_us = queue_us + compute_us;
+  return {pass_if(reported_us > 0 && reported_us <= latency_us),
           fmt::format("mean queueing {:.1f} us, computing {:.1f} us, latency {:.1f} us", queue_us, compute_us,
                       latency_us),
           expected};

@@ -103,7 +103,7 @@ std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Win
   return "";
 }
 
-bool tells_of_its_time(const FixAnswer& answer, const world::FlightRecord& truth) {
+bool has_time_and_truth(const FixAnswer& answer, const world::FlightRecord& truth) {
   const bool considered = used(answer.outcome) || answer.outcome == messages::FixOutcome::gated;
   return considered && answer.cause_us >= 0 && answer.cause_us <= truth.end_us();
 }

@@ -53,7 +53,7 @@ std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Win
 
 /// Whether the position in an answer has a known time, and truth at that time: the filter used or gated the
 /// fix, and its time of validity lies within the record.
-bool tells_of_its_time(const FixAnswer& answer, const world::FlightRecord& truth);
+bool has_time_and_truth(const FixAnswer& answer, const world::FlightRecord& truth);
 /// The position error, NED [m].
 world::Vector3 position_error(const FixAnswer& answer, const world::FlightRecord& truth);
 std::unique_ptr<Reception> inflight_reception();

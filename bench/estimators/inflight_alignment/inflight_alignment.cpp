@@ -32,7 +32,7 @@ constexpr std::array<const Quantity*, 18> kept{
     &position_north,      &position_east,      &position_down,     &heading_sigma, &covariance_repairs,
     &velocity_down_sigma, &trusted_over_sigma, &degraded};
 
-constexpr auto of_runs = and_alignment_told(
+constexpr auto of_runs = and_alignment_reported(
     std::array<const Quantity*, 10>{&position_north, &position_east, &position_down, &position_horizontal,
                                     &position_norm, &position_innovation_north, &position_innovation_east,
                                     &position_innovation_down, &innovation_nis, &heading_nees});
@@ -44,14 +44,14 @@ double velocity_down_over_its_sigma(const Samples& samples, std::size_t index) {
 constexpr std::array derived{
     alignment_derived[0], Derived{.quantity = &velocity_down_over_sigma, .of = velocity_down_over_its_sigma}};
 
-constexpr Layout layout{.kept = kept, .derived = derived, .answers_untold = true};
+constexpr Layout layout{.kept = kept, .derived = derived, .answers_may_omit = true};
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   const InflightAnswers& answers = seen.of<InflightAnswers>();
   const auto errors = navigation_errors(answers.navigation, truth.flight);
   for (const FixAnswer& update : answers.fixes) {
-    if (!tells_of_its_time(update, truth.flight)) continue;
+    if (!has_time_and_truth(update, truth.flight)) continue;
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
@@ -111,7 +111,7 @@ void give_positions(const InflightAnswers& answers, const Answering& filters, co
                     const TrackSink& give) {
   const auto fill = [&](Track track, auto point_of) {
     for (const FixAnswer& fix : answers.fixes) {
-      if (!tells_of_its_time(fix, truth.flight)) continue;
+      if (!has_time_and_truth(fix, truth.flight)) continue;
       track.points.push_back(point_of(fix, position_error(fix, truth.flight)));
       track.points.back().t_us = fix.cause_us;
     }

@@ -34,7 +34,7 @@ Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRec
   errors.reserve(answers.size());
   for (const LosAnswer& answer : answers) {
     const world::EngagementTruth* truth = engagement.at(answer.cause_us);
-    if (truth == nullptr || !tells_rate(answer.outcome)) continue;
+    if (truth == nullptr || !has_estimate(answer.outcome)) continue;
     errors.push_back({.t_us = answer.cause_us,
                       .time_to_go = truth->time_to_go(),
                       .rate = {.pitch = answer.rate.pitch - truth->los_rate.pitch,

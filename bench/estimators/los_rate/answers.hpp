@@ -30,7 +30,7 @@ constexpr bool updated(messages::LosRateOutcome outcome) {
   return outcome == messages::LosRateOutcome::updated || outcome == messages::LosRateOutcome::start_up;
 }
 /// True if there is an estimate.
-constexpr bool tells_rate(messages::LosRateOutcome outcome) {
+constexpr bool has_estimate(messages::LosRateOutcome outcome) {
   return updated(outcome) || outcome == messages::LosRateOutcome::coasting;
 }
 

@@ -22,11 +22,11 @@ constexpr std::array<const Quantity*, 14> kept{
     &attitude_heading,   &velocity_north,    &velocity_east,      &velocity_down, &attitude_nees,
     &innovation_nis,     &heading_sigma,     &trusted_over_sigma, &degraded};
 
-constexpr auto of_runs = and_alignment_told(std::array<const Quantity*, 6>{
+constexpr auto of_runs = and_alignment_reported(std::array<const Quantity*, 6>{
     &velocity_innovation_north, &velocity_innovation_east, &velocity_innovation_down, &innovation_nis,
     &attitude_nees, &heading_nees});
 
-constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_untold = true};
+constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_may_omit = true};
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);

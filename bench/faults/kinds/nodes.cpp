@@ -7,7 +7,7 @@
 #include <deque>
 #include <utility>
 
-#include "bench/faults/befallen_node.hpp"
+#include "bench/faults/faulty_node.hpp"
 #include "bench/faults/frame_edit.hpp"
 #include "bench/faults/measured_value.hpp"
 #include "bench/observe/values.hpp"
@@ -35,14 +35,14 @@ Kind read_of_node(Section& section, const FaultContext& context, Repeats repeats
   return kind;
 }
 
-class SilentNode final : public BefallenNode {
+class SilentNode final : public FaultyNode {
  public:
   SilentNode(std::unique_ptr<Node> node, const NodeSettings& settings, const InRun& run, const When& when,
              bool restarts)
-      : BefallenNode(std::move(node), settings, run), when_(when), restarts_(restarts) {}
+      : FaultyNode(std::move(node), settings, run), when_(when), restarts_(restarts) {}
 
  private:
-  void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
+  void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
     if (when_.holds(t_us)) {
       const auto gone = std::erase_if(frames, [&](const Frame& frame) {
         if (is_own(frame)) recount_.skip(frame);
@@ -66,12 +66,10 @@ class SilentNode final : public BefallenNode {
   Recount recount_;
 };
 
-class LateNode final : public BefallenNode {
+class LateNode final : public FaultyNode {
  public:
   LateNode(std::unique_ptr<Node> node, const NodeSettings& settings, const InRun& run, const Late& kind)
-      : BefallenNode(std::move(node), settings, run),
-        by_us_(kind.by_us),
-        occasions_(kind.when, run.stream()) {}
+      : FaultyNode(std::move(node), settings, run), by_us_(kind.by_us), occasions_(kind.when, run.stream()) {}
 
   [[nodiscard]] std::int64_t due_us() const override {
     return waiting_.empty() ? node_due_us() : std::min(node_due_us(), waiting_.front().first);
@@ -83,7 +81,7 @@ class LateNode final : public BefallenNode {
   }
 
  private:
-  void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
+  void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
     if (frames.empty() || !is_own(frames.front()) || !occasions_.next(t_us)) return;
     ++tally().count;
     ++tally().overtaken;
@@ -95,14 +93,14 @@ class LateNode final : public BefallenNode {
       waiting_;  // in order of time: the delay is the same for all
 };
 
-class SlowNode final : public BefallenNode {
+class SlowNode final : public FaultyNode {
  public:
   SlowNode(std::unique_ptr<Node> node, const NodeSettings& settings, const InRun& run, const Slow& kind)
-      : BefallenNode(std::move(node), settings, run), when_(kind.when), longer_(kind.longer) {}
+      : FaultyNode(std::move(node), settings, run), when_(kind.when), longer_(kind.longer) {}
 
  private:
   // The k-th sample sent during the fault is due at k periods of the slower clock.
-  void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
+  void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
     if (frames.empty() || !is_own(frames.front())) return;
     if (!when_.holds(t_us)) {
       ticks_us_ = 0;
@@ -141,15 +139,15 @@ class SlowNode final : public BefallenNode {
   Recount recount_;
 };
 
-class WrongClock final : public BefallenNode {
+class WrongClock final : public FaultyNode {
  public:
   /// The reported time is t + by + rate (t - from).
   WrongClock(std::unique_ptr<Node> node, const NodeSettings& settings, const InRun& run, const When& when,
              std::int64_t by_us, double rate)
-      : BefallenNode(std::move(node), settings, run), when_(when), by_us_(by_us), rate_(rate) {}
+      : FaultyNode(std::move(node), settings, run), when_(when), by_us_(by_us), rate_(rate) {}
 
  private:
-  void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
+  void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
     if (!when_.holds(t_us)) return;
     const double off_us =
         std::round(static_cast<double>(by_us_) + rate_ * static_cast<double>(t_us - when_.from_us));

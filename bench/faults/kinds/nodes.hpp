@@ -14,9 +14,9 @@ struct OfNode {
   const scenario::NodeTable* table = nullptr;
   When when{};
   [[nodiscard]] std::string subject() const { return table == nullptr ? "" : std::string(table->key); }
-  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
-                                                      const scenario::NodeSettings& settings,
-                                                      const InRun& run) const {
+  [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
+                                                        const scenario::NodeSettings& settings,
+                                                        const InRun& run) const {
     if (&settings.table() != table) return node;
     return static_cast<const Kind&>(*this).wrap(std::move(node), settings, run);
   }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bench/faults/befallen_node.hpp"
+#include "bench/faults/faulty_node.hpp"
 #include "bench/faults/frame_edit.hpp"
 #include "bench/faults/measured_value.hpp"
 #include "bench/observe/values.hpp"
@@ -13,17 +13,17 @@
 namespace canhil::faults {
 namespace {
 
-class WithSwapped final : public BefallenNode {
+class WithSwapped final : public FaultyNode {
  public:
   WithSwapped(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run,
               const Swapped& kind)
-      : BefallenNode(std::move(node), settings, run),
+      : FaultyNode(std::move(node), settings, run),
         one_(kind.one.all.front()),
         other_(kind.other),
         occasions_(kind.when, run.stream()) {}
 
  private:
-  void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
+  void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
     Frame *one = one_.in(frames), *other = other_.in(frames);
     if (one == nullptr || other == nullptr || !occasions_.next(t_us)) return;
     const double interval_s = interval_of(frames, period_us_);
@@ -37,16 +37,14 @@ class WithSwapped final : public BefallenNode {
   Occasions occasions_;
 };
 
-class WithInvalid final : public BefallenNode {
+class WithInvalid final : public FaultyNode {
  public:
   WithInvalid(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run,
               const Invalid& kind)
-      : BefallenNode(std::move(node), settings, run),
-        flags_(kind.flags),
-        occasions_(kind.when, run.stream()) {}
+      : FaultyNode(std::move(node), settings, run), flags_(kind.flags), occasions_(kind.when, run.stream()) {}
 
  private:
-  void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
+  void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
     if (std::ranges::none_of(frames, [&](const Frame& frame) { return is_own(frame); })) return;
     if (!occasions_.next(t_us)) return;
     ++tally().count;
@@ -95,9 +93,9 @@ Swapped Swapped::read(scenario::Section& section, const scenario::FaultContext& 
   return kind;
 }
 
-std::unique_ptr<nodes::Node> Swapped::befallen(std::unique_ptr<nodes::Node> node,
-                                               const scenario::NodeSettings& settings,
-                                               const InRun& run) const {
+std::unique_ptr<nodes::Node> Swapped::with_fault(std::unique_ptr<nodes::Node> node,
+                                                 const scenario::NodeSettings& settings,
+                                                 const InRun& run) const {
   if (!sends(settings.table(), *other.message)) return node;
   return std::make_unique<WithSwapped>(std::move(node), settings, run, *this);
 }
@@ -129,9 +127,9 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
   return kind;
 }
 
-std::unique_ptr<nodes::Node> Invalid::befallen(std::unique_ptr<nodes::Node> node,
-                                               const scenario::NodeSettings& settings,
-                                               const InRun& run) const {
+std::unique_ptr<nodes::Node> Invalid::with_fault(std::unique_ptr<nodes::Node> node,
+                                                 const scenario::NodeSettings& settings,
+                                                 const InRun& run) const {
   if (!sends(settings.table(), *flags.front().message)) return node;
   return std::make_unique<WithInvalid>(std::move(node), settings, run, *this);
 }

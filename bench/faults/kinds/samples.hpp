@@ -16,9 +16,9 @@ struct Swapped {
   When when{};
   static Swapped read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string subject() const { return one.text; }
-  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
-                                                      const scenario::NodeSettings& settings,
-                                                      const InRun& run) const;
+  [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
+                                                        const scenario::NodeSettings& settings,
+                                                        const InRun& run) const;
 };
 
 /// The sample is flagged invalid.
@@ -31,9 +31,9 @@ struct Invalid {
   When when{};
   static Invalid read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string subject() const { return text; }
-  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
-                                                      const scenario::NodeSettings& settings,
-                                                      const InRun& run) const;
+  [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
+                                                        const scenario::NodeSettings& settings,
+                                                        const InRun& run) const;
 };
 
 }  // namespace canhil::faults

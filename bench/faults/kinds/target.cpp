@@ -36,9 +36,9 @@ class Pauses final : public Switched {
 class Restarts final : public Injector {
  public:
   Restarts(const When& when, const InRun& run) : rig_(run.hands), tally_(run.tally), from_us_(when.from_us) {}
-  void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
-    const bool tells_time = !frames.empty() && frames.front().id == messages::Sync::info.id;
-    if (done_ || t_us < from_us_ || !tells_time) return;
+  void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
+    const bool is_sync = !frames.empty() && frames.front().id == messages::Sync::info.id;
+    if (done_ || t_us < from_us_ || !is_sync) return;
     done_ = true;
     ++tally_.count;
     rig_->restart_target(t_us);

@@ -5,18 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/faults/befallen_node.hpp"
+#include "bench/faults/faulty_node.hpp"
 #include "bench/faults/frame_edit.hpp"
 #include "bench/faults/measured_value.hpp"
 
 namespace canhil::faults {
 namespace {
 
-class WithValues final : public BefallenNode {
+class WithValues final : public FaultyNode {
  public:
   WithValues(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run,
              const OfValues& of, const When& when, Becomes becomes, bool exactly)
-      : BefallenNode(std::move(node), settings, run),
+      : FaultyNode(std::move(node), settings, run),
         from_us_(when.from_us),
         becomes_(std::move(becomes)),
         exactly_(exactly) {
@@ -34,7 +34,7 @@ class WithValues final : public BefallenNode {
     std::optional<double> held{};
   };
 
-  void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
+  void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
     for (Own& own : own_) {
       Frame* frame = own.value.in(frames);
       if (frame == nullptr) continue;

@@ -42,9 +42,9 @@ struct EachValue {
     return kind;
   }
   [[nodiscard]] std::string subject() const { return of.text; }
-  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
-                                                      const scenario::NodeSettings& settings,
-                                                      const InRun& run) const {
+  [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
+                                                        const scenario::NodeSettings& settings,
+                                                        const InRun& run) const {
     return with_values(
         std::move(node), settings, run, of, when,
         [size = size](double value, const Sampled& sample) { return Kind::becomes(value, size, sample); },

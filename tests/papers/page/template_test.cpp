@@ -62,7 +62,7 @@ TEST(Template, NamesTheTagThatIsWrong) {
   EXPECT_EQ(complaint("{{ runs }}"), "template: 'page': expected no blank behind {{");
 }
 
-TEST(Template, TellsWhatMustacheSaysOfBrokenTags) {
+TEST(Template, ReportsWhatMustacheSaysOfBrokenTags) {
   EXPECT_THAT(complaint("{{runs"), testing::StartsWith("template: Unclosed tag"));
   EXPECT_THAT(complaint("{{#few}}a"), testing::StartsWith("template: Unclosed section"));
   EXPECT_THAT(complaint("{{>torn}}"), testing::StartsWith("template: Unclosed tag"));

@@ -25,7 +25,7 @@ const Settings kalman_1 = filter(Algorithm::kalman, 1), kalman_5 = filter(Algori
 
 // Time to converge to 3 / 2 / 1 mrad [s]. Paper: 14.4 / 15.6 / never; reference simulation: 14.7 / 16.2 /
 // never.
-TEST(TransferAlignmentPaper, KalmanFilterToldOneDegreeIsSlow) {
+TEST(TransferAlignmentPaper, KalmanFilterConfiguredWithOneDegreeIsSlow) {
   const auto runs = monte_carlo({kalman_1}, {}, run_count, first_seed).front();
   EXPECT_GT(convergence_time(runs, k3mrad), 13.8);
   EXPECT_LT(convergence_time(runs, k3mrad), 16.0);
@@ -46,7 +46,7 @@ TEST(TransferAlignmentPaper, H2IsFasterThanThatKalmanFilter) {
 }
 
 // A correctly initialised Kalman filter is better than H2.
-TEST(TransferAlignmentPaper, KalmanFilterToldTheTruthIsFasterThanH2) {
+TEST(TransferAlignmentPaper, KalmanFilterConfiguredWithTheTruthIsFasterThanH2) {
   const auto results = monte_carlo({kalman_5, h2_filter}, {}, run_count, first_seed);
   const auto &kalman = results[0], &h2 = results[1];
   EXPECT_LE(convergence_time(kalman, k3mrad), 11.6);

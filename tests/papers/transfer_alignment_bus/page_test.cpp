@@ -67,7 +67,7 @@ TEST(PaperPage, SaysThatGnuplotIsMissing) {
             "gnuplot: cannot be started (No such file or directory), expected Debian's package gnuplot-nox");
 }
 
-TEST(PaperPage, TellsWhatGnuplotSaysOfABadScript) {
+TEST(PaperPage, ReportsWhatGnuplotSaysOfABadScript) {
   const auto drawn = gnuplot("plot nonsense(\n");
   ASSERT_FALSE(drawn);
   EXPECT_THAT(drawn.error().message, HasSubstr("gnuplot: ended with status"));

@@ -149,7 +149,7 @@ TEST_F(Accept, ARangeThatIsNotTheTargetsFails) {
   EXPECT_THAT(ended.out, HasSubstr("h2_case = 5: out_of_range"));
 }
 
-TEST_F(Accept, StopsAtTheFirstFailureWhenToldTo) {
+TEST_F(Accept, StopsAtTheFirstFailureWhenAskedTo) {
   ASSERT_EQ(accept("--record").code, 0);
   change("flight.toml", "accel_noise_ugprthz = 50", "accel_noise_ugprthz = 80");
   const Ended ended = accept("--first-failure");

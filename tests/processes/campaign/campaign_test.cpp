@@ -166,7 +166,7 @@ TEST(Report, ComesFromTheMergedFileAlone) {
   EXPECT_THAT(hil_bench(fmt::format("campaign report {}/results", at)).out, HasSubstr("heading at 2 s"));
 }
 
-TEST(Export, IsATableOfWhatTheRunsTold) {
+TEST(Export, IsATableOfWhatTheRunsReported) {
   undisturbed();
   const std::string results = scratch("undisturbed") + "/merged.db";
   const Ended ended = hil_bench(fmt::format("campaign export {}", results));
@@ -259,9 +259,10 @@ TEST(Target, AProgramGivesTheSamplesOfTheDeviceInProcess) {
                   "expected the bench's own device");
 }
 
-TEST(Target, IsToldTheContractOfItsScenario) {
-  const std::string told = scratch("told"), target = scratch("fd_target"), fd = scratch("fd.toml");
-  std::ofstream(target) << fmt::format("#!/bin/sh\necho \"$@\" >> {}\nexec {} \"$@\"\n", told, HIL_TARGET);
+TEST(Target, IsStartedWithTheContractOfItsScenario) {
+  const std::string arguments = scratch("arguments"), target = scratch("fd_target"), fd = scratch("fd.toml");
+  std::ofstream(target) << fmt::format("#!/bin/sh\necho \"$@\" >> {}\nexec {} \"$@\"\n", arguments,
+                                       HIL_TARGET);
   ASSERT_EQ(shell("chmod +x " + target).code, 0);
   std::ofstream(fd) << "dbc = \"canhil-fd\"\n" << read(scenario("transfer_alignment_quick"));
   const std::string file = scratch("fd_campaign.toml");
@@ -269,7 +270,7 @@ TEST(Target, IsToldTheContractOfItsScenario) {
       "title = \"FD\"\nruns = 2\nseed = 1\n[[variant]]\nname = \"KF\"\nscenario = \"{}\"\n", fd);
   const Ended ended = hil_bench(fmt::format("campaign {} --out {} --target {}", file, folder("fd"), target));
   EXPECT_THAT(ended.out, HasSubstr("2 of 2 runs completed")) << ended.err;
-  EXPECT_THAT(read(told), HasSubstr("--dbc canhil-fd"));
+  EXPECT_THAT(read(arguments), HasSubstr("--dbc canhil-fd"));
 }
 
 TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {

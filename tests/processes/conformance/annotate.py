@@ -31,7 +31,7 @@ def shown(value):
 
 
 def main():
-    told = set()
+    annotated = set()
     left = int(sys.argv[3])
     begun = False
     for line in open(sys.argv[2], encoding="ascii"):
@@ -42,9 +42,9 @@ def main():
             continue
         values = decode(bytes.fromhex(data), signals)
         key = next((k for k in ((name, values.get("command")), (name, values.get("state")), name) if k in NOTES), None)
-        if key not in told and key is not None:
+        if key not in annotated and key is not None:
             print(f"                                            -- {NOTES[key]}")
-        told.add(key)
+        annotated.add(key)
         if "dbc_hash" in values:
             values["dbc_hash"] = f"{values['dbc_hash']:06x}"
         said = ", ".join(f"{signal} {shown(value)}" for signal, value in values.items()

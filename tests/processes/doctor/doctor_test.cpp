@@ -55,7 +55,7 @@ TEST(Doctor, ExaminesABusAndItsMachine) {
   EXPECT_TRUE(ended.out.ends_with(fmt::format("\n{}\n", page["verdict"].get<std::string>()))) << ended.out;
 }
 
-TEST(Doctor, TellsTheRateOfASimulatedWire) {
+TEST(Doctor, ReportsTheRateOfASimulatedWire) {
   const Ended ended = hil_bench("doctor --bus 'local:?bitrate=250000' --seconds 1");
   EXPECT_THAT(ended.out, HasSubstr("no controller, a simulated wire of 250000 bit/s\n")) << ended.err;
   EXPECT_THAT(hil_bench("doctor --bus local: --seconds 1").out, HasSubstr("no wire, no bit rate\n"));
@@ -74,7 +74,7 @@ TEST(Doctor, FindsATargetOnTheBus) {
   EXPECT_THAT(line_of(page, "target")["found"].get<std::string>(), HasSubstr("idle, DBC hash"));
 }
 
-TEST(Doctor, AnInterfaceThatIsNotThereIsBadAndTheRestIsStillTold) {
+TEST(Doctor, AnInterfaceThatIsNotThereIsBadAndTheRestIsStillReported) {
   const Ended ended = hil_bench("doctor --bus nocan7 --loop nocan8 --seconds 1 --json -");
   EXPECT_EQ(ended.code, 1);
   const nlohmann::json page = json_of(ended.out);

@@ -138,8 +138,8 @@ every = 20
   EXPECT_GT(target_frames(out + "/violation-1.log").size(), 1000U);
 
   // `faults merge` prints the command that flies the reduced scenario of the report.
-  const Ended told = hil_bench(fmt::format("faults merge {}/faults.jsonl", out));
-  EXPECT_THAT(told.out, HasSubstr(fmt::format("hil-bench run {} --bus in-process", least)));
+  const Ended merged = hil_bench(fmt::format("faults merge {}/faults.jsonl", out));
+  EXPECT_THAT(merged.out, HasSubstr(fmt::format("hil-bench run {} --bus in-process", least)));
   const std::string log = scratch("again.log");
   const Ended again = hil_bench(fmt::format("run {} --bus in-process --log {} --json -", least, log));
   EXPECT_EQ(again.code, 1) << again.out << again.err;

@@ -20,7 +20,7 @@ std::string copied(const std::string& file, const std::string& name) {
   return scratch(name);
 }
 
-TEST(BadFiles, ANameWithLineBreaksIsToldOnOneLine) {
+TEST(BadFiles, ANameWithLineBreaksIsPrintedOnOneLine) {
   expect_one_line(hil_bench("run 'a\nb\x1b[31m.toml'"), "hil-bench: a?b?[31m.toml: cannot be read");
   expect_one_line(hil_bench(in_process() + "--json '/no/a\nb.json'"), "file '/no/a?b.json'");
   expect_one_line(hil_target("--replay 'a\nb.log'"), "cannot read log 'a?b.log'");
@@ -40,7 +40,7 @@ TEST(BadFiles, AFolderThatIsGone) {
                   "file 'x.json': cannot be written: No such file or directory");
 }
 
-TEST(BadFiles, AnOutputThatCannotBeIsToldBeforeTheRun) {
+TEST(BadFiles, AnOutputThatCannotBeIsRejectedBeforeTheRun) {
   std::ofstream(scratch("plain")) << "x";
   for (const std::string& path :
        {std::string("/proc/x"), scratch("plain/x"), scratch(std::string(250, 'n'))}) {
@@ -83,7 +83,7 @@ TEST(BadFiles, ALogThatComesThroughAPipeIsNotReplayed) {
                   "target.log: holds only frames of the target, expected the log of a run");
 }
 
-TEST(BadFiles, DbcgenWritesWhatItIsToldOrSaysWhyNot) {
+TEST(BadFiles, DbcgenWritesWhatItIsAskedForOrSaysWhyNot) {
   const std::string dbc = SOURCE_DIR "/dbc/canhil.dbc";
   const auto dbcgen = [&](const std::string& more) {
     return shell(fmt::format("{} {} {}", DBCGEN, dbc, more));

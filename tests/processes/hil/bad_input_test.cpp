@@ -237,13 +237,13 @@ TEST(Version, NamesTheProjectAndTheContract) {
   EXPECT_EQ(version_of(hil_target("--version")), bench);
   const std::string revision = bench.substr(0, bench.find(" ·"));
   EXPECT_EQ(version_of(shell(DBCGEN " --version")), revision + "\n");
-  const auto told = json_of(hil_bench(fmt::format("run {} --bus {} --lockstep --json -",
-                                                  scenario("transfer_alignment_quick"), bus()))
-                                .out)["provenance"];
-  EXPECT_THAT(revision, testing::StartsWith(fmt::format(" {} (", told["version"].get<std::string>())));
-  EXPECT_THAT(revision, testing::HasSubstr("revision " + told["revision"].get<std::string>() + ")"));
-  EXPECT_THAT(told["version"].get<std::string>(),
-              testing::StartsWith(told["target"]["version"].get<std::string>() + "."))
+  const auto reported = json_of(hil_bench(fmt::format("run {} --bus {} --lockstep --json -",
+                                                      scenario("transfer_alignment_quick"), bus()))
+                                    .out)["provenance"];
+  EXPECT_THAT(revision, testing::StartsWith(fmt::format(" {} (", reported["version"].get<std::string>())));
+  EXPECT_THAT(revision, testing::HasSubstr("revision " + reported["revision"].get<std::string>() + ")"));
+  EXPECT_THAT(reported["version"].get<std::string>(),
+              testing::StartsWith(reported["target"]["version"].get<std::string>() + "."))
       << "the version that heartbeats carry";
 }
 
@@ -266,7 +266,7 @@ TEST(Scripts, TellTheirUseAndRefuseWhatTheyDoNotKnow) {
   refused("--coverage --tidy", "--coverage excludes --tidy");
 }
 
-TEST(BadInput, ReportThatCannotBeWrittenIsToldBeforeTheRun) {
+TEST(BadInput, ReportThatCannotBeWrittenIsRejectedBeforeTheRun) {
   expect_one_line(
       hil_bench(fmt::format("run {} --json /no/such/folder/x.json", scenario("transfer_alignment_quick"))),
       "/no/such/folder/x.json");

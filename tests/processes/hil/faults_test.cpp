@@ -95,7 +95,7 @@ TEST(Faults, OfLengthAreCountedOnCanFd) {
   EXPECT_GT(flown.report["faults"][0]["count"], 0);
 }
 
-TEST(Faults, OfSensorsAndClocksChangeWhatTheTargetTells) {
+TEST(Faults, OfSensorsAndClocksChangeWhatTheTargetReports) {
   const nlohmann::json right = fly("").report["results"];
   const std::string rate = "quantity = \"imu.rate.z\"\nfrom_s = 1\nto_s = 2\n";
   for (const std::string& one : {
@@ -131,10 +131,10 @@ TEST(Faults, ABiasOfTheGyroFailsWhereTheFlightWithoutPasses) {
   EXPECT_EQ(flown.ended.code, 1);
   EXPECT_THAT(flown.outcome_of("error"), testing::StartsWith("fail"));
   EXPECT_THAT(flown.ended.out, HasSubstr("fault 'gyro' of the sensor: struck 201 times"));
-  const auto& told = flown.report["faults"][0];
-  EXPECT_EQ(told["name"], "gyro");
-  EXPECT_EQ(told["stage"], "sensor");
-  EXPECT_EQ(told["from_s"], 1.0);
+  const auto& reported = flown.report["faults"][0];
+  EXPECT_EQ(reported["name"], "gyro");
+  EXPECT_EQ(reported["stage"], "sensor");
+  EXPECT_EQ(reported["from_s"], 1.0);
 }
 
 TEST(Faults, ATargetIsRestartedInVirtualTimeAndGoesOn) {

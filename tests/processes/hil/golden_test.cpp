@@ -77,13 +77,16 @@ TEST_F(Golden, ATargetThatGivesUpIsAFailure) {
 // A log contains the frames of the classic DBC for both buses, so the test detects the bus by the target's
 // command line.
 TEST_F(Golden, AScenarioOnCanFdIsFlownOnCanFd) {
-  const std::string file = scratch("on_fd.toml"), target = scratch("told.sh"), told = scratch("told.txt");
+  const std::string file = scratch("on_fd.toml"), target = scratch("started_target.sh"),
+                    arguments = scratch("arguments.txt");
   std::ofstream(file) << "dbc = \"canhil-fd\"\n" << read(scenario("los_quick"));
-  std::ofstream(target) << fmt::format("#!/bin/sh\necho \"$@\" > {}\nexec {} \"$@\"\n", told, HIL_TARGET);
+  std::ofstream(target) << fmt::format("#!/bin/sh\necho \"$@\" > {}\nexec {} \"$@\"\n", arguments,
+                                       HIL_TARGET);
   fs::permissions(target, fs::perms::owner_all);
   const Ended ended = record(fmt::format("{} --target {}", file, target));
   EXPECT_EQ(ended.code, 0) << ended.err;
-  EXPECT_TRUE(std::regex_match(read(told), std::regex("--bus local:[^ ]+ --dbc canhil-fd\n"))) << read(told);
+  EXPECT_TRUE(std::regex_match(read(arguments), std::regex("--bus local:[^ ]+ --dbc canhil-fd\n")))
+      << read(arguments);
   EXPECT_EQ(check().code, 0);
 }
 

@@ -59,25 +59,26 @@ const std::map<std::string_view, Lie>& lies() {
   static const std::map<std::string_view, Lie> all{
       {"forgets_losses",
        [](Frame& frame) {
-         change<TargetCounters>(frame, [](TargetCounters& told) { told = {}; });
+         change<TargetCounters>(frame, [](TargetCounters& message) { message = {}; });
          return true;
        }},
       {"counts_one_loss_more",
        [](Frame& frame) {
-         change<TargetCounters>(frame, [](TargetCounters& told) { ++told.frames_lost; });
+         change<TargetCounters>(frame, [](TargetCounters& message) { ++message.frames_lost; });
          return true;
        }},
       {"cause_counter_off_by_one",
        [](Frame& frame) {
-         change_every(frame, [](auto& told) {
-           if constexpr (requires { told.cause_counter; }) told.cause_counter = moved(told.cause_counter);
+         change_every(frame, [](auto& message) {
+           if constexpr (requires { message.cause_counter; })
+             message.cause_counter = moved(message.cause_counter);
          });
          return true;
        }},
       {"cause_time_off",
        [](Frame& frame) {
-         change_every(frame, [](auto& told) {
-           if constexpr (requires { told.cause_time_us; }) told.cause_time_us += 5;
+         change_every(frame, [](auto& message) {
+           if constexpr (requires { message.cause_time_us; }) message.cause_time_us += 5;
          });
          return true;
        }},
@@ -91,12 +92,12 @@ const std::map<std::string_view, Lie>& lies() {
       {"other_ids", when<TargetHeartbeat>([](Frame& frame) { frame.id = 0x456; })},
       {"acknowledges_another_parameter",
        [](Frame& frame) {
-         change<ParamAck>(frame, [](ParamAck& told) { told.parameter = Parameter::closed_loop; });
+         change<ParamAck>(frame, [](ParamAck& message) { message.parameter = Parameter::closed_loop; });
          return true;
        }},
       {"never_ready",
        [](Frame& frame) {
-         change<TargetHeartbeat>(frame, [](TargetHeartbeat& told) { told.state = TargetState::idle; });
+         change<TargetHeartbeat>(frame, [](TargetHeartbeat& message) { message.state = TargetState::idle; });
          return true;
        }},
   };
@@ -108,8 +109,8 @@ class LyingPort final : public Port {
  public:
   LyingPort(std::unique_ptr<Port> bus, Lie lie) : bus_(std::move(bus)), lie_(std::move(lie)) {}
   SendOutcome send(const Frame& frame) override {
-    Frame told = frame;
-    return lie_(told) ? bus_->send(told) : SendOutcome::sent;
+    Frame changed = frame;
+    return lie_(changed) ? bus_->send(changed) : SendOutcome::sent;
   }
   std::optional<Received> receive() override { return bus_->receive(); }
   [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }

@@ -127,7 +127,7 @@ TEST_F(Reports, ARunThatCountsTwiceIsRefused) {
     expect_one_line(hil_bench("compare " + sides), "one.json': is named twice");
 }
 
-TEST_F(Reports, WhatIsWrongInAReportIsToldWithItsFileAndKey) {
+TEST_F(Reports, WhatIsWrongInAReportIsNamedWithItsFileAndKey) {
   const std::string odd = altered("odd.json", [](auto& report) { report["checks"][0]["kind"] = 5; });
   const std::string said = "file '" + odd + "': key 'checks[0].kind': is 5, expected text";
   expect_one_line(hil_bench("report " + odd), said);
@@ -144,7 +144,7 @@ TEST_F(Reports, APageStandsBesideAFileAndInNoLinksPlace) {
   std::filesystem::remove(scratch("linked.html"));
 }
 
-TEST_F(Reports, APageThatCannotBeWrittenIsToldBeforeTheRun) {
+TEST_F(Reports, APageThatCannotBeWrittenIsRejectedBeforeTheRun) {
   const Ended ended =
       hil_bench("run " + scenario("transfer_alignment_quick") + " --bus in-process --html /no/such/a.html");
   EXPECT_EQ(ended.code, 2);

@@ -330,7 +330,7 @@ TEST(Output, ThatIsLostIsSaid) {
   }
 }
 
-TEST(Run, CsvIsATableOfAllThatWasTold) {
+TEST(Run, CsvIsATableOfAllThatWasReported) {
   const std::string table = scratch("run.csv");
   const Ended ended = hil_bench(fmt::format(
       "run {}/bench/flights/transfer_alignment_quick.toml --bus in-process --csv {}", SOURCE_DIR, table));

@@ -139,14 +139,14 @@ class Browser(unittest.TestCase):
     def test_another_site_sees_nothing(self):
         with Bench(HIL_BENCH, "run", FLIGHTS / "transfer_alignment_quick.toml", "--lockstep", "--live-hold") as bench:
             self.browser.get("data:text/html,<title>elsewhere</title>")
-            told = self.browser.execute_async_script(f"""
+            report = self.browser.execute_async_script(f"""
                 const done = arguments[0], said = [];
                 fetch("http://127.0.0.1:{bench.port}/").then(() => said.push("fetched"), () => said.push("no page")).then(() => {{
                   const socket = new WebSocket("ws://127.0.0.1:{bench.port}/live");
                   socket.onopen = () => done([...said, "opened"]);
                   socket.onerror = () => done([...said, "no socket"]);
                 }});""")
-            self.assertEqual(told, ["no page", "no socket"])
+            self.assertEqual(report, ["no page", "no socket"])
 
     def test_a_campaign(self):
         with Bench(HIL_BENCH, "campaign", FLIGHTS.parent / "monte_carlo/quick.toml", "--runs", "12", "--live-hold") as bench:

@@ -255,7 +255,7 @@ TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
                  "'false' ended with 1, expected 0");
 }
 
-TEST_F(Altered, FaultsBefallWhatIsPlayed) {
+TEST_F(Altered, FaultsAffectWhatIsPlayed) {
   for (const char* message : {"IMU_TX1", "IMU_TX3"}) {
     const Ended ended = run_with(
         "own_ecu.toml", "[[check]]",

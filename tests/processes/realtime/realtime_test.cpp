@@ -48,7 +48,7 @@ bool permitted() {
   return shell("chrt -f 40 true").code == 0 && (geteuid() == 0 || shell("ulimit -l").out == "unlimited\n");
 }
 
-TEST(Realtime, IsInForceInTheRunAndToldInBothReports) {
+TEST(Realtime, IsInForceInTheRunAndStatedInBothReports) {
   const std::string report = scratch("realtime.json");
   const std::string some_cpu = shell("taskset -cp $$ | sed 's/.*[ ,-]//'").out;
   const Ended ended = hil_bench(fmt::format("{} --realtime --priority 40 --cpu {} --spin-us 150 --json {}",

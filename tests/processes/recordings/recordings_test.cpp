@@ -277,7 +277,7 @@ TEST(Decode, SaysWhatItLeavesOut) {
 // The clock of b is 5 s ahead. The frames 123 are later by 100, 300, 200 and 200 us beyond these 5 s: the
 // mean is 200 us, the standard deviation sqrt((100^2 + 100^2) / 3) = 81.6 us. Frame 03 is only in a, 06 only
 // in b; FF was sent before the beginning of a.
-TEST(LogCompare, TellsHowFarStampsAreApart) {
+TEST(LogCompare, ReportsHowFarStampsAreApart) {
   const std::string a =
       file("a.log",
            "(100.000000) can0 123#01\n(100.010000) can0 123#02\n(100.020000) can0 123#03\n"

@@ -49,12 +49,12 @@ TEST_F(SigmaCheck, EachSigmaOfTheWindowLiesBetween) {
 
 TEST_F(SigmaCheck, HalfOrTwiceASigmaFails) {
   for (const double factor : {0.5, 2.0}) {
-    for (auto& told : test::Edited(track_.points)) told.sigma = factor * 0.2e-3;
+    for (auto& point : test::Edited(track_.points)) point.sigma = factor * 0.2e-3;
     EXPECT_EQ(judge(0.14, 0.28).outcome, Outcome::fail) << factor;
   }
 }
 
-TEST_F(SigmaCheck, WhatIsNotToldOrNoNumberNeverPasses) {
+TEST_F(SigmaCheck, WhatIsNotReportedOrNoNumberNeverPasses) {
   track_.points[30].sigma = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(judge(0, 9).outcome, Outcome::fail);
   track_.points[30].sigma.reset();

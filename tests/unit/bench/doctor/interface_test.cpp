@@ -73,7 +73,7 @@ Message controller_message() {
   return link(ARPHRD_CAN, IFF_UP, with(info, IFLA_INFO_XSTATS, bytes_of(statistics)));
 }
 
-TEST(ReadLink, AControllerWithAllThatTheKernelTells) {
+TEST(ReadLink, AControllerWithAllThatTheKernelReports) {
   const Interface read = read_link(controller_message());
   EXPECT_EQ(read.name, "can7");
   EXPECT_TRUE(read.is_can);

@@ -93,7 +93,7 @@ TEST(SharesOfFrames, WhereNoIdHasHalfOfThemTheIdsAreCountedToo) {
   EXPECT_EQ(shares.to_text(), "error frames: 900 of 1700 frames");
 }
 
-TEST(SharesOfFrames, OfAllIdsOnlySoManyAreToldApart) {
+TEST(SharesOfFrames, OfAllIdsOnlySoManyAreDistinguished) {
   observe::Shares shares;
   for (std::uint32_t id = 0; id < 100'000; ++id) shares.add({.id = id, .extended = true});
   EXPECT_EQ(shares.to_text(), "id 00000000: 1 of 100000 frames, the most of more than 4096 ids");

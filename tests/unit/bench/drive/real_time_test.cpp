@@ -121,7 +121,7 @@ TEST_F(RealTime, EndsWithAFaultOfTheTarget) {
   EXPECT_LE(port_.sent.size(), 2U);
 }
 
-TEST_F(RealTime, AFaultOfAnEstimatorThatThereIsNotIsTold) {
+TEST_F(RealTime, AFaultOfAnEstimatorThatThereIsNotIsReported) {
   port_.on_send = [&](const Frame&) {
     port_.give(
         TargetHeartbeat{.state = TargetState::fault, .estimator = static_cast<messages::Estimator>(7)});

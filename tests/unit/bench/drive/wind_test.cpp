@@ -84,7 +84,7 @@ TEST(Wind, IsEstimatedThroughTheBus) {
 // The first answer contains exactly the initial state from the carrier. All other errors are off: with
 // navigation noise and coefficient errors of 20 %, the error would be 1.2 m/s RMS even if the carrier sent
 // the true wind.
-TEST(Wind, StartsFromWhatTheCarrierTells) {
+TEST(Wind, StartsFromWhatTheCarrierReports) {
   const auto first_error = [](const std::string& sigma) {
     std::vector<scenario::Setting> settings{set("glide.initial_error.air_velocity_sigma_mps", sigma)};
     for (const char* quiet :
@@ -110,7 +110,7 @@ TEST(Wind, DenserAirIsAWindAlongTheTrack) {
   EXPECT_LT(flown.mean_error(cross_track), 0.35);
 }
 
-TEST(Wind, FinsThatStayAwayAreTold) {
+TEST(Wind, FinsThatStayAwayAreReported) {
   const Flown lost = fly({set("fins.outage_s", "1"), set("fins.outage_every_s", "5")});
   EXPECT_GT(lost.flagged(&estimators::WindAnswer::fins_missing), 4 * 40);
   EXPECT_EQ(fly().flagged(&estimators::WindAnswer::fins_missing), 0);

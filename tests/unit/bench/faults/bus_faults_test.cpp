@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "bench/observe/receiver_model.hpp"
-#include "tests/unit/bench/faults/befallen.hpp"
+#include "tests/unit/bench/faults/flown_with_faults.hpp"
 
 namespace canhil::faults {
 namespace {
@@ -30,7 +30,7 @@ std::vector<Frame> left_of(const std::string& fault, std::int64_t t_us, int time
   std::vector<Frame> left;
   for (int i = 0; i < times; ++i) {
     left = imu_frames;
-    faults.injectors().front()->befall(left, t_us);
+    faults.injectors().front()->apply(left, t_us);
   }
   return left;
 }
@@ -39,7 +39,7 @@ bool crc_is_right(const Frame& frame) {
   return frame.data[0] == e2e::crc(frame.payload(), SlaveImuDeltaTheta::info.e2e_data_id);
 }
 
-TEST(BusFaults, BefallTheirMessageInTheirTime) {
+TEST(BusFaults, AffectTheirMessageInTheirTime) {
   const std::string lost = of_rates("lost", "from_s = 1\nto_s = 2");
   EXPECT_THAT(left_of(lost, 1'000'000), ElementsAre(imu_frames[1]));
   EXPECT_EQ(left_of(lost, 999'999), imu_frames);
@@ -71,7 +71,7 @@ TEST(BusFaults, SoManyBitsAreDamaged) {
   EXPECT_EQ(flipped, 5);
 }
 
-TEST(BusFaults, BefallEverySoManythOrSomeByChanceOrInPeriods) {
+TEST(BusFaults, AffectEverySoManythOrSomeByChanceOrInPeriods) {
   const auto lost = [](const std::string& more) {
     std::vector<std::int64_t> missing_ms;
     const Flight flight(of_rates("lost", more));

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "dbc/wire/time_base.hpp"
-#include "tests/unit/bench/faults/befallen.hpp"
+#include "tests/unit/bench/faults/flown_with_faults.hpp"
 
 namespace canhil::faults {
 namespace {
@@ -22,9 +22,9 @@ const Flight& right() {
 
 // Compares a number in the flight without and with the fault, sample by sample, within a time window.
 template <class Message, class Number>
-void each(const Flight& befallen, double from_s, double to_s, Number number,
+void each(const Flight& faulty, double from_s, double to_s, Number number,
           const std::function<void(double was, double is, double t_s)>& look) {
-  const auto before = said<Message>(right()), after = said<Message>(befallen);
+  const auto before = said<Message>(right()), after = said<Message>(faulty);
   ASSERT_EQ(before.size(), after.size());
   int looked = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -120,7 +120,7 @@ TEST(SensorFaults, AnInvalidSampleSaysSo) {
   EXPECT_EQ(accel, 1);
 }
 
-TEST(SensorFaults, ALateSampleTellsItsOwnTime) {
+TEST(SensorFaults, ALateSampleCarriesItsOwnTime) {
   const Flight flight(fault("late", "node = \"master_ins\"\nby_ms = 30\nfrom_s = 1\nto_s = 1"));
   for (const auto& [t_us, one] : said<MasterInsVelocityD>(flight))
     EXPECT_EQ(t_us - one.time_of_validity_us, one.time_of_validity_us == 1'000'000 ? 30'000 : 0);

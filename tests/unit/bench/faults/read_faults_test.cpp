@@ -2,7 +2,7 @@
 #include <regex>
 
 #include "bench/faults/kinds.hpp"
-#include "tests/unit/bench/faults/befallen.hpp"
+#include "tests/unit/bench/faults/flown_with_faults.hpp"
 
 namespace canhil::faults {
 namespace {

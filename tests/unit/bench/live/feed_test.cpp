@@ -29,23 +29,23 @@ class Seen final : public observe::Observer {
     last_late_ns = late_ns;
   }
   void received(const Received& received) override { answers.push_back(received.t_ns); }
-  void time_told(std::int64_t t_ns) override { told_ns = t_ns; }
+  void time_set(std::int64_t t_ns) override { virtual_ns = t_ns; }
   std::vector<std::uint32_t> sent;
   std::vector<std::int64_t> answers;
-  std::int64_t last_ns = 0, last_late_ns = 0, told_ns = 0;
+  std::int64_t last_ns = 0, last_late_ns = 0, virtual_ns = 0;
 };
 
 TEST(LiveFeed, GivesWhatWasSeenInOrder) {
   Feed feed;
   feed.transmitted({.id = 1}, 10, 2);
   feed.received({.frame = {.id = 7}, .t_ns = 20});
-  feed.time_told(30);
+  feed.time_set(30);
   feed.transmitted({.id = 2}, 40, 3);
   Seen seen;
   EXPECT_EQ(feed.drain(seen, nullptr), 4U);
   EXPECT_EQ(seen.sent, (std::vector<std::uint32_t>{1, 2}));
   EXPECT_EQ(seen.answers, std::vector<std::int64_t>{20});
-  EXPECT_EQ(seen.told_ns, 30);
+  EXPECT_EQ(seen.virtual_ns, 30);
   EXPECT_EQ(seen.last_ns, 40);
   EXPECT_EQ(seen.last_late_ns, 3);
   EXPECT_EQ(feed.dropped(), 0U);
@@ -84,7 +84,7 @@ TEST(LiveFeed, DoesNotAllocateWhereTheFlightIs) {
   for (int i = 0; i < 200; ++i) {  // first with room, then with a full feed
     feed.transmitted({.id = 1}, i, 0);
     feed.received(answer);
-    feed.time_told(i);
+    feed.time_set(i);
   }
   EXPECT_EQ(allocations, before);
   EXPECT_GT(feed.dropped(), 0U);

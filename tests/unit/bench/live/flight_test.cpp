@@ -38,8 +38,8 @@ class LooksOn final : public drive::Onlooker {
     in_progress_->transmitted(frame, t_ns, late_ns);
   }
   void received(const Received& received) override { in_progress_->received(received); }
-  void time_told(std::int64_t t_ns) override {
-    in_progress_->time_told(t_ns);
+  void time_set(std::int64_t t_ns) override {
+    in_progress_->time_set(t_ns);
     if (t_ns < next_ns_) return;
     in_progress_->update(flight_, true);
     next_ns_ = t_ns + 500'000'000;

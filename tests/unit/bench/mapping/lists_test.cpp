@@ -34,7 +34,7 @@ std::string played() {
   return all + " |\n";
 }
 
-std::string told() {
+std::string reported() {
   std::string all = "| quantity | what it is | unit |\n|---|---|---|\n";
   for (const ReferenceQuantity& one : reference_quantities()) {
     std::string meaning(one.quantity->meaning);
@@ -45,9 +45,10 @@ std::string told() {
   return all;
 }
 
-TEST(MappingPage, ListsWhatCanBePlayedAndTold) {
+TEST(MappingPage, ListsWhatCanBePlayedAndReported) {
   EXPECT_NE(page().find("<!-- played -->\n" + played() + "<!-- /played -->"), std::string::npos) << played();
-  EXPECT_NE(page().find("<!-- told -->\n" + told() + "<!-- /told -->"), std::string::npos) << told();
+  EXPECT_NE(page().find("<!-- reported -->\n" + reported() + "<!-- /reported -->"), std::string::npos)
+      << reported();
 }
 
 TEST(Lists, NameEachQuantityOnce) {

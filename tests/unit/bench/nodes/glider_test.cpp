@@ -146,10 +146,10 @@ TEST(Fins, SendTheDeflectionOfTheirTimeOfValidity) {
   for (; node->due_us() != never_us; out.clear()) {
     const std::int64_t due_us = node->due_us();
     node->transmit(out);
-    const auto told = message<messages::FinDeflections>(out, 0);
-    const std::int64_t valid_us = unwrap_short_us(std::llround(told.time_of_validity_us), due_us);
+    const auto deflections = message<messages::FinDeflections>(out, 0);
+    const std::int64_t valid_us = unwrap_short_us(std::llround(deflections.time_of_validity_us), due_us);
     EXPECT_EQ(valid_us, due_us - 50'000);
-    const Vector3 sent(told.elevator_deg, told.aileron_deg, told.rudder_deg);
+    const Vector3 sent(deflections.elevator_deg, deflections.aileron_deg, deflections.rudder_deg);
     EXPECT_LT((sent - glide().at(valid_us).fins / deg).cwiseAbs().maxCoeff(), 0.0101);
     ++count;
   }
@@ -163,9 +163,9 @@ TEST(Fins, AWrongStampIsWrongByWhatIsAskedFor) {
   Transmission out;
   const std::int64_t due_us = node->due_us();
   node->transmit(out);
-  const auto told = message<messages::FinDeflections>(out, 0);
-  EXPECT_EQ(told.time_of_validity_us, static_cast<double>(due_us + 40'000));
-  EXPECT_NEAR(told.elevator_deg, glide().at(due_us).fins.x() / deg, 0.0101);
+  const auto deflections = message<messages::FinDeflections>(out, 0);
+  EXPECT_EQ(deflections.time_of_validity_us, static_cast<double>(due_us + 40'000));
+  EXPECT_NEAR(deflections.elevator_deg, glide().at(due_us).fins.x() / deg, 0.0101);
 }
 
 }  // namespace

@@ -277,18 +277,18 @@ TEST_F(GuidedSeeker, AnswersInTheAxesOfARollingAntenna) {
 TEST_F(GuidedSeeker, ReckonsTheAnswerOnToItsUse) {
   SeekerSettings late = exact();
   late.schedule.latency_us = 90'000;
-  const auto told = [](Bench& bench, const world::EngagementTruth& epoch) {
+  const auto with_acceleration = [](Bench& bench, const world::EngagementTruth& epoch) {
     bench.answer(epoch.t_us, epoch.los_rate, LosRateOutcome::updated, false, false, epoch.target);
   };
   for (const double roll : {0.0, 3.0}) {
     world::EngagementPlan plan = guided();
     plan.roll_rate = roll;
     Bench as_it_was(late, plan);
-    const double before = miss(as_it_was, told);
+    const double before = miss(as_it_was, with_acceleration);
     plan.guidance_predicts = true;
     Bench predicting(late, plan), unaware(late, plan);
     EXPECT_GT(before, 1);
-    EXPECT_LT(miss(predicting, told), 0.25 * before);
+    EXPECT_LT(miss(predicting, with_acceleration), 0.25 * before);
     EXPECT_GT(miss(unaware, truthful), 0.5 * before) << "without the target's acceleration";
     EXPECT_EQ(predicting.record().late_commands, 0U);
   }

@@ -138,13 +138,13 @@ TEST(JsonReport, CarriesDistributionsWithTheirBuckets) {
   EXPECT_EQ(page["transmit_lateness_s"]["Sync"]["handed_over"]["count"], 200);
 }
 
-TEST(JsonReport, ErrorsCarryTheSigmaThatTheTargetTold) {
+TEST(JsonReport, ErrorsCarryTheSigmaThatTheTargetReported) {
   const Json page = document(scenario_of(), run_of());
   const auto found = std::ranges::find_if(
       page["series"], [](const Json& s) { return s["quantity"] == "attitude error about north"; });
   ASSERT_NE(found, page["series"].end());
   const Json& north = *found;
-  EXPECT_TRUE(north["sigma"].front().is_null()) << "before the first update it told none";
+  EXPECT_TRUE(north["sigma"].front().is_null()) << "before the first update it reported none";
   EXPECT_NEAR(north["sigma"].back().get<double>(), 2, 1e-6);
   EXPECT_NEAR(std::abs(north["high"].back().get<double>()), 1, 1e-3);
 }
@@ -162,7 +162,7 @@ TEST(Plot, AValueThatIsNotThereIsAGap) {
   EXPECT_THAT(drawn, ContainsRegex("class=\"area\" d=\"M[^Z]*ZM[^Z]*Z\""));
 }
 
-TEST(Plot, MarksOfAnAxisCanBeToldApart) {
+TEST(Plot, MarksOfAnAxisCanBeDistinguished) {
   EXPECT_THAT(mark_labels({-89.9905, -89.99, -89.9895}), ElementsAre("-89.9905", "-89.9900", "-89.9895"));
   EXPECT_THAT(mark_labels({0, 0.5, 1}), ElementsAre("0", "0.5", "1.0"));
   EXPECT_THAT(mark_labels({0, 20, 40}), ElementsAre("0", "20", "40"));

@@ -167,7 +167,7 @@ TEST(Reports, TellWhatBecameOfFixes) {
             HasSubstr("accepted 2, gated 1, repaired 1, handed_over 2\n")));
   const auto results = nlohmann::json::parse(json(scenario, run))["results"]["inflight_alignment"];
   EXPECT_EQ(results["answers"]["figures"]["gated"]["value"], 1);
-  EXPECT_EQ(results["answers"]["figures"]["late"]["value"], 0) << "programs are told of none, too";
+  EXPECT_EQ(results["answers"]["figures"]["late"]["value"], 0) << "programs too are given none";
   EXPECT_EQ(results["filter"]["figures"]["resolved"]["value"], 0.2);
   EXPECT_EQ(results["filter"]["figures"]["repairs"]["value"], 4);
 }

@@ -134,10 +134,10 @@ TEST(Series, ASigmaThatIsStaleIsAGap) {
                 [](const auto& a) { return a.cause_us > 5'000'000 && a.cause_us < 15'000'000; });
   const auto all = series(scenario_of(), run);
   for (const Series::Point& point : find(all, "attitude error about down")->points) {
-    const bool told = (point.t_s > 0.2 && point.t_s < 5.9) || point.t_s > 15.1;
+    const bool reported = (point.t_s > 0.2 && point.t_s < 5.9) || point.t_s > 15.1;
     const bool stale = point.t_s > 6.1 && point.t_s < 14.9;
-    EXPECT_TRUE(!told || point.sigma) << point.t_s;
-    EXPECT_TRUE(!stale || !point.sigma) << point.t_s << ": told at 5 s";
+    EXPECT_TRUE(!reported || point.sigma) << point.t_s;
+    EXPECT_TRUE(!stale || !point.sigma) << point.t_s << ": reported at 5 s";
   }
 }
 

@@ -204,7 +204,7 @@ TEST(ScenarioChecks, Answers) {
   EXPECT_EQ(rule.counts[1].before_us, 15'000'000);
 }
 
-TEST(ScenarioChecks, AQuantityIsOneThatIsToldAndThatTheKindAsksFor) {
+TEST(ScenarioChecks, AQuantityIsOneThatIsReportedAndThatTheKindAsksFor) {
   const auto refused = [](std::string_view lines) { return error_of(one_check(lines)); };
   EXPECT_THAT(
       refused("kind = 'error'\nquantity = 'wind.norm'\nbelow_mps = 1"),
@@ -222,7 +222,7 @@ TEST(ScenarioChecks, AQuantityIsOneThatIsToldAndThatTheKindAsksFor) {
       HasSubstr("key 'check[1].time_to_go_s': is for flights that go to a target, expected from_s and to_s"));
 }
 
-TEST(ScenarioChecks, WhatIsOfBeforeIsToldWithWhatToWriteNow) {
+TEST(ScenarioChecks, WhatIsOfBeforeIsRejectedWithWhatToWriteNow) {
   const auto refused = [](std::string_view lines) { return error_of(one_check(lines)); };
   EXPECT_EQ(refused("kind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 1"),
             "s.toml:17: key 'check[1].kind': 'attitude_error' is a former kind, expected kind 'error' "

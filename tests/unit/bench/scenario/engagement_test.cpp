@@ -155,7 +155,7 @@ TEST(LosChecks, EveryKey) {
   EXPECT_EQ(s.checks[0].name, "miss_distance");
 }
 
-TEST(EngagementErrors, AreToldInOneLine) {
+TEST(EngagementErrors, AreReportedInOneLine) {
   EXPECT_EQ(error_of(los_with("[engagement]", "range_km = 5")),
             "s.toml:8: key 'engagement.range_km': is unknown, expected 'range_m'");
   EXPECT_EQ(error_of(with("guidance = \"truth\"", "", los)),

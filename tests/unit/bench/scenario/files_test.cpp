@@ -65,7 +65,7 @@ TEST(ScenarioFiles, AreAllValid) {
   EXPECT_GE(count, 3);
 }
 
-TEST(ScenarioFiles, TheKalmanFilterIsToldTheTruth) {
+TEST(ScenarioFiles, TheKalmanFilterIsConfiguredWithTheTruth) {
   const auto s = read_file(SOURCE_DIR "/bench/flights/transfer_alignment.toml", of_the_dbc()).value();
   EXPECT_EQ(s.targets.front().algorithm, "kalman");
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.heading, s.initial_error.attitude.sigma.z());
@@ -85,7 +85,7 @@ TEST(ScenarioFiles, TheKalmanFilterIsToldTheTruth) {
   }
 }
 
-TEST(ScenarioFiles, TheH2FilterIsToldOneDegreeOfFive) {
+TEST(ScenarioFiles, TheH2FilterIsConfiguredWithOneDegreeOfFive) {
   const auto s = read_file(SOURCE_DIR "/bench/flights/transfer_alignment_h2.toml", of_the_dbc()).value();
   EXPECT_EQ(s.targets.front().algorithm, "robust_h2");
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.heading, 1 * world::units::deg);
@@ -93,7 +93,7 @@ TEST(ScenarioFiles, TheH2FilterIsToldOneDegreeOfFive) {
   EXPECT_TRUE(node_of<nodes::MasterInsSettings>(s).errors.velocity.sigma.isZero());
 }
 
-TEST(ScenarioFiles, TheFiltersOfInFlightAlignmentAreToldTheTruth) {
+TEST(ScenarioFiles, TheFiltersOfInFlightAlignmentAreConfiguredWithTheTruth) {
   for (const std::string name : {"inflight_ssbl", "inflight_gps", "inflight_ssbl_180", "inflight_quick"}) {
     const auto s = read_file(SOURCE_DIR "/bench/flights/" + name + ".toml", of_the_dbc()).value();
     const auto parameter = [&](std::string_view wanted) {

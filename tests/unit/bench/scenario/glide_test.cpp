@@ -58,7 +58,7 @@ std::string complaint(std::string_view from, std::string_view to) {
   return scenario ? "no error" : scenario.error().message;
 }
 
-TEST(GlideSections, WhatTheWindFilterIsToldIsWrongByTheGlide) {
+TEST(GlideSections, WhatTheWindFilterIsConfiguredWithIsWrongByTheGlide) {
   EXPECT_EQ(complaint("[glide]", "[target.initial_error]\nattitude_sigma_deg = 1\n[glide]"),
             "g.toml:8: key 'target.initial_error': has no effect on 'wind', expected [glide.initial_error]");
   EXPECT_EQ(complaint("[wind]", "[glide.initial_error]\nattitude_sigma_deg = 1\n[wind]"), "no error");

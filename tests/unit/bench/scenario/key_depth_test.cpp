@@ -22,7 +22,7 @@ TEST(KeyDepth, UpToItsLimitIsRead) {
       "x = [1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5]"));
 }
 
-TEST(KeyDepth, BeyondItTheLineIsTold) {
+TEST(KeyDepth, BeyondItTheLineIsReported) {
   EXPECT_EQ(line_of_deep_key("x = 1\n\n" + key_of(most_key_parts + 1) + " = 1\n"), 3U);
   EXPECT_EQ(line_of_deep_key("x = 1\n[" + key_of(most_key_parts + 1, "\"a b\"") + "]\n"), 2U);
   EXPECT_EQ(line_of_deep_key("x = {" + key_of(most_key_parts + 1, "a ") + "= 1}"), 1U);

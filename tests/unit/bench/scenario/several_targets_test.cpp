@@ -52,7 +52,7 @@ TEST(SeveralTargets, AnEstimatorIsThereOnce) {
             "expected each estimator once");
 }
 
-TEST(SeveralTargets, OneThatIsToldNoStateHasNoErrorOfIt) {
+TEST(SeveralTargets, OneThatIsSentNoStateHasNoErrorOfIt) {
   const std::string seeker =
       "[[target]]\nestimator = 'los_rate'\nalgorithm = 'kalman'\ninitial_error = { attitude_sigma_deg = 1 "
       "}\n";

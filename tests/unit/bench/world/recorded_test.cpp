@@ -165,7 +165,7 @@ TEST(RecordedPath, FollowsThePositionsWhereTheVelocityIsBiased) {
           std::max(worst_acceleration, (path.movement(t).v_eb_n_rate - exact.v_eb_n_rate).norm());
   }
   EXPECT_LT(worst, 0.1) << "without the correction it would be 27 m";
-  EXPECT_NEAR(path.contradiction().velocity, Vector3(0.2, -0.1, 0.05).norm(), 0.01) << "and it is told";
+  EXPECT_NEAR(path.contradiction().velocity, Vector3(0.2, -0.1, 0.05).norm(), 0.01) << "and it is reported";
   EXPECT_LT(worst_acceleration, 1e-3) << "[m/s^2], 100 ug";
 }
 
@@ -186,7 +186,7 @@ TEST(RecordedPath, RoundingOfPositionsIsNoAcceleration) {
   EXPECT_LT(path.contradiction().position, 0.02);
 }
 
-TEST(RecordedPath, WithoutPositionsItStartsWhereItIsTold) {
+TEST(RecordedPath, WithoutPositionsItStartsWhereConfigured) {
   const FlightRecord flown(turning, 20'000'000, 10'000);
   auto states = states_of(flown, 20'000);
   for (RecordedState& state : states) state.position.reset();

@@ -84,7 +84,7 @@ TEST(Unrounded, ThePackedBytesAreThoseOfTheBus) {
     EXPECT_TRUE(std::ranges::equal(rounded.payload(), unrounded.payload())) << Message::info.name;
     EXPECT_FALSE(rounded.unrounded);
     EXPECT_TRUE(unrounded.unrounded);
-    EXPECT_FALSE(rounded == unrounded) << "what an observer compares tells the two apart";
+    EXPECT_FALSE(rounded == unrounded) << "what an observer compares distinguishes the two";
   });
 }
 

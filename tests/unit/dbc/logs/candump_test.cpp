@@ -58,7 +58,7 @@ TEST(LogLine, TimesHaveMicrosecondsOrNanoseconds) {
   EXPECT_EQ(parse_log_line("(1.000000001) c 001#", "x")->t_ns, 1'000'000'001);
 }
 
-TEST(LogLine, TellsDirections) {
+TEST(LogLine, DistinguishesDirections) {
   EXPECT_TRUE(parse_log_line("(1.000000) c 001#00 T", "x")->transmitted);
   EXPECT_FALSE(parse_log_line("(1.000000) c 001#00 R", "x")->transmitted);
 }
@@ -202,7 +202,7 @@ TEST(LogReading, LinesUpToTheLimitAreRead) {
   }
 }
 
-TEST(LogWriting, TellsOfAFullDisk) {
+TEST(LogWriting, ReportsAFullDisk) {
   auto writer = LogWriter::create("/dev/full");
   ASSERT_TRUE(writer);
   writer->write({.interface = "c", .frame = frame_of(1)});

@@ -122,7 +122,7 @@ TEST(Formats, AnEmptyLogIsOne) {
   }
 }
 
-TEST(Formats, AFullDiskIsToldByEach) {
+TEST(Formats, AFullDiskIsReportedByEach) {
   for (const char* name : {"x.pcap", "x.asc", "x.log"}) {
     auto writer = LogWriter::create("/dev/full", name);
     ASSERT_TRUE(writer);

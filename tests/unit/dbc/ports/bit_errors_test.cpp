@@ -95,13 +95,13 @@ TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
                        BitErrors(2e-4, rates, seed));
     constexpr std::uint32_t rounds = 300;
     std::array<std::uint32_t, 3> arrived{};
-    std::uint64_t attempts = 0, told = 0;
+    std::uint64_t attempts = 0, reported = 0;
     BusErrors seen;
     const auto take = [&](std::int64_t until_ns) {
       for (;;) {
         while (const auto report = wire.report()) {
           EXPECT_EQ(report->node, 1U);
-          ++told;
+          ++reported;
           add(seen, report->frame);
         }
         if (const auto carried = wire.next(until_ns)) {
@@ -127,7 +127,7 @@ TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
     EXPECT_EQ(attempts, wire.counters().frames + wire.counters().error_frames);
     EXPECT_EQ(wire.counters().dropped, 0U);
     EXPECT_EQ(seen.bus_error, wire.counters().error_frames);  // the controller reports each error frame
-    EXPECT_GE(told, seen.bus_error);
+    EXPECT_GE(reported, seen.bus_error);
   }
 }
 

@@ -64,7 +64,7 @@ TEST(BusErrors, OneFrameMaySaySeveralThingsAndTheGravestIsTheEvent) {
   EXPECT_EQ(errors.bus_off + errors.passive + errors.warning + errors.protocol + errors.bus_error, 5U);
 }
 
-TEST(BusErrors, TheControllersCountersAreTakenWhereTheyAreTold) {
+TEST(BusErrors, TheControllersCountersAreTakenWhereTheyAreReported) {
   BusErrors errors;
   add(errors, error_frame(CAN_ERR_CNT, {0, 0, 0, 0, 0, 0, 136, 7}));
   EXPECT_EQ(errors.tx_counter, 136);

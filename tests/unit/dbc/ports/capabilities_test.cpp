@@ -16,7 +16,7 @@ std::unique_ptr<Port> hub_of(const std::string& bus, const PortOptions& options 
   return host_local_bus(bus, options).value();
 }
 
-TEST(Capabilities, ABusWithoutAWireTellsNothingOfItself) {
+TEST(Capabilities, ABusWithoutAWireReportsNothingOfItself) {
   const auto hub = hub_of(bus_named("a"));
   EXPECT_FALSE(hub->capabilities().reports_errors);
   EXPECT_FALSE(hub->capabilities().in_process);
@@ -24,7 +24,7 @@ TEST(Capabilities, ABusWithoutAWireTellsNothingOfItself) {
   EXPECT_EQ(hub->capabilities().wire.rates.nominal, 0);
 }
 
-TEST(Capabilities, AWireIsToldByBothItsEnds) {
+TEST(Capabilities, AWireIsReportedByBothItsEnds) {
   const std::string bus = bus_named("b") + "?bitrate=500000&data-bitrate=2000000&queue=priority";
   const auto hub = hub_of(bus);
   const auto node = open_port(bus, {}).value();

@@ -49,7 +49,7 @@ class LocalGate : public ::testing::Test {
     before_.empty() ? ::unsetenv("XDG_RUNTIME_DIR") : ::setenv("XDG_RUNTIME_DIR", before_.c_str(), 1);
   }
   std::unique_ptr<LocalHub> host(HubRules rules = {}) {
-    rules.on_turned_away = [this](const std::string& line) { told_.push_back(line); };
+    rules.on_turned_away = [this](const std::string& line) { refusals_.push_back(line); };
     auto hub = host_local_bus("local:x", {}, std::move(rules));
     EXPECT_TRUE(hub) << hub.error().message;
     return hub ? std::move(*hub) : nullptr;
@@ -77,7 +77,7 @@ class LocalGate : public ::testing::Test {
 
   const std::string before_ = std::getenv("XDG_RUNTIME_DIR") == nullptr ? "" : std::getenv("XDG_RUNTIME_DIR");
   std::string runtime_ = "/tmp/canhil-test-XXXXXX";
-  std::vector<std::string> told_;
+  std::vector<std::string> refusals_;
 };
 
 TEST_F(LocalGate, BusesAreInAPrivateDirectory) {
@@ -180,7 +180,7 @@ TEST_F(AnotherUser, CannotReachTheBus) {
   const auto hub = host();
   EXPECT_EQ(as_nobody([this] { return intrude(); }), EACCES);
   EXPECT_FALSE(hub->receive());
-  EXPECT_THAT(told_, IsEmpty());
+  EXPECT_THAT(refusals_, IsEmpty());
 }
 
 TEST_F(AnotherUser, IsRefusedByItsCredentialsToo) {
@@ -188,9 +188,9 @@ TEST_F(AnotherUser, IsRefusedByItsCredentialsToo) {
   const auto node = join(*hub);
   open_to_all();
   EXPECT_EQ(as_nobody([this] { return intrude(); }), 0);
-  ASSERT_TRUE(serve(*hub, [this] { return !told_.empty(); }));
+  ASSERT_TRUE(serve(*hub, [this] { return !refusals_.empty(); }));
   EXPECT_THAT(
-      told_,
+      refusals_,
       ElementsAre(testing::MatchesRegex(
           "bus 'local:x': a process \\(pid [0-9]+ of uid 65534\\) is another user's and was refused")));
   EXPECT_FALSE(node->receive()) << "what it sent has reached a node";
@@ -239,8 +239,8 @@ TEST_F(LocalGate, WhoSaysNothingIsDroppedAndNamed) {
   const auto hub = host({.hello_limit_ns = 20 * ns_per_ms});
   const auto node = join(*hub);
   const Descriptor silent = local::connect_to(directory(), "x", Format::classic);
-  ASSERT_TRUE(serve(*hub, [this] { return !told_.empty(); }));
-  EXPECT_THAT(told_,
+  ASSERT_TRUE(serve(*hub, [this] { return !refusals_.empty(); }));
+  EXPECT_THAT(refusals_,
               ElementsAre(fmt::format("bus 'local:x': a process ({}) sent no Hello and was dropped", us())));
   char none = 0;
   EXPECT_EQ(::recv(silent.get(), &none, 1, 0), 0) << "its connection is open still";
@@ -252,7 +252,7 @@ TEST_F(LocalGate, ASilentHostHoldsItAgainstNobody) {
   const auto hub = host({.hello_limit_ns = 1});
   const auto node = open_port("local:x", {.node_name = "node"}).value();
   ASSERT_TRUE(serve(*hub, [&] { return !hub->nodes().empty(); }));
-  EXPECT_THAT(told_, IsEmpty());
+  EXPECT_THAT(refusals_, IsEmpty());
 }
 
 TEST_F(LocalGate, WhoNeverReadsIsDroppedAndTheOthersGetEveryFrame) {
@@ -261,13 +261,13 @@ TEST_F(LocalGate, WhoNeverReadsIsDroppedAndTheOthersGetEveryFrame) {
   const auto stuck = join(*hub, "stuck\n\033[2J");
   std::uint32_t sent = 0;
   std::uint32_t read = 0;
-  for (const std::int64_t deadline = in_seconds(10); told_.empty() || read < sent;) {
+  for (const std::int64_t deadline = in_seconds(10); refusals_.empty() || read < sent;) {
     ASSERT_LT(clock_ns(CLOCK_MONOTONIC), deadline) << "the bus stands still for good";
-    if (told_.empty() && hub->send(numbered(1, sent)) == SendOutcome::sent) ++sent;
+    if (refusals_.empty() && hub->send(numbered(1, sent)) == SendOutcome::sent) ++sent;
     while (const auto got = reader->receive()) ASSERT_EQ(number_of(got->frame), read++);
     hub->receive();
   }
-  EXPECT_THAT(told_,
+  EXPECT_THAT(refusals_,
               ElementsAre(fmt::format(
                   "bus 'local:x': node 'stuck??[2J' ({}) did not read its frames and was dropped", us())));
   EXPECT_THAT(hub->nodes(), ElementsAre("reader"));
@@ -281,20 +281,20 @@ TEST_F(LocalGate, AHostThatOnlyWaitsForRoomIsWokenToDropWhoDoesNotRead) {
   }
   ASSERT_TRUE(wait(*hub, WaitFor::room, in_seconds(10)));
   EXPECT_EQ(hub->send(frame_of(1)), SendOutcome::sent);
-  EXPECT_EQ(told_.size(), 1U);
+  EXPECT_EQ(refusals_.size(), 1U);
 }
 
 TEST_F(LocalGate, WhoReadsSoSlowlyThatItDragsTheBusAlongIsDropped) {
   const auto hub = host({.reading_limit_ns = 100 * ns_per_ms});
   const auto slow = join(*hub, "slow");
   std::uint32_t sent = 0;
-  for (const std::int64_t deadline = in_seconds(60); told_.empty();) {
+  for (const std::int64_t deadline = in_seconds(60); refusals_.empty();) {
     ASSERT_LT(clock_ns(CLOCK_MONOTONIC), deadline) << "dragged along for good";
-    while (told_.empty() && hub->send(numbered(1, sent)) == SendOutcome::sent) ++sent;
+    while (refusals_.empty() && hub->send(numbered(1, sent)) == SendOutcome::sent) ++sent;
     ::usleep(5000);
     slow->receive();  // one frame every 5 ms, so the node never blocks the hub for long
   }
-  EXPECT_THAT(told_.front(), HasSubstr("node 'slow'"));
+  EXPECT_THAT(refusals_.front(), HasSubstr("node 'slow'"));
 }
 
 TEST_F(LocalGate, WhoSendsWhatIsNoFrameIsDroppedAndNamed) {
@@ -302,15 +302,15 @@ TEST_F(LocalGate, WhoSendsWhatIsNoFrameIsDroppedAndNamed) {
   const auto node = join(*hub);
   const Descriptor stranger = local::connect_to(directory(), "x", Format::classic);
   ASSERT_EQ(::send(stranger.get(), "hello", 5, MSG_NOSIGNAL), 5);
-  ASSERT_TRUE(serve(*hub, [this] { return !told_.empty(); }));
+  ASSERT_TRUE(serve(*hub, [this] { return !refusals_.empty(); }));
   const Descriptor joined = local::connect_to(directory(), "x", Format::classic);
   local::Hello hello;
   hello.node_name = {'o', 'd', 'd'};
   ASSERT_EQ(::send(joined.get(), &hello, sizeof hello, MSG_NOSIGNAL), sizeof hello);
   ASSERT_EQ(::send(joined.get(), "frame", 5, MSG_NOSIGNAL), 5);
-  ASSERT_TRUE(serve(*hub, [this] { return told_.size() > 1; }));
+  ASSERT_TRUE(serve(*hub, [this] { return refusals_.size() > 1; }));
   EXPECT_THAT(
-      told_,
+      refusals_,
       ElementsAre(
           fmt::format(
               "bus 'local:x': a process ({}) sent an invalid Hello (another version?) and was dropped", us()),
@@ -341,9 +341,10 @@ TEST_F(LocalGate, TakesSoManyNodesAndNoMore) {
   const auto a = join(*hub, "a");
   auto b = join(*hub, "b");
   const auto third = open_port("local:x", {}).value();
-  ASSERT_TRUE(serve(*hub, [this] { return !told_.empty(); }));
-  EXPECT_THAT(told_, ElementsAre(fmt::format(
-                         "bus 'local:x': a process ({}) was refused: the bus has 2 nodes, its limit", us())));
+  ASSERT_TRUE(serve(*hub, [this] { return !refusals_.empty(); }));
+  EXPECT_THAT(refusals_,
+              ElementsAre(fmt::format(
+                  "bus 'local:x': a process ({}) was refused: the bus has 2 nodes, its limit", us())));
   EXPECT_FALSE(next_frame(*third));
   EXPECT_TRUE(third->closed());
   b.reset();

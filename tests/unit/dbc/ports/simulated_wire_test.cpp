@@ -196,37 +196,37 @@ TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
 }
 
 /// The reports of a controller, in order: event, counters, time.
-struct Told {
+struct Reported {
   std::optional<BusEvent> event;
   int tx = 0, rx = 0;
   std::int64_t t_ns = 0;
 };
-std::vector<Told> reports(SimulatedWire& wire, std::size_t node, BusErrors& errors) {
-  std::vector<Told> told;
+std::vector<Reported> reports(SimulatedWire& wire, std::size_t node, BusErrors& errors) {
+  std::vector<Reported> reported;
   while (const auto report = wire.report()) {
     if (report->node != node) continue;
     const auto event = add(errors, report->frame);
-    told.push_back({event, errors.tx_counter, errors.rx_counter, report->t_ns});
+    reported.push_back({event, errors.tx_counter, errors.rx_counter, report->t_ns});
   }
-  return told;
+  return reported;
 }
-std::vector<Told> events(std::vector<Told> told) {
-  std::erase_if(told, [](const Told& t) { return !t.event; });
-  return told;
+std::vector<Reported> events(std::vector<Reported> reported) {
+  std::erase_if(reported, [](const Reported& t) { return !t.event; });
+  return reported;
 }
 
-TEST(SimulatedWire, AControllerTellsItsHostFromTheFirstErrorToItsReturn) {
+TEST(SimulatedWire, AControllerReportsFromTheFirstErrorToItsReturn) {
   SimulatedWire wire(rates, {{.reports_errors = true}, {}}, failing(0x100, 1000));
   wire.queue(0, frame(0x100), 0);
   BusErrors errors;
-  std::vector<Told> told;
+  std::vector<Reported> reported;
   while (wire.next_event_ns() != SimulatedWire::never) {
     ASSERT_FALSE(wire.next(wire.next_event_ns()));
-    for (const Told& t : reports(wire, 0, errors)) told.push_back(t);
+    for (const Reported& t : reports(wire, 0, errors)) reported.push_back(t);
   }
   EXPECT_EQ(errors.bus_error, 32U);
   EXPECT_EQ(errors.no_ack, 0U);
-  const auto changes = events(told);
+  const auto changes = events(reported);
   ASSERT_EQ(changes.size(), 4U);
   EXPECT_EQ(changes[0].event, BusEvent::error_warning);
   EXPECT_EQ(changes[0].tx, 96);
@@ -240,7 +240,7 @@ TEST(SimulatedWire, AControllerTellsItsHostFromTheFirstErrorToItsReturn) {
   EXPECT_TRUE(wire.queue(0, frame(0x200), changes[3].t_ns));
 }
 
-TEST(SimulatedWire, AReceiverTellsOfItsOwnCounter) {
+TEST(SimulatedWire, AReceiverReportsItsOwnCounter) {
   SimulatedWire wire(rates, {{}, {.reports_errors = true}},
                      failing(0x123, 3, {.after_ns = 20 * bit_ns, .at = 1}));
   wire.queue(0, frame(0x123), 0);
@@ -254,16 +254,16 @@ TEST(SimulatedWire, AReceiverTellsOfItsOwnCounter) {
 }
 
 // 12 errors cause a warning. One successful frame ends it; a further frame is not reported.
-TEST(SimulatedWire, TheWayBackIsToldAfterTheFrameThatLedThere) {
+TEST(SimulatedWire, TheWayBackIsReportedAfterTheFrameThatLedThere) {
   SimulatedWire wire(rates, {{.reports_errors = true}, {}}, failing(0x123, 12));
   for (int i = 0; i < 2; ++i) wire.queue(0, frame(0x123), 0);
   BusErrors errors;
-  std::vector<Told> told;
+  std::vector<Reported> reported;
   std::optional<Carried> carried;
   while (!(carried = wire.next(long_enough))) {
-    for (const Told& t : reports(wire, 0, errors)) told.push_back(t);
+    for (const Reported& t : reports(wire, 0, errors)) reported.push_back(t);
   }
-  EXPECT_EQ(told.size(), 12U);
+  EXPECT_EQ(reported.size(), 12U);
   const auto after = reports(wire, 0, errors);
   ASSERT_EQ(after.size(), 1U);
   EXPECT_EQ(after[0].event, BusEvent::error_active);

@@ -107,7 +107,7 @@ std::string parse(const std::string& line, Options& options) {
   return parsed ? "" : parsed.error().message;
 }
 
-TEST(CommandLine, AsksForNothingUnlessTold) {
+TEST(CommandLine, AsksForNothingUnlessGivenAnOption) {
   Options options;
   EXPECT_EQ(parse("", options), "");
   EXPECT_FALSE(options.request());

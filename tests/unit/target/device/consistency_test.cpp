@@ -24,7 +24,7 @@ int updates_until(ConsistencyMonitor& monitor, bool degraded, int most, Draw dra
   return most;
 }
 
-TEST(ConsistencyMonitor, TrustsWhatIsConsistentAndTellsWhatIsNot) {
+TEST(ConsistencyMonitor, TrustsWhatIsConsistentAndReportsWhatIsNot) {
   for (const std::size_t m : {1U, 2U, 3U, 9U}) {
     SCOPED_TRACE(m);
     std::mt19937_64 random(20261123U + m);

@@ -69,7 +69,7 @@ TEST(Device, ReadsBackEveryParameterAsItWasSet) {
   }
 }
 
-TEST(Device, TakesWhatIsInTheRangeThatItTells) {
+TEST(Device, TakesWhatIsInTheRangeThatItReports) {
   const Device device;
   for (const auto& [estimator, algorithm] :
        {std::pair(Estimator::transfer_alignment, Algorithm::kalman),

@@ -118,7 +118,7 @@ TEST(InflightAlignment, AFixThatStatesALargerSigmaWeighsLess) {
   EXPECT_GT(sigmas(by_gps, 10).position_sigma_down_m, 1.1 * sigmas(by_gps, 10).position_sigma_north_m);
 }
 
-TEST(InflightAlignment, LongitudesAreToldFromMinus180To180Degrees) {
+TEST(InflightAlignment, LongitudesAreReportedFromMinus180To180Degrees) {
   Vehicle bench(by_gps, Algorithm::sin_cos, {}, 179.999995);
   bench.imu_until(1'000'000);
   bench.send(GpsLatitude{.latitude_deg = latitude_deg, .height_m = height_m});
@@ -235,7 +235,7 @@ TEST(InflightAlignment, TheRawMinimumIsNoRelativePosition) {
   EXPECT_EQ(bench.outcome(), FixOutcome::invalid);
 }
 
-TEST(InflightAlignment, TheGateOpensAfterAsManyRejectionsAsItWasTold) {
+TEST(InflightAlignment, TheGateOpensAfterAsManyRejectionsAsConfigured) {
   Vehicle bench(by_gps, Algorithm::sin_cos, {{.parameter = Parameter::gate_recovery, .value = 3}});
   bench.imu_until(1'000'000);
   bench.gps(1'000'000);

@@ -71,9 +71,9 @@ TEST(LosRate, TheFramesOfAnEngagementGiveTheEstimatorsOwnFigures) {
       const auto target = *missile.last<LosRateTarget>();
       expect_near(estimate.los_rate_pitch_radps, own.rate.pitch, 1e-5, 5.24, "pitch rate");
       expect_near(estimate.los_rate_yaw_radps, own.rate.yaw, 1e-5, 5.24, "yaw rate");
-      const los::Planes<los::Sigma> told = los::reported_sigma(result, design);
-      expect_near(sigma.los_rate_sigma_pitch_radps, told.pitch.rate, 2e-5, 0.327, "pitch sigma");
-      expect_near(sigma.los_rate_sigma_yaw_radps, told.yaw.rate, 2e-5, 0.327, "yaw sigma");
+      const los::Planes<los::Sigma> reported = los::reported_sigma(result, design);
+      expect_near(sigma.los_rate_sigma_pitch_radps, reported.pitch.rate, 2e-5, 0.327, "pitch sigma");
+      expect_near(sigma.los_rate_sigma_yaw_radps, reported.yaw.rate, 2e-5, 0.327, "yaw sigma");
       expect_near(sigma.target_acceleration_sigma_y_mps2, result.sigma.yaw.acceleration, 2.5, 157.5,
                   "sigma y");
       expect_near(sigma.target_acceleration_sigma_z_mps2, result.sigma.pitch.acceleration, 2.5, 157.5,

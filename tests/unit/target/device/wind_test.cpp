@@ -82,7 +82,7 @@ TEST(Wind, TimesMayWrap) {
   EXPECT_EQ(flight(0), flight((std::int64_t{1} << 32) - 1'000'006));
 }
 
-TEST(Wind, AnswersGoodSamplesAsOftenAsToldAndBadOnesAlways) {
+TEST(Wind, AnswersGoodSamplesAsOftenAsConfiguredAndBadOnesAlways) {
   Glider bench(Glider::Release{.parameters = {{.parameter = Parameter::output_interval_ms, .value = 100}}});
   bench.fly(0, 200, [](std::size_t k, Navigation& n, FinFrame&) { n.valid = k < 100 || k >= 110; });
   std::vector<std::uint32_t> due, bad;

@@ -251,7 +251,7 @@ TEST(Coasting, AnUnseenAntennaIsTakenToTrack) {
 
 // A step of the target's acceleration, with a filter designed for zero noise: the lag of the rate is three
 // times the part of the sigma that allows for such a step.
-TEST(ClosedGain, ToldSigmaAllowsForATurnAllAtOnce) {
+TEST(ClosedGain, ReportedSigmaAllowsForATurnAllAtOnce) {
   Settings settings;
   settings.start_up = 0;
   const Design design = make_design(settings);
@@ -272,8 +272,8 @@ TEST(ClosedGain, ToldSigmaAllowsForATurnAllAtOnce) {
       const UpdateResult result = step(state, m, design);
       if (m.error.yaw > 0.1) break;
       lag = std::max(lag, std::abs(estimate(state).rate.yaw - a / range * t));
-      const double told = reported_sigma(result, design).yaw.rate, own = result.sigma.yaw.rate;
-      if (k == 600) allowed = std::sqrt(told * told - own * own);
+      const double reported = reported_sigma(result, design).yaw.rate, own = result.sigma.yaw.rate;
+      if (k == 600) allowed = std::sqrt(reported * reported - own * own);
     }
     EXPECT_NEAR(lag / (3 * allowed), 1, 0.1);
   }

@@ -105,7 +105,7 @@ TEST(Gaps, TheGainAfterOneIsThatOfTheLongerStep) {
   for (const Algorithm algorithm : {Algorithm::switched_table, Algorithm::combined}) {
     const double kalman = gain(Algorithm::kalman, 6);
     EXPECT_NEAR(gain(algorithm, 6) / kalman, 1, 0.1);
-    EXPECT_GT(kalman / gain(algorithm, 0), 1.25) << "the flight tells one from the other";
+    EXPECT_GT(kalman / gain(algorithm, 0), 1.25) << "the flight distinguishes the two";
   }
 }
 

@@ -160,7 +160,7 @@ double rms_error(Change change) {
   return std::sqrt(sum / count);
 }
 
-TEST(SignTraps, TruthTellsRightFromWrongNearTheEnd) {
+TEST(SignTraps, TruthDistinguishesRightFromWrongNearTheEnd) {
   const double right = rms_error([](Row&) {});
   EXPECT_LT(right, 0.012);
   EXPECT_GT(rms_error([](Row& row) { row.dtheta_ant = -row.dtheta_ant; }), 3 * right);

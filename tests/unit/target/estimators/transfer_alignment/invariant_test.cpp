@@ -90,7 +90,7 @@ Flown fly(const Settings& settings, const Vector3d& phi) {
   return flown;
 }
 
-Settings told(Algorithm algorithm, Loop loop, double tilt_deg, double heading_deg) {
+Settings configured(Algorithm algorithm, Loop loop, double tilt_deg, double heading_deg) {
   Settings settings;
   settings.algorithm = algorithm;
   settings.loop = loop;
@@ -105,8 +105,8 @@ Settings told(Algorithm algorithm, Loop loop, double tilt_deg, double heading_de
 TEST(InvariantLoop, LeavesTheHeadingSigmaAloneInTheCruise) {
   const Vector3d phi = Vector3d(6, -6, 25) * rad_per_deg;
   const double sigma_0 = 30 * rad_per_deg;
-  const Flown invariant = fly(told(Algorithm::kalman, Loop::invariant, 5, 30), phi);
-  const Flown published = fly(told(Algorithm::kalman, Loop::published, 5, 30), phi);
+  const Flown invariant = fly(configured(Algorithm::kalman, Loop::invariant, 5, 30), phi);
+  const Flown published = fly(configured(Algorithm::kalman, Loop::published, 5, 30), phi);
   EXPECT_GT(std::sqrt(invariant.cruised.P(5, 5)) / sigma_0, 0.9);
   EXPECT_LT(std::sqrt(published.cruised.P(5, 5)) / sigma_0, 0.75);
 }
@@ -115,16 +115,17 @@ TEST(InvariantLoop, LeavesTheHeadingSigmaAloneInTheCruise) {
 TEST(InvariantLoop, FindsALargeHeadingWithinItsSigma) {
   for (const double heading_deg : {-60.0, -25.0, 40.0}) {
     const Vector3d phi = Vector3d(1, -1, heading_deg) * rad_per_deg;
-    EXPECT_LT(fly(told(Algorithm::kalman, Loop::invariant, 1, 30), phi).worst_of_heading, 2) << heading_deg;
+    EXPECT_LT(fly(configured(Algorithm::kalman, Loop::invariant, 1, 30), phi).worst_of_heading, 2)
+        << heading_deg;
   }
   const Vector3d phi = Vector3d(1, -1, 40) * rad_per_deg;
-  EXPECT_GT(fly(told(Algorithm::kalman, Loop::published, 1, 30), phi).worst_of_heading, 2);
+  EXPECT_GT(fly(configured(Algorithm::kalman, Loop::published, 1, 30), phi).worst_of_heading, 2);
 }
 
 // A single wrong velocity must not turn the INS; five in a row must.
 TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
   for (const Loop loop : {Loop::invariant, Loop::published}) {
-    const Settings settings = told(Algorithm::kalman, loop, 1, 5);
+    const Settings settings = configured(Algorithm::kalman, loop, 1, 5);
     State state = initial(flight_start(), settings);
     strapdown::NavState truth = flight_start();
     int gated = 0;
@@ -152,14 +153,14 @@ TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
 // guard it stays below its initial value, and the filter reports it.
 TEST(InvariantLoop, GuardsH2AgainstItsOwnCovariance) {
   const Vector3d phi = Vector3d(5, -5, 15) * rad_per_deg;
-  const Settings settings = told(Algorithm::robust_h2, Loop::invariant, 5, 15);
+  const Settings settings = configured(Algorithm::robust_h2, Loop::invariant, 5, 15);
   const double start = initial_variance(settings).segment<3>(attitude_state).sum();
   const Flown guarded = fly(settings, phi);
   EXPECT_GT(guarded.degraded, 10);
   EXPECT_LT(guarded.degraded, 190);
   EXPECT_LT(guarded.attitude_trace, 1.001 * start);
   EXPECT_LT(guarded.worst_of_heading, 3);
-  const Flown published = fly(told(Algorithm::robust_h2, Loop::published, 5, 15), phi);
+  const Flown published = fly(configured(Algorithm::robust_h2, Loop::published, 5, 15), phi);
   EXPECT_EQ(published.degraded, 0);
   EXPECT_GT(published.attitude_trace, 4 * start);
 }

@@ -1,4 +1,4 @@
-#include "bench/faults/befallen_node.hpp"
+#include "bench/faults/faulty_node.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 
 namespace canhil::faults {
 
-const MessageInfo* BefallenNode::message_of(const Frame& frame) const {
+const MessageInfo* FaultyNode::message_of(const Frame& frame) const {
   const auto found = std::ranges::find_if(messages::all_messages, [&](const MessageInfo& message) {
     return message.id == frame.id && message.extended == frame.extended;
   });
@@ -17,11 +17,11 @@ const MessageInfo* BefallenNode::message_of(const Frame& frame) const {
   return own ? &*found : nullptr;
 }
 
-void BefallenNode::sample(nodes::Transmission& out) {
+void FaultyNode::sample(nodes::Transmission& out) {
   const std::int64_t t_us = node_->due_us();
   node_->transmit(out);
   std::vector<Frame> frames(out.frames().begin(), out.frames().end());
-  befall(frames, t_us);
+  apply(frames, t_us);
   out.clear();
   for (const Frame& frame : frames) out.put(frame);
 }

@@ -11,9 +11,9 @@
 namespace canhil::faults {
 
 /// Wraps a node. If several nodes share a log, frames of the other nodes pass unchanged.
-class BefallenNode : public nodes::Node {
+class FaultyNode : public nodes::Node {
  public:
-  BefallenNode(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run)
+  FaultyNode(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run)
       : table_(settings.table()),
         period_us_(settings.period_us()),
         end_us_(run.end_us),
@@ -27,7 +27,7 @@ class BefallenNode : public nodes::Node {
 
  protected:
   /// Changes the frames of the node's transmission, at its time.
-  virtual void befall(std::vector<Frame>& frames, std::int64_t t_us) = 0;
+  virtual void apply(std::vector<Frame>& frames, std::int64_t t_us) = 0;
   /// Lets the node transmit and appends the frames after the fault has changed them.
   void sample(nodes::Transmission& out);
   /// Whether a frame belongs to the node's sample group.
