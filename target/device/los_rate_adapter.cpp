@@ -34,8 +34,7 @@ constexpr std::array rows{
         [](Tuning& t, double v) { t.jerk_density = v; }},
     Row{Parameter::thermal_noise_pitch_radpm2, standard.noise.pitch.thermal, 1e-14, 1e-6, real, stopped_only,
         "Thermal noise of the error angle in pitch. The 1-sigma of a sample is this times the square of the "
-        "range. "
-        "Planes with equal noises share one set of gains.",
+        "range. Planes with equal noises share one set of gains.",
         [](Tuning& t, double v) { t.noise.pitch.thermal = v; }},
     Row{Parameter::thermal_noise_yaw_radpm2, standard.noise.yaw.thermal, 1e-14, 1e-6, real, stopped_only,
         "The same for yaw.", [](Tuning& t, double v) { t.noise.yaw.thermal = v; }},
@@ -78,8 +77,7 @@ constexpr std::array rows{
     Row{Parameter::blind_range_m, standard.blind_range, 0, 1e4, real, stopped_only,
         "Least range at which the estimate is usable. The largest of four counts: this, 3 times "
         "`range_sigma_m`, 10 sample periods times the closing speed, and 20 m. Below it answers have the "
-        "mark "
-        "`blind`.",
+        "mark `blind`.",
         [](Tuning& t, double v) { t.blind_range = v; }},
     Row{Parameter::range_sigma_m, standard.range_sigma, 0, 1e3, real, stopped_only,
         "1-sigma of the measured range, bias included; see `blind_range_m`.",

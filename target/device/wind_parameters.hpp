@@ -61,8 +61,7 @@ inline constexpr std::array wind_parameters = [] {
           [](WindTuning& t, double v) { t.filter.theta_per_s = v; }},
       Row{P::theta_cap_per_s, 2, 0, 1e3, real, any_time,
           "`h_infinity`: theta times the largest eigenvalue of the covariance, weighted by S, is at most "
-          "this "
-          "times the sample's interval, and at most 0.9; a larger theta is lowered.",
+          "this times the sample's interval, and at most 0.9; a larger theta is lowered.",
           [](WindTuning& t, double v) { t.filter.theta_cap_per_s = v; }},
       Row{P::theta_rate_weight, 1, 0, 1e8, real, any_time,
           "`h_infinity`: weight of the body rates in S, the diagonal matrix that weights the errors of air "
