@@ -56,12 +56,6 @@ const Quantity* read_error(Section& section) {
   return read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom == 0; });
 }
 
-std::optional<double> optional_number(Section& section, const scenario::Key& key, Limits limits) {
-  if (section.has(key.name)) return section.number(key, limits);
-  section.optional(key.name);
-  return std::nullopt;
-}
-
 /// Rejects the limits STEM_at_least and STEM_at_most, with their suffix `ending`, if no value can meet both.
 template <class Value>
 void expect_bars_ordered(Section& section, std::string_view stem, std::string_view ending,
@@ -93,7 +87,7 @@ Lead read(Section& section, const Context& context, Lead rule) {
   rule.within = section.number(
       {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS must stay.", "within_UNIT"},
       Limits::above(0));
-  rule.other = section.one_of({"other", "Variant to compare with."}, context.variants);
+  rule.other = section.given_name({"other", "Name of the variant to compare with."}, context.variants);
   rule.at_least_us = section.optional_time_us({"at_least_s", "Limit: the lead is at least this."}, Limits{});
   return rule;
 }
@@ -102,12 +96,10 @@ ValueAt read(Section& section, const Context& context, ValueAt rule) {
   rule.quantity = read_error(section);
   rule.at_us = scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
                                    Limits::at_least(0), context.duration_us);
-  rule.at_most = optional_number(
-      section,
+  rule.at_most = section.optional_number(
       {checks::key_of("at_most", rule.quantity->unit), "Limit: the RMS is at most this.", "at_most_UNIT"},
       Limits::at_least(0));
-  rule.at_least = optional_number(
-      section,
+  rule.at_least = section.optional_number(
       {checks::key_of("at_least", rule.quantity->unit), "Limit: the RMS is at least this.", "at_least_UNIT"},
       Limits::at_least(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
@@ -129,21 +121,21 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
   rule.at_us = scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
                                    Limits::at_least(0), context.duration_us);
   const auto bar = [&](std::string_view stem, std::string_view meaning) {
-    return optional_number(
-        section, {fmt::format("{}{}", stem, rule.unit.ending), meaning, fmt::format("{}_UNIT", stem)},
+    return section.optional_number(
+        {fmt::format("{}{}", stem, rule.unit.ending), meaning, fmt::format("{}_UNIT", stem)},
         Limits::at_least(0));
   };
-  rule.below = bar("below", "Bound for the fraction of runs that is below it.");
+  rule.below = bar("below", "Runs whose absolute value is below this count for the fraction.");
   rule.rms_at_most = bar("rms_at_most", "Limit: the RMS is at most this.");
   rule.rms_at_least = bar("rms_at_least", "Limit: the RMS is at least this.");
   rule.median_at_most = bar("median_at_most", "Limit: the median is at most this.");
   rule.median_at_least = bar("median_at_least", "Limit: the median is at least this.");
   rule.p90_at_most = bar("p90_at_most", "Limit: the p90 is at most this.");
-  rule.fraction_at_least = optional_number(
-      section, {"fraction_at_least", "Limit: the fraction of runs is at least this. Needs `below_UNIT`."},
+  rule.fraction_at_least = section.optional_number(
+      {"fraction_at_least", "Limit: the fraction of runs is at least this. Needs `below_UNIT`."},
       Limits::between(0, 1));
-  rule.fraction_at_most = optional_number(
-      section, {"fraction_at_most", "Limit: the fraction of runs is at most this. Needs `below_UNIT`."},
+  rule.fraction_at_most = section.optional_number(
+      {"fraction_at_most", "Limit: the fraction of runs is at most this. Needs `below_UNIT`."},
       Limits::between(0, 1));
   expect_bars_ordered(section, "rms_", rule.unit.ending, rule.rms_at_least, rule.rms_at_most);
   expect_bars_ordered(section, "median_", rule.unit.ending, rule.median_at_least, rule.median_at_most);
@@ -152,12 +144,13 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
     section.reject(rule.fraction_at_least ? "fraction_at_least" : "fraction_at_most",
                    "has no effect without a bound", fmt::format("below{} beside it", rule.unit.ending));
   }
-  rule.batch = section
-                   .optional_integer({"batch",
-                                      "Number of runs for which the range of the RMS is computed, by "
-                                      "bootstrap. Default: 100, or all runs if there are fewer."},
-                                     2)
-                   .value_or(rule.batch);
+  rule.batch =
+      section
+          .optional_integer({"batch",
+                             "The 5 % to 95 % range is that of the RMS of this many runs (of all, "
+                             "if there are fewer), drawn with replacement (bootstrap). Default: 100."},
+                            2)
+          .value_or(rule.batch);
   return rule;
 }
 
@@ -167,29 +160,27 @@ WindowMoments read(Section& section, const Context& context, WindowMoments rule)
   rule.from_us = from_us;
   rule.to_us = to_us;
   rule.mean_at_most =
-      optional_number(section,
-                      {checks::key_of("mean_at_most", rule.quantity->unit),
-                       "Limit: the magnitude of the mean is at most this.", "mean_at_most_UNIT"},
-                      Limits::at_least(0));
-  rule.standard_deviation_at_most =
-      optional_number(section,
-                      {checks::key_of("standard_deviation_at_most", rule.quantity->unit),
-                       "Limit: the standard deviation is at most this.", "standard_deviation_at_most_UNIT"},
-                      Limits::at_least(0));
+      section.optional_number({checks::key_of("mean_at_most", rule.quantity->unit),
+                               "Limit: the magnitude of the mean is at most this.", "mean_at_most_UNIT"},
+                              Limits::at_least(0));
+  rule.standard_deviation_at_most = section.optional_number(
+      {checks::key_of("standard_deviation_at_most", rule.quantity->unit),
+       "Limit: the standard deviation is at most this.", "standard_deviation_at_most_UNIT"},
+      Limits::at_least(0));
   return rule;
 }
 
 Paired read(Section& section, const Context& context, Paired rule) {
   rule.quantity = read_error(section);
-  rule.other = section.one_of({"other", "Variant to compare with."}, context.variants);
+  rule.other = section.given_name({"other", "Name of the variant to compare with."}, context.variants);
   rule.at_us = scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
                                    Limits::at_least(0), context.duration_us);
   rule.confidence = section.number({"confidence", "Confidence level of the interval of the fraction."},
                                    Limits::between(0.5, 0.999999), rule.confidence);
   rule.at_most =
-      optional_number(section, {"at_most", "Limit: the fraction is at most this."}, Limits::between(0, 1));
+      section.optional_number({"at_most", "Limit: the fraction is at most this."}, Limits::between(0, 1));
   rule.at_least =
-      optional_number(section, {"at_least", "Limit: the fraction is at least this."}, Limits::between(0, 1));
+      section.optional_number({"at_least", "Limit: the fraction is at least this."}, Limits::between(0, 1));
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }
@@ -207,8 +198,8 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
     rule.mean_between =
         section.interval({"mean_between", "Limit: the mean lies between these."}, Limits::at_least(0));
   section.optional("mean_between");
-  rule.inside_at_least = optional_number(
-      section, {"inside_at_least", "Limit: the fraction of updates inside the interval is at least this."},
+  rule.inside_at_least = section.optional_number(
+      {"inside_at_least", "Limit: the fraction of updates inside the interval is at least this."},
       Limits::between(0, 1));
   return rule;
 }
@@ -233,20 +224,20 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.at_most = optional_number(section,
-                                 {checks::key_of("at_most", rule.quantity->unit),
-                                  "Limit: the mean over runs is at most this.", "at_most_UNIT"},
-                                 Limits::at_least(0));
-  rule.at_least = optional_number(section,
-                                  {checks::key_of("at_least", rule.quantity->unit),
-                                   "Limit: the mean over runs is at least this.", "at_least_UNIT"},
-                                  Limits::at_least(0));
-  rule.other = section.one_of({"other", "Variant to compare with."}, context.variants, "");
-  rule.ratio_at_most = optional_number(
-      section, {"ratio_at_most", "Limit: the ratio to `other` is at most this. Needs `other`."},
+  rule.at_most = section.optional_number({checks::key_of("at_most", rule.quantity->unit),
+                                          "Limit: the mean over runs is at most this.", "at_most_UNIT"},
+                                         Limits::at_least(0));
+  rule.at_least = section.optional_number({checks::key_of("at_least", rule.quantity->unit),
+                                           "Limit: the mean over runs is at least this.", "at_least_UNIT"},
+                                          Limits::at_least(0));
+  rule.other = section.given_name({"other", "Name of the variant to compare with."}, context.variants, "");
+  rule.ratio_at_most = section.optional_number(
+      {"ratio_at_most",
+       "Limit: the mean over runs, divided by that of `other`, is at most this. Needs `other`."},
       Limits::above(0));
-  rule.ratio_at_least = optional_number(
-      section, {"ratio_at_least", "Limit: the ratio to `other` is at least this. Needs `other`."},
+  rule.ratio_at_least = section.optional_number(
+      {"ratio_at_least",
+       "Limit: the mean over runs, divided by that of `other`, is at least this. Needs `other`."},
       Limits::above(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
@@ -266,21 +257,20 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   });
   std::tie(rule.least, rule.most) =
       section.interval({"time_to_go_s", "Window of the time to go."}, Limits::at_least(0));
-  rule.other = section.one_of({"other", "Variant to compare with."}, context.variants, "");
-  rule.rms_at_most = optional_number(section,
-                                     {checks::key_of("rms_at_most", rule.quantity->unit),
-                                      "Limit: the RMS is at most this.", "rms_at_most_UNIT"},
-                                     Limits::at_least(0));
+  rule.other = section.given_name({"other", "Name of the variant to compare with."}, context.variants, "");
+  rule.rms_at_most = section.optional_number({checks::key_of("rms_at_most", rule.quantity->unit),
+                                              "Limit: the RMS is at most this.", "rms_at_most_UNIT"},
+                                             Limits::at_least(0));
   const std::string mean_between = checks::key_of("mean_between", rule.quantity->unit);
   if (section.has(mean_between))
     rule.mean_between = section.interval(
         {mean_between, "Limit: the mean lies between these.", "mean_between_UNIT"}, Limits::at_least(0));
   section.optional(mean_between);
-  rule.ratio_at_most = optional_number(
-      section, {"ratio_at_most", "Limit: the ratio to `other` is at most this. Needs `other`."},
+  rule.ratio_at_most = section.optional_number(
+      {"ratio_at_most", "Limit: the RMS, divided by that of `other`, is at most this. Needs `other`."},
       Limits::at_least(0));
-  rule.ratio_at_least = optional_number(
-      section, {"ratio_at_least", "Limit: the ratio to `other` is at least this. Needs `other`."},
+  rule.ratio_at_least = section.optional_number(
+      {"ratio_at_least", "Limit: the RMS, divided by that of `other`, is at least this. Needs `other`."},
       Limits::at_least(0));
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if (rule.other.empty() && (rule.ratio_at_most || rule.ratio_at_least)) {
@@ -292,9 +282,9 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
 
 RmsRatio read(Section& section, const Context& context, RmsRatio rule) {
   rule.quantity = read_error(section);
-  rule.other = section.one_of({"other", "Variant to compare with."}, context.variants);
+  rule.other = section.given_name({"other", "Name of the variant to compare with."}, context.variants);
   rule.at_most =
-      optional_number(section, {"at_most", "Limit: the ratio is at most this."}, Limits::at_least(0));
+      section.optional_number({"at_most", "Limit: the ratio is at most this."}, Limits::at_least(0));
   return rule;
 }
 
@@ -378,10 +368,14 @@ Metric read_metric(Section& section, const std::vector<std::string>& variants, s
   const std::string by_default = std::visit(
       [](const auto& rule) { return fmt::format("{} {}{}", rule.kind, rule.quantity->name, subject(rule)); },
       metric.rule);
-  metric.name = section.text({"name", "Unique name; by default kind and quantity."},
-                             metric.variants.empty()
-                                 ? by_default
-                                 : fmt::format("{}: {}", by_default, fmt::join(metric.variants, ", ")));
+  metric.name = section.text(
+      {"name",
+       "Unique name; by default kind, quantity and what distinguishes the metric (time, window, `other`)."},
+      "");
+  if (metric.name.empty())
+    metric.name = metric.variants.empty()
+                      ? by_default
+                      : fmt::format("{}: {}", by_default, fmt::join(metric.variants, ", "));
   section.finish();
   return metric;
 }

@@ -117,15 +117,13 @@ Measured measured(const mapping::Stimulus& stimulus) {
           .si = stimulus.si};
 }
 
-const mapping::Stimulus* read_quantity(Section& section, const FaultContext& context, std::string_view key) {
+const mapping::Stimulus* read_quantity(Section& section, const FaultContext& context,
+                                       const scenario::Key& key) {
   std::vector<std::string> names;
   for (const mapping::Stimulus& one : mapping::stimuli()) {
     if (on_the_bus(context, one.node)) names.push_back(one.name);
   }
-  return mapping::find_stimulus(section.one_of(
-      {key, key == "quantity" ? "Quantity, measured by a node, that the fault changes (faults.md)."
-                              : "The other quantity; it must have the same node and unit."},
-      names));
+  return mapping::find_stimulus(section.one_of(key, names));
 }
 
 OfValues read_values(Section& section, const FaultContext& context) {
@@ -133,7 +131,11 @@ OfValues read_values(Section& section, const FaultContext& context) {
   if (section.has("quantity")) {
     for (const std::string_view key : {"messages", "signal"})
       section.refuse(key, "is given beside quantity", "one of the two");
-    const mapping::Stimulus* stimulus = read_quantity(section, context, "quantity");
+    const mapping::Stimulus* stimulus =
+        read_quantity(section, context,
+                      {"quantity",
+                       "Quantity, measured by a node, that the fault changes (faults.md); or `messages` and "
+                       "`signal` in its place."});
     if (stimulus == nullptr) return of;
     of.all.push_back(measured(*stimulus));
     of.text = stimulus->name;
@@ -162,7 +164,8 @@ OfValues read_values(Section& section, const FaultContext& context) {
   return of;
 }
 
-double read_size(Section& section, std::string_view stem, const OfValues& of, scenario::Limits limits) {
+double read_size(Section& section, std::string_view stem, std::string_view meaning, const OfValues& of,
+                 scenario::Limits limits) {
   const std::string_view si = of.all.empty() ? "" : of.all.front().si;
   const std::vector<std::string> keys = keys_of(stem, si);
   std::string given;
@@ -178,10 +181,11 @@ double read_size(Section& section, std::string_view stem, const OfValues& of, sc
     given = keys.front();  // for the reference
   }
   const std::string shown = fmt::format("{}_UNIT", stem);
-  const scenario::Key key{given,
-                          "Size of the fault. The key ends in the unit of the quantity, as in `by_degps`. "
-                          "With `signal` the key has no ending, and the value is in the signal's unit.",
-                          shown};
+  const std::string whole_meaning = fmt::format(
+      "{0} UNIT is the ending of the quantity's unit, as in `{1}_degps`; with `signal` the key is `{1}`, in "
+      "the signal's unit.",
+      meaning, stem);
+  const scenario::Key key{given, whole_meaning, shown};
   return si.empty() ? section.plain_number(key, limits) : section.number(key, limits);
 }
 

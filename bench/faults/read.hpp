@@ -41,16 +41,16 @@ struct OfValues {
 };
 /// The key `quantity`, or `signal` of `messages`.
 OfValues read_values(scenario::Section& section, const scenario::FaultContext& context);
-/// A second quantity, from this key. Null: unknown; the section then has an error.
+/// A quantity, from this key. Null: unknown; the section then has an error.
 const mapping::Stimulus* read_quantity(scenario::Section& section, const scenario::FaultContext& context,
-                                       std::string_view key);
+                                       const scenario::Key& key);
 /// The signal of canhil's DBC that carries a stimulus.
 Measured measured(const mapping::Stimulus& stimulus);
 
-/// A number in the unit of the values. For a quantity the key is `stem` with the suffix of its unit; for a
-/// signal it is `stem` alone, in the signal's unit.
-double read_size(scenario::Section& section, std::string_view stem, const OfValues& of,
-                 scenario::Limits limits = {});
+/// A number, with its meaning, in the unit of the values. For a quantity the key is `stem` with the suffix of
+/// its unit; for a signal it is `stem` alone, in the signal's unit.
+double read_size(scenario::Section& section, std::string_view stem, std::string_view meaning,
+                 const OfValues& of, scenario::Limits limits = {});
 
 /// The messages of the bus.
 std::span<const MessageInfo> messages_of(const scenario::FaultContext& context);

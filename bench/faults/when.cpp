@@ -9,6 +9,7 @@ namespace {
 using scenario::Limits;
 
 constexpr double longest_s = 86'400;
+constexpr std::int64_t longest_us = 86'400'000'000;
 
 void read_periods(scenario::Section& section, When& when) {
   const auto for_us = section.optional_time_us(
@@ -36,9 +37,12 @@ When read_when(scenario::Section& section, const scenario::FaultContext& context
   When when;
   when.from_us = section.time_us({"from_s", "Time of transmission at which the fault begins."},
                                  Limits::between(0, longest_s), 0);
-  when.to_us = section.time_us(
-      {"to_s", "Time of transmission at which the fault ends; by default the end of the run."},
-      Limits::between(0, longest_s), longest_s);
+  when.to_us =
+      section
+          .optional_time_us(
+              {"to_s", "Time of transmission at which the fault ends; by default the end of the run."},
+              Limits::between(0, longest_s))
+          .value_or(longest_us);
   scenario::expect_within_run(section, "from_s", when.from_us, context.duration_us);
   if (when.to_us < when.from_us) section.reject("to_s", "is before from_s", "a later time");
   read_periods(section, when);

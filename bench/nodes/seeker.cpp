@@ -48,10 +48,11 @@ world::SeekerErrorModel read_errors(Section& section) {
   return {
       .thermal = section.number(
           {"thermal_noise_radpm2",
-           "Thermal noise of an error angle: 1-sigma of a sample, divided by the square of the range."},
+           "Thermal noise of an error angle. The 1-sigma of a sample is this times the square of the range."},
           sigma, 1e-10),
       .glint = section.number(
-          {"glint_noise_m", "Glint noise of an error angle: 1-sigma of a sample, multiplied by the range."},
+          {"glint_noise_m",
+           "Glint noise of an error angle. The 1-sigma of a sample is this divided by the range."},
           sigma, 0.5),
       .glint_correlation = section.number(
           {"glint_correlation_ms", "Correlation time of the glint noise; 0: it is white."}, sigma, 0),

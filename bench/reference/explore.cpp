@@ -124,7 +124,10 @@ class Explorer {
     }
     if (key.meaning.empty() && any != found_.end()) return std::nullopt;
     found_.push_back(key);
-    if (is_there && description.looked_for.contains(path_of(key))) found_.back().required = false;
+    if (is_there && description.looked_for.contains(path_of(key))) {  // requested only if it is present
+      found_.back().required = false;
+      found_.back().fallback.clear();
+    }
     return found_.size() - 1;
   }
 

@@ -17,7 +17,7 @@ constexpr std::size_t least_sharing = 4;
 
 std::string unit_of(const scenario::DescribedKey& key) {
   if (key.shown.ends_with("_UNIT")) return "UNIT";
-  return std::string(scenario::unit_of(key.name));
+  return std::string(scenario::unit_of("_" + key.name));  // a key may be a unit's name alone: `percent`
 }
 
 std::string in_code(const std::vector<std::string>& words) {
@@ -80,6 +80,13 @@ std::vector<std::string> shared_rows(const Part& part) {
   return shared;
 }
 
+/// A shared key by its name, and its default if several shared rows have this name.
+std::string reference_to(const AskedKey& one, const std::vector<std::string>& shared) {
+  const std::string name = fmt::format("`{}`", one.key.shown), begin = fmt::format("| {} |", name);
+  const auto rows = std::ranges::count_if(shared, [&](const auto& row) { return row.starts_with(begin); });
+  return rows > 1 && one.key.required ? fmt::format("{} ({})", name, default_of(one)) : name;
+}
+
 std::string text_of(const Table& table, const std::vector<std::string>& shared) {
   std::vector<std::string> own, names;
   for (const AskedKey& one : table.keys) {
@@ -87,12 +94,12 @@ std::string text_of(const Table& table, const std::vector<std::string>& shared) 
     if (std::ranges::find(shared, text) == shared.end())
       own.push_back(text);
     else
-      names.push_back(one.key.shown);
+      names.push_back(reference_to(one, shared));
   }
   std::string text = fmt::format("### `{}`\n\n", table.name);
   if (table.name.find(' ') != std::string::npos) text = fmt::format("### {}\n\n", table.name);
   if (!table.about.empty()) text += table.about + "\n\n";
-  if (!names.empty()) text += fmt::format("Shared keys: {}.\n\n", in_code(names));
+  if (!names.empty()) text += fmt::format("Shared keys: {}.\n\n", fmt::join(names, ", "));
   if (table.keys.empty()) text += "It has no keys of its own.\n\n";
   return text + rows(own);
 }

@@ -31,16 +31,20 @@ Manoeuvre read_manoeuvre(Section& section) {
   if (manoeuvre.kind == Manoeuvre::Kind::weave)
     manoeuvre.period =
         section.number({"manoeuvre_period_s", "Period of a weave."}, Limits::above(0), manoeuvre.period);
-  const bool at_time = section.has("manoeuvre_from_s");
-  if (at_time && section.has("manoeuvre_at_to_go_s"))
-    section.reject("manoeuvre_at_to_go_s", "is given beside manoeuvre_from_s", "one of the two");
-  if (at_time) manoeuvre.at_time_to_go.reset();
-  manoeuvre.from_s = section.number(
+  const auto from_s = section.optional_number(
       {"manoeuvre_from_s", "Time at which the manoeuvre begins, in place of `manoeuvre_at_to_go_s`."},
-      Limits::at_least(0), 0);
-  const double to_go = section.number({"manoeuvre_at_to_go_s", "Time to go at which the manoeuvre begins."},
-                                      Limits::above(0), 1);
-  if (!at_time) manoeuvre.at_time_to_go = to_go;
+      Limits::at_least(0));
+  if (from_s && section.has("manoeuvre_at_to_go_s"))
+    section.reject("manoeuvre_at_to_go_s", "is given beside manoeuvre_from_s", "one of the two");
+  const double to_go =
+      section.number({"manoeuvre_at_to_go_s",
+                      "Time to go at which the manoeuvre begins, if `manoeuvre_from_s` is not given."},
+                     Limits::above(0), 1);
+  manoeuvre.from_s = from_s.value_or(0);
+  if (from_s)
+    manoeuvre.at_time_to_go.reset();
+  else
+    manoeuvre.at_time_to_go = to_go;
   return manoeuvre;
 }
 
@@ -58,7 +62,9 @@ world::EngagementPlan read_engagement(Section& section) {
       section.number({"missile_speed_mps", "Speed of the missile, constant."}, Limits::above(0, 3000), 600);
   plan.target_speed = section.number({"target_speed_mps", "Speed of the flight target, constant."},
                                      Limits::above(0, 1000), 300);
-  plan.heading_error = section.number({"heading_error_deg", "Error of the missile's heading at the start."},
+  plan.heading_error = section.number({"heading_error_deg",
+                                       "Error of the missile's direction of flight at the start, in each of "
+                                       "`planes`; its side is random."},
                                       Limits::between(-45, 45), 0);
   plan.heading_error_sigma = section.number(
       {"heading_error_sigma_deg", "1-sigma of a heading error that is drawn for each run and added."},
@@ -66,9 +72,11 @@ world::EngagementPlan read_engagement(Section& section) {
   plan.pointing_error_sigma =
       section.number({"pointing_error_sigma_mrad", "1-sigma of the antenna's pointing error at the start."},
                      Limits::between(0, 100), 5);
-  plan.planes =
-      read_enum<world::ActivePlanes>(section, {"planes", "Planes in which there are errors and a manoeuvre."},
-                                     planes, world::ActivePlanes::both);
+  plan.planes = read_enum<world::ActivePlanes>(section,
+                                               {"planes",
+                                                "Planes in which the missile has a heading error and the "
+                                                "flight target manoeuvres. Pointing errors are in both."},
+                                               planes, world::ActivePlanes::both);
   plan.manoeuvre = read_manoeuvre(section);
   plan.navigation_constant =
       section.number({"navigation_constant", "Navigation constant of the guidance law."}, sigma, 4);

@@ -20,8 +20,9 @@ glide::WindProfile read_profile(Section& section) {
         glide::season_names));
   }
   section.optional("season");
-  return glide::WindProfile(section.three({"steady_mps", "Constant wind [N, E, D], in place of `season`."},
-                                          Limits::between(-150, 150)));
+  return glide::WindProfile(section.three(
+      {"steady_mps", "Constant wind [N, E, D], in place of `season`; one of the two is required."},
+      Limits::between(-150, 150)));
 }
 
 void read_wind(Section section, world::GlidePlan& plan) {
@@ -66,8 +67,10 @@ void read_airframe(Section section, world::GlidePlan& plan) {
   const std::vector<std::string> reaches{"forces_and_moments", "forces"};
   errors.moments =
       section.one_of({"of", "Coefficients that have the errors."}, reaches, reaches[0]) == reaches[0];
-  plan.density_error =
-      section.number({"density_error_percent", "Error of the air density."}, Limits::between(-50, 50), 0);
+  plan.density_error = section.number(
+      {"density_error_percent",
+       "Deviation of the true air density from the standard one that the filter assumes; positive: denser."},
+      Limits::between(-50, 50), 0);
   section.finish();
 }
 

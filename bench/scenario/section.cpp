@@ -235,10 +235,24 @@ std::string Section::one_of(const Key& key, std::span<const std::string> names,
                          .required = !fallback,
                          .words = {names.begin(), names.end()},
                          .sample = names.empty() ? "\"x\"" : fmt::format("\"{}\"", names.front())});
-  const std::string* value = state_->text(key.name, expected_instead("", names), fallback.has_value());
+  return chosen(key.name, names, fallback);
+}
+
+std::string Section::given_name(const Key& key, std::span<const std::string> names,
+                                const std::optional<std::string>& fallback) {
+  state_->describe(key, {.type = "a name",
+                         .fallback = fallback.value_or(""),
+                         .required = !fallback,
+                         .sample = names.empty() ? "\"x\"" : fmt::format("\"{}\"", names.front())});
+  return chosen(key.name, names, fallback);
+}
+
+std::string Section::chosen(std::string_view key, std::span<const std::string> names,
+                            const std::optional<std::string>& fallback) {
+  const std::string* value = state_->text(key, expected_instead("", names), fallback.has_value());
   if (value == nullptr) return fallback.value_or("");
   if (std::ranges::find(names, *value) != names.end()) return *value;
-  reject(key.name, fmt::format("'{}' is unknown", *value), expected_instead(*value, names));
+  reject(key, fmt::format("'{}' is unknown", *value), expected_instead(*value, names));
   return {};
 }
 

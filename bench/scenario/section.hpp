@@ -58,12 +58,16 @@ class Section {
   bool flag(const Key& key);
   /// A time (key ending in _s or _ms): a whole number of microseconds.
   std::int64_t time_us(const Key& key, Limits limits, std::optional<double> fallback = {});
+  std::optional<double> optional_number(const Key& key, Limits limits);
   std::optional<std::int64_t> optional_time_us(const Key& key, Limits limits);
   std::optional<std::pair<std::int64_t, std::int64_t>> optional_interval_us(const Key& key, Limits limits);
   /// Text on one line, not empty.
   std::string text(const Key& key, const std::optional<std::string>& fallback = {});
   std::string one_of(const Key& key, std::span<const std::string> names,
                      const std::optional<std::string>& fallback = {});
+  /// The same for names that the files themselves give; the reference does not list them.
+  std::string given_name(const Key& key, std::span<const std::string> names,
+                         const std::optional<std::string>& fallback = {});
 
   /// A path in the file, resolved against the file's folder.
   [[nodiscard]] std::string beside(std::string_view path) const;
@@ -113,6 +117,8 @@ class Section {
   struct State;
   struct File;
   std::optional<std::int64_t> whole_number(const Key& key, std::int64_t least, bool required);
+  std::string chosen(std::string_view key, std::span<const std::string> names,
+                     const std::optional<std::string>& fallback);
   /// Records, for the reference, a key that is requested only if it is present.
   void describe_optional(const Key& key, std::string_view type, const Limits& limits);
   explicit Section(std::shared_ptr<State> state) : state_(std::move(state)) {}

@@ -33,6 +33,13 @@ std::optional<std::pair<std::int64_t, std::int64_t>> Section::optional_interval_
   return std::pair{std::llround(from * 1e6), std::llround(to * 1e6)};
 }
 
+std::optional<double> Section::optional_number(const Key& key, Limits limits) {
+  describe_optional(key, "number", limits);
+  if (has(key.name)) return number(key, limits);
+  optional(key.name);
+  return std::nullopt;
+}
+
 std::optional<std::int64_t> Section::optional_time_us(const Key& key, Limits limits) {
   describe_optional(key, "number", limits);
   if (has(key.name)) return time_us(key, limits);

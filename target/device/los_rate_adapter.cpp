@@ -33,13 +33,13 @@ constexpr std::array rows{
         "Power spectral density of the flight target's jerk.",
         [](Tuning& t, double v) { t.jerk_density = v; }},
     Row{Parameter::thermal_noise_pitch_radpm2, standard.noise.pitch.thermal, 1e-14, 1e-6, real, stopped_only,
-        "Thermal noise of the error angle in pitch: 1-sigma of a sample, divided by the square of the range. "
-        "Planes with equal noises share one set of gains.",
+        "Thermal noise of the error angle in pitch. The 1-sigma of a sample is this times the square of the "
+        "range. Planes with equal noises share one set of gains.",
         [](Tuning& t, double v) { t.noise.pitch.thermal = v; }},
     Row{Parameter::thermal_noise_yaw_radpm2, standard.noise.yaw.thermal, 1e-14, 1e-6, real, stopped_only,
         "The same for yaw.", [](Tuning& t, double v) { t.noise.yaw.thermal = v; }},
     Row{Parameter::glint_noise_pitch_m, standard.noise.pitch.glint, 1e-3, 100, real, stopped_only,
-        "Glint noise of the error angle in pitch: 1-sigma of a sample, multiplied by the range.",
+        "Glint noise of the error angle in pitch. The 1-sigma of a sample is this divided by the range.",
         [](Tuning& t, double v) { t.noise.pitch.glint = v; }},
     Row{Parameter::glint_noise_yaw_m, standard.noise.yaw.glint, 1e-3, 100, real, stopped_only,
         "The same for yaw.", [](Tuning& t, double v) { t.noise.yaw.glint = v; }},
@@ -75,8 +75,9 @@ constexpr std::array rows{
         "`combined`, `switched_table`: closing speed at which the table of gains ends.",
         [](Tuning& t, double v) { t.closing_speed_max = v; }},
     Row{Parameter::blind_range_m, standard.blind_range, 0, 1e4, real, stopped_only,
-        "Least range at which the estimate is usable: below it answers have the mark `blind`. If 3 "
-        "`range_sigma_m`, the distance that closes in 10 sample periods, or 20 m is larger, that one counts.",
+        "Least range at which the estimate is usable. The largest of four counts: this, 3 times "
+        "`range_sigma_m`, 10 sample periods times the closing speed, and 20 m. Below it answers have the "
+        "mark `blind`.",
         [](Tuning& t, double v) { t.blind_range = v; }},
     Row{Parameter::range_sigma_m, standard.range_sigma, 0, 1e3, real, stopped_only,
         "1-sigma of the measured range, bias included; see `blind_range_m`.",
@@ -88,7 +89,8 @@ constexpr std::array rows{
         "A closing speed that differs by more than this from the extrapolated one is a jump.",
         [](Tuning& t, double v) { t.closing_speed_gate = v; }},
     Row{Parameter::relock_samples, static_cast<double>(standard.relock_samples), 1, 1e4, whole, stopped_only,
-        "Number of samples in a row that must agree with each other before a range after a jump is used.",
+        "After a jump of range or closing speed: number of samples in a row that must agree with each other "
+        "before they are used.",
         [](Tuning& t, double v) { t.relock_samples = static_cast<int>(std::lround(v)); }},
     Row{Parameter::range_unchanged_limit_ms, standard.range_unchanged_limit / ms, 0, 1e4, real, stopped_only,
         "A range that does not change at all for longer than this is stale.",

@@ -71,14 +71,15 @@ constexpr std::array rows{
         "none.",
         [](Tuning& t, double v) { t.filter.fading_per_s = v; }},
     Row{Parameter::mechanization, 1, 0, 1, whole, stopped_only,
-        "Mechanisation. 0: by one sample, as in the published vectors; 1: by two samples, with correction of "
-        "coning and sculling.",
+        "Mechanisation. 0: from each sample alone, with constant rate and specific force, as in the "
+        "published test vectors; 1: from two samples, with correction of coning and sculling.",
         [](Tuning& t, double v) {
           t.filter.mechanization = static_cast<strapdown::Mechanization>(std::lround(v));
         }},
     Row{Parameter::closed_loop, 2, 0, 2, whole, stopped_only,
-        "0: the INS is not corrected; 1: it is corrected as published; 2: it is corrected by an invariant "
-        "error, H2 is guarded, and velocities beyond `gate_nis` are refused.",
+        "0: the INS is not corrected; 1: it is corrected as published; 2: it is corrected by the feedback of "
+        "an invariant error; a step of `robust_h2` that would make the attitude covariance larger than at "
+        "the start is a Kalman step; velocities beyond `gate_nis` are refused.",
         [](Tuning& t, double v) { t.filter.loop = static_cast<ta::Loop>(std::lround(v)); }},
     Row{Parameter::gate_nis, 2000, 0, 1e9, real, any_time,
         "`closed_loop` 2: velocities with a larger normalised innovation squared (NIS) are refused; 0: no "

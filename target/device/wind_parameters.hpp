@@ -57,14 +57,15 @@ inline constexpr std::array wind_parameters = [] {
           "1-sigma of an attitude sample that the filter assumes.",
           [](WindTuning& t, double v) { t.filter.attitude_sigma = v * deg; }},
       Row{P::theta_per_s, 1.5, 0, 1e3, real, any_time,
-          "`h_infinity`: theta of a sample, divided by the sample's interval.",
+          "`h_infinity`: the theta of a sample is this times the sample's interval; in 1/(m/s)^2/s.",
           [](WindTuning& t, double v) { t.filter.theta_per_s = v; }},
       Row{P::theta_cap_per_s, 2, 0, 1e3, real, any_time,
-          "`h_infinity`: upper limit of theta times the largest eigenvalue of the weighted covariance, "
-          "divided by the sample's interval. Theta is lowered to keep it.",
+          "`h_infinity`: theta times the largest eigenvalue of the covariance, weighted by S, is at most "
+          "this times the sample's interval, and at most 0.9; a larger theta is lowered.",
           [](WindTuning& t, double v) { t.filter.theta_cap_per_s = v; }},
       Row{P::theta_rate_weight, 1, 0, 1e8, real, any_time,
-          "`h_infinity`: weight of the body rates in the matrix S; the air velocity has 1.",
+          "`h_infinity`: weight of the body rates in S, the diagonal matrix that weights the errors of air "
+          "velocity (1) and body rates; in (m/s)^2/(rad/s)^2.",
           [](WindTuning& t, double v) { t.filter.rate_weight = v; }},
       Row{P::adaptation_time_s, 0.3, 1e-3, 1e3, real, any_time,
           "`adaptive_q`: time constant with which the variance of the process noise follows the NIS.",

@@ -26,7 +26,10 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
     return Disturbance{};
   }
   const std::string name =
-      section.one_of({"fault", "Name of a `[[fault]]` of the scenario, in place of the times."}, names);
+      section.given_name({"fault",
+                          "Name of a `[[fault]]` of the scenario, which gives onset and end in place of the "
+                          "times."},
+                         names);
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
   if (found->window.from_us >= context.duration_us)
@@ -43,7 +46,9 @@ Disturbance read_disturbance(scenario::Section& section, const scenario::CheckCo
     return *fault;
   }
   const std::int64_t t_us = scenario::read_time(
-      section, {"from_s", "Time at which something goes wrong without a `[[fault]]`, in place of `fault`."},
+      section,
+      {"from_s",
+       "Time of an event that is not a `[[fault]]`, in place of `fault`; it is both onset and end."},
       scenario::Limits::at_least(0), context.duration_us);
   return {.fault = {}, .window = {.from_us = t_us, .to_us = t_us}, .valid_from_us = t_us};
 }

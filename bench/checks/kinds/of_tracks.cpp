@@ -44,19 +44,13 @@ quantities::Unit read_unit(scenario::Section& section, std::string_view stem, co
 
 }  // namespace
 
-std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates) {
-  if (candidates.size() == 1)
-    return section.one_of(
-        {"estimator",
-         "Estimator to judge. May be omitted if the check can mean only one of the scenario's estimators."},
-        candidates, candidates.front());
+std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates,
+                           std::string_view meaning) {
   // Reported before the keys that depend on the estimator.
-  if (!section.has("estimator"))
+  if (candidates.size() > 1 && !section.has("estimator"))
     section.reject("estimator", "is missing", fmt::format("one of: {}", fmt::join(candidates, ", ")));
-  return section.one_of(
-      {"estimator",
-       "Estimator to judge. May be omitted if the check can mean only one of the scenario's estimators."},
-      candidates);
+  const std::string name = section.given_name({"estimator", meaning}, candidates, "");
+  return name.empty() && candidates.size() == 1 ? candidates.front() : name;
 }
 
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
@@ -74,7 +68,10 @@ Subject read_subject(scenario::Section& section, const scenario::CheckContext& c
         return reported_by(one).empty() ? "is reported by no estimator of this scenario" : "";
       });
   const std::vector<std::string> names = reported_by(*quantity);
-  Subject subject{.estimator = names.empty() ? "" : read_estimator(section, names),
+  constexpr std::string_view meaning =
+      "Estimator to judge, one that reports the quantity. Required only if several estimators of the "
+      "scenario report it.";
+  Subject subject{.estimator = names.empty() ? "" : read_estimator(section, names, meaning),
                   .quantity = quantity,
                   .text = std::string(quantity->name)};
   if (names.size() > 1) subject.text += " of " + subject.estimator;

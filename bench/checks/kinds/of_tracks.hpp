@@ -17,7 +17,8 @@ namespace canhil::checks {
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
                      const std::function<bool(const quantities::Quantity&)>& wanted);
 /// The estimator that `estimator` names, or the only candidate.
-std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates);
+std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates,
+                           std::string_view meaning);
 
 /// `from_s` and `to_s`, or `time_to_go_s` if the flight of the quantity's estimator goes to a target.
 Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& context,

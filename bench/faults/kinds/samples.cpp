@@ -81,8 +81,10 @@ std::vector<Measured> flags_for(const MessageInfo& message) {
 
 Swapped Swapped::read(scenario::Section& section, const scenario::FaultContext& context) {
   Swapped kind;
-  const mapping::Stimulus* one = read_quantity(section, context, "quantity");
-  const mapping::Stimulus* other = read_quantity(section, context, "with");
+  const mapping::Stimulus* one =
+      read_quantity(section, context, {"quantity", "Quantity, measured by a node (faults.md)."});
+  const mapping::Stimulus* other =
+      read_quantity(section, context, {"with", "The other quantity; it must have the same node and unit."});
   kind.when = read_when(section, context, Repeats::each);
   if (one == nullptr || other == nullptr) return kind;
   if (one == other || one->si != other->si || one->node != other->node || one->over != other->over)
@@ -117,7 +119,10 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
     }
   } else {
     section.optional("node");
-    if (const mapping::Stimulus* stimulus = read_quantity(section, context, key); stimulus != nullptr) {
+    const mapping::Stimulus* stimulus =
+        read_quantity(section, context,
+                      {key, "Quantity, measured by a node, whose validity flags say invalid (faults.md)."});
+    if (stimulus != nullptr) {
       kind.text = stimulus->name;
       kind.flags = flags_for(*stimulus->message);
     }

@@ -64,9 +64,12 @@ std::unique_ptr<Injector> Paused::injector(const InRun& run) const {
 Slowed Slowed::read(scenario::Section& section, const scenario::FaultContext& context) {
   Slowed kind{.when = {.from_us = section.time_us({"from_s", "Time at which the fault begins."},
                                                   Limits::at_least(0), 0),
-                       .to_us = section.time_us(
-                           {"to_s", "Time at which the fault ends; by default the end of the run."},
-                           Limits::at_least(0), 1e-6 * static_cast<double>(context.duration_us))},
+                       .to_us = section
+                                    .optional_time_us({"to_s",
+                                                       "Time at which the fault ends; by default the end of "
+                                                       "the run."},
+                                                      Limits::at_least(0))
+                                    .value_or(context.duration_us)},
               .share = section.number({"cpu_percent", "Share of each period in which the process runs."},
                                       {.least = 1, .most = 99}),
               .period_us = section.time_us({"period_ms", "Time from one stop of the process to the next."},

@@ -37,7 +37,8 @@ struct EachValue {
     Kind kind;
     kind.of = read_values(section, context);
     kind.when = read_when(section, context, Repeats::each);
-    if constexpr (requires { Kind::stem; }) kind.size = read_size(section, Kind::stem, kind.of, Kind::limits);
+    if constexpr (requires { Kind::stem; })
+      kind.size = read_size(section, Kind::stem, Kind::size_meaning, kind.of, Kind::limits);
     if constexpr (requires { kind.check(section); }) kind.check(section);
     return kind;
   }
@@ -54,7 +55,7 @@ struct EachValue {
 
 /// The value is replaced.
 struct Changed : EachValue<Changed> {
-  static constexpr std::string_view kind = "changed", stem = "value";
+  static constexpr std::string_view kind = "changed", stem = "value", size_meaning = "New value.";
   static constexpr std::string_view meaning =
       "The sensor's value is replaced by `value_UNIT`, a flag by 0 or 1.";
   static constexpr scenario::Limits limits{};
@@ -65,7 +66,7 @@ struct Changed : EachValue<Changed> {
 
 /// A constant offset.
 struct Bias : EachValue<Bias> {
-  static constexpr std::string_view kind = "bias", stem = "by";
+  static constexpr std::string_view kind = "bias", stem = "by", size_meaning = "Offset.";
   static constexpr std::string_view meaning = "`by_UNIT` is added to the sensor's value.";
   static constexpr scenario::Limits limits{};
   static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
@@ -73,7 +74,8 @@ struct Bias : EachValue<Bias> {
 
 /// An offset that grows at a constant rate.
 struct Drift : EachValue<Drift> {
-  static constexpr std::string_view kind = "drift", stem = "by";
+  static constexpr std::string_view kind = "drift", stem = "by",
+                                    size_meaning = "Growth of the offset per second.";
   static constexpr std::string_view meaning =
       "`by_UNIT` is added to the sensor's value for each second since `from_s`.";
   static constexpr scenario::Limits limits{};
@@ -84,7 +86,7 @@ struct Drift : EachValue<Drift> {
 
 /// Single samples have an offset.
 struct Spike : EachValue<Spike> {
-  static constexpr std::string_view kind = "spike", stem = "by";
+  static constexpr std::string_view kind = "spike", stem = "by", size_meaning = "Offset.";
   static constexpr std::string_view meaning =
       "As `bias`, but for single samples: needs `every` above 1 or `percent` below 100.";
   static constexpr scenario::Limits limits{};
@@ -101,7 +103,7 @@ struct Stuck : EachValue<Stuck> {
 
 /// The magnitude of the value is limited.
 struct Saturated : EachValue<Saturated> {
-  static constexpr std::string_view kind = "saturated", stem = "at";
+  static constexpr std::string_view kind = "saturated", stem = "at", size_meaning = "Largest magnitude.";
   static constexpr std::string_view meaning = "The magnitude of the sensor's value is limited to `at_UNIT`.";
   static constexpr scenario::Limits limits = {.least = 0};
   static double becomes(double value, double size, const Sampled& sample);
@@ -109,7 +111,7 @@ struct Saturated : EachValue<Saturated> {
 
 /// Additional white noise, 1-sigma per sample.
 struct Noise : EachValue<Noise> {
-  static constexpr std::string_view kind = "noise", stem = "sigma";
+  static constexpr std::string_view kind = "noise", stem = "sigma", size_meaning = "1-sigma of a sample.";
   static constexpr std::string_view meaning =
       "White noise is added to the sensor's value: 1-sigma of a sample is `sigma_UNIT`.";
   static constexpr scenario::Limits limits = {.least = 0};
