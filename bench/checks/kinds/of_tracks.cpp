@@ -50,7 +50,8 @@ std::string read_estimator(scenario::Section& section, const std::vector<std::st
   if (candidates.size() > 1 && !section.has("estimator"))
     section.reject("estimator", "is missing", fmt::format("one of: {}", fmt::join(candidates, ", ")));
   const std::string name = section.given_name({"estimator", meaning}, candidates, "");
-  return name.empty() && candidates.size() == 1 ? candidates.front() : name;
+  // After an error the first one, so that the reference shows the keys that depend on it.
+  return name.empty() && !candidates.empty() ? candidates.front() : name;
 }
 
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
