@@ -22,7 +22,7 @@ NOTES = {
     "LosRateEstimate": "its answer carries counter and time of the sample",
     "Sync": "the time base; in lockstep, Sync ends a step ...",
     "StepDone": "... and the target confirms it",
-    "TargetCounters": "counts of lost frames, with each heartbeat of the time base",
+    "TargetCounters": "counts of lost frames; in a run they follow each periodic heartbeat",
 }
 
 
