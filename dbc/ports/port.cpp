@@ -58,9 +58,10 @@ bool wait(Port& port, WaitFor what, std::int64_t deadline_ns) {
 Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options) {
   if (is_local(bus)) return join_local_bus(bus, options);
   if (bus.starts_with("log:")) return open_log_port(bus, options);
-  if (bus.empty() || bus.find_first_of(":/ ") != std::string_view::npos) {
-    return failure(
-        fmt::format("bus '{}': expected a CAN interface such as can0, local:NAME or log:FILE", bus));
+  const bool in_process = bus == "in-process" || bus.starts_with("in-process?");
+  if (in_process || bus.empty() || bus.find_first_of(":/ ") != std::string_view::npos) {
+    return failure(fmt::format("bus '{}': {}expected a CAN interface such as can0, local:NAME or log:FILE",
+                               bus, in_process ? "is not a bus between two programs, " : ""));
   }
   return open_socketcan(bus, options);
 }

@@ -9,6 +9,7 @@ set -u
 here=$(dirname "$(readlink -f "$0")")
 
 say() { echo "vcan: $*" >&2; }
+case "${1:-}" in -h | --help) sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' "$0"; exit ;; esac
 [ $# -gt 0 ] || { say "expected a command: run.sh COMMAND..."; exit 2; }
 
 make_interfaces='ip link set lo up && for i in vcan0 vcan1; do

@@ -26,6 +26,12 @@ TEST(OpenPort, ExplainsWhichBusesThereAre) {
   }
 }
 
+TEST(OpenPort, ExplainsThatTheBusInsideTheBenchIsNotShared) {
+  EXPECT_EQ(why_not("in-process"),
+            "bus 'in-process': is not a bus between two programs, expected a CAN interface such as can0, "
+            "local:NAME or log:FILE");
+}
+
 TEST(OpenPort, ExplainsWhatIsMissingOfCan) {  // tests/vcan tests this with AF_CAN and interfaces
   const Descriptor can(::socket(AF_CAN, SOCK_RAW, 1));
   const std::string why = why_not("nocan7");
