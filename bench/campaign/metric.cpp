@@ -82,20 +82,29 @@ TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
   return rule;
 }
 
+std::int64_t read_at(Section& section, const Context& context) {
+  return scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
+                             Limits::at_least(0), context.duration_us);
+}
+
+std::string read_other(Section& section, const Context& context,
+                       const std::optional<std::string>& fallback = {}) {
+  return section.given_name({"other", "Name of the variant to compare with."}, context.variants, fallback);
+}
+
 Lead read(Section& section, const Context& context, Lead rule) {
   rule.quantity = read_error(section);
   rule.within = section.number(
       {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS must stay.", "within_UNIT"},
       Limits::above(0));
-  rule.other = section.given_name({"other", "Name of the variant to compare with."}, context.variants);
+  rule.other = read_other(section, context);
   rule.at_least_us = section.optional_time_us({"at_least_s", "Limit: the lead is at least this."}, Limits{});
   return rule;
 }
 
 ValueAt read(Section& section, const Context& context, ValueAt rule) {
   rule.quantity = read_error(section);
-  rule.at_us = scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
-                                   Limits::at_least(0), context.duration_us);
+  rule.at_us = read_at(section, context);
   rule.at_most = section.optional_number(
       {checks::key_of("at_most", rule.quantity->unit), "Limit: the RMS is at most this.", "at_most_UNIT"},
       Limits::at_least(0));
@@ -118,8 +127,7 @@ quantities::Unit read_unit(Section& section, const Quantity& quantity) {
 Distribution read(Section& section, const Context& context, Distribution rule) {
   rule.quantity = read_error(section);
   rule.unit = read_unit(section, *rule.quantity);
-  rule.at_us = scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
-                                   Limits::at_least(0), context.duration_us);
+  rule.at_us = read_at(section, context);
   const auto bar = [&](std::string_view stem, std::string_view meaning) {
     return section.optional_number(
         {fmt::format("{}{}", stem, rule.unit.ending), meaning, fmt::format("{}_UNIT", stem)},
@@ -172,9 +180,8 @@ WindowMoments read(Section& section, const Context& context, WindowMoments rule)
 
 Paired read(Section& section, const Context& context, Paired rule) {
   rule.quantity = read_error(section);
-  rule.other = section.given_name({"other", "Name of the variant to compare with."}, context.variants);
-  rule.at_us = scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
-                                   Limits::at_least(0), context.duration_us);
+  rule.other = read_other(section, context);
+  rule.at_us = read_at(section, context);
   rule.confidence = section.number({"confidence", "Confidence level of the interval of the fraction."},
                                    Limits::between(0.5, 0.999999), rule.confidence);
   rule.at_most =
@@ -230,7 +237,7 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   rule.at_least = section.optional_number({checks::key_of("at_least", rule.quantity->unit),
                                            "Limit: the mean over runs is at least this.", "at_least_UNIT"},
                                           Limits::at_least(0));
-  rule.other = section.given_name({"other", "Name of the variant to compare with."}, context.variants, "");
+  rule.other = read_other(section, context, "");
   rule.ratio_at_most = section.optional_number(
       {"ratio_at_most",
        "Limit: the mean over runs, divided by that of `other`, is at most this. Needs `other`."},
@@ -257,7 +264,7 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   });
   std::tie(rule.least, rule.most) =
       section.interval({"time_to_go_s", "Window of the time to go."}, Limits::at_least(0));
-  rule.other = section.given_name({"other", "Name of the variant to compare with."}, context.variants, "");
+  rule.other = read_other(section, context, "");
   rule.rms_at_most = section.optional_number({checks::key_of("rms_at_most", rule.quantity->unit),
                                               "Limit: the RMS is at most this.", "rms_at_most_UNIT"},
                                              Limits::at_least(0));
@@ -282,7 +289,7 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
 
 RmsRatio read(Section& section, const Context& context, RmsRatio rule) {
   rule.quantity = read_error(section);
-  rule.other = section.given_name({"other", "Name of the variant to compare with."}, context.variants);
+  rule.other = read_other(section, context);
   rule.at_most =
       section.optional_number({"at_most", "Limit: the ratio is at most this."}, Limits::at_least(0));
   return rule;
@@ -305,6 +312,7 @@ std::string subject(const Distribution& rule) { return fmt::format(" at {:g} s",
 std::string subject(const Paired& rule) {
   return fmt::format(" at {:g} s against {}", seconds(rule.at_us), rule.other);
 }
+
 /// The subject of a rule with a window.
 template <class Windowed>
 std::string subject(const Windowed& rule) {

@@ -41,10 +41,7 @@ Manoeuvre read_manoeuvre(Section& section) {
                       "Time to go at which the manoeuvre begins, if `manoeuvre_from_s` is not given."},
                      Limits::above(0), 1);
   manoeuvre.from_s = from_s.value_or(0);
-  if (from_s)
-    manoeuvre.at_time_to_go.reset();
-  else
-    manoeuvre.at_time_to_go = to_go;
+  manoeuvre.at_time_to_go = from_s ? std::nullopt : std::optional(to_go);
   return manoeuvre;
 }
 

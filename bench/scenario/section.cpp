@@ -230,29 +230,26 @@ std::string Section::text(const Key& key, const std::optional<std::string>& fall
 
 std::string Section::one_of(const Key& key, std::span<const std::string> names,
                             const std::optional<std::string>& fallback) {
-  state_->describe(key, {.type = "one of",
-                         .fallback = fallback.value_or(""),
-                         .required = !fallback,
-                         .words = {names.begin(), names.end()},
-                         .sample = names.empty() ? "\"x\"" : fmt::format("\"{}\"", names.front())});
-  return chosen(key.name, names, fallback);
+  return choice(key, names, fallback, "one of", {names.begin(), names.end()});
 }
 
 std::string Section::given_name(const Key& key, std::span<const std::string> names,
                                 const std::optional<std::string>& fallback) {
-  state_->describe(key, {.type = "a name",
-                         .fallback = fallback.value_or(""),
-                         .required = !fallback,
-                         .sample = names.empty() ? "\"x\"" : fmt::format("\"{}\"", names.front())});
-  return chosen(key.name, names, fallback);
+  return choice(key, names, fallback, "a name", {});
 }
 
-std::string Section::chosen(std::string_view key, std::span<const std::string> names,
-                            const std::optional<std::string>& fallback) {
-  const std::string* value = state_->text(key, expected_instead("", names), fallback.has_value());
+std::string Section::choice(const Key& key, std::span<const std::string> names,
+                            const std::optional<std::string>& fallback, std::string_view type,
+                            std::vector<std::string> words) {
+  state_->describe(key, {.type = type,
+                         .fallback = fallback.value_or(""),
+                         .required = !fallback,
+                         .words = std::move(words),
+                         .sample = names.empty() ? "\"x\"" : fmt::format("\"{}\"", names.front())});
+  const std::string* value = state_->text(key.name, expected_instead("", names), fallback.has_value());
   if (value == nullptr) return fallback.value_or("");
   if (std::ranges::find(names, *value) != names.end()) return *value;
-  reject(key, fmt::format("'{}' is unknown", *value), expected_instead(*value, names));
+  reject(key.name, fmt::format("'{}' is unknown", *value), expected_instead(*value, names));
   return {};
 }
 

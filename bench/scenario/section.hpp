@@ -117,8 +117,10 @@ class Section {
   struct State;
   struct File;
   std::optional<std::int64_t> whole_number(const Key& key, std::int64_t least, bool required);
-  std::string chosen(std::string_view key, std::span<const std::string> names,
-                     const std::optional<std::string>& fallback);
+  /// Reads one of `names`; the reference describes the value by `type` and lists `words`.
+  std::string choice(const Key& key, std::span<const std::string> names,
+                     const std::optional<std::string>& fallback, std::string_view type,
+                     std::vector<std::string> words);
   /// Records, for the reference, a key that is requested only if it is present.
   void describe_optional(const Key& key, std::string_view type, const Limits& limits);
   explicit Section(std::shared_ptr<State> state) : state_(std::move(state)) {}
