@@ -241,7 +241,7 @@ std::string Section::given_name(const Key& key, std::span<const std::string> nam
 std::string Section::choice(const Key& key, std::span<const std::string> names,
                             const std::optional<std::string>& fallback, std::string_view type,
                             std::vector<std::string> words) {
-  state_->describe(key, {.type = type,
+  state_->describe(key, {.type = std::string(type),
                          .fallback = fallback.value_or(""),
                          .required = !fallback,
                          .words = std::move(words),
