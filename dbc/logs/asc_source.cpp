@@ -52,6 +52,10 @@ std::optional<std::int64_t> time_of(std::string_view word) {
   return std::int64_t{*seconds} * ns_per_s + *ns;
 }
 
+// Start and time of an event after it, together, are below 2^63 ns.
+constexpr int last_year = 2200;
+constexpr std::int64_t longest_ns = 1'000'000'000 * ns_per_s;
+
 // "Tue Nov 24 08:12:13.500 2026" and "Tue Nov 24 08:12:13.500 am 2026", in local time.
 std::optional<std::int64_t> date_of(std::span<const std::string_view> words) {
   constexpr std::array months{"jan", "feb", "mar", "apr", "may", "jun",
@@ -67,6 +71,12 @@ std::optional<std::int64_t> date_of(std::span<const std::string_view> words) {
   const auto hour = number_of<int>(clock.substr(0, 2), 10), minute = number_of<int>(clock.substr(3, 2), 10);
   const auto since = time_of(std::string(clock.substr(6)) + (clock.size() == 8 ? ".0" : ""));
   if (!hour || !minute || !since) return std::nullopt;
+  // python-can 4.1 removes the microseconds' last digits also where the year has the same: "2" in place of
+  // "2026".
+  const auto within = [](int value, int least, int most) { return least <= value && value <= most; };
+  if (!within(*year, 1970, last_year) || !within(*day, 1, 31) || !within(*hour, 0, 23) ||
+      !within(*minute, 0, 59) || *since >= 61 * ns_per_s)
+    return std::nullopt;
   std::tm when{};
   when.tm_year = *year - 1900;
   when.tm_mon = static_cast<int>(month - months.begin());
@@ -192,6 +202,10 @@ Result<std::optional<LogEntry>> AscParser::line(std::string_view text) {
   const auto t_ns = time_of(words[0]);
   if (!t_ns) return std::optional<LogEntry>();
   last_ns_ = relative_ ? last_ns_ + *t_ns : *t_ns;
+  if (last_ns_ > longest_ns) {
+    last_ns_ = 0;
+    return failure("a time of at most 1e9 s");
+  }
   return event(words);
 }
 

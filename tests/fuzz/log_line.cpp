@@ -1,5 +1,7 @@
-// Reads any line or packet of a log. A line must give an entry or one error line, and an entry that is
-// written must be read back as the same frame.
+// Reads any line or packet of a log, and any lines of an ASC file in turn. A line must give an entry or one
+// error line, and an entry that is written must be read back as the same frame.
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -11,7 +13,12 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view line(reinterpret_cast<const char*>(data), size);
-  static_cast<void>(canhil::logs::AscParser().line(line));
+  canhil::logs::AscParser asc;
+  for (std::string_view rest = line; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    static_cast<void>(asc.line(rest.substr(0, end)));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
   static_cast<void>(canhil::logs::frame_of_packet({data, size}));
   const auto entry = canhil::parse_log_line(line, "fuzz");
   if (!entry) {

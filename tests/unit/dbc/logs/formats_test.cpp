@@ -167,6 +167,28 @@ TEST(Asc, OfOthersIsRead) {
   EXPECT_EQ(got[0].t_ns % 1'000'000'000, 941'000'000);
 }
 
+// python-can writes the year 2026 as "2" if the microseconds end with 026. Such a line is no date: times
+// count from the next one.
+TEST(Asc, ADateThatCannotBeIsIgnored) {
+  const std::string path = path_of("date.asc"), event = "0.5 1  123 Rx d 1 00\n";
+  for (const char* date :
+       {"Nov 25 08:36:00.193 AM 2", "Nov 25 08:36:00 2201", "Nov 32 08:36:00 2026", "Nov 25 25:36:00 2026",
+        "Nov 2147483647 08:36:00 2026", "Nov 25 08:60:00 2026", "Nov 25 08:36:4294967295 2026"}) {
+    std::ofstream(path) << "date Wed " << date << "\nbase hex  timestamps absolute\n" << event;
+    const auto got = read(path);
+    ASSERT_EQ(got.size(), 1U) << date;
+    EXPECT_EQ(got[0].t_ns, 500'000'000) << date;
+  }
+}
+
+TEST(Asc, TimesThatAreTooLongAreRejected) {
+  const std::string path = path_of("long.asc"), event = "4294967295.0 1  123 Rx d 1 00\n";
+  for (const char* kind : {"absolute", "relative"}) {
+    std::ofstream(path) << "date Wed Nov 25 08:36:00 2200\nbase hex  timestamps " << kind << "\n" << event;
+    EXPECT_THAT(why_not(path), StartsWith(path + ":3: expected a time of at most 1e9 s"));
+  }
+}
+
 TEST(Asc, WhatIsWrongIsSaidInOneLine) {
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"0.1 1  123 Rx d 2 01", "expected 2 bytes of data"},
