@@ -37,14 +37,14 @@ inline constexpr Quantity heading_sigma{.name = "attitude.heading.sigma",
                                         .once = "heading_sigma"};
 inline constexpr Quantity heading_over_sigma{
     .name = "attitude.heading.over_sigma",
-    .meaning = "error of the heading over the sigma that the target reports",
+    .meaning = "ratio of the heading error to the sigma that the target reports",
     .unit = plain,
     .once = "heading_over_sigma"};
 
 /// One value for each update, from the first navigation answer that includes the update.
 inline constexpr Quantity heading_nees{
     .name = "attitude.heading.nees",
-    .meaning = "error of the heading over the sigma that the target reports, squared",
+    .meaning = "squared ratio of the heading error to the sigma that the target reports",
     .unit = plain,
     .degrees_of_freedom = 1,
     .nan_allowed = true,

@@ -24,11 +24,11 @@ inline constexpr Quantity velocity_down_sigma{
     .unit = mps};
 inline constexpr Quantity velocity_down_over_sigma{
     .name = "velocity.down.over_sigma",
-    .meaning = "error of the velocity down over the sigma that the target reports",
+    .meaning = "ratio of the error of the velocity down to the sigma that the target reports",
     .unit = plain};
 /// The number of repairs of the covariance since the start.
 inline constexpr Quantity covariance_repairs{.name = "covariance.repairs",
-                                             .meaning = "repairs of the covariance since the start",
+                                             .meaning = "number of repairs of the covariance since the start",
                                              .unit = plain,
                                              .once = "repairs"};
 
@@ -39,12 +39,16 @@ inline constexpr Quantity position_norm{
     .name = "position.norm", .meaning = "magnitude of the error of the position", .unit = metres};
 /// The innovation of a fix, NED.
 inline constexpr Quantity position_innovation_north{.name = "innovation.position.north",
-                                                    .meaning = "innovation of a fix north",
+                                                    .meaning = "north component of the innovation of a fix",
                                                     .unit = metres,
                                                     .white = true};
-inline constexpr Quantity position_innovation_east{
-    .name = "innovation.position.east", .meaning = "innovation of a fix east", .unit = metres, .white = true};
-inline constexpr Quantity position_innovation_down{
-    .name = "innovation.position.down", .meaning = "innovation of a fix down", .unit = metres, .white = true};
+inline constexpr Quantity position_innovation_east{.name = "innovation.position.east",
+                                                   .meaning = "east component of the innovation of a fix",
+                                                   .unit = metres,
+                                                   .white = true};
+inline constexpr Quantity position_innovation_down{.name = "innovation.position.down",
+                                                   .meaning = "down component of the innovation of a fix",
+                                                   .unit = metres,
+                                                   .white = true};
 
 }  // namespace canhil::quantities

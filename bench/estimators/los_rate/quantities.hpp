@@ -10,31 +10,32 @@ namespace canhil::quantities {
 /// LOS rate errors in the antenna's axes; `both`: RMS of the two planes.
 inline constexpr Quantity los_rate_pitch{
     .name = "los.rate.pitch",
-    .meaning = "error of the LOS rate in pitch, antenna axes; in campaigns RMS of 20 ms of the time to go",
+    .meaning = "error of the LOS rate in pitch, antenna axes; in campaigns RMS over 20 ms of the time to go",
     .unit = mradps,
     .once = "los_pitch"};
 inline constexpr Quantity los_rate_yaw{
     .name = "los.rate.yaw",
-    .meaning = "error of the LOS rate in yaw, antenna axes; in campaigns RMS of 20 ms of the time to go",
+    .meaning = "error of the LOS rate in yaw, antenna axes; in campaigns RMS over 20 ms of the time to go",
     .unit = mradps,
     .once = "los_yaw"};
 inline constexpr std::array<const Quantity*, 2> los_rate_planes{&los_rate_pitch, &los_rate_yaw};
 inline constexpr Quantity los_rate_both{
     .name = "los.rate",
-    .meaning = "error of the LOS rate: RMS of both planes and 20 ms of the time to go",
+    .meaning = "error of the LOS rate: RMS over both planes and over 20 ms of the time to go",
     .unit = mradps,
     .once = "los_rate",
     .parts = los_rate_planes};
 /// The reported sigma, RMS of both planes.
-inline constexpr Quantity los_rate_sigma{
-    .name = "los.rate.sigma",
-    .meaning =
-        "sigma of the LOS rate as the target reports it: RMS of both planes and 20 ms of the time to go",
-    .unit = mradps};
-inline constexpr Quantity los_rate_over_sigma{
-    .name = "los.rate.over_sigma",
-    .meaning = "error of the LOS rate over its sigma: RMS of both planes and 20 ms of the time to go",
-    .unit = plain};
+inline constexpr Quantity los_rate_sigma{.name = "los.rate.sigma",
+                                         .meaning =
+                                             "sigma of the LOS rate as the target reports it: RMS over both "
+                                             "planes and over 20 ms of the time to go",
+                                         .unit = mradps};
+inline constexpr Quantity los_rate_over_sigma{.name = "los.rate.over_sigma",
+                                              .meaning =
+                                                  "ratio of the error of the LOS rate to its sigma: RMS over "
+                                                  "both planes and over 20 ms of the time to go",
+                                              .unit = plain};
 /// Mean NIS (2 degrees of freedom) over the updates of a stretch; NaN without an update.
 inline constexpr Quantity los_mean_nis{
     .name = "los.nis.mean",

@@ -15,17 +15,20 @@ inline constexpr Quantity attitude_nees{
     .once = "attitude_nees"};
 
 /// The innovation of a velocity update, NED.
-inline constexpr Quantity velocity_innovation_north{.name = "innovation.velocity.north",
-                                                    .meaning = "innovation of a velocity north",
-                                                    .unit = mps,
-                                                    .white = true};
-inline constexpr Quantity velocity_innovation_east{.name = "innovation.velocity.east",
-                                                   .meaning = "innovation of a velocity east",
-                                                   .unit = mps,
-                                                   .white = true};
-inline constexpr Quantity velocity_innovation_down{.name = "innovation.velocity.down",
-                                                   .meaning = "innovation of a velocity down",
-                                                   .unit = mps,
-                                                   .white = true};
+inline constexpr Quantity velocity_innovation_north{
+    .name = "innovation.velocity.north",
+    .meaning = "north component of the innovation of a velocity",
+    .unit = mps,
+    .white = true};
+inline constexpr Quantity velocity_innovation_east{
+    .name = "innovation.velocity.east",
+    .meaning = "east component of the innovation of a velocity",
+    .unit = mps,
+    .white = true};
+inline constexpr Quantity velocity_innovation_down{
+    .name = "innovation.velocity.down",
+    .meaning = "down component of the innovation of a velocity",
+    .unit = mps,
+    .white = true};
 
 }  // namespace canhil::quantities
