@@ -53,7 +53,7 @@ ExitCode reproduce(const Arguments& arguments) {
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fmt::print("{}\n{:.0f} s; page: {}\n", reproduced->text, s, reproduced->page.string());
   if (reproduced->outcome == papers::Outcome::too_few_runs) {
-    fmt::print(stderr, "hil-bench: not judged: the bars are for more runs than these\n");
+    fmt::print(stderr, "hil-bench: not judged: the limits are for more runs than these\n");
     return ExitCode::not_measured;
   }
   return reproduced->outcome == papers::Outcome::bars_met ? ExitCode::pass : ExitCode::fail;

@@ -61,14 +61,14 @@ std::string Evaluation::not_judged() const {
       return answer.passed && (variant == nullptr || answer.variant == *variant);
     });
   };
-  if (!judged(nullptr)) return "nothing was judged: no [[metric]] has a bar";
+  if (!judged(nullptr)) return "nothing was judged: no [[metric]] has a limit";
   // In comparisons, a variant without completed runs counts as the worst one, so the others may pass. It
   // therefore needs a limit of its own.
   for (const Endings& one : endings) {
     if (one.completed == 0 && !judged(&one.variant))
       return fmt::format(
-          "variant '{}' was not judged: none of its runs was completed ({}), and it has no bar", one.variant,
-          one.first_fault);
+          "variant '{}' was not judged: none of its runs was completed ({}), and it has no limit",
+          one.variant, one.first_fault);
   }
   return {};
 }

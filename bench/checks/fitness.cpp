@@ -48,7 +48,7 @@ std::string unfit(const Evidence& evidence, double quantile, double bar_s) {
   if (lateness.count() == 0) return "the bench sent nothing";
   const double late_s = lateness.quantile_ns(quantile) * 1e-9;
   if (late_s <= lateness_share * bar_s) return "";
-  return fmt::format("this host kept the bench itself {:.2f} ms late ({}), more than {:g} % of the bar",
+  return fmt::format("this host kept the bench itself {:.2f} ms late ({}), more than {:g} % of the limit",
                      late_s * 1e3, quantile_name(quantile), lateness_share * 100);
 }
 

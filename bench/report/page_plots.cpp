@@ -112,7 +112,7 @@ std::string bars(const Json& series, LinePlot& plot) {
                             .from_s = bar.at("from_s").get<double>(),
                             .to_s = bar.at("to_s").get<double>()};
     const std::string statistic = bar.at("statistic").get<std::string>();
-    words += fmt::format("; bar of '{}': {}{:g} {} from {:g} to {:g} s", bar.at("check").get<std::string>(),
+    words += fmt::format("; limit of '{}': {}{:g} {} from {:g} to {:g} s", bar.at("check").get<std::string>(),
                          statistic == "max" ? "" : statistic + " below ", own.below, plot.unit, own.from_s,
                          own.to_s);
     plot.bars.push_back(own);

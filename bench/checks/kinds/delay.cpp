@@ -33,7 +33,7 @@ Finding DelayBelow::judge(const Evidence& evidence) const {
       fmt::format("{:.1f} +- {:.1f} ms", delay->delay_s * 1e3, delay->half_width_s * 1e3);
   if (delay->delay_s + delay->half_width_s < bar_s) return {Outcome::pass, measured, expected};
   if (delay->delay_s - delay->half_width_s >= bar_s) return {Outcome::fail, measured, expected};
-  return {Outcome::not_measured, measured + ", too uncertain to compare with the bar", expected};
+  return {Outcome::not_measured, measured + ", too uncertain to compare with the limit", expected};
 }
 
 }  // namespace canhil::checks

@@ -103,7 +103,7 @@ class Hog {
 // bench reports this first.
 const std::string no_cpu =
     "(no CPU was free for the bench for|the hypervisor gave) [0-9.]+ % of (the run|this machine's .*)";
-const std::string late = "this host kept the bench itself .* ms late \\(.*\\), more than 50 % of the bar";
+const std::string late = "this host kept the bench itself .* ms late \\(.*\\), more than 50 % of the limit";
 
 // Limits of a few ms are not measured for one of these reasons; the target's report of its own times is
 // judged.
