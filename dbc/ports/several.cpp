@@ -86,7 +86,8 @@ class Several final : public Port {
     if (received.source == StampSource::hardware) received.source = StampSource::kernel;
   }
 
-  // Adds a port to the epoll set again when its interface has returned.
+  // Adds a port to the epoll set again when its interface has returned. EEXIST is no error: the port kept its
+  // descriptor.
   void watch(std::size_t i) {
     const bool up = ports_[i]->up();
     if (up && !was_up_[i]) add(readable_, *ports_[i]);
