@@ -18,7 +18,7 @@ TEST(InflightPage, HasEveryFigureTableAndVerdictInOneFile) {
     EXPECT_THAT(html, HasSubstr(std::string("id=\"") + section + "\""));
   EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
   EXPECT_THAT(html, Not(HasSubstr("url(")));
-  EXPECT_THAT(text, HasSubstr("The bars are for 400 runs"));
+  EXPECT_THAT(text, HasSubstr("The limits are for 400 runs"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 

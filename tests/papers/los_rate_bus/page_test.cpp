@@ -50,7 +50,7 @@ TEST(LosPage, HasEveryFigureTableAndVerdictInOneFile) {
       << "the paper does not claim it";
   EXPECT_THAT(text, HasSubstr("bar: combined over Kalman filter, 3-2 s"));
   EXPECT_THAT(text, HasSubstr("bar: miss: combined over low-pass of 8 rad/s"));
-  EXPECT_THAT(text, HasSubstr("The bars are for 200 runs"));
+  EXPECT_THAT(text, HasSubstr("The limits are for 200 runs"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 

@@ -28,7 +28,7 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
   EXPECT_THAT(html, Not(HasSubstr("rounding (--unrounded)")));
   EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
   EXPECT_THAT(html, Not(HasSubstr("url(")));
-  EXPECT_THAT(text, HasSubstr("The bars are for 300 runs: with fewer they may fail by chance."));
+  EXPECT_THAT(text, HasSubstr("The limits are for 300 runs: with fewer they may fail by chance."));
   // With two runs, the first paragraph must state no more than the verdicts below it.
   EXPECT_THAT(html,
               HasSubstr("errors are 5 deg. Table 2, Kalman filter: does not reproduce; its heading enters"));

@@ -17,7 +17,7 @@ TEST(WindPage, HasEveryTableAndVerdictInOneFile) {
     EXPECT_THAT(html, HasSubstr(std::string("<figure id=\"") + figure + "\">"));
   EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
   EXPECT_THAT(html, Not(HasSubstr("url(")));
-  EXPECT_THAT(text, HasSubstr("The bars are for 50 runs"));
+  EXPECT_THAT(text, HasSubstr("The limits are for 50 runs"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 

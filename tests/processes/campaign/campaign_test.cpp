@@ -215,7 +215,7 @@ TEST(Report, OfMetricsWithoutABarIsExitCode3) {
   const Ended ended =
       hil_bench(fmt::format("campaign {} --out {}", scratch("no_bar.toml"), folder("no_bar")));
   EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
-  EXPECT_THAT(ended.err, HasSubstr("no_bar.toml: nothing was judged: no [[metric]] has a bar\n"));
+  EXPECT_THAT(ended.err, HasSubstr("no_bar.toml: nothing was judged: no [[metric]] has a limit\n"));
 }
 
 TEST(Report, OfResultsThatAreCutOffIsOneLine) {

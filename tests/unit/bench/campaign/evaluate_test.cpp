@@ -163,7 +163,7 @@ TEST(Report, OfMetricsWithoutABarIsNotMeasured) {
       ask("kind = 'rms_curve'\n[[metric]]\nquantity = 'attitude.roll'\nkind = 'value_at'\nat_s = 1.0\n");
   ASSERT_TRUE(evaluation) << evaluation.error().message;
   EXPECT_EQ(evaluation->outcome(), checks::Outcome::not_measured);
-  EXPECT_EQ(evaluation->not_judged(), "nothing was judged: no [[metric]] has a bar");
+  EXPECT_EQ(evaluation->not_judged(), "nothing was judged: no [[metric]] has a limit");
 }
 
 // B looks worse than A in every run, as it has no values at all.
@@ -182,9 +182,9 @@ TEST(Report, OfAVariantThatNeverFlewIsNoPass) {
   ASSERT_TRUE(paired) << paired.error().message;
   EXPECT_EQ(paired->answers.at(0).passed, true);
   EXPECT_EQ(paired->outcome(), checks::Outcome::not_measured);
-  EXPECT_EQ(
-      paired->not_judged(),
-      "variant 'B' was not judged: none of its runs was completed (run 0: input_silent), and it has no bar");
+  EXPECT_EQ(paired->not_judged(),
+            "variant 'B' was not judged: none of its runs was completed (run 0: input_silent), and it has no "
+            "limit");
   const std::string astray =
       "[[metric]]\nkind = 'divergence'\nquantity = 'attitude.heading'\nbeyond_mrad = 1\n";
   EXPECT_EQ(ask(better + astray + "variants = ['B']\nat_least = 4\n", unflown)->outcome(),
