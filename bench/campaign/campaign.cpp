@@ -40,7 +40,7 @@ void refuse_seed(Section& section, const std::vector<Setting>& settings) {
 
 Given read_given(Section& section) {
   Given given{.name = section.text({"name", "Unique name."}),
-              .scenario = section.text({"scenario", "Scenario file, relative to the campaign's."}),
+              .scenario = section.text({"scenario", "Scenario file, relative to the campaign file."}),
               .settings = {},
               .line = section.line()};
   if (auto set = section.optional_table(
@@ -227,7 +227,7 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
     root.reject("runs", fmt::format("{} is out of range", campaign.runs),
                 fmt::format("at most {}", most_runs));
   campaign.seed = static_cast<std::uint64_t>(
-      root.integer({"seed", "Seed of all random numbers, in place of the scenarios'."}, 0));
+      root.integer({"seed", "Seed of all random numbers, in place of the seeds of the scenarios."}, 0));
   const std::vector<Given> given = read_variants(root);
   const std::vector<Setting> sweep = read_sweep(root, given);
   if (const auto error = root.error()) return tl::unexpected(*error);

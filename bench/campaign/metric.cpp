@@ -83,7 +83,8 @@ TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
 }
 
 std::int64_t read_at(Section& section, const Context& context) {
-  return scenario::read_time(section, {"at_s", "Time up to which updates count; the last one is used."},
+  return scenario::read_time(section,
+                             {"at_s", "Time up to which updates count; the last of these updates is used."},
                              Limits::at_least(0), context.duration_us);
 }
 
@@ -154,10 +155,11 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
   }
   rule.batch =
       section
-          .optional_integer({"batch",
-                             "The 5 % to 95 % range is that of the RMS of this many runs (of all, "
-                             "if there are fewer), drawn with replacement (bootstrap). Default: 100."},
-                            2)
+          .optional_integer(
+              {"batch",
+               "Number of runs for the 5 % to 95 % range: it is the range of the RMS of this many runs (of "
+               "all runs, if there are fewer), drawn with replacement (bootstrap). Default: 100."},
+              2)
           .value_or(rule.batch);
   return rule;
 }

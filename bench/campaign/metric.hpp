@@ -86,8 +86,8 @@ struct WindowMoments {
 struct RunMean {
   static constexpr std::string_view kind = "run_mean";
   static constexpr std::string_view meaning =
-      "Mean of the absolute value over a window of each run; of these means, the mean and standard deviation "
-      "over runs.";
+      "For each run, the mean of the absolute value over a window. Then the mean and standard deviation of "
+      "these means over runs.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> at_most, at_least;              ///< limits of the mean over runs [SI]

@@ -144,8 +144,8 @@ OfValues read_values(Section& section, const FaultContext& context) {
   section.optional("quantity");
   const auto messages = messages_by_name(section, context);
   if (messages.empty()) section.missing("quantity", "a quantity, or messages and signal");
-  const std::string name =
-      section.text({"signal", "Signal of the `messages` that the fault changes, in place of `quantity`."});
+  const std::string name = section.text(
+      {"signal", "Signal that the fault changes, in the given `messages`; in place of `quantity`."});
   of.text = words_of(messages);
   for (const MessageInfo* message : messages) {
     if (context.contract.foreign != nullptr) {

@@ -21,17 +21,17 @@ NodeSettings read(const NodeTable& table, Section& section) {
   GliderNavSettings node;
   node.schedule = read_glide_schedule(section);
   node.velocity_noise =
-      section.number({"velocity_noise_mps", "White noise of the velocity, 1-sigma a sample."}, sigma, 0);
+      section.number({"velocity_noise_mps", "White noise of the velocity, 1-sigma of a sample."}, sigma, 0);
   node.rate_noise =
-      section.number({"rate_noise_degps", "White noise of the body rates, 1-sigma a sample."}, sigma, 0);
+      section.number({"rate_noise_degps", "White noise of the body rates, 1-sigma of a sample."}, sigma, 0);
   node.attitude_noise = section.number(
-      {"attitude_noise_deg", "White noise of the attitude, 1-sigma a sample."}, Limits::between(0, 45), 0);
+      {"attitude_noise_deg", "White noise of the attitude, 1-sigma of a sample."}, Limits::between(0, 45), 0);
   node.correlated_fraction =
       section.number({"correlated_fraction", "Share of the noise's variance that is correlated in time."},
                      Limits::between(0, 1), 0);
-  node.correlation_time =
-      section.number({"correlation_time_s", "Correlation time of the share `correlated_fraction`."},
-                     Limits::above(0), node.correlation_time);
+  node.correlation_time = section.number(
+      {"correlation_time_s", "Correlation time of the share `correlated_fraction` of the noise."},
+      Limits::above(0), node.correlation_time);
   node.loss = read_sample_loss(section);
   return {table, node};
 }

@@ -26,7 +26,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
       .sigma = section.three(
           {"bias_sigma_m", "1-sigma of a further constant error that is drawn for each run and added."},
           sigma)};
-  node.noise = section.three({"noise_m", "White noise of the position, 1-sigma a fix."}, sigma);
+  node.noise = section.three({"noise_m", "White noise of the position, 1-sigma of a fix."}, sigma);
   if (section.has("lowest_height_m"))
     node.lowest_height = section.number(
         {"lowest_height_m",

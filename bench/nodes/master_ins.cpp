@@ -16,14 +16,14 @@ NodeSettings read(const NodeTable& table, Section& section) {
   node.errors = {
       .position = {.value = section.three({"position_bias_m", "Constant error of the position."}),
                    .sigma = section.three(
-                       {"position_noise_m", "White noise of the position, 1-sigma a sample."}, sigma)},
+                       {"position_noise_m", "White noise of the position, 1-sigma of a sample."}, sigma)},
       .velocity = {.value = section.three({"velocity_bias_mps", "Constant error of the velocity."}),
                    .sigma = section.three(
-                       {"velocity_noise_mps", "White noise of the velocity, 1-sigma a sample."}, sigma)},
+                       {"velocity_noise_mps", "White noise of the velocity, 1-sigma of a sample."}, sigma)},
       .attitude = {
           .value = section.three({"attitude_bias_deg", "Constant error of the attitude."},
                                  Limits::between(-180, 180)),
-          .sigma = section.three({"attitude_noise_deg", "White noise of the attitude, 1-sigma a sample."},
+          .sigma = section.three({"attitude_noise_deg", "White noise of the attitude, 1-sigma of a sample."},
                                  Limits::between(0, 180))}};
   node.loss = read_sample_loss(section);
   return {table, node};

@@ -11,10 +11,11 @@ SampleLoss read_sample_loss(scenario::Section& section) {
       .outage_us = section.time_us(
           {"outage_s", "Length of an outage, in which no sample is sent. Needs `outage_every_s`."},
           Limits::at_least(0), 0),
-      .outage_every_us = section.time_us({"outage_every_s",
-                                          "Period of the outages; each period ends with one, so the first "
-                                          "begins at `outage_every_s` - `outage_s`. Needs `outage_s`."},
-                                         Limits::at_least(0), 0)};
+      .outage_every_us =
+          section.time_us({"outage_every_s",
+                           "Period of the outages. Each period ends with an outage, so the first outage "
+                           "begins at `outage_every_s` - `outage_s`. Needs `outage_s`."},
+                          Limits::at_least(0), 0)};
   if ((loss.outage_us > 0) != (loss.outage_every_us > 0)) {
     section.reject(loss.outage_us > 0 ? "outage_s" : "outage_every_s", "is given alone",
                    "outage_s and outage_every_s, both above 0");

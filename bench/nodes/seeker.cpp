@@ -46,10 +46,10 @@ world::RandomValue read_constant(Section& section, std::string_view key, std::st
 world::SeekerErrorModel read_errors(Section& section) {
   const Limits sigma = Limits::at_least(0);
   return {
-      .thermal = section.number(
-          {"thermal_noise_radpm2",
-           "Thermal noise of an error angle. The 1-sigma of a sample is this times the square of the range."},
-          sigma, 1e-10),
+      .thermal = section.number({"thermal_noise_radpm2",
+                                 "Thermal noise of an error angle. The 1-sigma of a sample is this "
+                                 "multiplied by the square of the range."},
+                                sigma, 1e-10),
       .glint = section.number(
           {"glint_noise_m",
            "Glint noise of an error angle. The 1-sigma of a sample is this divided by the range."},
@@ -58,24 +58,24 @@ world::SeekerErrorModel read_errors(Section& section) {
           {"glint_correlation_ms", "Correlation time of the glint noise; 0: it is white."}, sigma, 0),
       .constant =
           section.number({"constant_noise_mrad",
-                          "Noise of an error angle that does not depend on the range, 1-sigma a sample."},
+                          "Noise of an error angle that does not depend on the range, 1-sigma of a sample."},
                          sigma, 0),
       .gyro_noise =
-          section.number({"gyro_noise_mradps", "Noise of the antenna rates, 1-sigma a sample."}, sigma, 1),
+          section.number({"gyro_noise_mradps", "Noise of the antenna rates, 1-sigma of a sample."}, sigma, 1),
       .gyro_bias =
           read_constant(section, "gyro_bias_mradps", "gyro_bias_sigma_mradps", "the antenna rates", 0.5),
       .accel_noise = section.number(
-          {"accel_noise_mps2", "Noise of the missile's acceleration, 1-sigma a sample."}, sigma, 0.3),
+          {"accel_noise_mps2", "Noise of the missile's acceleration, 1-sigma of a sample."}, sigma, 0.3),
       .accel_bias = read_constant(section, "accel_bias_mps2", "accel_bias_sigma_mps2",
                                   "the missile's acceleration", 0.2),
-      .range_noise = section.number({"range_noise_m", "Noise of the range, 1-sigma a sample."}, sigma, 5),
+      .range_noise = section.number({"range_noise_m", "Noise of the range, 1-sigma of a sample."}, sigma, 5),
       .range_bias = read_constant(section, "range_bias_m", "range_bias_sigma_m", "the range", 15),
       .full_errors_beyond = section.number(
           {"range_errors_full_beyond_m",
            "Range below which the errors of the measured range become smaller, in proportion to the range."},
           Limits::above(0), 1000),
       .closing_speed_noise = section.number(
-          {"closing_speed_noise_mps", "Noise of the closing speed, 1-sigma a sample."}, sigma, 3),
+          {"closing_speed_noise_mps", "Noise of the closing speed, 1-sigma of a sample."}, sigma, 3),
       .closing_speed_bias = read_constant(section, "closing_speed_bias_mps", "closing_speed_bias_sigma_mps",
                                           "the closing speed", 5),
       .field_of_view = section.number(

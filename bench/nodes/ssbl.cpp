@@ -31,10 +31,10 @@ NodeSettings read(const NodeTable& table, Section& section) {
           {"bias_sigma_m", "1-sigma of a further constant error that is drawn for each run and added."},
           sigma)};
   node.noise = section.three(
-      {"noise_m", "White noise of the vehicle's position relative to the ship, 1-sigma a fix."}, sigma);
-  node.range_noise =
-      section.number({"range_noise_percent", "White noise in proportion to the slant range, 1-sigma a fix."},
-                     Limits::between(0, 100), 0);
+      {"noise_m", "White noise of the vehicle's position relative to the ship, 1-sigma of a fix."}, sigma);
+  node.range_noise = section.number(
+      {"range_noise_percent", "White noise in proportion to the slant range, 1-sigma of a fix."},
+      Limits::between(0, 100), 0);
   node.faults = read_fix_faults(section);
   return {table, node};
 }

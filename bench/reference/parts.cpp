@@ -69,29 +69,29 @@ Part target_part(const scenario::DbcVocabulary& contract) {
   const auto own = keys_of([&](Section& root) { scenario::read_targets(root, mapped); });
   Part part{
       .title = "The target",
-      .about = "`[target]`, or `[[target]]` once for each estimator that the target runs.",
-      .tables = {
-          {.name = "[target]", .about = "", .keys = in_table(keys, "target")},
-          {.name = "[target.initial_sigma]",
-           .about = "The uncertainty of the initial state that the target receives. `los_rate` needs none.",
-           .keys = in_table(keys, "target.initial_sigma")},
-          {.name = "[target] with a mapping",
-           .about = "A target that has a DBC of its own.",
-           .keys = in_table(own, "target")}}};
+      .about =
+          "There is one table `[target]`, or one table `[[target]]` for each estimator that the target runs.",
+      .tables = {{.name = "[target]", .about = "", .keys = in_table(keys, "target")},
+                 {.name = "[target.initial_sigma]",
+                  .about = "The uncertainty of the initial state that the target receives. `los_rate` does "
+                           "not need this table.",
+                  .keys = in_table(keys, "target.initial_sigma")},
+                 {.name = "[target] with a mapping",
+                  .about = "A target that has a DBC of its own.",
+                  .keys = in_table(own, "target")}}};
   for (Table& table : part.tables)
     for (AskedKey& one : table.keys) one.only.clear();  // the conditions name values of another DBC
   return part;
 }
 
 Part parameters_part() {
-  Part part{
-      .title = "Parameters of the target",
-      .about =
-          "`[target.parameters]`: each is set over the bus and read back. Ranges and defaults are those of "
-          "hil-target; a target of your own may have others, and refuses what is out of range. 'Set before "
-          "the start': the target "
-          "refuses a change while the estimator runs.",
-      .tables = {}};
+  Part part{.title = "Parameters of the target",
+            .about =
+                "The bench sets each parameter of `[target.parameters]` over the bus and reads it back. The "
+                "ranges and defaults are those of hil-target; a target of your own may have others. A target "
+                "refuses a value that is out of its range. 'Set before the start': the target refuses a "
+                "change while the estimator runs.",
+            .tables = {}};
   for (const drive::ParametersOf& of : drive::target_parameters()) {
     Table table{.name = std::string(of.estimator), .about = "", .keys = {}};
     for (const drive::TargetParameter& one : of.parameters) {
@@ -142,8 +142,8 @@ Part nodes_part(const scenario::DbcVocabulary& contract) {
         {.name = fmt::format("[{}]", node->key), .about = "", .keys = keys_of([&](Section& section) {
                                                                 std::ignore = node->read(*node, section);
                                                               })});
-  part.tables.push_back({.name = "Any node that sends what was recorded",
-                         .about = "In place of the keys of the node (recorded-data.md).",
+  part.tables.push_back({.name = "Any node that sends recorded samples",
+                         .about = "These keys replace the keys of the node (recorded-data.md).",
                          .keys = keys_of(
                              [&](Section& section) {
                                std::ignore =
@@ -173,7 +173,9 @@ Part faults_part(const scenario::DbcVocabulary& contract) {
         scenario::read_faults(root, context, faults);
       },
       "[[fault]]\n", Depth::as_it_is);
-  Part part{.title = "Faults", .about = "`[[fault]]`, any number (faults.md).", .tables = {}};
+  Part part{.title = "Faults",
+            .about = "A scenario may have any number of `[[fault]]` tables (faults.md).",
+            .tables = {}};
   part.tables.push_back({.name = "[[fault]]", .about = "", .keys = in_table(of_all, "fault[1]")});
   for (const scenario::FaultKind& kind : contract.fault_kinds)
     part.tables.push_back({.name = std::string(kind.name),
@@ -197,8 +199,11 @@ Part checks_part(const scenario::DbcVocabulary& contract) {
         scenario::read_check(section, own);
       },
       "", Depth::as_it_is);
-  Part part{
-      .title = "Checks", .about = "`[[check]]`, at least one. What they mean: scenarios.md.", .tables = {}};
+  Part part{.title = "Checks",
+            .about =
+                "A scenario has at least one `[[check]]` table (scenarios.md). A timing check is not "
+                "measured in virtual time, except on a simulated wire.",
+            .tables = {}};
   part.tables.push_back({.name = "[[check]]", .about = "", .keys = of_all});
   for (const scenario::CheckKind& kind : contract.check_kinds)
     part.tables.push_back({.name = std::string(kind.name),
@@ -233,10 +238,10 @@ Part campaign_part() {
       },
       "", Depth::as_it_is);
   Part part{.title = "Campaigns",
-            .about = "A campaign's file (campaigns.md).",
+            .about = "The keys of a campaign file (campaigns.md).",
             .tables = {{.name = "Campaign", .about = "", .keys = std::move(root)},
                        {.name = "[[variant]]",
-                        .about = "At least one.",
+                        .about = "A campaign has at least one variant.",
                         .keys = in_table(with("[[variant]]\nset = {}\n"), "variant[1]")},
                        {.name = "[[metric]]", .about = "", .keys = {}}}};
   for (const AskedKey& one : of_all) {

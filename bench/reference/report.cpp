@@ -109,16 +109,14 @@ std::string text_of(const Table& table, const std::vector<std::string>& shared) 
 std::string markdown(const std::vector<Part>& parts) {
   std::string text =
       "# Scenario reference\n\n"
-      "Every key of scenario and campaign files: its unit, what it may be, its default and what it means. "
-      "`hil-bench reference` prints this page from the code that reads the files; "
-      "[scenarios.md](scenarios.md) is "
-      "the guide. A key without 'required' may be left out. UNIT stands for the ending of a quantity's unit "
-      "([quantities.md](quantities.md)). 'One number or three' are `[N, E, D]` or `[x, y, z]`, or one number "
-      "for all "
-      "three. The keys of other files are described elsewhere: those of an acceptance suite in "
-      "[accept.md](accept.md#writing-a-suite), those of a mapping file in "
-      "[mapping.md](mapping.md#the-mapping) "
-      "and [protection.md](protection.md).\n\n";
+      "This page lists every key of scenario and campaign files, with its unit, its possible values, its "
+      "default and its meaning. `hil-bench reference` prints this page from the code that reads the files; "
+      "[scenarios.md](scenarios.md) is the guide. A key without 'required' may be left out. In the meaning "
+      "of a key, 'this' without a noun stands for the value of the key. UNIT stands for the ending of a "
+      "quantity's unit ([quantities.md](quantities.md)). 'One number or three' means an array `[N, E, D]` or "
+      "`[x, y, z]`, or one number for all three. The keys of other files are described elsewhere: those of "
+      "an acceptance suite in [accept.md](accept.md#writing-a-suite), those of a mapping file in "
+      "[mapping.md](mapping.md#the-mapping) and [protection.md](protection.md).\n\n";
   for (const Part& part : parts) {
     const std::vector<std::string> shared = shared_rows(part);
     text += fmt::format("## {}\n\n", part.title);

@@ -16,8 +16,9 @@ Manoeuvre read_manoeuvre(Section& section) {
   static constexpr std::array<std::string_view, 3> kinds{"none", "step", "weave"};
   Manoeuvre manoeuvre;
   manoeuvre.kind = read_enum<Manoeuvre::Kind>(
-      section, {"manoeuvre", "Manoeuvre of the flight target in each plane; its side is random."}, kinds,
-      Manoeuvre::Kind::step);
+      section,
+      {"manoeuvre", "Manoeuvre of the flight target in each plane. The sign of its acceleration is random."},
+      kinds, Manoeuvre::Kind::step);
   if (manoeuvre.kind != Manoeuvre::Kind::weave)
     section.refuse("manoeuvre_period_s", "has no effect here", "manoeuvre = \"weave\"");
   if (manoeuvre.kind == Manoeuvre::Kind::none) {
@@ -61,7 +62,7 @@ world::EngagementPlan read_engagement(Section& section) {
                                      Limits::above(0, 1000), 300);
   plan.heading_error = section.number({"heading_error_deg",
                                        "Error of the missile's direction of flight at the start, in each of "
-                                       "`planes`; its side is random."},
+                                       "`planes`. The sign of the error is random."},
                                       Limits::between(-45, 45), 0);
   plan.heading_error_sigma = section.number(
       {"heading_error_sigma_deg", "1-sigma of a heading error that is drawn for each run and added."},
@@ -91,17 +92,17 @@ world::EngagementPlan read_engagement(Section& section) {
        "LOS rate that proportional navigation uses. `truth`: the true one; `target`: the one in the answers "
        "of the target under test, so the miss distance depends on the bus."},
       guidances);
-  plan.guidance_delay_us =
-      section.time_us({"guidance_delay_ms",
-                       "Time from the transmission of a seeker sample to the guidance command from its "
-                       "answer. With `guidance` `target` at least 10, the cycle time of Sync."},
-                      Limits::between(0, 1000), 10);
+  plan.guidance_delay_us = section.time_us(
+      {"guidance_delay_ms",
+       "Time from the transmission of a seeker sample to the guidance command that uses the answer to this "
+       "sample. With `guidance` `target` it is at least 10, the cycle time of Sync."},
+      Limits::between(0, 1000), 10);
   if (plan.guidance == world::Guidance::truth)
     section.refuse("guidance_predicts", "has no effect here", "guidance = \"target\"");
   plan.guidance_predicts =
       section.flag({"guidance_predicts",
-                    "The command uses the answered rate, extrapolated to the middle of the time for which "
-                    "the command is held. Only with `guidance` `target`."});
+                    "The guidance command uses the LOS rate of the answer, extrapolated to the middle of the "
+                    "time for which the command is held. Only with `guidance` `target`."});
   section.finish();
   return plan;
 }

@@ -25,12 +25,12 @@ world::InitialErrorModel read_initial_error(Section& section) {
           {"attitude_sigma_deg", "1-sigma of misalignments that are drawn for each run and added."},
           Limits::between(0, 180))};
   model.heading_sigma = section.number({"heading_sigma_deg",
-                                        "1-sigma of an error of the heading that is drawn for each run. It "
-                                        "may be large; it does not change the tilts."},
+                                        "1-sigma of an error of the heading that is drawn for each run. The "
+                                        "error may be large. It does not change the tilts."},
                                        Limits::between(0, 180), 0);
   model.heading_magnitude = section.number(
       {"heading_magnitude_deg",
-       "Size of an error of the heading whose sign is random, in place of `heading_sigma_deg`."},
+       "Magnitude of an error of the heading with a random sign, in place of `heading_sigma_deg`."},
       Limits::between(0, 180), 0);
   if (model.heading_sigma > 0 && model.heading_magnitude > 0)
     section.reject("heading_magnitude_deg", "is given beside 'heading_sigma_deg'", "only one of the two");

@@ -74,8 +74,8 @@ std::optional<bool> read_fd(Section& root) {
   if (!root.has("dbc")) return std::nullopt;
   static const std::vector<std::string> names{"canhil", "canhil-fd"};
   return root.one_of({"dbc",
-                      "DBC of the bus: classic CAN or CAN FD. It must agree with `--dbc`. Without the key "
-                      "and `--dbc` it is `canhil`."},
+                      "DBC of the bus: classic CAN or CAN FD. If both this key and `--dbc` are given, they "
+                      "must agree. If neither is given, the DBC is `canhil`."},
                      names) == "canhil-fd";
 }
 

@@ -6,10 +6,11 @@
 namespace canhil::scenario {
 
 Schedule read_schedule(Section& section) {
-  return {.period_us = section.optional_time_us({"period_ms",
-                                                 "Time from a sample to the next. Default: the cycle time in "
-                                                 "the DBC; if the value is another one, the report says so."},
-                                                Limits::between(1, 10'000)),
+  return {.period_us =
+              section.optional_time_us({"period_ms",
+                                        "Time from a sample to the next. Default: the cycle time in the DBC. "
+                                        "If the value differs from the cycle time, the report says so."},
+                                       Limits::between(1, 10'000)),
           .latency_us = section.time_us(
               {"latency_ms", "Time from the time of validity of a sample to its transmission."},
               Limits::between(0, 10'000), 0)};

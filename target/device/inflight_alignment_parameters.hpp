@@ -61,19 +61,21 @@ inline constexpr std::array inflight_alignment_parameters = [] {
             t.filter.ukf_covariance = static_cast<ia::UkfCovariance>(std::lround(v));
           }},
       Row{P::fix_noise_horizontal_m, 2, 1e-3, 1e4, real, any_time,
-          "1-sigma of the white noise of a fix that the filter assumes, for north and east. If a fix reports "
-          "a larger sigma, the filter uses that one.",
+          "1-sigma that the filter assumes for the white noise of a fix, in north and east. If a fix reports "
+          "a larger sigma, the filter uses the reported sigma.",
           [](InflightTuning& t, double v) { t.filter.fix_noise_horizontal = v; }},
-      Row{P::fix_noise_vertical_m, 2, 1e-3, 1e4, real, any_time, "The same for the height.",
+      Row{P::fix_noise_vertical_m, 2, 1e-3, 1e4, real, any_time,
+          "The same as `fix_noise_horizontal_m`, for the height.",
           [](InflightTuning& t, double v) { t.filter.fix_noise_vertical = v; }},
       Row{P::fix_bias_sigma_m, 3.1622777, 0, 1e4, real, stopped_only,
-          "1-sigma of the constant error of SSBL fixes that the filter assumes (ship and SSBL together).",
+          "1-sigma that the filter assumes for the constant error of SSBL fixes (ship and SSBL together).",
           [](InflightTuning& t, double v) { t.filter.fix_bias_sigma_0 = v; }},
       Row{P::fix_bias_walk_mprts, 0, 0, 1e3, real, any_time,
-          "Density of the random walk of the error of `fix_bias_sigma_m`; 0: the error is constant.",
+          "Density of the random walk of the error that `fix_bias_sigma_m` describes; 0: the error is "
+          "constant.",
           [](InflightTuning& t, double v) { t.filter.fix_bias_noise_density = v; }},
       Row{P::initial_height_sigma_m, 0, 0, 1e5, real, stopped_only,
-          "1-sigma of the height at the start; 0: that of `position_m` in `[target.initial_sigma]`.",
+          "1-sigma of the height at the start; 0: the filter uses `position_m` of `[target.initial_sigma]`.",
           [](InflightTuning& t, double v) { t.height_sigma = v; }},
       Row{P::handover_sigma_deg, 2, 1e-3, 90, real, any_time,
           "`sin_cos`: sigma of the heading below which the heading counts as resolved and is fed back to the "

@@ -33,21 +33,23 @@ constexpr std::array rows{
         "Power spectral density of the flight target's jerk.",
         [](Tuning& t, double v) { t.jerk_density = v; }},
     Row{Parameter::thermal_noise_pitch_radpm2, standard.noise.pitch.thermal, 1e-14, 1e-6, real, stopped_only,
-        "Thermal noise of the error angle in pitch. The 1-sigma of a sample is this times the square of the "
-        "range. Planes with equal noises share one set of gains.",
+        "Thermal noise of the error angle in pitch. The 1-sigma of a sample is this multiplied by the square "
+        "of the range. Planes with equal noises share one set of gains.",
         [](Tuning& t, double v) { t.noise.pitch.thermal = v; }},
     Row{Parameter::thermal_noise_yaw_radpm2, standard.noise.yaw.thermal, 1e-14, 1e-6, real, stopped_only,
-        "The same for yaw.", [](Tuning& t, double v) { t.noise.yaw.thermal = v; }},
+        "The same as `thermal_noise_pitch_radpm2`, for yaw.",
+        [](Tuning& t, double v) { t.noise.yaw.thermal = v; }},
     Row{Parameter::glint_noise_pitch_m, standard.noise.pitch.glint, 1e-3, 100, real, stopped_only,
         "Glint noise of the error angle in pitch. The 1-sigma of a sample is this divided by the range.",
         [](Tuning& t, double v) { t.noise.pitch.glint = v; }},
     Row{Parameter::glint_noise_yaw_m, standard.noise.yaw.glint, 1e-3, 100, real, stopped_only,
-        "The same for yaw.", [](Tuning& t, double v) { t.noise.yaw.glint = v; }},
+        "The same as `glint_noise_pitch_m`, for yaw.", [](Tuning& t, double v) { t.noise.yaw.glint = v; }},
     Row{Parameter::constant_noise_pitch_rad, standard.noise.pitch.constant, 0, 0.1, real, stopped_only,
         "Noise of the error angle in pitch that does not depend on the range, 1-sigma of a sample.",
         [](Tuning& t, double v) { t.noise.pitch.constant = v; }},
     Row{Parameter::constant_noise_yaw_rad, standard.noise.yaw.constant, 0, 0.1, real, stopped_only,
-        "The same for yaw.", [](Tuning& t, double v) { t.noise.yaw.constant = v; }},
+        "The same as `constant_noise_pitch_rad`, for yaw.",
+        [](Tuning& t, double v) { t.noise.yaw.constant = v; }},
     Row{Parameter::sample_period_ms, standard.sample_period / ms, 0.5, 50, real, stopped_only,
         "Sample period of the seeker for which the gains are computed.",
         [](Tuning& t, double v) { t.sample_period = v * ms; }},
@@ -61,8 +63,8 @@ constexpr std::array rows{
         "comes from the tables.",
         [](Tuning& t, double v) { t.start_up = v; }},
     Row{Parameter::gap_limit_ms, standard.gap_limit / ms, 0, 1e4, real, stopped_only,
-        "`combined`, `switched_table`: if the error angle is missing for longer, the Kalman filter of "
-        "`start_up_s` runs again.",
+        "`combined`, `switched_table`: if the error angle is missing for longer than this, the Kalman filter "
+        "of `start_up_s` runs again.",
         [](Tuning& t, double v) { t.gap_limit = v * ms; }},
     Row{Parameter::low_pass_bandwidth_radps, standard.low_pass_bandwidth, 0.1, 200, real, stopped_only,
         "`low_pass`: bandwidth of the filter.", [](Tuning& t, double v) { t.low_pass_bandwidth = v; }},
@@ -75,9 +77,9 @@ constexpr std::array rows{
         "`combined`, `switched_table`: closing speed at which the table of gains ends.",
         [](Tuning& t, double v) { t.closing_speed_max = v; }},
     Row{Parameter::blind_range_m, standard.blind_range, 0, 1e4, real, stopped_only,
-        "Least range at which the estimate is usable. The largest of four counts: this, 3 times "
-        "`range_sigma_m`, 10 sample periods times the closing speed, and 20 m. Below it answers have the "
-        "mark `blind`.",
+        "Least range at which the estimate is usable. The filter uses the largest of four values: this, 3 "
+        "times `range_sigma_m`, 10 sample periods times the closing speed, and 20 m. At a smaller range, "
+        "answers have the mark `blind`.",
         [](Tuning& t, double v) { t.blind_range = v; }},
     Row{Parameter::range_sigma_m, standard.range_sigma, 0, 1e3, real, stopped_only,
         "1-sigma of the measured range, bias included; see `blind_range_m`.",

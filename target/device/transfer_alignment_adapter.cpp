@@ -58,7 +58,8 @@ constexpr std::array rows{
         "being the time between two velocities.",
         [](Tuning& t, double v) { t.filter.velocity_noise_density = v; }},
     Row{Parameter::h2_case, 2, 1, 4, whole, stopped_only,
-        "`robust_h2`: structure of the uncertainty, by its number in the paper.",
+        "`robust_h2`: structure of the uncertainty, by its case number in the published paper "
+        "(papers/transfer.md).",
         [](Tuning& t, double v) { t.filter.h2_case = static_cast<ta::H2Case>(std::lround(v)); }},
     Row{Parameter::h2_alpha_rule, 0, 0, 1, whole, stopped_only,
         "`robust_h2`: size alpha of the uncertainty. 0: from the attitude covariance; 1: constant, "
@@ -77,9 +78,9 @@ constexpr std::array rows{
           t.filter.mechanization = static_cast<strapdown::Mechanization>(std::lround(v));
         }},
     Row{Parameter::closed_loop, 2, 0, 2, whole, stopped_only,
-        "0: the INS is not corrected; 1: it is corrected as published; 2: it is corrected by the feedback of "
-        "an invariant error; a step of `robust_h2` that would make the attitude covariance larger than at "
-        "the start is a Kalman step; velocities beyond `gate_nis` are refused.",
+        "0: the INS is not corrected. 1: it is corrected as published. 2: it is corrected by the feedback of "
+        "an invariant error. With 2, velocities beyond `gate_nis` are refused, and `robust_h2` makes a "
+        "Kalman step where its own step would make the attitude covariance larger than at the start.",
         [](Tuning& t, double v) { t.filter.loop = static_cast<ta::Loop>(std::lround(v)); }},
     Row{Parameter::gate_nis, 2000, 0, 1e9, real, any_time,
         "`closed_loop` 2: velocities with a larger normalised innovation squared (NIS) are refused; 0: no "

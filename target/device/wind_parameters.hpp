@@ -45,27 +45,29 @@ inline constexpr std::array wind_parameters = [] {
           [](WindTuning& t, double v) { t.filter.density.wind = v; }},
       Row{P::coefficient_sigma_percent, 5, 0, 100, real, any_time,
           "1-sigma of the constant error of each part of an aerodynamic coefficient. With `process_noise` 2 "
-          "or 3 the reported sigmas include it, except with `h_infinity`.",
+          "or 3 the reported sigmas include this error, except with `h_infinity`.",
           [](WindTuning& t, double v) { t.filter.coefficient_sigma = v / 100; }},
       Row{P::glider_velocity_sigma_mps, 0.25, 1e-3, 1e3, real, any_time,
-          "1-sigma of a velocity sample that the filter assumes.",
+          "1-sigma that the filter assumes for a velocity sample.",
           [](WindTuning& t, double v) { t.filter.velocity_sigma = v; }},
       Row{P::glider_rate_sigma_degps, 0.125, 1e-3, 1e2, real, any_time,
-          "1-sigma of a body rate sample that the filter assumes.",
+          "1-sigma that the filter assumes for a body rate sample.",
           [](WindTuning& t, double v) { t.filter.rate_sigma = v * deg; }},
       Row{P::glider_attitude_sigma_deg, 0.25, 1e-3, 45, real, any_time,
-          "1-sigma of an attitude sample that the filter assumes.",
+          "1-sigma that the filter assumes for an attitude sample.",
           [](WindTuning& t, double v) { t.filter.attitude_sigma = v * deg; }},
       Row{P::theta_per_s, 1.5, 0, 1e3, real, any_time,
-          "`h_infinity`: the theta of a sample is this times the sample's interval; in 1/(m/s)^2/s.",
+          "`h_infinity`: the filter's parameter theta is this multiplied by the interval of the sample. The "
+          "unit of this key is 1/(m/s)^2/s.",
           [](WindTuning& t, double v) { t.filter.theta_per_s = v; }},
       Row{P::theta_cap_per_s, 2, 0, 1e3, real, any_time,
-          "`h_infinity`: theta times the largest eigenvalue of the covariance, weighted by S, is at most "
-          "this times the sample's interval, and at most 0.9; a larger theta is lowered.",
+          "`h_infinity`: limit of theta. The product of theta and the largest eigenvalue of the covariance, "
+          "weighted by S, must not exceed this multiplied by the interval of the sample, nor 0.9. If it "
+          "would, theta is lowered.",
           [](WindTuning& t, double v) { t.filter.theta_cap_per_s = v; }},
       Row{P::theta_rate_weight, 1, 0, 1e8, real, any_time,
-          "`h_infinity`: weight of the body rates in S, the diagonal matrix that weights the errors of air "
-          "velocity (1) and body rates; in (m/s)^2/(rad/s)^2.",
+          "`h_infinity`: weight of the body rates in S, in (m/s)^2/(rad/s)^2. S is the diagonal matrix that "
+          "weights the errors of the air velocity (weight 1) and of the body rates.",
           [](WindTuning& t, double v) { t.filter.rate_weight = v; }},
       Row{P::adaptation_time_s, 0.3, 1e-3, 1e3, real, any_time,
           "`adaptive_q`: time constant with which the variance of the process noise follows the NIS.",
@@ -91,10 +93,11 @@ inline constexpr std::array wind_parameters = [] {
           [](WindTuning& t, double v) { t.filter.fins_missing = v * ms; }},
       // A gap is bridged within one frame, in at most 400 parts of 25 ms.
       Row{P::glider_nav_coast_s, 2, 0, 10, real, any_time,
-          "Longest gap of the navigation that the filter bridges; after a longer one it restarts.",
+          "Longest gap in the navigation samples that the filter bridges. After a longer gap the filter "
+          "restarts.",
           [](WindTuning& t, double v) { t.filter.coast_limit = v; }},
       Row{P::glider_nav_stale_ms, 100, 1, 1e6, real, any_time,
-          "Navigation that does not change at all for longer than this is stale and not used.",
+          "Navigation samples that do not change at all for longer than this are stale and are not used.",
           [](WindTuning& t, double v) { t.filter.stale_limit = v * ms; }},
       Row{P::glider_nav_gate_mps, 50, 1, 1e6, real, any_time,
           "A velocity whose innovation is larger than this is refused as a jump.",

@@ -10,7 +10,7 @@ inline constexpr Quantity height_sigma{
     .name = "height.sigma", .meaning = "sigma of the height as the target reports it", .unit = metres};
 inline constexpr Quantity height_nees{
     .name = "height.nees",
-    .meaning = "error of the height over the sigma that the target reports, squared",
+    .meaning = "squared ratio of the height error to the sigma that the target reports",
     .unit = plain,
     .degrees_of_freedom = 1};
 inline constexpr Quantity height_nis{.name = "height.nis",

@@ -29,8 +29,8 @@ Honest Honest::read(scenario::Section& section, const scenario::CheckContext& co
     std::erase_if(rule.estimators, [&](const estimators::Estimator* one) { return one->name != rule.named; });
   }
   rule.over_sigma = section.plain_number({"over_sigma",
-                                          "Largest ratio of error to sigma in a trusted answer, one with "
-                                          "neither of the marks `degraded` and `blind`."},
+                                          "Largest ratio of error to sigma in a trusted answer. A trusted "
+                                          "answer has neither the mark `degraded` nor the mark `blind`."},
                                          scenario::Limits::above(0), rule.over_sigma);
   return rule;
 }

@@ -8,7 +8,7 @@ namespace canhil::checks {
 struct Latency {
   static constexpr std::string_view kind = "latency";
   static constexpr std::string_view meaning =
-      "Timing. Passes when the quantile of the latencies in the window is below `below_ms`.";
+      "Timing check. Passes when the quantile of the latencies in the window is below `below_ms`.";
   std::string message;
   scenario::Window window;
   std::int64_t below_us = 0;

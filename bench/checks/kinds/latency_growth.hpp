@@ -9,7 +9,7 @@ namespace canhil::checks {
 struct LatencyGrowth {
   static constexpr std::string_view kind = "latency_growth";
   static constexpr std::string_view meaning =
-      "Timing. Passes when the latencies do not grow from the first third of the window to the last.";
+      "Timing check. Passes when the latencies do not grow from the first third of the window to the last.";
   std::string message;
   scenario::Window first, last;
   double ratio_below = 0;

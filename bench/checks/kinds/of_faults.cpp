@@ -25,11 +25,10 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
     section.reject("fault", "names a fault, but the scenario has none", "a [[fault]] beside it, or times");
     return Disturbance{};
   }
-  const std::string name =
-      section.given_name({"fault",
-                          "Name of a `[[fault]]` of the scenario, which gives onset and end in place of the "
-                          "times."},
-                         names);
+  const std::string name = section.given_name(
+      {"fault",
+       "Name of a `[[fault]]` of the scenario. The onset and end of this fault replace the keys for times."},
+      names);
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
   if (found->window.from_us >= context.duration_us)
@@ -45,11 +44,11 @@ Disturbance read_disturbance(scenario::Section& section, const scenario::CheckCo
     section.refuse("from_s", "has no effect beside fault", "one of the two");
     return *fault;
   }
-  const std::int64_t t_us = scenario::read_time(
-      section,
-      {"from_s",
-       "Time of an event that is not a `[[fault]]`, in place of `fault`; it is both onset and end."},
-      scenario::Limits::at_least(0), context.duration_us);
+  const std::int64_t t_us = scenario::read_time(section,
+                                                {"from_s",
+                                                 "Time of an event that is not a `[[fault]]`, in place of "
+                                                 "`fault`. This time is both the onset and the end."},
+                                                scenario::Limits::at_least(0), context.duration_us);
   return {.fault = {}, .window = {.from_us = t_us, .to_us = t_us}, .valid_from_us = t_us};
 }
 

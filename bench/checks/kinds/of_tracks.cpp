@@ -70,8 +70,8 @@ Subject read_subject(scenario::Section& section, const scenario::CheckContext& c
       });
   const std::vector<std::string> names = reported_by(*quantity);
   constexpr std::string_view meaning =
-      "Estimator to judge, one that reports the quantity. Required only if several estimators of the "
-      "scenario report it.";
+      "Estimator to judge; it must report the quantity. Required only if several estimators of the scenario "
+      "report it.";
   Subject subject{.estimator = names.empty() ? "" : read_estimator(section, names, meaning),
                   .quantity = quantity,
                   .text = std::string(quantity->name)};

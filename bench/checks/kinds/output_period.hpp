@@ -8,7 +8,7 @@ namespace canhil::checks {
 struct OutputPeriod {
   static constexpr std::string_view kind = "output_period";
   static constexpr std::string_view meaning =
-      "Timing. Passes when the quantile of the deviations from the message's period is within "
+      "Timing check. Passes when the quantile of the deviations from the message's period is within "
       "`within_percent`.";
   std::string message;
   scenario::Window window;

@@ -10,7 +10,7 @@ namespace canhil::checks {
 struct OwnTimes {
   static constexpr std::string_view kind = "own_times";
   static constexpr std::string_view meaning =
-      "Timing. Passes when the mean queueing time plus the mean computing time that the target reports "
+      "Timing check. Passes when the mean queueing time plus the mean computing time that the target reports "
       "(TargetTiming) is above 0 and not longer than the mean latency.";
 
   static OwnTimes read(scenario::Section& section, const scenario::CheckContext& context);

@@ -33,8 +33,8 @@ Protection Protection::read(scenario::Section& section, const scenario::CheckCon
       "wrong_counters_at_most", "Maximum number of frames with a wrong or repeated counter; 0 if not given.");
   rule.wrong_sizes_at_most =
       most("wrong_sizes_at_most", "Maximum number of frames with a wrong size; 0 if not given.");
-  rule.lost_at_most =
-      most("lost_at_most", "Maximum number of frames that are missing by the counter; 0 if not given.");
+  rule.lost_at_most = most(
+      "lost_at_most", "Maximum number of frames that are missing according to the counter; 0 if not given.");
   return rule;
 }
 

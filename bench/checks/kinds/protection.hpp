@@ -8,8 +8,8 @@ namespace canhil::checks {
 struct Protection {
   static constexpr std::string_view kind = "protection";
   static constexpr std::string_view meaning =
-      "Only for a target with a mapping. Passes when the counters and checksums of its messages are as the "
-      "mapping says.";
+      "Only for a target with a mapping. Passes when the counters and checksums of the target's messages are "
+      "as the mapping defines them.";
   std::optional<std::string> message{};  ///< none: all messages of the target
   std::int64_t wrong_checksums_at_most = 0, wrong_counters_at_most = 0, wrong_sizes_at_most = 0,
                lost_at_most = 0;

@@ -10,7 +10,8 @@ namespace canhil::checks {
 struct Sigma {
   static constexpr std::string_view kind = "sigma";
   static constexpr std::string_view meaning =
-      "Passes when every answer of the window has a sigma of the quantity, and it lies between the bounds.";
+      "Passes when every answer of the window has a sigma of the quantity, and every such sigma lies between "
+      "the bounds.";
   Subject judged;
   Stretch stretch;
   double low = 0, high = 0;  ///< [SI]

@@ -8,8 +8,8 @@ namespace canhil::checks {
 struct SigmaGrows {
   static constexpr std::string_view kind = "sigma_grows";
   static constexpr std::string_view meaning =
-      "Passes when the sigma of the quantity grows in the window. For a window in which measurements are "
-      "missing.";
+      "Passes when the sigma of the quantity grows in the window. Use it for a window in which measurements "
+      "are missing.";
   Subject judged;
   std::string fault;  ///< empty: the check gives the window
   scenario::Window window;

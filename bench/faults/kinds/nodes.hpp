@@ -88,8 +88,9 @@ struct ClockStep : OfNode<ClockStep> {
 struct ClockDrift : OfNode<ClockDrift> {
   static constexpr std::string_view kind = "clock_drift";
   static constexpr std::string_view meaning =
-      "The clock of the node runs at a wrong rate. Too fast: its times of validity gain on the right ones, "
-      "and the intervals that it sends are too long; too slow: the opposite.";
+      "The clock of the node runs at a wrong rate. If the clock is too fast, the node's times of validity "
+      "get more and more ahead of the true times, and the intervals that it sends are too long. If the clock "
+      "is too slow, the opposite.";
   double rate = 0;
   static ClockDrift read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;

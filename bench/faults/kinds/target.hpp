@@ -36,8 +36,8 @@ struct Slowed {
 struct Restarted {
   static constexpr std::string_view kind = "restarted";
   static constexpr std::string_view meaning =
-      "The target's process is killed and started again. The bench then repeats the handshake; the initial "
-      "state is the true one of that time with the initial errors of the start.";
+      "The target's process is killed and started again. The bench then repeats the handshake. The initial "
+      "state is the true state at that time, with the same initial errors as at the start.";
   static constexpr Stage stage = Stage::target;
   When when{};
   static Restarted read(scenario::Section& section, const scenario::FaultContext& context);
