@@ -9,8 +9,8 @@ namespace {
 NodeSettings read(const NodeTable& table, Section& section) {
   BarometerSettings node;
   node.schedule = read_schedule(section);
-  node.noise =
-      section.number({"noise_m", "White noise of the height, 1-sigma of a sample."}, Limits::between(0, 100), 0);
+  node.noise = section.number({"noise_m", "White noise of the height, 1-sigma of a sample."},
+                              Limits::between(0, 100), 0);
   node.loss = read_sample_loss(section);
   return {table, node};
 }
