@@ -19,7 +19,7 @@ NOTES = {
     ("TargetCommand", "start"): "start; the target resets its transmit counters",
     ("TargetHeartbeat", "running"): "from now on the target answers samples",
     "SeekerAntenna": "a sample: four messages with one counter; the last one carries the time",
-    "LosRateEstimate": "its answer carries counter and time of the sample",
+    "LosRateEstimate": "the answer to the first sample, with its counter and time",
     "Sync": "the time base; in lockstep, Sync ends a step ...",
     "StepDone": "... and the target confirms it",
     "TargetCounters": "counts of lost frames; in a run they follow each periodic heartbeat",
