@@ -1,4 +1,4 @@
-// hil-target: a Device on a bus.
+// hil-target: runs a Device on a bus, or replays a recorded log to it.
 #include <fmt/format.h>
 
 #include <atomic>

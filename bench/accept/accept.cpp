@@ -105,7 +105,8 @@ class Run {
             .expected = expected};
   }
 
-  /// In real time the best of three flights counts, because the host may cause occasional delays.
+  /// A flight in real time that does not pass is repeated, up to twice, because the host may cause occasional
+  /// delays. The last flight counts.
   Result<void> fly(const Flight& flight) {
     constexpr int most_attempts = 3;
     for (int left = flight.real_time ? most_attempts : 1;; --left) {

@@ -16,7 +16,7 @@ namespace canhil::accept {
 
 /// One test for a requirement.
 struct Item {
-  std::string requirement;  ///< its id
+  std::string requirement;  ///< id of the requirement
   std::string name;         ///< "flight 'paper': error attitude.heading"
   checks::Outcome outcome = checks::Outcome::not_measured;
   std::string measured;

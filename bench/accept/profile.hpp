@@ -1,5 +1,5 @@
-// A compact summary of the target's answers in one flight: the count of each message, the mean of each
-// signal, and its values at some instants.
+// Records the target's answers in one flight: for each message, the values of its signals in every answer,
+// the number of answers, and the mean of each signal.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,8 @@ struct Series {
   [[nodiscard]] double mean(std::size_t signal) const;
 };
 
-/// Records the answers of a flight. Frames about the host and signals that identify the program are ignored.
+/// Records the answers of a flight. Ignores reports about the host (TargetTiming), StepDone, and
+/// signals that identify the program.
 class Answers final : public drive::Onlooker {
  public:
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;

@@ -2,11 +2,11 @@
 //
 // Two correct targets differ by rounding: each signal is rounded to its step in the DBC, and the filter
 // propagates the rounded inputs into its estimates. A second flight, with unrounded frames, measures this
-// effect when the reference is made. The deviation of a target may be `share` times
+// effect when the reference is made. The deviation of a target may be at most `share` times
 //   at an instant:  2 steps + 4 times the largest effect of rounding over the flight
 //   in the mean:    1/4 step + 4 times the effect of rounding on the mean
-// Flags, states and counts must be equal at an instant, unless rounding changes them; in the mean they may
-// differ by one answer.
+// Flags, states and counts must be equal at an instant, unless rounding changes them; their mean may
+// differ by what one answer contributes.
 #pragma once
 
 #include <filesystem>

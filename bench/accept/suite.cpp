@@ -28,7 +28,7 @@ bool names_one(std::string_view name) {
          observe::signal_of(*message, name.substr(dot + 1)) != nullptr;
 }
 
-// Reads one file.
+// Reads one suite.toml and the scenarios that it names.
 class Reader {
  public:
   Reader(fs::path folder, std::string_view text)

@@ -43,7 +43,7 @@ struct Move {
 struct Flight {
   std::string name;
   scenario::Scenario scenario{};
-  std::string requirement{};  ///< of checks that name no requirement of the suite
+  std::string requirement{};  ///< requirement of the checks that name none of the suite
   std::optional<std::string>
       reference{};       ///< requirement: the answers match the reference; none: not compared
   std::size_t rows = 0;  ///< number of instants kept in the reference

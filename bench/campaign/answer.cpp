@@ -16,7 +16,7 @@ std::string with_unit(double value, const quantities::Unit& unit) {
   return fmt::format("{:.4g}{}{}", value / unit.factor, unit.name.empty() ? "" : " ", unit.name);
 }
 
-/// A value in its unit, under a name that ends in the unit.
+/// Converts a value to its unit and names it: the name is the stem and the unit's ending.
 std::pair<std::string, std::optional<double>> figure(std::string_view stem, double value,
                                                      const quantities::Unit& unit) {
   return {fmt::format("{}{}", stem, unit.ending), value / unit.factor};
@@ -24,12 +24,13 @@ std::pair<std::string, std::optional<double>> figure(std::string_view stem, doub
 
 std::string time_or_never(std::optional<double> t_s) { return t_s ? fmt::format("{:g} s", *t_s) : "never"; }
 
-/// " (3 values missing)": no limit is met if values are missing.
+/// A note such as " (3 values missing)", because no limit is met if values are missing.
+/// Empty: no value is missing.
 std::string missing_note(std::size_t missing) {
   return missing == 0 ? "" : fmt::format(" ({} values missing)", missing);
 }
 
-/// Formats a limit with its unit.
+/// A function that formats a limit with its unit.
 using Words = std::function<std::string(double)>;
 Words in(const quantities::Unit& unit) {
   return [unit](double bar) { return with_unit(bar, unit); };
@@ -37,7 +38,7 @@ Words in(const quantities::Unit& unit) {
 std::string percent(double fraction) { return fmt::format("{:g} %", 100 * fraction); }
 std::string times(double ratio) { return fmt::format("{:g} times", ratio); }
 
-/// The limits of an answer: each call adds a limit as text, and whether the value meets it.
+/// Collects the limits of an answer. Each call adds a limit as text and records whether the value meets it.
 class Bars {
  public:
   Bars(Answer& answer, bool complete) : answer_(answer), complete_(complete) {}
@@ -65,7 +66,7 @@ class Bars {
 
  private:
   Answer& answer_;
-  bool complete_;  // false: a run is missing, so no limit is met
+  bool complete_;  // false: values are missing, so no limit is met
 };
 
 std::size_t missing_in(std::span<const CurvePoint> curve) {

@@ -13,7 +13,8 @@ namespace canhil::campaign {
 
 using Runs = std::vector<RunSeries>;
 
-/// The answer to one metric for one variant.
+/// The result of one metric for one variant. In this folder, 'answer' often means this result, not the
+/// messages of the target.
 struct Answer {
   std::string metric;
   std::string kind;
@@ -23,13 +24,13 @@ struct Answer {
   std::string expected{};        ///< the limits as text; empty: none
   std::optional<bool> passed{};  ///< none: the metric has no limit
   std::vector<std::pair<std::string, std::optional<double>>>
-      figures{};                    ///< by name with unit; none: the value was never reached
+      figures{};                    ///< values by name with unit; no value: the time was never reached
   std::vector<CurvePoint> curve{};  ///< for rms_curve, otherwise empty
   const Quantity* quantity = nullptr;
 };
 
-/// Evaluates a metric for the runs of a variant. `other`: the runs of the variant that it compares with, if
-/// any.
+/// Evaluates a metric for the runs of a variant. `other`: the runs of the variant that the metric compares
+/// with, if any.
 void answer(const Metric& metric, const Runs& runs, const Runs& other, Answer& out);
 
 }  // namespace canhil::campaign

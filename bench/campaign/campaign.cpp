@@ -57,7 +57,7 @@ std::string without_quotes(std::string_view value) {
   return std::string(quoted ? value.substr(1, value.size() - 2) : value);
 }
 
-/// The cartesian product; the last key varies fastest.
+/// Returns all combinations of the sweep's values; the last key varies fastest.
 std::vector<Point> expand(const std::vector<Setting>& sweep) {
   std::vector<Point> points{{}};
   for (const Setting& key : sweep) {
@@ -115,7 +115,8 @@ std::uint64_t hash_of(const Sources& sources) {
   return world::fnv1a_64(all);
 }
 
-/// Adds the recordings of the scenarios to the hash: they change the results, but are not among the sources.
+/// Adds the recordings of the scenarios to the hash. The recordings change the results, but are not among
+/// the sources.
 std::uint64_t with_recordings(std::uint64_t hash, const std::vector<Variant>& variants) {
   for (const Variant& variant : variants) {
     const std::uint64_t own = variant.scenario.recordings_hash;
@@ -281,7 +282,7 @@ std::vector<std::size_t> variants_of(const Campaign& campaign, const Metric& met
   for (std::size_t i = 0; i < campaign.variants.size(); ++i) {
     const std::string& name = campaign.variants[i].given;
     const bool wanted = metric.variants.empty()
-                            ? name != other  // a variant is compared with itself only on request
+                            ? name != other  // a variant is not compared with itself
                             : std::ranges::find(metric.variants, name) != metric.variants.end();
     if (wanted) chosen.push_back(i);
   }

@@ -1,5 +1,6 @@
-// A campaign file, read and validated: variants of scenarios, all flown with the same seed and run indices,
-// and metrics. Run r has the same random numbers in every variant: runs are paired.
+// Reads and validates a campaign file. The file contains variants of scenarios, and metrics. All variants are
+// flown with the same seed and run indices. Run r therefore has the same random numbers in every variant, so
+// that runs of two variants can be compared in pairs.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ namespace canhil::campaign {
 
 /// A scenario with its settings at one point of the sweep.
 struct Variant {
-  std::string name;   ///< unique: the name in the file and, with a sweep, its point
+  std::string name;   ///< unique: the name in the file; with a sweep, followed by the point
   std::string given;  ///< name in the file
   std::string point;  ///< "master_ins.period_ms=50 ..."; empty without a sweep
   scenario::Scenario scenario;
@@ -40,7 +41,7 @@ inline constexpr std::uint64_t most_variants = 10'000;
 
 struct Campaign {
   Sources sources;
-  std::uint64_t hash = 0;  ///< of all texts: results with equal hashes belong together
+  std::uint64_t hash = 0;  ///< of all texts and recordings: results with equal hashes belong together
   std::string title;
   std::uint64_t runs = 0;
   std::uint64_t seed = 0;
@@ -58,12 +59,12 @@ using ScenarioText = std::function<Result<std::string>(const std::string&)>;
 Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
                                 const ScenarioText& scenario_text);
 
-/// A campaign from texts that were stored with its results.
+/// Reads a campaign from the texts that were stored with its results.
 Result<Campaign> parse_campaign(const Sources& sources);
 
-/// The variants to which a metric applies.
+/// The indices of the variants to which a metric applies.
 std::vector<std::size_t> variants_of(const Campaign& campaign, const Metric& metric);
-/// The variant named `other` at the same sweep point as `variant`.
+/// The index of the variant named `other` at the same sweep point as `variant`.
 std::size_t counterpart(const Campaign& campaign, std::size_t variant, const std::string& other);
 
 }  // namespace canhil::campaign

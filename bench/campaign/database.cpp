@@ -10,7 +10,7 @@
 namespace canhil::campaign {
 namespace {
 
-// The errno of the failed system call, which some of SQLite's messages lack; 0: unknown.
+// Returns the errno of the failed system call; 0: unknown. Some of SQLite's messages do not contain it.
 int reason_of(int code, const std::string& file, sqlite3* database) {
   int reason = 0;
   if (code == SQLITE_IOERR) sqlite3_file_control(database, "main", SQLITE_FCNTL_LAST_ERRNO, &reason);
@@ -47,7 +47,7 @@ Result<SQLite::Database> open_database(const std::filesystem::path& path, int fl
                                std::strerror(ENOENT)));
   try {
     return SQLite::Database(path.string(),
-                            flags | SQLite::OPEN_NOMUTEX);  // only one thread at a time uses it
+                            flags | SQLite::OPEN_NOMUTEX);  // only one thread at a time uses the database
   } catch (const SQLite::Exception& error) {
     return tl::unexpected(in_words(error, path.string(), nullptr));
   }

@@ -25,7 +25,7 @@ void check_size(const SQLite::Database& database);
 /// SQLite's error as text; `database`: null if it could not be opened.
 Error in_words(const SQLite::Exception& error, const std::string& file, sqlite3* database);
 
-/// Runs `work` on an open file and turns its exceptions into an Error.
+/// Runs `work` on an open file and turns the exceptions of `work` into an Error.
 template <class Work>
 auto attempt(const SQLite::Database& database, const Work& work) -> Result<decltype(work())> {
   try {

@@ -8,7 +8,7 @@
 namespace canhil::campaign {
 namespace {
 
-// Whether all reported quantities are finite; the quantities that the estimator does not report are NaN.
+// Whether all values are finite. A quantity that samples may lack (nan_allowed) may also be NaN.
 bool finite(const quantities::Samples& samples) {
   const auto columns = samples.layout().kept;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -62,8 +62,8 @@ std::string Evaluation::not_judged() const {
     });
   };
   if (!judged(nullptr)) return "nothing was judged: no [[metric]] has a limit";
-  // In comparisons, a variant without completed runs counts as the worst one, so the others may pass. It
-  // therefore needs a limit of its own.
+  // In comparisons, a variant without completed runs counts as the worst one, so the other variants may pass.
+  // A metric with a limit must therefore judge the variant without completed runs itself.
   for (const Endings& one : endings) {
     if (one.completed == 0 && !judged(&one.variant))
       return fmt::format(

@@ -25,7 +25,7 @@ struct Evaluation {
   std::string target{};  ///< see Identity
   std::vector<Endings> endings;
   std::vector<Answer> answers;
-  /// The reason why a campaign without failures did not pass; empty: it failed, or everything was judged.
+  /// The reason why a campaign without failures did not pass; empty: it failed or passed.
   [[nodiscard]] std::string not_judged() const;
   [[nodiscard]] checks::Outcome outcome() const;
 };

@@ -36,8 +36,8 @@ class Finishing {
     const std::scoped_lock lock(mutex_);
     if (--workers_ == 0) ended_.notify_one();
   }
-  /// Waits for a commit interval, or until the workers end, and returns the runs that have finished since.
-  /// None: the workers have ended and all runs were returned.
+  /// Waits for a commit interval, or until the workers end. Returns the runs that have finished since the
+  /// last call. None: the workers have ended and all runs were returned.
   std::optional<std::vector<Finished>> take() {
     std::unique_lock lock(mutex_);
     const bool ended = ended_.wait_for(lock, commit_interval, [&] { return workers_ == 0; });
@@ -57,7 +57,7 @@ class Finishing {
   std::optional<Error> error_;
 };
 
-/// Data shared by the workers: read-only, except for the index of the next task.
+/// Data shared by the workers: read-only, except for `next` and `halt`.
 struct Work {
   const Campaign& campaign;
   const std::string& target;                               ///< see Options

@@ -20,10 +20,10 @@ struct Shard {
   std::uint64_t count = 1;
 };
 
-/// "i/N" with 0 <= i < N.
+/// Parses "i/N" with 0 <= i < N.
 Result<Shard> parse_shard(const std::string& text);
-/// The index in a Slurm job array, from SLURM_ARRAY_TASK_ID, _COUNT, _MIN and _STEP; outside of an array: all
-/// runs.
+/// The shard of this task in a Slurm job array, from SLURM_ARRAY_TASK_ID, _COUNT, _MIN and _STEP. Outside of
+/// an array, the shard contains all runs.
 Result<Shard> shard_of_environment();
 
 /// Progress of a campaign.
@@ -40,15 +40,15 @@ struct Options {
   bool resume = false;   ///< continue an existing file
   std::string
       target{};  ///< a program to fly against, over a bus in lockstep; empty: a Device in this process
-  /// Called with the committed runs and the progress, always from the same thread.
+  /// `committed` is called with the runs just committed, then `progress`, always from the same thread.
   std::function<void(std::span<const Finished>)> committed = [](std::span<const Finished>) {};
   std::function<void(const Progress&)> progress = [](const Progress&) {};
 };
 
 enum class Execution : std::uint8_t { complete, interrupted };
 
-/// Flies the runs that the file lacks; every finished run is committed within half a second. `stop` ends it
-/// early and cleanly. Error: one line; runs committed before are kept.
+/// Flies the runs that the file lacks; every finished run is committed within half a second. `stop` ends
+/// the execution early and cleanly. Error: one line; runs committed before are kept.
 Result<Execution> execute(const Campaign& campaign, const Options& options, const std::atomic<bool>& stop);
 
 }  // namespace canhil::campaign

@@ -8,7 +8,7 @@
 namespace canhil::campaign {
 namespace {
 
-// Quotes a field that contains a separator.
+// Quotes a field that contains a comma, a quotation mark or a line break.
 std::string field(std::string_view text) {
   if (text.find_first_of(",\"\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";

@@ -88,7 +88,7 @@ Result<Finished> take(const Shards& shards, const Key& key) {
   return Finished{.variant = key.variant, .series = std::move(*first)};
 }
 
-/// Uses one transaction for each variant: the bytes of the file depend on this.
+/// Uses exactly one transaction for each variant, because the bytes of the file depend on the transactions.
 Result<void> write(const std::filesystem::path& file, const Shards& shards, const Campaign& campaign) {
   const Identity& identity = shards.stores[0].identity();
   auto merged = Store::create(file, identity, shards.stores[0].sources());

@@ -9,8 +9,9 @@
 namespace canhil::campaign {
 
 /// Writes all runs of the shards `files`, ordered by variant and run, to a new file and renames it to `out`.
-/// Error: one line, and `out` is unchanged: the shards differ in campaign, DBC or program; runs are missing
-/// or differ between shards; or `out` holds something other than results of this campaign.
+/// Error: one line, and `out` is unchanged. The reasons: the identities of the shards differ; a shard is
+/// given twice; runs are missing or differ between shards; or `out` holds something other than results of
+/// this campaign.
 Result<void> merge(const std::filesystem::path& out, std::span<const std::filesystem::path> files);
 
 }  // namespace canhil::campaign

@@ -303,7 +303,7 @@ std::string in_unit(double value, const Quantity& quantity) {
   return fmt::format("{:g} {}", value / quantity.unit.factor, quantity.unit.name);
 }
 
-/// Distinguishes metrics of the same kind and quantity.
+/// The part of a metric's default name that distinguishes metrics of the same kind and quantity.
 std::string subject(const RmsCurve& /*rule*/) { return {}; }
 std::string subject(const TimeWithin& rule) { return " " + in_unit(rule.within, *rule.quantity); }
 std::string subject(const Lead& rule) {
@@ -330,7 +330,7 @@ std::string subject(const ToGo& rule) {
 }
 std::string subject(const RmsRatio& rule) { return " against " + rule.other; }
 
-/// Comparing a variant with itself always passes.
+/// Rejects a metric that compares a variant with itself, because its result says nothing about the variant.
 void expect_another(Section& section, const Metric& metric, const std::vector<std::string>& variants) {
   const std::string other = other_of(metric);
   if (other.empty()) return;

@@ -1,5 +1,5 @@
-// [[metric]]: what a campaign evaluates, and the limits that turn the answers into a verdict. A new kind is a
-// struct here, its reader in metric.cpp, and its evaluation in answer.cpp.
+// [[metric]]: what a campaign evaluates, and the limits that turn the answers into a verdict. A new kind
+// needs a struct here, a reader in metric.cpp and an evaluation in answer.cpp.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,7 @@ struct ValueAt {
   std::optional<double> at_most, at_least;  ///< [SI]
 };
 
-/// The distribution of |quantity| over runs at a time: for each run its last update at or before it.
+/// The distribution of |quantity| over runs at a time. Each run contributes its last update up to that time.
 struct Distribution {
   static constexpr std::string_view kind = "distribution";
   static constexpr std::string_view meaning =
@@ -66,7 +66,7 @@ struct Distribution {
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   quantities::Unit unit;        ///< mrad or deg for angles
-  std::optional<double> below;  ///< limit for the reported fraction of runs below it [SI]
+  std::optional<double> below;  ///< the fraction of runs below this value is reported [SI]
   std::int64_t batch = 100;     ///< number of runs for the bootstrap range of the RMS
   std::optional<double> rms_at_most, rms_at_least, median_at_most, median_at_least, p90_at_most;  ///< [SI]
   std::optional<double> fraction_at_least, fraction_at_most;
@@ -95,11 +95,11 @@ struct RunMean {
   std::optional<double> ratio_at_most, ratio_at_least;  ///< limits of the mean divided by the mean of `other`
 };
 
-/// RMS and mean over runs in a window of the time to go, and the ratio of the RMS to another variant's.
+/// RMS and mean over runs in a window of the time to go, and the RMS divided by the RMS of another variant.
 struct ToGo {
   static constexpr std::string_view kind = "to_go";
   static constexpr std::string_view meaning = "RMS and mean over runs and a window of the time to go.";
-  const Quantity* quantity = nullptr;  ///< of samples by time to go
+  const Quantity* quantity = nullptr;  ///< a quantity of an estimator with samples by time to go
   double least = 0, most = 0;          ///< [s]
   std::string other;                   ///< may be empty
   std::optional<double> rms_at_most;   ///< [SI]
@@ -143,19 +143,20 @@ struct Consistency {
       inside_at_least;  ///< required fraction of the updates whose mean lies within the bounds
 };
 
-/// Diverged runs: beyond a limit at their end, or at any time from a given one on.
+/// Number of diverged runs. A run has diverged if it ended early or if its error is beyond a limit at the end
+/// (with from_us: at any time from from_us on).
 struct Diverged {
   static constexpr std::string_view kind = "divergence";
   static constexpr std::string_view meaning =
       "Number of runs that ended early, or whose error is beyond `beyond_UNIT` or not a number.";
   const Quantity* quantity = &quantities::attitude_heading;
   double beyond = 0;                              ///< [SI]
-  std::optional<std::int64_t> from_us;            ///< none: at the end
+  std::optional<std::int64_t> from_us;            ///< none: only the end counts
   std::optional<std::int64_t> at_most, at_least;  ///< limits of the number of runs
 };
 
 struct Metric {
-  std::string name;                   ///< unique; by default kind and subject
+  std::string name;                   ///< unique; by default kind, quantity and subject
   std::string requirement;            ///< id for the reports; may be empty
   std::vector<std::string> variants;  ///< names as in the file, before the sweep; empty: all
   std::variant<RmsCurve, TimeWithin, Lead, ValueAt, Distribution, WindowMoments, Paired, Consistency,
@@ -168,7 +169,7 @@ const Quantity& quantity_of(const Metric& metric);
 /// The variant that a metric compares with, as named in the file; empty: none.
 std::string other_of(const Metric& metric);
 
-/// A kind of metric and its requirements.
+/// The name of a kind of metric, and what the kind evaluates.
 struct MetricKind {
   std::string_view name, meaning;
 };

@@ -1,4 +1,4 @@
-// A campaign's results for people and for programs.
+// Formats a campaign's results: as text for people, as JSON for programs.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace canhil::campaign {
 /// A text report: how runs ended, then every answer with its limit.
 std::string text(const Campaign& campaign, const Evaluation& evaluation);
 
-/// One JSON object with the curves; every key states its unit.
+/// One JSON object with the curves; the key of a value with a unit ends in the unit.
 std::string json(const Campaign& campaign, const Evaluation& evaluation);
 
 }  // namespace canhil::campaign

@@ -15,7 +15,7 @@ class Statement;
 
 namespace canhil::campaign {
 
-/// A run of a variant, by index in Campaign::variants.
+/// Identifies a run of a variant; `variant` is the index in Campaign::variants.
 struct Key {
   std::size_t variant = 0;
   std::uint64_t run = 0;
@@ -28,7 +28,7 @@ struct Finished {
 /// The id of a run's row if each variant has `runs` runs. It does not depend on the shard that flew the run.
 std::int64_t row_id(const Key& key, std::uint64_t runs);
 
-/// FNV-1a over a sequence of values, each with its length.
+/// FNV-1a over a sequence of integers and texts; the length of each text precedes it.
 class Digest {
  public:
   Digest& add(std::int64_t value);
@@ -55,8 +55,8 @@ void bind_row(SQLite::Statement& statement, std::uint64_t runs, const Finished& 
 /// The key of the row that a statement for key_columns or row_columns has reached. Throws Unfit if the row is
 /// not valid: the file was damaged.
 Key key_of(const SQLite::Statement& row, std::uint64_t runs);
-/// The run in the row that a statement for row_columns has reached. Throws Unfit if it was changed since it
-/// was written.
+/// The run in the row that a statement for row_columns has reached. Throws Unfit if the row was changed since
+/// it was written.
 Finished read_row(const SQLite::Statement& row, std::uint64_t runs);
 
 }  // namespace canhil::campaign

@@ -1,5 +1,5 @@
-// The series of one run of a campaign, from decoded frames and the truth alone: samples of the quantities
-// that its estimator reports.
+// Computes the series of one run of a campaign: the samples of the quantities that the estimator reports. It
+// uses nothing but the decoded frames and the truth.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ struct RunSeries {
   quantities::Freshness freshness{};
 };
 
-/// The series of a finished run. `truth` belongs to its variant, `estimator` to its scenario. Without a truth
-/// there are no samples.
+/// The series of a finished run. `truth` is the truth of the run's variant, `estimator` the estimator of its
+/// scenario. Without a truth there are no samples.
 RunSeries series_of(std::uint64_t run_index, const drive::Collected& finished,
                     const world::FlightRecord& truth, const estimators::Estimator& estimator);
 

@@ -30,7 +30,7 @@ double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// About the mean, with n - 1; NaN for too few values.
+// Variance about the mean, with divisor n - 1; NaN for fewer than two values.
 double variance(const std::vector<double>& values, double mean) {
   if (values.size() < 2) return nan;
   double squares = 0;
@@ -267,7 +267,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
 
 namespace {
 
-// The largest |quantity| of the samples from a time on; NaN: one of them is NaN, or there is none.
+// The largest |quantity| of the samples from a time on; NaN: a value is NaN, or there is no sample.
 double largest_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t from_us) {
   const auto times = run.samples.times();
   const auto from = static_cast<std::size_t>(std::ranges::lower_bound(times, from_us) - times.begin());

@@ -1,5 +1,6 @@
-// Statistics over the runs of a variant. A run that is missing at a time (it ended early, or its last update
-// is stale) or has no finite value there is counted, never ignored: if a run is missing, no limit is met.
+// Statistics over the runs of a variant. A run is missing at a time if it ended earlier, if its last update
+// is stale, or if its value is not finite. Missing runs are counted, never ignored: if a run is missing, no
+// limit is met. paired_fraction() and divergence() instead count a missing run as the worst one.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace canhil::campaign {
 struct CurvePoint {
   std::int64_t t_us = 0;
   double rms = 0;  ///< RMS of the finite values [SI]; NaN: no finite value
-  double rms_error = std::numeric_limits<double>::quiet_NaN();  ///< its standard error; NaN: too few runs
+  double rms_error = std::numeric_limits<double>::quiet_NaN();  ///< of `rms`; NaN: too few runs, or rms 0
   std::size_t runs = 0;                                         ///< number of finite values
   std::size_t missing = 0;                                      ///< runs without a finite value
 };
@@ -33,8 +34,8 @@ std::optional<CurvePoint> value_at(std::span<const CurvePoint> curve, std::int64
 /// missing; none: never.
 std::optional<double> time_within(std::span<const CurvePoint> curve, double threshold);
 
-/// The distribution of a magnitude over the runs at a time. Each run contributes its last update at or before
-/// it; a run that had ended by then, or has no finite value, is missing.
+/// The distribution of a magnitude over the runs at a time. Each run contributes its last update up to that
+/// time. A run is missing if it had ended earlier, if this update is stale, or if its value is not finite.
 struct RunDistribution {
   double rms = 0, mean = 0;          ///< over the finite values [SI]
   double median = 0;                 ///< for an even number: the mean of the middle two
@@ -54,7 +55,7 @@ struct WindowStatistics {
   double mean = 0;
   double standard_deviation = 0;  ///< about the mean, with n - 1
   std::size_t count = 0;          ///< finite values
-  std::size_t missing = 0;        ///< not finite, or from runs that had ended or become silent
+  std::size_t missing = 0;        ///< values not finite, or absent because a run had ended or become silent
 };
 WindowStatistics window_statistics(std::span<const RunSeries> runs, const Quantity& quantity,
                                    std::int64_t from_us, std::int64_t to_us);
@@ -64,7 +65,7 @@ struct RunMeans {
   double mean = 0;
   double standard_deviation = 0;  ///< with n - 1
   double largest = 0;
-  std::size_t missing = 0;  ///< runs that ended early, have no update there, or a value that is not finite
+  std::size_t missing = 0;  ///< runs that ended early, were silent in the window, or had a value not finite
 };
 RunMeans run_means(std::span<const RunSeries> runs, const Quantity& quantity, std::int64_t from_us,
                    std::int64_t to_us);
@@ -74,7 +75,7 @@ RunMeans run_means(std::span<const RunSeries> runs, const Quantity& quantity, st
 struct ToGoStatistics {
   double rms = 0, mean = 0;  ///< of the finite values [SI]
   std::size_t count = 0;     ///< finite values
-  std::size_t missing = 0;   ///< runs without one, or that ended early
+  std::size_t missing = 0;   ///< runs that ended early or have too few finite values in the window
 };
 ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, const Quantity& quantity, double least,
                                 double most);
@@ -97,7 +98,7 @@ PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const Run
 struct ConsistencyStatistics {
   double mean = 0;           ///< over all runs and updates
   double low = 0, high = 0;  ///< central interval of chi2(k n) / n, n: runs, k: degrees of freedom
-  double inside = 0;         ///< fraction of the updates whose mean over runs lies within
+  double inside = 0;         ///< fraction of the updates whose mean over runs lies in the interval
   std::size_t updates = 0;
   std::size_t missing = 0;
 };
@@ -112,7 +113,7 @@ struct Divergence {
   std::size_t runs = 0;
   double largest = 0;  ///< the largest |quantity| of the completed runs
 };
-/// `from_us`: judged for any sample from this time on; none: at the end.
+/// With `from_us`, all samples from this time on are judged; without it, only the last update.
 Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound,
                       std::optional<std::int64_t> from_us = std::nullopt);
 

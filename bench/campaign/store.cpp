@@ -33,7 +33,7 @@ std::string with_hash(std::string_view name, const std::string& program) {
   return fmt::format("{}+{}", name, file ? file->sha256.substr(0, 16) : "unknown");
 }
 
-// The target's command, with every file in it replaced by its name and hash: independent of folders.
+// The target's command, in which each file's name and hash replace its path, so that folders do not matter.
 std::string with_hashes(const std::string& target) {
   std::string text;
   const auto words = drive::target_words(target);

@@ -23,8 +23,8 @@ struct Identity {
   std::uint64_t campaign_hash = 0;
   std::uint64_t dbc_hash = 0;
   Rounding rounding = Rounding::as_on_the_bus;
-  std::string program;   ///< version and hash of the program that ran it
-  std::string target{};  ///< name and hash of the target program; empty: the bench's own Device
+  std::string program;   ///< version and hash of the program that flew the campaign
+  std::string target{};  ///< the target's command with its files' hashes; empty: the bench's own Device
   std::uint64_t runs = 0;
   friend bool operator==(const Identity&, const Identity&) = default;
 };
@@ -39,8 +39,8 @@ class Store {
   /// Creates a file. Error: it exists or cannot be written.
   static Result<Store> create(const std::filesystem::path& path, const Identity& identity,
                               const Sources& sources);
-  /// Opens a file to add runs, or creates it. Error: it belongs to another campaign, is in use, or is not
-  /// writable.
+  /// Opens a file to add runs, or creates it. Error: the identity of the file differs, or the file is
+  /// damaged, in use or not writable.
   static Result<Store> resume(const std::filesystem::path& path, const Identity& identity,
                               const Sources& sources);
   /// Opens a file for reading only. Error: it is not readable, or damaged.

@@ -17,7 +17,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 std::int64_t end_of(const RunSeries& run) {
   if (run.samples.empty()) return run.freshness.end_us;
   const std::size_t last = run.samples.size() - 1;
-  // A flight without its final event (such as the passage) has no end time.
+  // If the final event (such as the passage) is missing, the end is unknown: the last sample then counts.
   const Quantity* known_by = run.samples.layout().end_known_by;
   const bool open = known_by != nullptr && std::isnan(run.samples.value(last, *known_by));
   return open ? run.samples.times()[last] : run.freshness.end_us;
@@ -27,7 +27,7 @@ bool had_ended(const RunSeries& run, std::int64_t t_us) {
   return run.ending.kind != drive::Ending::Kind::completed && run.ending.t_us < t_us;
 }
 
-// Adds the times at which these updates become stale, up to the end.
+// Adds the times at which updates become stale because no update follows, up to the end.
 std::vector<std::int64_t> with_stale(const std::vector<std::int64_t>& times, std::int64_t end_us,
                                      std::int64_t age_limit_us) {
   std::vector<std::int64_t> all;
@@ -61,7 +61,7 @@ std::vector<std::int64_t> all_times(std::span<const RunSeries> runs) {
   return times;
 }
 
-// Whether a run's update is stale at a time, or at the end if that comes first.
+// Whether a run's update is stale at a time, or at the end of the run if the end comes first.
 bool stale(const RunSeries& run, const Quantity& quantity, std::int64_t updated_us, std::int64_t t_us) {
   if (quantity.of_whole_run) return false;
   const std::int64_t until_us = std::min(t_us, end_of(run));
@@ -105,7 +105,7 @@ bool may_be_missing(const RunSeries& run, const Quantity& quantity, std::int64_t
   }
   const auto not_asked = [&] { return std::isnan(run.samples.value(index, quantity)); };
   if (!quantity.nan_allowed || !not_asked()) return false;
-  // An answer without an update, for example while coasting, omits such a quantity.
+  // With answers_may_omit, an answer without an update (for example while coasting) omits the quantity.
   if (run.samples.layout().answers_may_omit) return true;
   while (index > 0 && t_us - times[--index] <= run.freshness.age_limit_us) {
     if (!not_asked()) return true;

@@ -27,7 +27,7 @@ struct BusRecord {
 
   BusErrors errors;
   std::vector<BusIncident> incidents;  ///< the first max_incidents
-  std::uint64_t more_incidents = 0;    ///< the number of later ones
+  std::uint64_t more_incidents = 0;    ///< the number of later incidents
   std::uint64_t downs = 0;             ///< how often the interface went down or was removed
   std::uint64_t late_in_queue =
       0;  ///< frames of the bench that waited for room in the queue beyond their deadline

@@ -18,12 +18,12 @@ class Complaints {
  public:
   struct Said {
     std::int64_t t_us = 0;
-    std::string_view what;  ///< "input_lost", "degraded"; "bad_crc", as counted
+    std::string_view what;  ///< "input_lost", "degraded"; "bad_crc" for a counter
   };
 
   void hear(const messages::TargetHeartbeat& beat, std::int64_t now_us);
   void hear(const messages::TargetCounters& counters, std::int64_t now_us);
-  /// Ends the run: a silence at its end counts too.
+  /// To be called at the end of the run: records a silence up to `now_us`, if there is one.
   void end(std::int64_t now_us);
 
   /// Error bits, each when it rises; the target keeps them set to the end. `degraded`: each heartbeat in
@@ -34,7 +34,7 @@ class Complaints {
   /// Stretches without a heartbeat longer than the limit (silence.hpp).
   [[nodiscard]] const std::vector<scenario::Window>& silences() const { return silences_; }
 
-  /// All possible values of `what`.
+  /// All possible values of Said::what.
   static std::vector<std::string_view> names();
 
  private:

@@ -85,7 +85,7 @@ void give_tracks(const Estimator& of, const checks::Observations& seen, const Tr
 
 /// The estimator of this name, or null.
 const Estimator* find(std::span<const Estimator* const> estimators, std::string_view name);
-/// Every quantity that any of these estimators reports, each once, in their order.
+/// Every quantity that any of these estimators reports, without duplicates, in the order of the estimators.
 std::vector<const quantities::Quantity*> quantities_of(std::span<const Estimator* const> estimators);
 
 }  // namespace canhil::estimators

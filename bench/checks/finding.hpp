@@ -1,4 +1,4 @@
-// The result of a check, and what all judges share.
+// The result of a check, and functions that all kinds of checks use.
 #pragma once
 
 #include <string>

@@ -7,8 +7,8 @@
 namespace canhil::checks {
 
 /// Counts of times: buckets of 1 us below 10 ms, of 10 us below 100 ms, of 100 us below 1 s, of 1 ms below 10
-/// s, and one for all above. At most 37 001 buckets (296 kB); only those up to the largest time are
-/// allocated. Minimum, maximum and count are exact.
+/// s, and one bucket for all times above. At most 37 001 buckets (296 kB); only those up to the largest time
+/// are allocated. Minimum, maximum and count are exact.
 class Histogram {
  public:
   /// A bucket that is not empty.
@@ -24,8 +24,9 @@ class Histogram {
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] std::int64_t min_ns() const { return min_ns_; }
   [[nodiscard]] std::int64_t max_ns() const { return max_ns_; }
-  /// Nearest rank [ns], 0 < q <= 1: the middle of its bucket, limited to the minimum and maximum, so a
-  /// quantile below 10 ms is off by at most half a microsecond. 0 if empty.
+  /// The quantile q by nearest rank [ns], 0 < q <= 1. The result is the middle of the bucket that contains
+  /// this rank, limited to the minimum and maximum. So a quantile below 10 ms is off by at most half a
+  /// microsecond. 0 if the histogram is empty.
   [[nodiscard]] double quantile_ns(double q) const;
   /// In ascending order.
   [[nodiscard]] std::vector<Bucket> buckets() const;

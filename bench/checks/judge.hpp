@@ -30,7 +30,8 @@ std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* co
 std::vector<scenario::FormerCheckKind> former_kinds(std::span<const estimators::Estimator* const> estimators);
 
 /// Why no timing of this run can be judged, for example because frames of the target were lost. Empty: timing
-/// can be judged if the bench kept its own deadlines, which each check examines for its own limit.
+/// can be judged if the bench kept its own deadlines. Each check examines the lateness of the bench against
+/// the limit of the check.
 std::string unfit_for_timing(const Observations& seen);
 
 }  // namespace canhil::checks

@@ -1,4 +1,4 @@
-// The losses that a receiver of the bench's frames must have counted (TargetCounters, docs/report.md).
+// Limits of the losses that a receiver of the bench's frames must count (TargetCounters, docs/report.md).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct LossCounts {
   std::uint64_t late = 0;
 };
 
-/// Larger than any count of a target.
+/// A limit that is larger than any count of a target.
 inline constexpr std::uint32_t any_count = 1'000'000;
 
 /// Limits for the counts that the target sent last. Lower and upper limit differ for two reasons: the bench

@@ -60,7 +60,7 @@ struct Observations {
   std::map<std::string_view, StimulusCount> stimuli;  ///< by sample group; only groups that are answered
   std::vector<std::uint64_t> answers;                 ///< by index in timing.messages
   std::vector<Sighting> from_target;                  ///< by index in timing.messages
-  /// The minimum interval [s] that answer groups keep where their stimuli come faster.
+  /// The minimum interval [s] of answer groups that the target sends less often than their stimuli come.
   std::map<std::string_view, double> own_interval_s{};
   std::int64_t first_ns = 0;            ///< stamp of the bench's first transmission
   std::int64_t last_ns = 0;             ///< stamp of the bench's last transmission
@@ -69,10 +69,12 @@ struct Observations {
   bool transmit_stamps_echoed = false;  ///< stamps of stimuli come from the bus, not from the bench
 
   std::optional<messages::TargetCounters> counters;  ///< the last one
-  std::string target_version{};                      ///< "0.2" by its heartbeats; empty: none came
+  std::string target_version{};                      ///< "0.2", from the target's first heartbeat; empty: no
+                                                     ///< heartbeat came
   Complaints complaints;                             ///< reported by the target besides its answers
   ExpectedCounts expected_counts{};                  ///< limits for `counters`
-  std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus; see observe::LoadMeter
+  std::vector<wire::BitLength> length_by_second{};   ///< lengths of all frames on the bus; see
+                                                     ///< observe::LoadMeter
   std::uint32_t target_frames_lost = 0;              ///< lost frames of the target, by its E2E counters
   std::uint32_t target_bad_crc = 0;
   std::uint32_t receive_overflows = 0;  ///< frames that the bench's own port lost

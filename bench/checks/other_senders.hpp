@@ -1,4 +1,4 @@
-// Whether bench and target were the only senders of their own messages.
+// Finds out whether bench and target were the only senders of their own messages.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace canhil::checks {
 
-/// The implied check that fails if other nodes sent these messages.
+/// The implied check that is not measured if other nodes sent messages of the bench or of the target.
 inline constexpr std::string_view senders_kind = "senders";
 
 /// Reports, in one line, other nodes that sent frames of the bench or repeated answers of the target; empty:

@@ -29,8 +29,8 @@ class Reception {
 
   /// Whether the estimator's answers contain a message, by index in all_messages.
   [[nodiscard]] virtual bool takes(std::size_t message) const = 0;
-  /// Takes a frame of such a message with a valid CRC. `now_us`: time of the last Sync. A completed answer is
-  /// added to `seen`; none: the group is not complete yet.
+  /// Takes a frame with a valid CRC, of a message for which takes() is true. `now_us`: time of the last Sync.
+  /// Adds a completed answer to `seen` and returns its group; none: the group is not complete yet.
   virtual std::optional<Whole> take(const Frame& frame, std::size_t message, std::int64_t now_us,
                                     checks::Observations& seen) = 0;
   /// The bench sent the last frame of a sample group that some estimator answers.

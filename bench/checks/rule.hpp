@@ -32,7 +32,8 @@ struct Evidence;
 struct Subject {
   std::string estimator;
   const quantities::Quantity* quantity = nullptr;
-  std::string text{};  ///< "attitude.heading", with the estimator where several report it
+  std::string text{};  ///< "attitude.heading"; if several estimators report the quantity, followed by the
+                       ///< estimator
 };
 
 /// Part of a run, by time of validity or, if the flight goes to a target, by time to go.
@@ -110,7 +111,7 @@ scenario::RuleRead read_rule(scenario::Section& section, const scenario::CheckCo
   return {std::make_shared<RuleOf<Kind>>(std::move(rule)), std::move(subject)};
 }
 
-/// The entry of a registry.
+/// The entry of a kind of check in the list of kinds.
 template <class Kind>
 inline constexpr scenario::CheckKind check_kind{
     .name = Kind::kind, .meaning = Kind::meaning, .read = read_rule<Kind>};

@@ -21,7 +21,7 @@ struct Sign {
   [[nodiscard]] std::string to_text() const;  ///< "coasting in an answer"
 };
 
-/// All signs of a run, of the estimators that answered.
+/// All signs of a run: marks in the answers of `estimators`, error bits and counters.
 std::vector<Sign> signs_in(const Observations& seen,
                            std::span<const estimators::Estimator* const> estimators);
 
@@ -38,9 +38,9 @@ struct SignAt {
   std::int64_t t_us = 0;
   std::string text;
 };
-/// The first sign in [from, to]; none: no sign then.
+/// The first sign in [from, to]; none: no sign in this interval.
 std::optional<SignAt> first_in(std::span<const Sign> signs, std::int64_t from_us, std::int64_t to_us);
-/// The last sign after a time; none: no sign then.
+/// The last sign after a time; none: no sign after it.
 std::optional<SignAt> last_after(std::span<const Sign> signs, std::int64_t t_us);
 
 }  // namespace canhil::checks

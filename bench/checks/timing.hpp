@@ -22,7 +22,7 @@ struct Distribution {
 
 /// Nearest-rank quantiles; the maximum is exact.
 Distribution distribution(std::vector<double> sample);
-/// The same for a histogram [s].
+/// Like distribution(), for a histogram; the result is in s.
 Distribution distribution_s(const Histogram& histogram);
 
 /// Nearest-rank quantile, 0 < q <= 1, of a non-empty sample.
@@ -39,7 +39,7 @@ bool stamped_by_hardware(const TimingRecord& timing);
 /// each period if the message keeps its own period.
 std::size_t unanswered(const Observations& seen, std::string_view message);
 
-/// The quantile of |period - nominal| [s], and the number of periods. A gap in which n messages were missing
+/// The quantile of |period - nominal| [s], and the number of nominal periods. A gap of n nominal periods
 /// counts n times; otherwise a quantile would ignore a long gap. `end_s`: the time from the last message to
 /// the end; it counts if it exceeds the period.
 struct PeriodDeviation {
@@ -53,11 +53,12 @@ double longest_silence_s(const Observations& seen, std::string_view message);
 
 /// The period [s] that a message should have. For an answer: the period of its stimulus as sent, or the
 /// minimum interval of its group if that is longer; 0 if it answers groups of different rates. For other
-/// messages: the cycle time in the DBC.
+/// messages, and with fewer than two stimuli: the cycle time in the DBC.
 double nominal_period_s(const Observations& seen, std::string_view message);
 
-/// The time [s] from a message's last arrival to the last stimulus in the window; 0 or less if the message
-/// continued to the end. Requires at least one arrival of the message.
+/// The time [s] from a message's last arrival in the window to the last stimulus in the window; for a message
+/// that answers nothing, to the bench's last transmission. 0 or less if the message continued to the end.
+/// Requires at least one arrival of the message.
 double ended_before_s(const Observations& seen, const TimedWindow& window);
 
 }  // namespace canhil::checks

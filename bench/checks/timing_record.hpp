@@ -25,12 +25,13 @@ struct Arrival {
 struct Stimulus {
   std::int64_t valid_us = 0;
   std::uint8_t counter = 0;      ///< E2E counter of the group
-  std::int64_t t_ns = 0;         ///< transmit stamp: the port's echo where it gives one
+  std::int64_t t_ns = 0;         ///< transmit stamp: the stamp of the echo if the bus echoes frames,
+                                 ///< otherwise the bench's own
   std::int64_t hardware_ns = 0;  ///< the controller's own stamp of the echo; 0: none
   std::int64_t due_ns = 0;       ///< its deadline, on the clock of t_ns
 };
 
-/// Time [ns] from one stamp to a later one: by the controller's clock where it stamped both.
+/// Time [ns] from one stamp to a later one, on the controller's clock if the controller stamped both events.
 template <class From, class To>
 constexpr std::int64_t elapsed_ns(const From& from, const To& to) {
   const bool hardware = from.hardware_ns != 0 && to.hardware_ns != 0;
@@ -43,16 +44,16 @@ struct AnswerTiming {
   /// |time between two arrivals - nominal time|. The nominal time is the time between the deadlines of the
   /// two stimuli, or the cycle time of a message that answers nothing.
   Histogram jitter;
-  TimeLine latency_line;       ///< latency over the time of arrival
-  std::uint64_t count = 0;     ///< arrivals
-  std::uint64_t unpaired = 0;  ///< answers to stimuli that the bench did not send
-  std::uint64_t repeated = 0;  ///< answers to stimuli that were answered before
-  std::optional<std::int64_t>
-      nearest_us{};  ///< for `unpaired`: the smallest difference between a cause's time and a stimulus
+  TimeLine latency_line;                     ///< latency over the time of arrival
+  std::uint64_t count = 0;                   ///< arrivals
+  std::uint64_t unpaired = 0;                ///< answers to stimuli that the bench did not send
+  std::uint64_t repeated = 0;                ///< answers to stimuli that were answered before
+  std::optional<std::int64_t> nearest_us{};  ///< for `unpaired`: the smallest difference between the time of
+                                             ///< a cause and the time of validity of a stimulus
   std::uint64_t wrong_counter = 0;  ///< answers that name the time of one cause and the counter of another
-  std::uint8_t counter_reported = 0, counter_sent = 0;  ///< in the first such answer
-  std::int64_t reply_wire_ns =
-      0;  ///< sum over `latency`: time on the wire of the answer's frames up to this one
+  std::uint8_t counter_reported = 0, counter_sent = 0;  ///< in the first answer with a wrong counter
+  std::int64_t reply_wire_ns = 0;  ///< sum over the answers in `latency`: time that the answer's frames, up
+                                   ///< to this message, occupied the wire
   std::optional<std::int64_t> last_ns{};  ///< last arrival
   std::int64_t longest_silence_ns = 0;    ///< longest wait before an arrival
 };
@@ -73,7 +74,7 @@ struct WireResponse {
 };
 
 /// The timing of a message in a window that a check requires. An answer is in the window if the time of
-/// validity of its cause is. For a message that answers nothing, the window is the whole run.
+/// validity of its cause is in the window. For a message that answers nothing, the window is the whole run.
 struct TimedWindow {
   std::size_t message = 0;  ///< index in TimingRecord::messages
   scenario::Window window{};
@@ -86,14 +87,15 @@ struct TimedWindow {
   /// n due stimuli counts n times.
   Histogram stimulus_deviation{};
   std::optional<Arrival> last_arrival{};
-  std::optional<std::int64_t> last_stimulus_ns{};  ///< last stimulus valid by the end of the window
+  std::optional<std::int64_t> last_stimulus_ns{};  ///< stamp of the last stimulus whose time of validity is
+                                                   ///< not after the window
 };
 
-/// TargetTiming saturates here [us]: such a value is a lower bound.
+/// TargetTiming saturates at this value [us]: a reported time of this value is a lower bound.
 inline constexpr std::uint16_t most_reported_us = 8191;
 
-/// Sums over the answered stimuli: the parts of the time from the hand-over of a stimulus's last frame to the
-/// last frame that answers it.
+/// The parts of the time from the hand-over of a stimulus's last frame to the last frame that answers this
+/// stimulus. Each value is a sum over the answered stimuli.
 struct LatencyBreakdown {
   std::uint64_t stimuli = 0;           ///< answered stimuli
   std::uint64_t echoed = 0;            ///< answered stimuli whose echo was seen
@@ -101,15 +103,16 @@ struct LatencyBreakdown {
   std::int64_t stimulus_wire_ns = 0;   ///< part of to_echo_ns: the stimulus's own time on the wire
   std::int64_t latency_ns = 0;         ///< from the end of the stimulus to the end of its answer's last frame
   std::int64_t reply_wire_ns = 0;      ///< part of latency_ns: the answer's own time on the wire
-  std::uint64_t accounted = 0;         ///< stimuli that the target accounted for (TargetTiming)
+  std::uint64_t accounted = 0;         ///< stimuli before the last TargetTiming, whose times the target
+                                       ///< reported
   std::int64_t target_queue_ns = 0;    ///< for `accounted`: from the target's stamp to the start of its work
   std::int64_t target_compute_ns = 0;  ///< for `accounted`: the target's computing time
   bool queue_clipped = false;  ///< some reported means were at most_reported_us: the true time is longer
   bool compute_clipped = false;
 };
 
-/// The same for the stimuli of one sample group. The target's times stay 0 here, because TargetTiming covers
-/// all groups together.
+/// The breakdown for the stimuli of one sample group. The target's times stay 0 here, because TargetTiming
+/// covers all groups together.
 struct GroupBreakdown {
   std::string_view group{};
   LatencyBreakdown breakdown{};
@@ -118,7 +121,7 @@ struct GroupBreakdown {
 /// The slowest answer, and what the target reported for the window of that answer.
 struct SlowestAnswer {
   std::string_view message{};
-  std::int64_t t_ns = 0;  ///< its arrival, from the first transmission on
+  std::int64_t t_ns = 0;  ///< time of arrival since the bench's first transmission
   std::int64_t latency_ns = 0;
   std::int64_t reply_wire_ns = 0;
   std::uint16_t queue_max_us = 0;
@@ -137,14 +140,14 @@ struct TimingRecord {
   std::vector<TransmitTiming> transmit;   ///< by index in `messages`
   std::vector<WireResponse> responses;    ///< by wire::Carrier::first
   Histogram lateness;                     ///< lateness of all messages of the bench at the hand-over
-  TimeLine lateness_line;                 ///< the same over time
+  TimeLine lateness_line;                 ///< the largest lateness over time
   std::array<std::uint64_t, 5> stamps{};  ///< frames of the target by StampSource
   std::vector<TimedWindow> windows{};     ///< as the checks require
   LatencyBreakdown breakdown{};
   std::vector<GroupBreakdown> breakdown_by_group{};  ///< in the order of their first answers
   SlowestAnswer slowest{};                           ///< among the answers that the target accounted for
   std::uint64_t stimuli_with_hardware_stamp = 0;
-  std::uint64_t without_hardware_stamp = 0;  ///< stimuli and frames of the target
+  std::uint64_t without_hardware_stamp = 0;  ///< count of stimuli and of frames of the target
 };
 
 }  // namespace canhil::checks

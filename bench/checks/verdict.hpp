@@ -1,4 +1,4 @@
-// The verdict of a run and its checks.
+// The verdict of a run and the results of its checks.
 #pragma once
 
 #include <cstdint>
@@ -47,8 +47,8 @@ struct CheckResult {
   std::string expected;
 };
 
-/// The verdict of a whole run: fail if a check failed; otherwise not measured if a check was not; otherwise
-/// pass.
+/// The verdict of a whole run: fail if a check failed; otherwise not measured if a check was not measured;
+/// otherwise pass.
 struct Verdict {
   Outcome outcome = Outcome::not_measured;
   std::string reason;  ///< one line

@@ -22,7 +22,7 @@ bool was_seen(const TimingRecord& timing, std::size_t index) {
   return timing.transmit[index].handed_over.count() > 0 || timing.answers[index].last_ns;
 }
 
-// The minimum period: the DBC's, or the observed period if messages were sent faster.
+// The period for the analysis: the shorter one of the period in the DBC and the observed period.
 std::int64_t period_ns(const Observations& seen, const MessageInfo& info) {
   const std::int64_t cycle_ns = info.cycle_time_us * 1000;
   double sent_s = nominal_period_s(seen, info.name);
@@ -61,7 +61,8 @@ Stream stream_of(const Observations& seen, const wire::Carrier& carrier) {
           .length = carrier.longest};
 }
 
-// R counts from release, J is the release jitter before queueing.
+// The analysis counts the response time from the release of a frame, and the jitter is the time from release
+// to queueing. The difference of both is the time from queueing.
 std::optional<std::int64_t> from_queued(const Stream& stream, const schedulability::Response& response) {
   if (!response.response_ns) return std::nullopt;
   return *response.response_ns - stream.jitter_ns;

@@ -16,10 +16,11 @@ namespace canhil::checks {
 /// the frame is queued, so they contain neither the bench's lateness nor the target's computing time.
 struct WireBound {
   std::string_view message{};
-  bool of_target = false;  ///< its response is a lower bound
+  bool of_target = false;  ///< sent by the target: `longest_ns` is a lower bound
   std::uint64_t count = 0;
   std::int64_t longest_ns = 0;
-  std::int64_t frame_ns = 0;               ///< the longest time of such a frame on the wire
+  std::int64_t frame_ns = 0;               ///< the longest time that one frame of this message occupies the
+                                           ///< wire
   std::optional<std::int64_t> bound_ns{};  ///< none: the analysis finds no bound
 };
 

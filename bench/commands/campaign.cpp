@@ -79,7 +79,8 @@ std::string progress_text(const campaign::Progress& progress, double elapsed_s) 
   return text;
 }
 
-// --out is the file, or the folder for a file named after the campaign and the shard.
+// --out names the file (*.sqlite), or the folder of the file. In a folder, the file is named after the
+// campaign and the shard.
 Result<fs::path> results_file(const Arguments& arguments, const campaign::Shard& shard) {
   const fs::path out = arguments.out;
   if (out == report::to_stdout) return failure("--out -: expected a folder or a file, not standard output");

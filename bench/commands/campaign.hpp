@@ -31,7 +31,8 @@ void add_faults(command_line::Command app, int& code);
 /// met.
 void add_accept(command_line::Command app, int& code);
 
-/// `hil-bench campaign FILE` and its subcommands merge, report, replay: many runs in process, and statistics.
+/// `hil-bench campaign FILE` and its subcommands merge, report, export, replay: many runs, in process or
+/// against a program in lockstep, and their statistics.
 void add_campaign(command_line::Command app, int& code);
 
 }  // namespace canhil::commands

@@ -28,7 +28,8 @@ namespace fs = std::filesystem;
 // The arguments as given on the command line.
 struct Arguments {
   std::string target = drive::quoted_word(own_folder() + "/hil-target");
-  std::string estimator;  // empty: the one in the target's heartbeat, or else one that it accepts
+  std::string estimator;  // empty: the estimator in the target's heartbeat, or else the first that the target
+                          // accepts
   std::string scenario;   // empty: the estimator's short flight
   std::string json, junit;
 };

@@ -31,7 +31,7 @@ struct Arguments {
   std::string json;
 };
 
-// The stored data of a flight: the scenario and every frame.
+// The stored files of a flight: the scenario, and the log of every frame.
 struct Golden {
   fs::path scenario, log;
   [[nodiscard]] std::string name() const { return scenario.stem().string(); }

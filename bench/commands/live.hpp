@@ -33,8 +33,8 @@ class OpenView {
 
   /// Null: no view is open.
   [[nodiscard]] live::View* get() const { return view_.get(); }
-  /// To be called after the end has been shown: with --live-hold the page stays until the command is
-  /// interrupted.
+  /// To be called after the page has shown the end of the runs. With --live-hold, waits until the command is
+  /// interrupted, so that the page stays.
   void hold();
 
  private:

@@ -30,7 +30,8 @@ std::filesystem::path own_file() {
   return std::filesystem::read_symlink("/proc/self/exe", unknown);
 }
 
-/// For an unknown subcommand CLI11's own message lists neither the choices nor the likely intent.
+/// The error message for an unknown subcommand; empty: `word` is an option or a known subcommand. This
+/// message replaces that of CLI11, which lists neither the choices nor the likely intent.
 std::string unknown_subcommand(const Command& program, std::string_view word) {
   std::vector<std::string> names;
   for (const Command& command : program.subcommands()) names.push_back(command.name());
@@ -39,7 +40,7 @@ std::string unknown_subcommand(const Command& program, std::string_view word) {
                      scenario::expected_instead(word, names));
 }
 
-/// The same for an unknown option of the command.
+/// The error message for an unknown option of the command; empty: all options are known.
 std::string unknown_option(const Command& command, std::span<const std::string> words) {
   const std::vector<std::string> names = command.long_options();
   for (const std::string& word : words) {

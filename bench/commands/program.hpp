@@ -29,8 +29,8 @@ std::string own_folder();
 /// program's bin; otherwise in the source tree of the build.
 std::string data_folder(const std::string& name);
 
-/// Replaces this process by a program in the same folder, with these words as its command line (without its
-/// name). Returns only if that program cannot be started: the exit code, after one line with the reason.
+/// Replaces this process by a program in the same folder, with these words as the arguments of that program.
+/// Returns only if that program cannot be started: the exit code, after one line with the reason.
 int become(const std::string& program, std::vector<std::string> words);
 
 }  // namespace canhil::commands

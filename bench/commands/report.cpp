@@ -21,7 +21,8 @@ std::string page_path(const std::string& report) {
   return std::filesystem::path(report).replace_extension(".html").string();
 }
 
-// Rejects a pipe, because its page would be written beside it, for example in /dev.
+// Checks that the page can be written beside the report. Rejects a report that is a pipe or a device, because
+// its page would be written beside it, for example in /dev.
 Result<void> has_room_for_a_page(const std::string& path) {
   std::error_code unknown;
   const auto status = std::filesystem::status(path, unknown);

@@ -13,17 +13,18 @@ struct Reports {
   std::string json, junit, html, csv;
 };
 
-/// --json, --junit, --html, --csv. `reports` must outlive parsing.
+/// Adds the options --json, --junit, --html, --csv. `reports` must outlive parsing.
 void add_reports(command_line::Command command, Reports& reports);
 
 /// Checks that the report files can be written and that none of them is in `others`. Error: one line.
 Result<void> check_outputs(const Reports& reports, std::vector<std::string> others);
 
-/// Removes reports of an earlier run, so that none can be mistaken for a report of this run, however it ends.
+/// Removes reports of an earlier run, so that none can be mistaken for a report of this run, however this run
+/// ends.
 void remove_earlier(const Reports& reports);
 
-/// A report on stdout replaces the text. If a report cannot be written, the others are still written. Error:
-/// the first one.
+/// Writes the reports, and the text report to stdout unless another report goes there. If a report cannot be
+/// written, the other reports are still written. Error: the first error.
 Result<void> write_reports(const Reports& reports, const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::commands

@@ -94,7 +94,8 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
   options.format = format;
   const bool external = arguments.target == "none";
   options.bus = std::move(bus);
-  // A private bus has an unpredictable name, so two benches on one machine do not meet.
+  // The name of a private bus contains the process id, so two benches on one machine do not meet. With
+  // --target none, the name is fixed.
   options.bus.text = named_local(options.bus.text, external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external)
     options.target =
@@ -213,7 +214,7 @@ Error with_controller(Error error, const std::string& bus) {
   return error;
 }
 
-// A node with its own bus must be in the scenario.
+// A node that --bus-of names must be in the scenario.
 Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& scenario) {
   for (const std::string& text : arguments.bus_of) {
     const std::string name = node_and_bus(text)->first;

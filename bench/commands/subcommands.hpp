@@ -15,22 +15,22 @@ void add_report(command_line::Command app, int& code);
 void add_bus(command_line::Command app, int& code);
 
 /// `hil-bench diverge A B`: the first frame of the target that differs between two recorded runs. Exit code 1
-/// if there is one.
+/// if a frame differs.
 void add_diverge(command_line::Command app, int& code);
 
 /// `hil-bench golden record|check`: stores a target's answers in some flights, and later reports the first
 /// answer that differs. Exit code 1 if an answer differs.
 void add_golden(command_line::Command app, int& code);
 
-/// `hil-bench conformance`: tests the protocol rules one by one. Exit code 1 if the target breaks one.
+/// `hil-bench conformance`: tests the protocol rules one by one. Exit code 1 if the target breaks a rule.
 void add_conformance(command_line::Command app, int& code);
 
 /// `hil-bench doctor --bus BUS`: reports what this machine and its interface can do, with remedies. Exit code
 /// 1 if a finding is bad.
 void add_doctor(command_line::Command app, int& code);
 
-/// `hil-bench schedulability FILE.dbc`: worst-case response times of all messages. Exit code 1 if one can
-/// miss its deadline.
+/// `hil-bench schedulability FILE.dbc`: worst-case response times of all messages. Exit code 1 if a message
+/// can miss its deadline.
 void add_schedulability(command_line::Command app, int& code);
 
 /// `hil-bench log|decode|replay|check`: commands for recorded frames.
@@ -38,7 +38,8 @@ void add_log(command_line::Command app, int& code);
 /// `hil-bench log compare A B`: the differences between the stamps of two recordings of one bus.
 void add_log_compare(command_line::Command log, int& code);
 
-/// `hil-bench dbc lint|show|rules`: commands for DBC files of any project. Exit code 1 if lint rejects one.
+/// `hil-bench dbc lint|show|check|extract|rules`: commands for DBC files of any project and for mappings.
+/// Exit code 1 if lint rejects a file or check finds a warning.
 void add_dbc(command_line::Command app, int& code);
 
 }  // namespace canhil::commands

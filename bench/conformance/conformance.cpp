@@ -10,8 +10,8 @@ namespace {
 
 using namespace messages;
 
-// The algorithm with which the target accepts the scenario's estimator: the scenario's own if accepted,
-// otherwise any other. None: the target does not have this estimator.
+// An algorithm with which the target accepts the scenario's estimator: the scenario's algorithm if the target
+// accepts it, otherwise the first accepted one of the DBC. None: the target does not have this estimator.
 std::optional<Algorithm> algorithm_of(Talk& talk) {
   TargetCommand reset = talk.command(Command::reset);
   std::vector<Algorithm> candidates{reset.algorithm};

@@ -1,4 +1,4 @@
-// Tests whether a target program keeps the protocol, over an embedded bus of its own.
+// Tests whether a target program keeps the protocol, over a private embedded bus.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 
 namespace canhil::conformance {
 
-/// A rule and how it was violated; empty: not violated.
+/// The result of testing a rule. `wrong`: how the target violated the rule; empty: the target kept it.
 struct Finding {
   Rule rule;
   std::string wrong;
@@ -27,15 +27,16 @@ Result<std::vector<Finding>> ask(
     std::span<const Parameter> parameters, const std::optional<std::pair<std::string, double>>& apply,
     const std::atomic<bool>& stop, const std::function<void(const Rule&)>& progress = [](const Rule&) {});
 
-/// The scenario for testing the target, with an accepted algorithm and without parameters: for the estimator
-/// in the target's heartbeat, otherwise for the first accepted one of the candidates. Error: the target does
-/// not start, or accepts none.
+/// Chooses from the candidates the scenario for testing the target. If the target's heartbeat names an
+/// estimator, this is the candidate for that estimator; otherwise it is the first candidate whose estimator
+/// the target accepts. The result has an algorithm that the target accepts, and no parameters. Error: the
+/// target does not start, or accepts no candidate.
 Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& candidates,
                                       const std::string& target);
 
 /// The findings for one target.
 struct Report {
-  std::string target;  ///< its command
+  std::string target;  ///< command of the target
   std::string estimator, algorithm;
   std::vector<Finding> findings;
   double wall_s = 0;

@@ -11,7 +11,7 @@ using namespace messages;
 
 constexpr double most_counted = 8191;  // TargetCounters saturate at this value
 
-/// The frames sent in place of the k-th of n messages of the sample.
+/// Appends to `instead` the frames that are sent in place of `frame`, the k-th of n messages of the sample.
 using Spoil = void (*)(const Frame& frame, std::size_t k, std::size_t n, std::vector<Frame>& instead);
 
 struct Seen {

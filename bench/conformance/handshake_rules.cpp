@@ -10,7 +10,7 @@ namespace {
 
 using namespace messages;
 
-// Must be the first rule: no command has been sent yet.
+// This rule must be the first one: it requires that no command has been sent to the target.
 std::string beats(Subject& subject) {
   constexpr std::int64_t period_ns = TargetHeartbeat::info.cycle_time_us * 1000;
   constexpr int attempts = 3;  // a busy host may delay the heartbeat

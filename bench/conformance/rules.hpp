@@ -24,15 +24,16 @@ struct Parameter {
 struct Undisturbed {
   std::vector<Frame> heard;
   std::string_view sample;  ///< the sample group that is answered most often
-  std::size_t index = 0;    ///< of an answered sample in mid-flight
-  double time_us = 0;       ///< its time of validity
+  std::size_t index = 0;    ///< index, within this group, of an answered sample in mid-flight
+  double time_us = 0;       ///< time of validity of the sample at `index`
 };
 
 /// The target under test, with its known properties.
 struct Subject {
   Talk& talk;
   std::span<const Parameter> parameters{};                ///< all parameters of the target; empty: unknown
-  std::optional<std::pair<std::string, double>> apply{};  ///< a parameter that takes effect in flight
+  std::optional<std::pair<std::string, double>> apply{};  ///< name and value of a parameter whose change
+                                                          ///< takes effect in flight; none: unknown
   std::optional<Undisturbed> undisturbed{};               ///< none: not flown yet
 };
 
@@ -51,19 +52,21 @@ std::span<const Rule> handshake_rules();
 std::span<const Rule> flight_rules();
 std::span<const Rule> fault_rules();
 std::span<const Rule> parameter_rules();
-/// All rules that can be tested, depending on whether the target's parameters and one to apply are known.
+/// All rules that can be tested. `parameters_known`: Subject::parameters is given; `apply_known`:
+/// Subject::apply is given.
 std::vector<Rule> rules(bool parameters_known, bool apply_known);
 
 inline constexpr std::int64_t flight_us = 1'000'000, some_flight_us = 500'000;
 
-/// Sends a reset, the initial state and a start; returns the violation.
+/// Sends a reset, the initial state and a start; returns the violation, empty: none.
 std::string made_to_run(Subject& subject);
-/// Calls made_to_run(), flies for some_flight_us and expects answers.
+/// Calls made_to_run(), flies for some_flight_us and expects answers; returns the violation, empty: none.
 std::string flies(Subject& subject);
 /// Formats a heartbeat for people: "state idle, none kalman, errors: none".
 std::string described(const std::optional<messages::TargetHeartbeat>& beat);
 
-/// The flight without faults, flown at the first call. Error: it cannot be flown.
+/// The flight without faults, flown at the first call. Error: the target does not start, or answers too few
+/// samples.
 Result<const Undisturbed*> undisturbed(Subject& subject);
 
 }  // namespace canhil::conformance

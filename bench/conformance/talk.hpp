@@ -22,9 +22,9 @@ namespace canhil::conformance {
 
 class Talk {
  public:
-  /// Starts the target and waits for its first heartbeat. `scenario`: the estimator, and the inputs of the
-  /// target; must outlive the talk. `target`: a command. Error: it does not start, or the scenario cannot be
-  /// flown.
+  /// Starts the target and waits for its first heartbeat. `scenario` defines the estimator and the inputs of
+  /// the target; it must outlive the talk. `target`: the command that starts the target. Error: the target
+  /// does not start or sends no heartbeat, or the scenario cannot be flown.
   static Result<std::unique_ptr<Talk>> open(const scenario::Scenario& scenario, const std::string& target);
 
   /// A command for the scenario's estimator and algorithm.
@@ -37,7 +37,7 @@ class Talk {
     out_.send(message);
     send();
   }
-  /// Sends a message again with the counter of its predecessor.
+  /// Sends a command with the same counter as the last command before it.
   template <class Message>
   void repeat(const Message& message) {
     listener_.frames.clear();
@@ -48,14 +48,14 @@ class Talk {
   void send_state(const std::function<bool(const Frame&)>& sent = [](const Frame&) { return true; });
   /// Sends parameter frames with a wrong CRC.
   void send_damaged(int frames);
-  /// Shifts every time sent from now on (time base or time of validity).
+  /// Shifts every time (time base or time of validity) in the frames that are sent from now on.
   void shift_time(std::int64_t shift_us) { shift_us_ = shift_us; }
   /// Sends the time base before a flight, so that the target resolves a 32-bit time of validity to the
   /// nearest time.
   void send_time();
 
-  /// Waits for a message that arrives after the last transmission and satisfies a condition; none: it did not
-  /// arrive.
+  /// Waits for a message that arrives after the last transmission and satisfies a condition; none: no such
+  /// message arrived within `answer_ns`.
   template <class Message, class Condition>
   std::optional<Message> hear(Condition condition) {
     const std::int64_t deadline_ns = link_.now_ns() + answer_ns;
@@ -70,7 +70,7 @@ class Talk {
     }
   }
   bool waits_for(messages::TargetState state);
-  /// Listens for a time and returns the received messages of a type, with stamps.
+  /// Listens for `duration_ns` and returns the received messages of type Message, with their stamps.
   template <class Message>
   std::vector<std::pair<std::int64_t, Message>> hear_all(std::int64_t duration_ns) {
     listener_.frames.clear();
@@ -90,25 +90,28 @@ class Talk {
   /// Sets a parameter and returns its acknowledgement.
   std::optional<messages::ParamAck> set(messages::Parameter parameter, double value);
 
-  // Each returns the violation; empty: none.
+  // reset(), make_ready() and start() return the violation; empty: none.
   std::string reset();
   std::string make_ready();  ///< a reset, then the initial state
   std::string start();
 
-  /// Replaces a frame by the frames to be sent: none, the same, another one, or several.
+  /// Appends to `instead` the frames that are sent in place of `frame`: none, the same frame, another one, or
+  /// several.
   using Tamper = std::function<void(const Frame& frame, std::vector<Frame>& instead)>;
 
-  /// Continues the flight for a time, in lockstep; returns the number of answers to samples. A step that the
-  /// target does not close ends the flight.
+  /// Continues the flight for `duration_us`, in lockstep; returns the number of answers to samples. A step
+  /// that the target does not close ends the flight.
   int fly(std::int64_t duration_us, const Tamper& tamper = {});
-  /// The last flight: the frames as made by the nodes; the target's frames up to the last StepDone (later
-  /// ones are not awaited); whether each step was closed.
+  /// Data of the last flight. flown(): the frames of the nodes, before Tamper replaces any. heard(): the
+  /// target's frames up to the last StepDone; later frames are not awaited, so they are left out. closed():
+  /// whether the target closed each step.
   [[nodiscard]] const std::vector<Frame>& flown() const { return flown_; }
   [[nodiscard]] std::vector<Frame> heard() const;
   [[nodiscard]] bool closed() const { return closed_; }
   /// The answers of the last flight.
   [[nodiscard]] std::vector<Frame> answers() const;
-  /// The first and the last received message of a type during the flight.
+  /// first_received() and last_received(): the first and the last message of type Message that arrived during
+  /// the last flight.
   template <class Message>
   std::optional<Message> first_received() const {
     for (const Received& received : listener_.frames) {

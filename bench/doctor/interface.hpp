@@ -29,7 +29,7 @@ struct Controller {
   std::uint16_t transmit_errors = 0, receive_errors = 0;  ///< error counters of the controller
   std::optional<std::uint16_t> termination_ohm{};         ///< none: the driver cannot switch it
   std::uint32_t bus_errors = 0, warnings = 0, passives = 0, bus_offs = 0,
-                restarts = 0;  ///< since it was set up
+                restarts = 0;  ///< since the interface was created
 };
 
 /// A network interface.
@@ -52,9 +52,9 @@ Interface read_link(std::span<const std::byte> message);
 /// Queries the kernel. None: there is no interface of this name.
 std::optional<Interface> find_interface(const std::string& name);
 
-/// Judges a CAN interface for use with this bench: one line each for interface, state, bit rate, sample
-/// point, frames, queue, restart, errors and stamps. Only the first line if it is not a CAN interface or is
-/// down.
+/// Judges a CAN interface for use with this bench: one line each for interface, frames, queue and stamps. A
+/// controller adds lines for state, mode, bit rate, sample point, restart, errors and, if known, termination.
+/// Only the line `interface` if it is not a CAN interface or is down.
 std::vector<Line> interface_lines(const Interface& interface);
 
 /// Compares two interfaces on the same bus: one line if their bit rates differ.

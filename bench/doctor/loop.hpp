@@ -19,8 +19,8 @@ struct LoopResult {
 };
 
 /// Sends eight-byte frames one after the other from `near` to `far`, which answers each of them: `frames`
-/// frames, or fewer if stop() returns true or many in a row are lost. Their ids are the two of lowest
-/// priority that the DBC does not use.
+/// frames, or fewer if stop() returns true or many in a row are lost. The frames and their
+/// answers have the two ids of lowest priority, up to 0x7EF, that the DBC does not use.
 LoopResult measure_loop(Port& near, Port& far, int frames, const std::function<bool()>& stop);
 
 /// The finding for this result.

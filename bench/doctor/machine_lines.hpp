@@ -21,7 +21,7 @@ struct Machine {
 /// Lines for kernel, real-time rights, frequency and CPUs.
 std::vector<Line> machine_lines(const Machine& machine);
 
-/// The list of isolated CPUs on the kernel's command line.
+/// The list of CPUs isolated from the scheduler, as the kernel reports it in sysfs.
 std::string isolated_cpus();
 
 }  // namespace canhil::doctor

@@ -14,7 +14,7 @@ struct Adapter {
   std::string bus;        ///< "can0", "local:x"
   std::string kind;       ///< "usb", "pci", "spi", "platform" (in the SoC), "virtual", "unknown"
   std::string driver{};   ///< "gs_usb", "vcan"; for a bus without an interface, a description
-  std::string address{};  ///< where it is connected: "1-4:1.0", "0000:03:00.0"
+  std::string address{};  ///< where the adapter is connected: "1-4:1.0", "0000:03:00.0"
   std::string vendor_id{}, product_id{};  ///< hexadecimal digits; USB and PCI only
   std::string product{};                  ///< product name that the device reports; USB only
   std::string serial{};                   ///< USB only; empty: no serial number

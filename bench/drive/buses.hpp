@@ -1,4 +1,4 @@
-// Opens the buses that the command line names as one port.
+// Opens all buses that the command line names, and combines them in one port.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,11 @@ namespace canhil::drive {
 
 /// Virtual time, with the device in this process. '?bitrate=...' adds a simulated wire.
 inline constexpr std::string_view in_process_bus = "in-process";
-/// The same with unrounded frames.
+/// Virtual time, with the device in this process; frames carry unrounded values.
 inline constexpr std::string_view unrounded_bus = "in-process?unrounded";
 
-/// A bus as given on the command line, parsed and ready to open. Its port reports its properties.
+/// A bus as given on the command line, parsed and ready to open. The opened port reports the properties of
+/// the bus.
 struct BusName {
   explicit BusName(std::string name = {})
       : text(std::move(name)),
@@ -27,16 +28,16 @@ struct BusName {
 
   std::string text;           ///< as given to --bus
   bool in_process;            ///< no bus: the device runs in this process
-  Rounding rounding;          ///< rounding of its frames
+  Rounding rounding;          ///< rounding of the values in its frames
   Result<WireSettings> wire;  ///< the part after '?'
 };
 
-/// Nodes of the DBC that have their own bus: (node, bus).
+/// Nodes of the DBC that are on another bus than the one given to --bus: (node, bus).
 using BusOf = std::vector<std::pair<std::string, std::string>>;
 
 struct OpenBuses {
   std::shared_ptr<std::vector<std::string>>
-      notes;                   ///< peers that the bench rejected as host of the bus, one line each
+      notes;                   ///< one line for each peer that the bench, as host of the bus, rejected
   std::unique_ptr<Port> port;  ///< combines all buses
 };
 

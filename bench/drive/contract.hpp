@@ -12,12 +12,13 @@
 
 namespace canhil::drive {
 
-/// Value tables and messages of the built-in DBC.
+/// The vocabulary with the built-in DBC: its value tables and messages, and the kinds of checks, nodes and
+/// faults.
 scenario::DbcVocabulary contract();
 
-/// Reads a scenario with the vocabulary of the mapping in its [target], or else of canhil's own DBC.
-/// Otherwise like scenario::parse() and read_file(). `folder`: see scenario::parse(). `read`: loads mapping
-/// and DBC.
+/// Reads a scenario. The vocabulary comes from the mapping that the scenario's [target] names; without a
+/// mapping, from canhil's own DBC. In all other respects like scenario::parse() and read_file(). `folder`:
+/// see scenario::parse(). `read`: loads mapping and DBC.
 Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
                                           std::span<const scenario::Setting> settings = {},
                                           std::optional<std::string> folder = {},
@@ -26,7 +27,7 @@ Result<scenario::Scenario> read_scenario(const std::string& file);
 
 /// Adds the [[fault]] tables of a file to the scenario. Error: one line.
 Result<void> add_faults(scenario::Scenario& scenario, const std::string& file);
-/// The same for the text of a file, or for some of its faults.
+/// The same for `text`, the contents of a file. `some`: if not null, adds only these faults of the file.
 Result<void> add_faults(scenario::Scenario& scenario, std::string_view text, const std::string& name,
                         const scenario::FaultPlaces* some = nullptr);
 

@@ -1,5 +1,5 @@
-// The dialect between a session and its target: canhil's own DBC, with handshake and time base, or the
-// target's own messages, through a mapping.
+// The dialect in which a session and its target communicate. Either the messages of canhil's own DBC, with
+// handshake and time base, or the target's own messages, to which a mapping assigns quantities.
 #pragma once
 
 #include <atomic>
@@ -44,7 +44,7 @@ class Dialect {
   /// `faults`: the faults of the run.
   virtual std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) = 0;
   virtual std::unique_ptr<observe::Watcher> watcher(bool with_times) = 0;
-  /// Whether watchers may run in other threads: they depend on frames only.
+  /// Whether watchers depend on frames only. If so, they may run in other threads.
   [[nodiscard]] virtual bool watches_frames_alone() const = 0;
   /// `alone`: no other node can be on the bus.
   virtual std::unique_ptr<observe::TargetWatch> target_watch(bool alone) = 0;
@@ -59,7 +59,7 @@ class Dialect {
   [[nodiscard]] virtual std::int64_t silence_limit_ns() const = 0;
 };
 
-/// The dialect of the scenario. Everything that the setting refers to must outlive it. Error: one line; the
+/// The dialect of the scenario. Everything that the setting refers to must outlive it. Error, one line: the
 /// scenario does not fit its mapping.
 Result<std::unique_ptr<Dialect>> make_dialect(const Setting& setting);
 std::unique_ptr<Dialect> contract_dialect(const Setting& setting);

@@ -16,16 +16,16 @@
 
 namespace canhil::drive {
 
-/// The truth of a scenario on the grid of its IMU. It is the same for every run, so compute it once. Error:
-/// one line, if no run of the scenario can be flown.
+/// The truth of a scenario at the sample times of its IMU. The truth is the same for every run, so compute it
+/// only once. Error, one line: no run of the scenario can be flown.
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 
 /// Truth that differs from run to run, because errors are drawn or guidance uses the answers.
 struct PerRunTruth {
-  std::optional<world::EngagementRecord>
-      engagement{};                           ///< none: not in the scenario; filled during the flight
+  std::optional<world::EngagementRecord> engagement{};  ///< none: the scenario has no engagement, or its
+                                                        ///< seeker is recorded; filled during the flight
   std::optional<world::GlideRecord> glide{};  ///< none: not in the scenario
-  bool glide_is_sampled = true;               ///< false: its nodes send a recording of another glide
+  bool glide_is_sampled = true;               ///< false: the nodes send a recording of another glide
 };
 
 /// The complete truth, for comparison with answers. `duration_us`: duration of the run.
@@ -35,13 +35,13 @@ estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth&
 /// The random draws for a run, made before it begins.
 struct Flight {
   PerRunTruth per_run_truth;
-  /// The initial state for each estimator of the target: the truth with the errors drawn for this run, the
-  /// same draw for each.
+  /// The initial state for each estimator of the target: the truth with the errors drawn for this run. All
+  /// estimators get the same draw.
   std::vector<InitialState> initial;
 };
 
-/// The flight of run `run_index`. Error: one line, if the flight ends before the run, or the bus cannot carry
-/// the initial state.
+/// The flight of run `run_index`. Error, one line: the glide ends before the end of the run, or the bus
+/// cannot carry the initial state.
 Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index);
 
@@ -50,8 +50,9 @@ std::vector<InitialState> initial_states(const scenario::Scenario& scenario, con
                                          const PerRunTruth& per_run_truth, std::uint64_t run_index,
                                          std::int64_t t_us);
 
-/// The nodes of run `run_index` in order of precedence. The referenced objects must outlive the schedule.
-/// `faults`: faults of the run; null: the scenario's faults that act on frames only.
+/// The schedule of run `run_index`, with its nodes in order of precedence. The referenced objects must
+/// outlive the schedule. `faults`: faults of the run; null: only those faults of the scenario that act on
+/// frames.
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                        PerRunTruth& per_run_truth, std::uint64_t run_index, bool lockstep,
                        Rounding rounding = Rounding::as_on_the_bus,

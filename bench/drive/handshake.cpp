@@ -86,7 +86,8 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
   return {};
 }
 
-// Finds the target: the only one on the bus, and built from this DBC.
+// Finds the target. Checks that the bus has no second target and no other bench, and that the target is built
+// from this DBC.
 Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) {
   const Mailbox& box = dialogue.mailbox();
   auto found = dialogue.until(
@@ -112,8 +113,8 @@ Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) 
   return {};
 }
 
-// Selects an estimator, either by a reset, which removes all others, or in addition to them; then configures
-// it.
+// Selects an estimator and configures it. `selection`: a reset, which removes all other estimators, or an
+// addition to them.
 Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selection,
                      const scenario::TargetSetup& setup, const InitialState& initial) {
   const auto estimator = from_name<Estimator>(setup.estimator);

@@ -26,8 +26,8 @@ Result<void> configure(Link& link, nodes::Transmission& out,
                        const std::function<std::optional<std::string>()>& gone,
                        BusFormat format = BusFormat::classic);
 
-/// Stops the estimators and waits briefly for the heartbeats that confirm it, so that they are in the
-/// session's log.
+/// Stops the estimators. Waits briefly for the heartbeats that confirm the stop, so that the session's log
+/// contains these heartbeats.
 void stop(Link& link, nodes::Transmission& out, std::span<const scenario::TargetSetup> estimators);
 
 }  // namespace canhil::drive

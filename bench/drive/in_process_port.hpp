@@ -11,7 +11,7 @@
 namespace canhil::drive {
 
 /// A port whose other end is a Device in this process: send() runs the device, receive() returns its answers.
-/// The host's clock is not used: every stamp is the virtual time set last.
+/// The host's clock is not used: every stamp is the virtual time that set_time() set last.
 class InProcessPort final : public Port {
  public:
   explicit InProcessPort(Rounding rounding)

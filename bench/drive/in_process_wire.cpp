@@ -55,7 +55,7 @@ std::int64_t InProcessWire::next_event_ns() const {
   return std::max(now_ns_, std::min(wire_.next_event_ns(), idle_heartbeat_due_ns_));
 }
 
-/// Advances the time and processes the events on the wire until then.
+/// Advances the time to `until_ns` and processes the events on the wire up to that time.
 void InProcessWire::pass(std::int64_t until_ns) {
   now_ns_ = std::max(now_ns_, until_ns);
   if (idle_heartbeat_due_ns_ <= now_ns_) {

@@ -12,12 +12,13 @@
 
 namespace canhil::drive {
 
-/// The bench's port on that wire. Time begins at 0 and advances during waits, from one event on the wire to
-/// the next: the same frames give the same bits and stamps, whatever the host does. A stamp is the end of the
-/// frame on the wire, also for the bench's own frames; the device sends an answer at the end of the stimulus.
+/// The bench's port on the simulated wire. Time begins at 0 and advances only while the bench waits, from one
+/// event on the wire to the next. Therefore the same frames give the same bits and stamps, whatever the host
+/// does. A stamp is the end of the frame on the wire, also for the bench's own frames; the device sends an
+/// answer at the end of the stimulus.
 class InProcessWire final : public Port {
  public:
-  /// `format`: selects the DBC, and so the layout of the frames on the wire.
+  /// `format` selects the DBC, which defines the layout of the frames on the wire.
   InProcessWire(std::string name, const WireSettings& settings, BusFormat format);
 
   SendOutcome send(const Frame& frame) override;
@@ -55,7 +56,7 @@ class InProcessWire final : public Port {
   FdPacker packer_;            // packs the device's frames
   std::deque<Frame> waiting_;  // frames of the device that wait for room on the wire
   std::int64_t now_ns_ = 0;
-  std::int64_t idle_heartbeat_due_ns_ = 0;  // used until a bench sends
+  std::int64_t idle_heartbeat_due_ns_ = 0;  // used until the first frame of the bench has arrived
   std::deque<Received> ready_;
   PortCounters counters_;
 };

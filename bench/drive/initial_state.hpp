@@ -20,8 +20,7 @@ using InitialNavigation =
 using InitialAir = std::tuple<messages::TargetInitRate, messages::TargetInitAirVelocity>;
 
 struct InitialState {
-  std::optional<InitialAir>
-      air;  ///< for a glider; sent first, because the other group makes the target ready
+  std::optional<InitialAir> air;  ///< for a glider; sent first, because TargetInit makes the target ready
   InitialNavigation navigation;
 };
 
@@ -33,8 +32,9 @@ InitialAir initial_air(const world::Vector3& rates, const world::Vector3& air_ve
 /// Appends the messages in the order that makes the target ready.
 void send(const InitialState& state, nodes::Transmission& out);
 
-/// Checks that every value lies within its signal's range and that no value except zero is below its
-/// resolution; otherwise it would be saturated or rounded to zero unnoticed. Error: one line.
+/// Checks that every value lies within its signal's range. Also checks that no nonzero value of a signal
+/// without negative values is below the resolution of the signal. Without these checks, values would be
+/// saturated or rounded to zero unnoticed. Error: one line.
 Result<void> check_fits(const InitialState& state);
 
 }  // namespace canhil::drive

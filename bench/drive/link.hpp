@@ -35,7 +35,8 @@ class Link {
   LinkState drain();
   static constexpr int most_at_once = 256;  ///< several groups of the target; less than a millisecond of work
 
-  /// After `congested`: the frames that arrived meanwhile, as observe::Shares::to_text(); empty: no frames.
+  /// After send() gave up waiting: the frames that arrived while it waited, as observe::Shares::to_text();
+  /// empty: no frames.
   [[nodiscard]] const std::string& crowd() const { return crowd_; }
 
   /// The longest interval in which frames came faster than they could be processed; none: there was no such

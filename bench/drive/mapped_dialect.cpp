@@ -19,7 +19,8 @@ namespace {
 constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
 constexpr std::int64_t poll_ns = 20'000'000;
 
-// Sends nothing, because the bench sends no time base on this bus; it only makes the run last to its end.
+// Sends nothing, because the bench sends no time base on this bus. This node only makes the schedule last
+// until the end of the run.
 class EndOfRun final : public nodes::Node {
  public:
   explicit EndOfRun(std::int64_t end_us) : end_us_(end_us) {}
@@ -82,7 +83,8 @@ class MappedWatch final : public observe::TargetWatch {
   std::set<std::size_t> waits_for_;  // indices of messages that must still echo the play
 };
 
-// Collects the ids of frames that are not in the mapping, for the message that no target was found.
+// Collects the ids of frames that are not in the mapping. The error message that reports a missing target
+// lists these ids.
 class Strangers final : public observe::Observer {
  public:
   explicit Strangers(const mapping::Places& places) : places_(places) {}

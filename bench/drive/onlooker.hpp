@@ -1,5 +1,5 @@
-// The interface of an onlooker, which observes a flight while it goes on; its own thread may read the
-// flight's truth.
+// The interface of an onlooker: an object that observes a flight during the flight. A thread of the onlooker
+// may read the flight's truth.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace canhil::drive {
 
-/// The facts about a flight when it begins. The objects that it refers to stay valid until
+/// The facts about a flight when the flight begins. The objects to which a Departure refers stay valid until
 /// Onlooker::landed().
 struct Departure {
   const scenario::Scenario& scenario;

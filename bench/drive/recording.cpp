@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::string_view unknown_lateness = "a recording does not say when its frames were due";
 
-// The effects on target and interface are already in the recorded frames.
+// Does nothing, because the recorded frames already contain the effects of the faults on target and
+// interface.
 class NoRigControl final : public faults::RigControl {
  public:
   void pause_target() override {}
@@ -79,8 +80,8 @@ Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scena
     const auto entry = reader->next();
     if (!entry) return tl::unexpected(entry.error());
     if (!*entry) {
-      // A mapped target has no such Sync: the run was in virtual time if it ran faster than the clock of the
-      // stamps.
+      // A mapped target receives no Sync. Its run counts as virtual time if the stamps span less than half
+      // the duration of the scenario.
       const std::int64_t span_ns = last_ns - first_ns.value_or(0);
       if (scenario.foreign != nullptr) manner.lockstep = span_ns < scenario.duration_us * 1000 / 2;
       return manner;
@@ -174,7 +175,8 @@ class Recording {
                   fmt::format("the recording ends at t={:.3f} s", static_cast<double>(t_us) / 1e6)};
   }
 
-  // Processes the frames up to the bench's next one. The handshake is not part of the flight.
+  // Passes the recorded frames up to the bench's next frame to the observers. Skips the frames of the
+  // handshake, because they are not part of the flight.
   Result<void> hear() {
     for (; frames_.next();) {
       const LogEntry& entry = *frames_.next();

@@ -66,7 +66,8 @@ void RunRigControl::resume_target() {
   if (target_) target_->send_signal(SIGCONT);
 }
 
-// Through a separate socket, so that all listeners, including the bench, receive it as if from the driver.
+// Sends the error frame through a separate socket. Therefore all listeners, including the bench, receive it
+// as if it came from the driver.
 void RunRigControl::report_error(const Frame& error) {
   if (errors_ < 0) {
     errors_ = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW);

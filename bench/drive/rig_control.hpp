@@ -1,4 +1,4 @@
-// Fault actions that are not frames: they act on the target's process or on the bus interface.
+// Fault actions on the target's process or on the bus interface, in contrast to actions on frames.
 #pragma once
 
 #include <functional>

@@ -13,8 +13,9 @@
 
 namespace canhil::drive {
 
-/// The nodes of a bus in order of precedence: among nodes due at the same time, the earlier one transmits
-/// first. Faults of bus and target act before the nodes at that time.
+/// The nodes of a bus in order of precedence: among nodes that are due at the same time, the node that is
+/// earlier in the list transmits first. Faults of bus and target act before the nodes that are due at the
+/// same time.
 class Schedule final : public observe::Observer {
  public:
   /// `keeper`: the node whose frame closes a step. It transmits last among nodes due at the same time, and

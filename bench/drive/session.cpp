@@ -43,8 +43,8 @@ observe::LoadBy load_by(const Capabilities& bus, ClockKind clock, bool time_base
 // One run, stage by stage: open, configure, drive, collect.
 class Session {
  public:
-  // Enters real time, opens bus and log, and starts the target, according to the options. Everything but the
-  // flight must outlive the session.
+  // Enters real time, opens bus and log, and starts the target, according to the options. All arguments
+  // except `flight` must outlive the session.
   static Result<std::unique_ptr<Session>> open(const scenario::Scenario& scenario,
                                                const world::FlightRecord& truth, Flight flight,
                                                const Options& options) {
@@ -78,7 +78,7 @@ class Session {
         bus_watch_(*port_),
         load_(options.format, load_by(bus_, clock_, scenario.foreign == nullptr)) {}
 
-  // Creates the dialect. Then the session is complete.
+  // Creates the dialect. After this call the session is complete.
   Result<void> speak() {
     auto dialect = make_dialect({.scenario = scenario_,
                                  .truth = truth_,
@@ -152,7 +152,8 @@ class Session {
 
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
-  // The error, plus the frames that flooded the bus or a peer that was rejected, which may be the cause.
+  // The error message with its possible cause: the frames that flooded the bus or, if there was no flood, a
+  // peer that was rejected.
   [[nodiscard]] std::string explained(const std::string& what) const {
     if (link_.flood()) return fmt::format("{}; {}", what, to_text(*link_.flood()));
     return notes_->empty() ? what : fmt::format("{}; {}", what, notes_->front());
@@ -230,7 +231,8 @@ class Session {
         .map([&](TargetProcess started) { target_.emplace(std::move(started)); });
   }
 
-  // The log of a run that did not begin.
+  // Closes the log of a run that did not begin. Returns the end of the error message, which contains the name
+  // of the log.
   std::string log_of_the_handshake() {
     if (!log_) return {};
     const auto name = log_->close_early();

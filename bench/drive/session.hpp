@@ -1,5 +1,5 @@
 // One run of a scenario, stage by stage: open the bus, configure the target, drive the schedule, collect the
-// observations. For a verdict or for a campaign.
+// observations. A session serves a single run with a verdict, or one run of a campaign.
 #pragma once
 
 #include <atomic>
@@ -39,7 +39,7 @@ struct Options {
   std::optional<std::string> log_path;        ///< candump log of every frame from the first command on
   std::optional<realtime::Request> realtime;  ///< settings of the bench; the target has its own arguments
   std::vector<std::string> target_arguments;  ///< besides --bus and --dbc; the format determines --dbc
-  std::optional<int> target_cpu;              ///< none: the bench's CPUs before it was pinned
+  std::optional<int> target_cpu;              ///< none: the CPUs that the bench had before it was pinned
   std::string operator_name{};                ///< the operator's name for the report; empty: not given
   std::int64_t spin_ns = 0;      ///< time before each deadline in which the bench polls instead of sleeping
   std::uint64_t run_index = 0;   ///< in a campaign: selects the random numbers together with the seed
@@ -50,7 +50,8 @@ struct Options {
 /// The default format of a scenario's bus.
 BusFormat format_of(const scenario::Scenario& scenario);
 
-/// Options of a lockstep flight against this target, started for it on its own local bus.
+/// Options of a lockstep flight against a target that `command` starts, on a local bus that no other flight
+/// uses.
 Options in_lockstep_against(std::string command);
 
 /// The results of a session.
@@ -59,7 +60,7 @@ struct Collected {
   checks::Observations seen;
   PerRunTruth per_run_truth{};
   std::vector<faults::FaultReport> faults{};  ///< in the order of the scenario
-  std::optional<Error> log_error{};           ///< why Options::log_path lacks some frames
+  std::optional<Error> log_error{};           ///< why the log at Options::log_path is incomplete
 };
 
 /// A finished run.
@@ -72,9 +73,10 @@ struct Run {
   std::vector<faults::FaultReport> faults{};  ///< in the order of the scenario
   Options options;
   ClockKind clock = ClockKind::real_time;
-  bool in_process = false;                   ///< the target was the bench's own device
+  bool in_process = false;                   ///< the target was a Device in the bench's process
   std::string timing_unfit{};                ///< why no timing of the run is judged; empty: timing is judged
-  std::optional<realtime::Standing> host{};  ///< the bench's, in real time
+  std::optional<realtime::Standing> host{};  ///< settings of the bench's process; none: the run was not in
+                                             ///< real time
   std::vector<RunFile> files{};      ///< the files that the run depended on, as they were at its start
   std::vector<Adapter> adapters{};   ///< adapter of the run's bus, then the adapters of the nodes' buses
   double wall_s = 0;                 ///< from the start of the estimator to the end
@@ -94,8 +96,10 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
 Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                  std::uint64_t run_index, Rounding rounding = Rounding::as_on_the_bus);
 
-/// The same against a program in lockstep, started for this run on a private local bus: a target that behaves
-/// like the Device gives the same samples. Error: also if the program does not start or answer.
+/// Runs a scenario for a campaign against a program, which is started for this run on a private local bus.
+/// The run is in lockstep; with a mapping whose answers do not name their cause, it is in real time. In
+/// lockstep, a target that behaves like the Device gives the same samples. Error: as for run_in_process(), or
+/// the program does not start or answer.
 Result<Collected> run_against(const std::string& target, const scenario::Scenario& scenario,
                               const world::FlightRecord& truth, std::uint64_t run_index);
 

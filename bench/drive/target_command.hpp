@@ -15,11 +15,11 @@ namespace canhil::drive {
 /// not expanded. Error, one line: there is no word, or a quote is not closed.
 Result<std::vector<std::string>> target_words(const std::string& command);
 
-/// Quotes a path as one word of such a command.
+/// Quotes a path as one word of a target's command.
 std::string quoted_word(const std::string& path);
 
 /// The file that a command's first word starts: the word itself if it contains a '/' or is a file in the
-/// current folder, otherwise the program found through PATH; the word itself if there is none.
+/// current folder, otherwise the program found through PATH; the word itself if PATH leads to no program.
 std::string program_path(const std::string& word);
 
 /// The regular files in a command, the program first, without duplicates: the program and all arguments that

@@ -37,10 +37,11 @@ class Mailbox final : public observe::Observer {
   std::optional<messages::TargetHeartbeat> heartbeat;  ///< the latest one
   std::optional<messages::ParamAck> acknowledgement;   ///< received in the current step
   bool foreign_heartbeat = false;  ///< a heartbeat came in a format that this bus does not use
-  bool other_bench = false;        ///< another bench keeps the time base
+  bool other_bench = false;        ///< a Sync of another bench was received
 
  private:
-  std::array<std::optional<messages::TargetHeartbeat>, 8> beats_;  // by the three bits of the estimator
+  std::array<std::optional<messages::TargetHeartbeat>, 8> beats_;  // by the three-bit value of the signal
+                                                                   // `estimator`
 };
 
 /// Sends requests and waits for their effects.
@@ -51,7 +52,8 @@ class Dialogue {
   using Request = std::function<void(nodes::Transmission&)>;
   using Condition = std::function<bool(const Mailbox&)>;
 
-  /// One step: "being reset", and the expected state of the target, "idle".
+  /// One step of the dialogue. `doing`: what happens to the target, "being reset". `awaited`: its expected
+  /// state, "idle".
   struct Step {
     std::string doing;
     std::string awaited;
@@ -66,11 +68,11 @@ class Dialogue {
         second_attached_(link, second_),
         sightings_attached_(link, sightings_) {}
 
-  /// Waits until `condition` holds; sends `request` first and again whenever it stays unanswered. Error: one
-  /// line with what was received instead.
+  /// Sends `request` at once and then repeats it every `repeat_ns`, until `condition` holds. Error: one line
+  /// with what was received instead.
   Result<void> until(const Step& step, const Request& request, const Condition& condition);
 
-  /// Receives for a while.
+  /// Receives frames for `duration_ns`.
   void listen(std::int64_t duration_ns);
 
   Mailbox& mailbox() { return mailbox_; }
@@ -84,7 +86,7 @@ class Dialogue {
   const Gone& gone_;
   Mailbox mailbox_;
   observe::SecondTarget second_;
-  observe::Sightings sightings_;  // during this step
+  observe::Sightings sightings_;  // frames received in the current step
   Attached attached_, second_attached_, sightings_attached_;
 };
 

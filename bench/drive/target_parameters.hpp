@@ -9,7 +9,7 @@ namespace canhil::drive {
 
 struct TargetParameter {
   std::string_view name;
-  double initial = 0, minimum = 0, maximum = 0;  ///< in the unit of its name
+  double initial = 0, minimum = 0, maximum = 0;  ///< in the unit at the end of `name`
   bool whole = false, while_running = false;
   std::string_view meaning;
 };

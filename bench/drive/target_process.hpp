@@ -10,7 +10,8 @@
 
 namespace canhil::drive {
 
-/// A started target; it is terminated with this object, and by the kernel if the bench dies.
+/// A started target. The destructor of this object terminates the target; if the bench dies, the kernel
+/// terminates it.
 class TargetProcess {
  public:
   /// Starts `COMMAND --bus BUS` with further arguments on the given CPUs (empty: the bench's CPUs). The
@@ -26,11 +27,11 @@ class TargetProcess {
 
   /// How the process ended, as a phrase for people; none: it is running.
   std::optional<std::string> ended();
-  /// True while it is stopped by a signal such as SIGSTOP.
+  /// True while the process is stopped by a signal such as SIGSTOP.
   [[nodiscard]] bool stopped() const;
   /// Sends a signal if the process is still running.
   void send_signal(int signal);
-  /// Kills it immediately.
+  /// Kills the process immediately (SIGKILL).
   void kill_it();
 
  private:

@@ -27,14 +27,14 @@ inline double heading_over_its_sigma(const quantities::Samples& samples, std::si
 inline constexpr std::array alignment_derived{
     quantities::Derived{.quantity = &quantities::heading_over_sigma, .of = heading_over_its_sigma}};
 
-/// The quantities of the tracks that give_alignment() creates for every such estimator, innovations excepted.
+/// The quantities of the tracks that give_alignment() creates for every estimator, except the innovations.
 inline constexpr std::array<const quantities::Quantity*, 10> alignment_reported{
     &quantities::attitude_heading,  &quantities::misalignment_north, &quantities::misalignment_east,
     &quantities::misalignment_down, &quantities::attitude_roll,      &quantities::attitude_pitch,
     &quantities::velocity_north,    &quantities::velocity_east,      &quantities::velocity_down,
     &quantities::velocity_norm};
 
-/// The quantities above plus those of one estimator.
+/// The quantities of alignment_reported, then `own`: the quantities of one estimator.
 template <std::size_t count>
 constexpr auto and_alignment_reported(const std::array<const quantities::Quantity*, count>& own) {
   std::array<const quantities::Quantity*, alignment_reported.size() + count> all{};
@@ -137,7 +137,8 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
   });
 }
 
-/// The time from which the heading error stays in each band [angle], and the errors of the last answer.
+/// The time from which the heading error stays in each band, and the errors of the last answer. `angle`: unit
+/// of the bands and of the angles in the result.
 std::vector<ResultLine> alignment_results(const Spool<NavigationError>& errors, std::span<const double> bands,
                                           const quantities::Unit& angle);
 

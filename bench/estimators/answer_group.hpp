@@ -13,7 +13,7 @@
 
 namespace canhil::estimators {
 
-/// A group of answer messages, listed in the order of transmission: the last one carries the time of the
+/// A group of answer messages, listed in the order of transmission. The last message carries the time of the
 /// cause.
 template <class... Messages>
 class AnswerGroup {
@@ -22,7 +22,7 @@ class AnswerGroup {
     return ((message_index<Messages>() == message) || ...);
   }
 
-  /// True: the group is now complete.
+  /// Adds a frame to the group. True: the group is now complete.
   bool put(const Frame& frame) {
     bool complete = false;
     const auto try_one = [&]<class Message>(std::type_identity<Message>) {
@@ -33,7 +33,7 @@ class AnswerGroup {
     (try_one(std::type_identity<Messages>{}), ...);
     return complete;
   }
-  /// A complete group with its cause.
+  /// Describes a complete group and its cause.
   [[nodiscard]] Whole whole(std::int64_t now_us) const {
     using Last = std::tuple_element_t<sizeof...(Messages) - 1, std::tuple<Messages...>>;
     return {.messages = messages,
@@ -75,7 +75,7 @@ class ReceptionOf : public Reception {
     const auto try_one = [&]<class Group>(Group& group) {
       if (!Group::has(message) || !group.put(frame)) return;
       whole = group.whole(now_us);
-      if (answers_ == nullptr) answers_ = &seen.of<Answers>();  // a look-up by type
+      if (answers_ == nullptr) answers_ = &seen.of<Answers>();  // once, as it is a look-up by type
       group.add(whole->cause_us, *answers_);
     };
     std::apply([&](Groups&... group) { (try_one(group), ...); }, groups_);

@@ -10,7 +10,7 @@ namespace canhil::estimators {
 double period_us(const scenario::NodeSettings& node);
 
 /// The longest time between answers to fixes that does not count as silence [us]. It allows for the random
-/// losses of the scenario (loss_percent, invalid_percent), but not for its silences.
+/// losses of the scenario (loss_percent, invalid_percent), but not for the silences that the scenario sets.
 double longest_wait_of_fixes_us(const scenario::NodeSettings& aid);
 
 }  // namespace canhil::estimators

@@ -20,7 +20,7 @@ Spool<std::int64_t> times_of(const Answers& answers, Holds holds) {
 }
 inline constexpr auto every_answer = [](const auto&) { return true; };
 
-/// One mark for each value of an enumeration that is a member of the answers.
+/// Adds one mark for each value of an enumeration: the times of the answers whose `member` has this value.
 template <class Mark, class Enumeration, class Answers, class Values>
 void add_marks(std::vector<Mark>& marks, const Answers& answers, Enumeration Answers::value_type::*member,
                const Values& values) {

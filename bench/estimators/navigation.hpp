@@ -21,8 +21,8 @@ struct NavigationAnswer {
   bool coasting = false;
 };
 
-/// The message group that carries a NavigationAnswer; its signals have the same names for each such
-/// estimator.
+/// The message group that carries a NavigationAnswer. The signals have the same names in the groups of all
+/// alignment estimators.
 template <class Attitude, class VelocityNE, class VelocityD>
 struct NavigationGroup : AnswerGroup<Attitude, VelocityNE, VelocityD> {
   template <class Answers>
@@ -40,7 +40,7 @@ struct NavigationGroup : AnswerGroup<Attitude, VelocityNE, VelocityD> {
   }
 };
 
-/// The cause of the last answer; -1: no answer.
+/// The time of the cause of the last navigation answer; -1: no answer.
 inline std::int64_t last_cause_us(const Spool<NavigationAnswer>& navigation) {
   return navigation.empty() ? -1 : navigation.back().cause_us;
 }
@@ -57,9 +57,9 @@ struct NavigationError {
 Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
                                          const world::FlightRecord& truth);
 
-/// The first navigation answer that includes a filter update. For a late fix this excludes the answers
-/// between its time of validity and its arrival: `navigation_us` is the cause of the last answer before the
-/// update. Null: no such answer.
+/// The error of the first navigation answer that includes a filter update with the cause `cause_us`.
+/// `navigation_us` is the cause of the last navigation answer before the update. It excludes the answers
+/// between the time of validity of a late fix and its arrival. Null: no navigation answer follows the update.
 const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
                                    std::int64_t navigation_us);
 

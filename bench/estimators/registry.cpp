@@ -1,4 +1,4 @@
-// One line for each estimator.
+// Registers the estimators, one line for each.
 #include <algorithm>
 #include <array>
 #include <vector>

@@ -16,7 +16,7 @@ namespace canhil::estimators {
 std::span<const Estimator* const> all();
 /// The estimators that may run in a scenario: all, or, with a mapping, only the mapped target.
 std::span<const Estimator* const> in(const scenario::Scenario& scenario);
-/// Null if there is none.
+/// The estimator of this name; null if there is none.
 const Estimator* find(std::string_view name);
 /// The estimator whose samples have these columns (quantities::names); null if there is none.
 const Estimator* telling(std::string_view columns);

@@ -19,7 +19,7 @@ inline double longest_wait_us(const checks::Observations& seen, std::string_view
   return checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, message));
 }
 
-/// Finds answers by cause, for causes in ascending order. One answer per cause.
+/// Finds the answer to a cause. The causes are asked for in ascending order, and each must have an answer.
 template <class Answers>
 class AnswerTo {
  public:

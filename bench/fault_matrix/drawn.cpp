@@ -50,7 +50,7 @@ enum class Affects : std::uint8_t {
 };
 enum class Times : std::uint8_t { each, seldom, stretch, begins };
 
-// An additional key of a kind of fault, and the distribution of its value.
+// The distribution of the value of a fault's additional key (Kind::key).
 enum class Size : std::uint8_t {
   none,
   within,    // anywhere in the signal's range
@@ -155,8 +155,8 @@ bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   return true;
 }
 
-// Draws the times of a fault. It begins late enough for a comparison with the flight before it, ends early
-// enough for a recovery, and lasts at least two periods of the node.
+// Draws the times of a fault. The fault begins late enough for a comparison with the flight before it, ends
+// early enough for a recovery, and lasts at least two periods of the node.
 void draw_times(FaultText& fault, Times times, double duration_s, double period_s, Draw& draw) {
   constexpr std::array often{1, 2, 5, 10}, seldom{5, 10, 20, 50};
   const double from_s = duration_s * draw.between(0.3, 0.6);

@@ -24,8 +24,8 @@ std::vector<Drawn> drawn_rows(const std::vector<std::string_view>& nodes);
 std::optional<FaultText> drawn_fault(const Drawn& row, const Column& column, std::uint64_t seed,
                                      std::uint64_t run);
 
-/// Whether the scenario accepts such a fault: a sensor may lack a validity flag, for example. Draws one fault
-/// and reads the scenario with it, which takes far longer than the draw.
+/// Whether the scenario accepts a fault of this row. It does not if, for example, the sensor has no validity
+/// flag. Draws one fault and reads the scenario with it, which takes far longer than the draw.
 bool fits(const Drawn& row, const Column& column, std::uint64_t seed);
 
 /// The faults of a cell with several faults. Their rows are drawn from `rows`, all of which fit the scenario.

@@ -34,7 +34,7 @@ class Flights {
 
   Result<void> fly(const std::set<std::size_t>& cells) {
     std::vector<std::size_t> order(cells.begin(), cells.end());
-    std::vector<std::pair<std::size_t, std::uint64_t>> needed;  // columns and runs to fly undisturbed
+    std::vector<std::pair<std::size_t, std::uint64_t>> needed;  // columns and runs to fly without faults
     for (const std::size_t cell : order) needed.emplace_back(plan_.cells[cell].column, plan_.cells[cell].run);
     std::ranges::sort(needed);
     needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
@@ -131,7 +131,8 @@ class Flights {
     const fs::path file = options_.folder / fmt::format("violation-{}.toml", finished.cell);
     fs::path log = file;
     log.replace_extension(".log");
-    // A scenario needs at least one check. Other violations end the run or belong to an implied check.
+    // A scenario needs at least one check: the violated one if it is in judged_by, otherwise `answering`.
+    // Other violations end the run or belong to an implied check.
     const std::string text =
         text_of(column, cell.run, least.faults, least.duration_us,
                 std::ranges::find(judged_by, check) == judged_by.end() ? "answering" : check,

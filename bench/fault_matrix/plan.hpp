@@ -71,7 +71,7 @@ Result<Plan> plan_of(std::vector<Column> columns, const std::string& set_file, s
 Result<scenario::Scenario> scenario_of(const Column& column, std::uint64_t run,
                                        const std::vector<FaultText>& faults, std::int64_t duration_us = 0);
 
-/// The same as a self-contained file, independent of its folder, with a single check.
+/// The text of this scenario as a self-contained file, which may be in any folder, with a single check.
 std::string text_of(const Column& column, std::uint64_t run, const std::vector<FaultText>& faults,
                     std::int64_t duration_us, const std::string& check, const std::string& comment);
 

@@ -11,8 +11,8 @@ namespace canhil::fault_matrix {
 /// The outcome: fail if anything is violated; not measured if cells are missing or could not be judged.
 checks::Outcome outcome_of(const Results& results);
 
-/// The matrix, followed by ended flights and violations, each with the command that repeats it. `folder`: the
-/// folder of the saved scenarios.
+/// The matrix, followed by the cells that were not measured, and by the violations, each with the command
+/// that repeats it. `folder`: the folder of the saved scenarios.
 std::string text(const Results& results, const std::string& folder);
 /// The matrix as tables of Markdown.
 std::string markdown(const Results& results);

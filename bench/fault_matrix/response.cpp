@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 5> names{"tolerated", "detected", "ended"
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
-// The verdict on the flight up to its end, as if that had been its planned duration: a target that ended its
+// The verdict on the flight up to its end, as if this end had been planned, because a target that ended its
 // estimation must have met the checks until then.
 checks::Verdict verdict_to_its_end(const scenario::Scenario& scenario, const drive::Run& run) {
   if (run.ending.kind == Ending::Kind::completed) return run.verdict;

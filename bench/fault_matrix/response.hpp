@@ -35,7 +35,7 @@ struct Response {
   std::optional<double> detected_s{};   ///< delay from the onset of the faults
   std::string by{};                     ///< the first sign of trouble
   std::optional<double> recovered_s{};  ///< delay from the end of the faults; none: not within the flight
-  std::string why{};                    ///< reason of the end, violation, or what could not be judged
+  std::string why{};                    ///< why the flight ended, or why a check failed or was not judged
   std::string check{};                  ///< the violated check
 };
 

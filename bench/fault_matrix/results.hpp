@@ -1,5 +1,5 @@
-// The results of a fault matrix: a file of JSON lines. The first line identifies the matrix, each other one
-// is a finished cell. An interrupted run resumes with its file; files of shards can be merged.
+// The results of a fault matrix: a file of JSON lines. The first line identifies the matrix; each other
+// line is a finished cell. An interrupted run resumes with its file; files of shards can be merged.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace canhil::fault_matrix {
 
-/// Results can be merged only if their identities are equal. One line of JSON.
+/// The identity of a matrix, one line of JSON. Results can be merged only if their identities are equal.
 struct Identity {
   std::string line;
   std::uint64_t seed = 0, runs = 1;
@@ -55,8 +55,8 @@ Result<Results> merged(std::span<const std::filesystem::path> files);
 /// A file to which finished cells are appended.
 class Writer {
  public:
-  /// Creates a file; with `resume` also opens an existing one and returns its cells. Error: one line; it
-  /// exists, belongs to another matrix, or cannot be written.
+  /// Creates a file; with `resume` also opens an existing one and returns its cells. Error: one line; the
+  /// file exists (without `resume`), belongs to another matrix, or cannot be written.
   static Result<std::pair<Writer, Results>> open(const std::filesystem::path& file, const Identity& identity,
                                                  bool resume);
   /// Error: one line.

@@ -45,8 +45,8 @@ class FaultyNode : public nodes::Node {
   Tally& tally_;
 };
 
-/// Adjusts counters after samples that the node did not send, so that these samples leave no gap. Frames that
-/// were sent and then lost do leave a gap.
+/// Adjusts counters after samples that the node did not send, so that these samples leave no gap in the
+/// counters. Frames that were sent and then lost do leave a gap.
 class Recount {
  public:
   /// Records a frame that the node did not send, so it must not be counted.

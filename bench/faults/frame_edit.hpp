@@ -20,7 +20,7 @@ void set(Frame& frame, std::string_view signal, double value);
 /// Whether a signal is the validity flag of a sensor's sample.
 bool is_validity(const MessageInfo& message, std::string_view signal);
 
-/// Whether a signal is the time of validity of a sample or its interval.
+/// Whether a signal is the time of validity or the interval of a sample.
 bool is_time(std::string_view signal);
 
 /// Writes the counter of a message that has one, and its CRC.

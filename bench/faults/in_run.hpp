@@ -22,7 +22,7 @@ struct FaultReport {
   std::uint64_t count = 0;  ///< see Tally
 };
 
-/// Error: one line; a fault does not work in such a run.
+/// Checks that each fault works with the bus and the target of `place`. Error: one line; a fault does not.
 Result<void> check(std::span<const scenario::Fault> faults, const Place& place);
 
 class Faults final : public nodes::NodeFaults {

@@ -26,11 +26,11 @@ class RigControl {
   virtual ~RigControl() = default;
   virtual void pause_target() = 0;
   virtual void resume_target() = 0;
-  /// Kills the target, starts it again and configures it with the state at that time of the run.
+  /// Kills the target, starts it again and configures it with the state at `t_us`, a time of the run.
   virtual void restart_target(std::int64_t t_us) = 0;
   /// Reports an error frame as the interface's driver would.
   virtual void report_error(const Frame& error) = 0;
-  /// Sets the interface down, and up again after that time, even while the bench is blocked waiting for it.
+  /// Sets the interface down, and up again after `for_us`, even while the bench waits for the interface.
   virtual void interface_down(std::int64_t for_us) = 0;
   /// Waits until the interface is up again.
   virtual void interface_up() = 0;
@@ -39,10 +39,10 @@ class RigControl {
 /// The effect of a fault in a run.
 struct Tally {
   std::uint64_t count = 0;  ///< frames or samples affected, or the number of activations
-  /// Frames with a changed value but valid protection; number of these whose time was changed.
+  /// Number of frames with a changed value but valid protection; number of those whose time was changed.
   std::uint64_t changed = 0, changed_times = 0;
-  /// Frames sent after a newer frame of the same message. If a sample has a single message, the target sees
-  /// by its time of validity that it is late.
+  /// Number of frames sent after a newer frame of the same message. If a sample has a single message, the
+  /// target sees by the sample's time of validity that the sample is late.
   std::uint64_t overtaken = 0;
 };
 
@@ -69,11 +69,12 @@ class Injector {
 
   /// Changes the frames of a transmission that is due at `t_us`.
   virtual void apply(std::vector<Frame>& /*frames*/, std::int64_t /*t_us*/) {}
-  /// Time of its next action of its own; nodes::never_us: none.
+  /// Time of the next action by which the injector acts itself (transmit()); nodes::never_us: none.
   [[nodiscard]] virtual std::int64_t due_us() const { return nodes::never_us; }
   /// Acts at due_us() and appends the frames to be sent.
   virtual void transmit(std::vector<Frame>& /*out*/) {}
-  /// Called at the end of the run, for any ending: releases the frames or resources that it holds.
+  /// Called at the end of the run, however the run ends: releases the frames or resources that the fault
+  /// holds.
   virtual void end() {}
   /// End of the time during which this fault explains a silent target.
   [[nodiscard]] virtual std::int64_t silent_until_us() const {
@@ -81,7 +82,7 @@ class Injector {
   }
 };
 
-/// A fault that is active from the start of each stretch to its end.
+/// A fault that is on from the start to the end of each stretch, an uninterrupted part of its active time.
 class Switched : public Injector {
  public:
   Switched(const When& when, const InRun& run);

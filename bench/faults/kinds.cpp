@@ -1,4 +1,4 @@
-// One line for each kind of fault.
+// All kinds of faults, stage by stage.
 #include "bench/faults/kinds.hpp"
 
 #include <array>

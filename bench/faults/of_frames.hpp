@@ -39,7 +39,7 @@ class OfFrames : public Injector {
 /// The effect of a fault on a single frame, independent of earlier frames: appends the result.
 using Change = void (*)(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 
-/// A fault that applies such a change to each affected frame.
+/// A fault that applies `change` to each affected frame.
 std::unique_ptr<Injector> change_frames(const OfMessages& of, const When& when, const InRun& run,
                                         Change change);
 

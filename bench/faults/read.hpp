@@ -39,16 +39,16 @@ struct OfValues {
   std::vector<Measured> all{};
   std::string text{};
 };
-/// The key `quantity`, or `signal` of `messages`.
+/// The key `quantity`, or the keys `messages` and `signal`.
 OfValues read_values(scenario::Section& section, const scenario::FaultContext& context);
-/// A quantity, from this key. Null: unknown; the section then has an error.
+/// The quantity that a key names. Null: unknown; the section then has an error.
 const mapping::Stimulus* read_quantity(scenario::Section& section, const scenario::FaultContext& context,
                                        const scenario::Key& key);
 /// The signal of canhil's DBC that carries a stimulus.
 Measured measured(const mapping::Stimulus& stimulus);
 
-/// A number, with its meaning, in the unit of the values. For a quantity the key is `stem` with the suffix of
-/// its unit; for a signal it is `stem` alone, in the signal's unit.
+/// The size of a fault, in the unit of the values; `meaning` is for the reference. For a quantity the key is
+/// `stem` with the suffix of its unit; for a signal it is `stem` alone, in the signal's unit.
 double read_size(scenario::Section& section, std::string_view stem, std::string_view meaning,
                  const OfValues& of, scenario::Limits limits = {});
 

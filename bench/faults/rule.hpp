@@ -3,15 +3,14 @@
 // A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), a constant `stage`,
 // its fields, among them `When when`, and
 //   static Kind read(scenario::Section&, const scenario::FaultContext&)
-//   std::string subject() const                  what it affects: distinguishes faults of one kind
+//   std::string subject() const                  what the fault affects: distinguishes faults of one kind
 // for faults of a sensor or a node
 //   std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node>, const scenario::NodeSettings&,
-//   const InRun&) const                                the wrapped node; the node itself if it is not
-//   affected
+//   const InRun&) const                          the wrapped node, or the same node if it is not affected
 // for faults of the bus or the target
 //   std::unique_ptr<Injector> injector(const InRun&) const
 // and, where it does not work in every run,
-//   std::string cannot(const Place&) const       why not, to follow "KIND "; empty: it works
+//   std::string cannot(const Place&) const       why it does not work, to follow "KIND "; empty: it works
 #pragma once
 
 #include <array>

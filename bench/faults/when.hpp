@@ -9,7 +9,7 @@
 
 namespace canhil::faults {
 
-/// The active time within a run: either all of [from, to], or the first part of each period in it.
+/// The active time within a run: all of [from, to], or in it the first `for_us` of each period `each_us`.
 struct When {
   static constexpr std::int64_t always_us = std::numeric_limits<std::int64_t>::max();
   std::int64_t from_us = 0, to_us = always_us;  ///< ends included
@@ -26,13 +26,13 @@ struct When {
   }
 };
 
-/// What a fault affects: individual frames or samples (each), or the whole time (stretch).
+/// What a fault affects: individual frames or samples (each), or the whole of its active time (stretch).
 enum class Repeats : std::uint8_t { each, stretch };
 
 /// The keys from_s, to_s, for_s, each_s and, for `each`, every and percent.
 When read_when(scenario::Section& section, const scenario::FaultContext& context, Repeats repeats);
 
-/// The same keys for faults that must end before the run: for_s is required, and the run must continue
+/// The same keys for faults that must end before the run ends: for_s is required, and the run must continue
 /// afterwards.
 When read_stretches(scenario::Section& section, const scenario::FaultContext& context);
 

@@ -22,7 +22,8 @@ constexpr std::int64_t settled_us = 1'500'000;
 double us(double ns) { return ns * 1e-3; }
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
-// Whether the view shows a series: a statistic, and an error or, if the truth is unknown, an estimate.
+// Whether the view shows a series. It shows statistics and errors; if the truth is unknown, it shows
+// estimates in place of errors.
 bool is_shown(report::Series::Kind kind, bool known) {
   using enum report::Series::Kind;
   return kind == statistic || kind == (known ? error : estimate);

@@ -9,7 +9,8 @@
 
 namespace canhil::live {
 
-/// The number of points of each series that were already sent; the next message contains only newer points.
+/// The number of points of each series that were already sent. The next message contains newer points, and
+/// the last sent point again, because it may have changed.
 using Sent = std::map<std::string, std::size_t>;
 
 /// The complete snapshot.

@@ -104,7 +104,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
 
   [[nodiscard]] bool open() const { return open_; }
   [[nodiscard]] bool busy() const { return message_ != nullptr; }
-  [[nodiscard]] bool follows() const { return follows_; }  // no message skipped since a whole one
+  [[nodiscard]] bool follows() const { return follows_; }  // no message was skipped since the last one sent
 
   void send(Text message) {
     message_ = std::move(message);

@@ -11,7 +11,7 @@
 namespace canhil::live {
 
 /// The number of connections is limited, and each has at most one message in transit: this limits the load
-/// that browsers cause. A slow browser misses snapshots; one that accepts no data for ten seconds is
+/// that browsers cause. A slow browser misses snapshots. A browser that accepts no data for ten seconds is
 /// disconnected.
 inline constexpr std::size_t most_connections = 16;
 inline constexpr std::uint16_t usual_port = 8460;

@@ -37,7 +37,7 @@ void run_when_idle() {
 
 View::View(std::vector<std::unique_ptr<Display>> displays, Snapshot begun)
     : displays_(std::move(displays)), snapshot_(std::move(begun)) {
-  // Signals go to the thread that flies, which handles them at once.
+  // The view's thread blocks all signals, so they go to the thread that flies, which handles them at once.
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);

@@ -19,8 +19,8 @@ namespace canhil::live {
 
 class View {
  public:
-  /// Begins to show `begun`. Flights in real time have priority on every CPU: the view's thread runs only
-  /// when a CPU is idle.
+  /// Begins to show `begun`. During a flight in real time, the view's thread runs only when a CPU is idle, so
+  /// the flight has priority on every CPU.
   View(std::vector<std::unique_ptr<Display>> displays, Snapshot begun);
   ~View();
 

@@ -53,7 +53,7 @@ class Remarks {
     for (const PlayedMessage& one : play.messages) {
       for (const dbc::Signal& signal : one.of.message->signals) {
         const bool played = std::ranges::find(one.sources, &signal, &Source::signal) != one.sources.end();
-        // Signals of other pages of a multiplexed message are never sent, so they need no value.
+        // A multiplexed signal needs no value: pages that the play does not select are never sent.
         if (!played && signal.multiplexed_by.empty() && !is_protection(one.of, signal))
           add(Grade::warning, "unmapped", name(one.of, signal),
               "no value is mapped to it: it is encoded from 0");

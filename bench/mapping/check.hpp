@@ -24,7 +24,8 @@ struct Remark {
 /// - ranges that do not hold the node's values, and steps that are coarse for the noise of its sensor (limits
 ///   and SensorSigma of canhil's DBC);
 /// - periods that differ from the DBC's cycle times;
-/// - messages of the target that are not mapped.
+/// - messages of the target that are not mapped;
+/// - messages without protection, and answers that do not name their cause.
 std::vector<Remark> remarks_on(const Mapping& mapping);
 
 /// The bus load of the mapping's messages, with their longest frames. Messages without a cycle time are not

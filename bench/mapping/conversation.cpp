@@ -25,7 +25,7 @@ const Sent* cause_of(const Conversation& conversation, const Hear& hear, const F
   const std::deque<Sent>& sent = conversation.sent[*hear.answers];
   if (sent.empty()) return nullptr;
   if (!hear.echo) return &sent.back();
-  // Compare only the bits that both have: a byte may repeat the lowest bits of a longer counter.
+  // Compare only the bits that both signals have: a byte may repeat the lowest bits of a longer counter.
   const unsigned common = std::min(hear.echo->repeated->length, hear.echo->original->length);
   const std::uint64_t mask = common >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << common) - 1;
   const std::uint64_t repeated = dbc::raw_bits(*hear.echo->repeated, frame.payload()) & mask;

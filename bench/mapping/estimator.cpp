@@ -72,8 +72,8 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const quant
   }
 }
 
-// Takes a sample at each time at which any quantity was reported, with the last value of every quantity: a
-// target may report its quantities in turn.
+// Takes a sample at each time at which a quantity was reported, with the last error of every quantity,
+// because a target may report its quantities in turn. The first sample needs an error of every quantity.
 quantities::Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   const Answers& answers = seen.of<Answers>();
   if (answers.mapping == nullptr) return {};

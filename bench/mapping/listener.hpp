@@ -14,8 +14,8 @@ namespace canhil::mapping {
 
 class Listener final : public observe::Watcher {
  public:
-  /// `conversation` must outlive it. `virtual_time`: transmission takes no time; an answer arrives at the
-  /// time at which its cause was sent.
+  /// `conversation` must outlive the listener. `virtual_time`: transmission takes no time; an answer arrives
+  /// at the time at which its cause was sent.
   Listener(const Conversation& conversation, std::vector<checks::TimedWindow> windows, const WireFacts& wire,
            bool virtual_time);
 
@@ -38,7 +38,7 @@ class Listener final : public observe::Watcher {
   std::vector<double> values_;                                   // signal values of one message
   std::vector<protection::Receiver> receivers_;                  // for each hear
   bool virtual_time_ = false, sent_any_ = false;
-  std::int64_t due_us_ = 0, due_ns_ = 0;  // deadline of the last play: time base, stamp clock
+  std::int64_t due_us_ = 0, due_ns_ = 0;  // deadline of the last play: time base, clock of stamps
 };
 
 }  // namespace canhil::mapping

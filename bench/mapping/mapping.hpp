@@ -1,5 +1,5 @@
 // A mapping connects a DBC of another project to the bench: a TOML file beside the DBC assigns its signals to
-// the bench's quantities. docs/mapping.md.
+// the bench's quantities (docs/mapping.md).
 //
 // A play is a group of messages that the bench sends; a hear is a message of the target. Both are independent
 // of any scenario.
@@ -60,7 +60,7 @@ struct PlayedMessage {
 
 /// A group of messages that the bench sends together.
 struct Play {
-  std::string name;  ///< of its last message
+  std::string name;  ///< name of the play's last message
   std::vector<PlayedMessage> messages;
   std::string_view node;        ///< the node whose samples trigger the play
   std::int64_t period_us = 0;   ///< a multiple of the node's period
@@ -140,16 +140,17 @@ class Places {
 Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,
                                                     const ReadText& text = read_from_disk);
 
-/// The layout of samples with these quantities, in this order. Repeated calls return the same object, so
-/// stored samples and the samples of a run share it. Null: the bench has no truth for one of the quantities.
+/// The layout of samples with the quantities that `columns` names, in this order. Repeated calls return the
+/// same object, so stored samples and the samples of a run share it. Null: the bench has no truth for one of
+/// the quantities.
 const quantities::Layout* find_layout(std::string_view columns);
 
 /// The mapped target presented as an estimator, which refers to the mapping. The mapping must not move.
 estimators::Estimator estimator_of(const Mapping& mapping);
 
 /// The vocabulary for reading a scenario. If the scenario's [target] names a mapping (a path relative to the
-/// scenario's file), it comes from the mapping, otherwise from canhil's own DBC. Error: one line. TOML syntax
-/// errors are not reported here but by the reader of the scenario.
+/// scenario's file), the vocabulary comes from the mapping, otherwise from canhil's own DBC. Error: one line.
+/// TOML syntax errors are not reported here but by the reader of the scenario.
 Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::string& file,
                                             const scenario::DbcVocabulary& own,
                                             const ReadText& read = read_from_disk);

@@ -26,7 +26,7 @@ class Player final : public nodes::Node {
   void transmit(nodes::Transmission& out) override;
 
  private:
-  // The incoming samples of a node.
+  // A node whose samples are played.
   struct Played {
     std::unique_ptr<nodes::Node> node;
     const scenario::NodeTable* table = nullptr;

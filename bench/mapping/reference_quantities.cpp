@@ -20,7 +20,7 @@ Value flown(const Truth& truth, std::int64_t t_us, Of of) {
   if (t_us < 0 || t_us > truth.flight.end_us()) return std::nullopt;
   return of(truth.flight.at(t_us));
 }
-// A quantity from the glide record, at the last step before the time.
+// A quantity from the glide record, at the last step at or before the time.
 template <class Of>
 Value glided(const Truth& truth, std::int64_t t_us, Of of) {
   if (truth.glide == nullptr || t_us < 0 || t_us > truth.glide->end_us()) return std::nullopt;

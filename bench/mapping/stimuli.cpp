@@ -11,7 +11,8 @@
 namespace canhil::mapping {
 namespace {
 
-// Whether a signal is the time of a sample. This is not a measurement: a mapping has its own time signals.
+// Whether a signal is the time or the interval of a sample. Such a signal is no measurement, and a mapping
+// has time signals of its own.
 bool of_the_sample(const SignalInfo& signal) {
   return signal.name.starts_with("time_of_validity") || signal.name.starts_with("interval");
 }

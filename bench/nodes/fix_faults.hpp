@@ -18,7 +18,7 @@ struct FixFaults {
   double outlier_probability = 0;
   double outlier = 0;  ///< horizontal size of an outlier [m]
   std::optional<std::pair<std::int64_t, std::int64_t>>
-      silence_us{};  ///< interval of the times of validity in which no group is sent
+      silence_us{};  ///< a fix with a time of validity in this interval is not sent
 };
 
 /// The keys loss_percent, invalid_percent, outlier_percent, outlier_m and silence_s of a node's table.

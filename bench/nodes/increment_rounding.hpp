@@ -12,8 +12,8 @@
 namespace canhil::nodes {
 
 /// Rounds a scalar to steps of `lsb` (0: no rounding), limits it to the signal's range and keeps the
-/// remainder: sent = round(increment + remainder); remainder' = increment + remainder - sent. Unit of the
-/// signal.
+/// remainder: sent = round(increment + remainder); remainder' = increment + remainder - sent. All
+/// values are in the signal's unit.
 inline double round_increment(double increment, double lsb, const SignalInfo& signal, double& remainder) {
   const double wanted = increment + remainder;
   const double near = lsb == 0 ? wanted : std::nearbyint(wanted / lsb) * lsb;

@@ -54,7 +54,7 @@ struct Kind {
   /// signal could saturate or round to zero unnoticed. Error: one line. Null: no check is needed.
   Result<void> (*fits)(const NodeSettings& node, const scenario::Scenario& scenario,
                        const world::FlightRecord& flight) = nullptr;
-  bool at_every_epoch = false;  ///< its period defines the epochs of the flight record
+  bool at_every_epoch = false;  ///< the node's period defines the epochs of the flight record
 };
 
 }  // namespace canhil::nodes

@@ -13,8 +13,8 @@
 namespace canhil::nodes {
 namespace {
 
-// The longest gap accepted by default: 0.2 s, because a longer IMU gap ends an alignment, or three periods,
-// because a slower node may lack two samples in a row.
+// The longest gap accepted by default: 0.2 s, because a longer IMU gap ends an alignment. For a slower node
+// it is three periods, because such a node may lack two samples in a row.
 std::int64_t usual_gap_us(std::int64_t period_us) { return std::max<std::int64_t>(200'000, 3 * period_us); }
 
 double ms(std::int64_t us) { return 1e-3 * static_cast<double>(us); }

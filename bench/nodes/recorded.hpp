@@ -3,8 +3,9 @@
 //
 // In a CSV file (scenario/table.hpp) each row is a sample: its signals by name, its time of validity in t_s.
 // From a candump log with canhil's DBC, the frames of the group are sent unchanged, at their time in the time
-// base of the log's Sync: a run recorded with --log can be flown again. Another format needs one more reader
-// beside these two, selected in read_recorded(); it returns a scenario::Table, which is sent like a CSV file.
+// base of the log's Sync. So a run recorded with --log can be flown again. Another format needs one more
+// reader beside these two, selected in read_recorded(); it returns a scenario::Table, which is sent like a
+// CSV file.
 #pragma once
 
 #include <memory>

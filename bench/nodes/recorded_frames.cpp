@@ -25,7 +25,7 @@ struct TimeMark {
 };
 
 /// Frames between two Syncs are due between the Syncs' times, interpolated by their stamps. They are due
-/// strictly after the earlier Sync: at the same time they would be sent before it.
+/// strictly after the earlier Sync: a frame that is due at the same time as the Sync would be sent before it.
 std::int64_t due_us(const TimeMark& before, const TimeMark& after, std::int64_t stamp_ns) {
   const auto whole = static_cast<double>(after.stamp_ns - before.stamp_ns);
   const double share = whole > 0 ? static_cast<double>(stamp_ns - before.stamp_ns) / whole : 1;
@@ -89,7 +89,7 @@ class Reading {
     return whole;
   }
 
-  /// The full time of validity, unwrapped from the previous one.
+  /// The full time of validity, unwrapped with the previous time of validity.
   std::int64_t valid_us(const Frame& frame) {
     std::int64_t t_us = 0;
     each_message(closes_, [&]<class Message>() {
@@ -114,12 +114,13 @@ class Reading {
   LoggedGroup group_;
   std::vector<std::int64_t> valid_us_;  // of complete samples
   std::size_t index_ = 0;
-  std::size_t placed_ = 0;  // frames whose due time is known
+  std::size_t placed_ = 0;  // number of frames whose due time is known
   TimeMark last_;
   bool synchronised_ = false;
 };
 
-/// All recorded nodes of one log share one player, so their frames keep their order.
+/// Sends the frames of one log. All recorded nodes of the log share this node, so their frames keep their
+/// order.
 class Frames final : public Node {
  public:
   Frames(const std::vector<const RecordedFrames*>& of_one_log, const Run& run)

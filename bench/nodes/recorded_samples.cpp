@@ -71,7 +71,7 @@ Result<std::vector<Source>> sources_of(const NodeTable& table, const Table& rows
   return sources;
 }
 
-/// The rows valid within the run, after its start. Error: a gap is too long.
+/// The rows valid within the run, after its start; `last` is excluded. Error: a gap is too long.
 Result<scenario::Rows> within_run(const Table& table, const std::vector<std::int64_t>& t_us,
                                   std::int64_t gap_us, std::int64_t end_us) {
   scenario::Rows rows;

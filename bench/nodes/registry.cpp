@@ -19,7 +19,7 @@ namespace canhil::nodes {
 namespace {
 
 constexpr std::array registered{
-    &master_ins,  // the carrier's
+    &master_ins,  // of the carrier
     &slave_imu,   // of the weapon, or of the vehicle
     &ssbl,        // of a ship
     &gps,         // of the vehicle
@@ -46,8 +46,8 @@ std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run
   return run.faults == nullptr ? std::move(made) : run.faults->with_faults(std::move(made), node);
 }
 
-// Ordered by the truth that they sample (TruthOf), then by bus priority (the lower id first). So a fin
-// deflection arrives before the navigation group of the same instant is complete.
+// The nodes are ordered by the truth that they sample (TruthOf), then by bus priority (the lower id first).
+// So a fin deflection arrives before the navigation group of the same instant is complete.
 std::vector<std::unique_ptr<Node>> make(const Run& run) {
   auto kinds = registered;
   std::ranges::sort(kinds, {},
@@ -58,7 +58,7 @@ std::vector<std::unique_ptr<Node>> make(const Run& run) {
     const auto* node = run.scenario.node(kind->table.key);
     if (node == nullptr) continue;
     const auto* recorded = node->own<RecordedSettings>();
-    if (recorded != nullptr && recorded->frames)  // recorded nodes of one log share one player
+    if (recorded != nullptr && recorded->frames)  // the nodes of one log share one Node
       logs[recorded->recorded_from].push_back(node);
     else
       nodes.push_back(make(*kind, *node, run));

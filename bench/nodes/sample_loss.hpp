@@ -21,7 +21,7 @@ constexpr bool in_outage(const SampleLoss& loss, std::int64_t valid_us) {
 }
 
 /// Whether a sample is lost, by chance or in an outage. Always draws one number, also during an outage, so
-/// that a loss does not change later ones.
+/// that a loss does not change later losses.
 inline bool is_lost(const SampleLoss& loss, std::int64_t valid_us, world::Stream& losses) {
   const bool by_chance = losses.uniform() < loss.probability;
   return by_chance || in_outage(loss, valid_us);

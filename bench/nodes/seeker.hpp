@@ -18,7 +18,7 @@ struct SeekerSettings {
   double loss_probability = 0;           ///< a group is not sent, and its increments are lost
   double invalid_probability = 0;        ///< a missed radar pulse: the error angles of a group are invalid
   double invalid_range_probability = 0;  ///< range and closing speed of a group are invalid
-  std::optional<std::pair<std::int64_t, std::int64_t>> blackout_us{};  ///< error angles invalid throughout
+  std::optional<std::pair<std::int64_t, std::int64_t>> blackout_us{};  ///< time of invalid error angles
 };
 
 extern const struct Kind seeker;

@@ -90,8 +90,8 @@ constexpr Names accel_parts{"the flight",
                             "'slave_imu.accel_misalignment_sigma_mrad'"};
 
 // Bounds of the terms of (I + M) exact + bias dt + noise sqrt(dt); random terms at six sigma. A row of M has
-// two misalignments: the sigma of their sum is one misalignment's sigma times the length of the other two
-// components of `exact`.
+// two misalignments. The sigma of the sum of their terms is the sigma of a misalignment times the length of
+// the other two components of `exact`.
 std::array<double, 7> parts_of(const world::TriadErrorModel& model, const world::Vector3& exact, int axis,
                                double dt) {
   constexpr double certain = 6;

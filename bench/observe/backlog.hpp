@@ -1,4 +1,4 @@
-// Detects frames that come faster than the bench can process them, and their senders.
+// Detects frames that come faster than the bench can process them, and reports their most frequent id.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,12 @@ class Shares {
   void add(const Frame& frame);
   void clear();
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
-  /// "id 0C0: 900 of 1000 frames"; "error frames: ..."; if no id has half of them, also the number of ids.
+  /// "id 0C0: 900 of 1000 frames"; "error frames: ..."; if no id has half of the frames, also the number of
+  /// ids.
   [[nodiscard]] std::string to_text() const;
 
  private:
-  // Limits the number of ids that are counted separately: 2^29 would fill the memory.
+  // Limits the number of ids that are counted separately: counts for 2^29 extended ids would fill the memory.
   static constexpr std::size_t most_ids = 4096;
   std::uint64_t frames_ = 0;
   std::uint64_t error_frames_ = 0;
@@ -31,7 +32,8 @@ class Shares {
 /// An interval in which frames were waiting almost continuously.
 struct Flood {
   std::int64_t duration_ns = 0;
-  std::string whose{};  ///< the frames processed in this interval: Shares::to_text()
+  std::string whose{};  ///< the most frequent id among the frames processed in this interval:
+                        ///< Shares::to_text()
 };
 
 /// "the bus was flooded by id 0C0: 900 of 1000 frames in 0.41 s".
@@ -48,7 +50,8 @@ class Backlog {
   void pause(bool more, bool overflowed, std::int64_t now_ns);
   /// Whether frames were waiting at the last pause.
   [[nodiscard]] bool more() const { return more_; }
-  /// Whether frames were waiting a moment ago. If so, pause() must be called after each frame.
+  /// Whether frames were waiting a moment ago. If so, pause() must be called after each reading, even if no
+  /// frames are waiting any more.
   [[nodiscard]] bool stands() const { return since_ns_.has_value(); }
 
   /// The longest flood so far. A backlog that the bench itself caused is shorter and does not count.

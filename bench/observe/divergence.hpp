@@ -14,8 +14,9 @@ struct Divergence {
   std::size_t index = 0;
   std::optional<LogEntry> a;  ///< none: this run has no further frame
   std::optional<LogEntry> b;
-  double t_s = 0;        ///< bench time of the last Sync before it
-  std::string signal{};  ///< "FixUpdate.nis is 3.21 in one, 3.18 in the other"; empty: different messages
+  double t_s = 0;        ///< bench time of the last Sync before this frame
+  std::string signal{};  ///< "FixUpdate.nis is 3.21 in one, 3.18 in the other"; empty: different messages, no
+                         ///< further frame in one run, or no difference in a signal
 };
 
 struct Comparison {

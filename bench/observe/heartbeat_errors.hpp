@@ -12,10 +12,10 @@ namespace canhil::observe {
 /// "input_lost, numeric" with the DBC's names, or "none".
 std::string errors_of(const messages::TargetHeartbeat& heartbeat);
 
-/// Why the run ends, for a target in state fault.
+/// The reason for the end of a run, from a heartbeat that reports the state `fault`.
 std::string fault_of(const messages::TargetHeartbeat& heartbeat);
 
-/// The heartbeat in a received frame, if it reports that an estimator has stopped.
+/// The heartbeat in a received frame, if it reports the state `fault` of an estimator; otherwise none.
 std::optional<messages::TargetHeartbeat> fault_in(const Received& received);
 
 }  // namespace canhil::observe

@@ -14,9 +14,9 @@ namespace canhil::observe {
 /// more than 100 us plus 500 ppm of the elapsed time: an adjusted clock drifts by at most 500 ppm (adjtimex).
 class ClockSteps {
  public:
-  /// Readings of both clocks at one instant.
+  /// Takes the readings of both clocks at one instant.
   void note(std::int64_t steady_ns, std::int64_t stamps_ns);
-  /// Signed; 0: there was none.
+  /// The largest step, with its sign; 0: there was no step.
   [[nodiscard]] std::int64_t largest_ns() const { return largest_ns_; }
 
  private:
@@ -27,10 +27,10 @@ class ClockSteps {
   std::int64_t largest_ns_ = 0;
 };
 
-/// CPU times of this process and of the machine, each since its start, from the kernel.
+/// CPU times of this process since its start and of the machine since its start, from the kernel.
 struct CpuAccount {
-  std::int64_t run_ns = 0;   ///< this process was running
-  std::int64_t wait_ns = 0;  ///< this process was ready to run but had no CPU
+  std::int64_t run_ns = 0;   ///< this process (its main thread) was running
+  std::int64_t wait_ns = 0;  ///< this process (its main thread) was ready to run but had no CPU
   std::uint64_t preempted = 0;
   std::uint64_t all_ticks = 0;     ///< sum over all CPUs
   std::uint64_t stolen_ticks = 0;  ///< part of all_ticks that the hypervisor gave to other guests

@@ -13,7 +13,7 @@
 
 namespace canhil::observe {
 
-/// Counts frames from other senders whose id is that of a message which the bench has sent in this run.
+/// Counts frames that other nodes send with the id of a message that the bench has sent in this run.
 class Intruders final : public Observer {
  public:
   /// `messages`: the messages of the bus.

@@ -17,7 +17,7 @@ namespace canhil::observe {
 
 /// How a frame is assigned to a second, and which frames count.
 enum class LoadBy : std::uint8_t {
-  time_base,        ///< by the second of the last Sync: the same on every bus and in virtual time
+  time_base,        ///< by the time in the last Sync; gives the same load on every bus and in virtual time
   time_base_alone,  ///< as time_base, without StepDone, which exists only in lockstep: the load that the run
                     ///< would cause on a bus
   virtual_time,     ///< by the second of virtual time, if no node sends Sync
@@ -32,7 +32,7 @@ class LoadMeter final : public Observer {
  public:
   LoadMeter(BusFormat format, LoadBy by) : format_(format), by_(by) {}
   void transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) override {
-    if (by_ == LoadBy::stamps) return;  // its echo is counted
+    if (by_ == LoadBy::stamps) return;  // the echo of this frame is counted instead
     if (by_ != LoadBy::virtual_time && frame.id == messages::Sync::info.id)
       second_ = static_cast<std::size_t>(from_frame<messages::Sync>(frame).time_us / 1'000'000);
     take(frame, own_);

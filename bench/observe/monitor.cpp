@@ -29,8 +29,8 @@ concept ClosesStimulus = requires(Message message) {
 }
 &&is_answered(Message::info.sample_group);
 
-// The message with the highest id of each sample group that the target answers. A quick test first: two in
-// three of the bench's frames complete no group.
+// The message with the highest id of each sample group that the target answers. Membership in this table is a
+// quick first test: two in three of the bench's frames complete no group.
 constexpr Routes closing_messages([](const MessageInfo& info) {
   return is_answered(info.sample_group) && std::ranges::none_of(all_messages, [&](const MessageInfo& other) {
            return other.sample_group == info.sample_group && other.id > info.id;
@@ -39,7 +39,7 @@ constexpr Routes closing_messages([](const MessageInfo& info) {
 
 // The sample group that a frame of the bench completes, and its time of validity.
 struct Closed {
-  std::string_view group;  // empty: the target answers no such group
+  std::string_view group;  // empty: the frame completes no group that the target answers
   std::uint32_t valid_us = 0;
 };
 

@@ -18,7 +18,8 @@ constexpr Routes bench_messages([](const MessageInfo& info) {
   return info.sender != TargetHeartbeat::info.sender;
 });
 
-// An estimator may drop a group that arrives more than this before or after its time of validity.
+// An estimator may drop a group that arrives more than this time before or after the group's time of
+// validity.
 constexpr std::int64_t promised_us = 200'000;
 constexpr std::size_t syncs_of_a_period =
     static_cast<std::size_t>(TargetHeartbeat::info.cycle_time_us / Sync::info.cycle_time_us);
@@ -57,8 +58,8 @@ ReceiverModel::ReceiverModel(const Takers& takers) {
   }(std::type_identity<AllMessages>{});
 }
 
-// A damaged frame, or one of the wrong size, does not advance the receiver's counter: it counts as damaged
-// and, at the next frame, also as lost.
+// A damaged frame, or one of the wrong size, does not advance the receiver's counter: the frame counts as
+// damaged and, when the next frame arrives, also as lost.
 void ReceiverModel::sent(const Frame& frame, std::optional<std::int64_t> valid_us, std::int64_t now_us) {
   const std::size_t index = bench_messages(frame);
   if (index == Routes::nowhere) return;

@@ -1,5 +1,5 @@
 // Models the counters of a receiver that follows the protocol. The input is the frames that the bench hands
-// over: they show what nodes withheld and faults damaged.
+// over to the bus: they show which frames nodes withheld and faults damaged.
 #pragma once
 
 #include <array>
@@ -27,13 +27,13 @@ class ReceiverModel {
   explicit ReceiverModel(const Takers& takers);
 
   /// The bench handed over a frame at `now_us` of its time base; `valid_us`: the time of validity of the
-  /// sample group that it completes, if any.
+  /// sample group that the frame completes, if any.
   void sent(const Frame& frame, std::optional<std::int64_t> valid_us, std::int64_t now_us);
   /// A Sync was handed over.
   void synchronised(bool lockstep);
 
   /// Limits for the counts that the target sends now. In lockstep the target has read all frames up to the
-  /// last Sync; in real time it may be late by less than a period of TargetCounters.
+  /// last Sync; in real time its reading may lag behind by less than a period of TargetCounters.
   [[nodiscard]] checks::ExpectedCounts expected() const;
 
  private:

@@ -1,4 +1,4 @@
-// Detects a second target: two on one bus spoil each other's groups, and no result is valid.
+// Detects a second target. Two targets on one bus spoil each other's groups, so no result is valid.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ class SecondTarget final : public Observer {
 
   std::array<History, 5> histories_;
   int strange_ = 0;  // frames from another sender
-  int plain_ = 0;    // frames in a row without another sender, since the last strange one
+  int plain_ = 0;    // frames since the last one that counted in strange_
   bool found_ = false;
 };
 

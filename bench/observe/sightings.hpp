@@ -1,4 +1,5 @@
-// Frames received while the bench waited for its target: for the message of a failed handshake.
+// Counts the frames received while the bench waits for its target. The error message of a failed handshake
+// reports them.
 #pragma once
 
 #include <array>
@@ -26,7 +27,8 @@ class Sightings final : public Observer {
   [[nodiscard]] const checks::Sighting& of(std::size_t message) const { return seen_.of_target[message]; }
   /// Defects of the target's frames: "TargetHeartbeat: 50 with a wrong CRC"; empty: none.
   [[nodiscard]] std::string faults() const;
-  /// The same, plus other frames of the target and other ids; "no frame" if none came.
+  /// The defects as in faults(), plus the counts of valid frames and the other ids; "no frame" if no frame
+  /// came.
   [[nodiscard]] std::string to_text() const;
 
  private:

@@ -60,9 +60,10 @@ std::int64_t Stopwatch::on_wire_ns(const Frame& frame) const {
   return rates.nominal == 0 ? 0 : wire::duration_ns(wire::bit_length(frame), rates);
 }
 
-/// What to subtract from a frame's time on the wire, to compare it with the time from hand-over to echo. The
-/// stamp comes before the intermission, so for a container this is the intermission. For the last frame of a
-/// classic group it is 0: the time from hand-over to echo contains the intermission of the frame before it.
+/// The time to subtract from a frame's time on the wire, so that the difference is comparable with the time
+/// from hand-over to echo. The stamp comes before the intermission, so the intermission is subtracted for a
+/// container. For the last frame of a classic group nothing is subtracted: there, the time from hand-over to
+/// echo contains the intermission of the previous frame.
 std::int64_t Stopwatch::no_intermission_ns() const {
   return record_.wire.fd ? wire::duration_ns({.nominal = wire::intermission_bits}, record_.wire.rates) : 0;
 }
@@ -85,8 +86,8 @@ void Stopwatch::stimulus(std::string_view name, const Stimulus& stimulus) {
   if (group.sent.size() > remembered) forget_oldest(name, group);
 }
 
-// Lateness is measured by CLOCK_MONOTONIC, stamps possibly by another clock: only differences of stamps are
-// used.
+// Lateness is measured by CLOCK_MONOTONIC, stamps possibly by another clock. Therefore only differences of
+// stamps are used.
 void Stopwatch::echoed(const Received& received, std::string_view group, std::int64_t valid_us) {
   const std::size_t index = of_bench(received.frame);
   if (index == MessagePlaces::nowhere) return;

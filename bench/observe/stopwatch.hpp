@@ -17,7 +17,8 @@
 
 namespace canhil::observe {
 
-/// Remembers the last `remembered` stimuli of each group. An answer to an older stimulus has no cause.
+/// Remembers the last `remembered` stimuli of each group. An answer to an older stimulus counts as an answer
+/// without a cause.
 class Stopwatch {
  public:
   static constexpr std::size_t remembered = 1024;
@@ -50,8 +51,8 @@ class Stopwatch {
   void finish();
 
  private:
-  // Frames handed over and not yet echoed, the oldest first. If a message has more than `on_their_way` of
-  // them, the oldest counts as lost.
+  // Frames handed over and not yet echoed, the oldest first. If a message has more than `on_their_way` frames
+  // without an echo, the oldest counts as lost.
   struct Pending {
     Frame frame;
     std::int64_t t_ns = 0;

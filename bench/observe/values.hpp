@@ -16,7 +16,7 @@ struct Value {
   std::string_view enumerator;  ///< for an enumeration the value's name; otherwise empty
 };
 
-/// For people: 12 digits, or the enumerator.
+/// The value as text for people: a number with 12 digits, or the enumerator.
 std::string to_text(const Value& value);
 
 /// The signals of a frame except counter and checksum, in the order of the DBC; empty: not a message.

@@ -149,7 +149,7 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   script += labels(figure, layout) + "plot ";
   const std::size_t count = figure.curves.size();
   for (std::size_t i = 0; i < count; ++i) {
-    // Draws markers at every tenth of the axis, at a different offset for each curve.
+    // Draws about eight markers on each curve, at a different offset for each curve.
     const auto shown =
         static_cast<std::size_t>(std::ranges::count_if(figure.curves[i].points, [&](const auto& p) {
           return p.first >= figure.x_range.first && p.first <= figure.x_range.second;

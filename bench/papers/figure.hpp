@@ -34,7 +34,8 @@ bool has_ranges(const Figure& figure);
 
 enum class Width { desktop, phone };
 
-/// One SVG element that scales to the width of its container. Error: the error that gnuplot reports.
+/// Draws a figure as one SVG element that scales to the width of its container. Error: the error that gnuplot
+/// reports.
 Result<std::string> draw(const Figure& figure, Width width);
 
 }  // namespace canhil::papers

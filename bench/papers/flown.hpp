@@ -34,7 +34,7 @@ struct Flown {
   campaign::Evaluation evaluation;
 
   /// RMS over the runs of a variant. The variant is given by its name in the file and, if any, its point of
-  /// the sweep: "kf master_ins.period_ms=20". This and the following functions throw std::logic_error if
+  /// the sweep: "kf master_ins.period_ms=20". This function and the next two throw std::logic_error if
   /// there is no such answer.
   [[nodiscard]] std::span<const campaign::CurvePoint> curve(
       std::string_view variant, const campaign::Quantity& quantity = quantities::attitude_heading) const;
@@ -42,7 +42,7 @@ struct Flown {
   [[nodiscard]] const campaign::Answer& answer(std::string_view metric, std::string_view variant) const;
   /// The first answer of this kind of metric for a variant.
   [[nodiscard]] const campaign::Answer& answer_of_kind(std::string_view kind, std::string_view variant) const;
-  /// The answers with this requirement.
+  /// The answers to the metrics with this requirement; empty: there are none.
   [[nodiscard]] std::vector<const campaign::Answer*> answers(std::string_view requirement) const;
 };
 
@@ -55,7 +55,7 @@ struct Results {
 
   /// The campaign of this name; it must exist.
   [[nodiscard]] const Flown& of(std::string_view name) const;
-  /// The curve whose campaign and variant are the next words.
+  /// Takes the name of a campaign and then the name of a variant from `words`, and returns their RMS curve.
   [[nodiscard]] std::span<const campaign::CurvePoint> curve(
       Words& words, const campaign::Quantity& quantity = quantities::attitude_heading) const;
 };
@@ -66,7 +66,7 @@ void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double u
 /// The RMS over time [s], every `step`-th point.
 Curve over_time(std::span<const campaign::CurvePoint> points, double unit = 1, std::size_t step = 1);
 
-/// A figure of an answer, by the figure's name in the report; NaN: the answer has no such figure.
+/// The number that an answer has under a name (as in the JSON report); NaN: the answer has no such number.
 double figure(const campaign::Answer& answer, std::string_view name);
 
 /// A campaign with the answers computed from its results. Error: results cannot be read, or runs are missing.

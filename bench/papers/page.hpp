@@ -1,4 +1,4 @@
-// The contents of a reproduction as data; rendered as a self-contained HTML page and as text.
+// The page about the reproduction of a paper, as data, and its output as self-contained HTML and as text.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// The content of a paper's page from its campaigns: the values for the names in its templates, its curves,
-// and whether its limits are met. The prose is in page.mustache and the other templates of the paper's
-// folder.
+// Computes the content of a paper's page from the results of the campaigns: the values of the names in the
+// templates, the curves, and whether the limits are met. The prose is in page.mustache and the other
+// templates in the paper's folder.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace canhil::papers {
 
 struct PageContent {
-  Names names{};  ///< in addition to those that all papers have
+  Names names{};  ///< names in addition to those of add_shared_names()
   Curves curves{};
   bool bars_met = false;
 };
@@ -25,8 +25,8 @@ struct PageContent {
 void add_shared_names(Names& names, const Results& results, std::uint64_t runs, std::uint64_t enough);
 
 // For each paper: the files built into the program (bench/monte_carlo/paper_NAME and its templates), and its
-// page content, which keeps references to the results. `exact`: results of the transfer paper's table2
-// without the bus's rounding; empty: none. Error, one line: stored results cannot be read.
+// page content, which keeps references to the results. `exact`: file with results of the transfer paper's
+// campaign table2 without the bus's rounding; empty: none. Error, one line: stored results cannot be read.
 namespace transfer_alignment {
 extern const report::EmbeddedFiles campaigns, scenarios, templates;
 Result<PageContent> page_content(const Results& results, const FlyOptions& options,

@@ -14,7 +14,7 @@
 namespace canhil::papers {
 namespace {
 
-// The papers: add a new one here.
+// A paper. Add a new paper to `papers` below and to paper_names.
 struct Paper {
   std::string_view name;
   const report::EmbeddedFiles &campaigns, &scenarios, &templates;

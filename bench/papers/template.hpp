@@ -1,4 +1,5 @@
-// Fills the {{names}} in a page's prose with the figures of a run: Mustache without escaping.
+// Fills the {{names}} in a page's prose with numbers and texts from the results. The syntax is that of
+// Mustache; nothing is escaped.
 #pragma once
 
 #include <functional>
@@ -11,7 +12,7 @@
 
 namespace canhil::papers {
 
-/// The words of a tag, read one after another. Throws std::logic_error if no word is left.
+/// The words of a tag, read one after another. Reading throws std::logic_error if no word is left.
 class Words {
  public:
   explicit Words(std::string_view text) : left_(text) {}

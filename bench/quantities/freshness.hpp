@@ -6,7 +6,7 @@
 
 namespace canhil::quantities {
 
-/// The same for all runs of a variant. By default samples never become stale.
+/// All runs of a variant have the same freshness. By default samples never become stale.
 struct Freshness {
   /// The age limit: quantities of an older sample count as missing.
   std::int64_t age_limit_us = std::numeric_limits<std::int64_t>::max();

@@ -72,7 +72,7 @@ inline constexpr Quantity innovation_nis{
 inline constexpr Quantity velocity_norm{
     .name = "velocity.norm", .meaning = "magnitude of the error of the velocity", .unit = mps};
 
-/// Judges whether a target is confident although its error is large.
+/// Shows whether a target reports small sigmas without `degraded` or `blind` although its error is large.
 inline constexpr Quantity trusted_over_sigma{
     .name = "trusted.over_sigma",
     .meaning =
@@ -80,7 +80,7 @@ inline constexpr Quantity trusted_over_sigma{
         "degraded or blind",
     .unit = plain};
 
-/// Exposes a target that reports degraded with every answer.
+/// Shows how often a target reports degraded, and so exposes a target that reports it with every answer.
 inline constexpr Quantity degraded{.name = "degraded",
                                    .meaning =
                                        "1 where the answer reports degraded or blind, else 0; for a "

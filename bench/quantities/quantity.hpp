@@ -20,17 +20,17 @@ constexpr std::string_view si_name(const Unit& unit) {
   return unit.name.ends_with("/s") ? "rad/s" : "rad";
 }
 
-/// A quantity. Each is one object, identified by its address. Values are in SI.
+/// A quantity. Each quantity is a single object, identified by its address. Values are in SI.
 struct Quantity {
   std::string_view name;       ///< "attitude.heading"
   std::string_view meaning;    ///< for people, without a full stop
   Unit unit{};                 ///< for reports
-  int degrees_of_freedom = 0;  ///< for a normalised error squared; 0: for all others
+  int degrees_of_freedom = 0;  ///< of a normalised error squared; 0 for all other quantities
   bool white = false;          ///< an innovation or its square: successive values are independent
   bool nan_allowed = false;    ///< NaN is not an error: it means that the sample has no such value
   bool of_whole_run = false;   ///< the same value in all samples of a run; never becomes stale
   std::string_view once{};     ///< its former name in files; empty: none
-  /// The components, each with its own track; empty: the quantity itself.
+  /// The components, each with its own track; empty: the quantity is not divided and has one track.
   std::span<const Quantity* const> parts{};
 };
 

@@ -30,7 +30,8 @@ struct Layout {
   /// at the start of the interval, so the closest approach is at 0. If 0, a sample is one answer, at the
   /// answer's time of validity.
   std::int64_t to_go_stretch_us = 0;
-  const Quantity* end_known_by = nullptr;  ///< NaN in the last sample: the end of the flight is unknown
+  const Quantity* end_known_by = nullptr;  ///< if this quantity is NaN in the last sample, the end of the
+                                           ///< flight is unknown
   bool answers_may_omit = false;           ///< an answer may omit a quantity that it does not need
 };
 

@@ -33,14 +33,14 @@ struct Track {
   Unit unit{};                   ///< for pictures
   std::string title{};           ///< title of a picture of the values: "attitude error about north"
   std::string estimate_title{};  ///< title of a picture of estimate and truth; empty: no picture
-  Unit estimate_unit{};          ///< for this picture
+  Unit estimate_unit{};          ///< for the picture of estimate and truth
   bool only_if_judged = false;   ///< drawn only if a check has a limit for it
   Spool<TrackPoint> points{};    ///< in order of time
   /// Describes where due answers are missing between two times, ends included [us]; empty: nowhere. If not
   /// set, any wait longer than longest_wait_us is a gap.
   std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
   double longest_wait_us = 0;       ///< the longest time between answers that does not count as silence
-  std::int64_t answers_end_us = 0;  ///< no answers are expected after it
+  std::int64_t answers_end_us = 0;  ///< no answers are expected after this time
   /// The time to go at each stimulus; empty: the flight has no closest approach.
   struct ToGo {
     std::int64_t t_us = 0;

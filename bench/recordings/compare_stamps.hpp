@@ -27,7 +27,7 @@ struct StampsCompared {
 };
 
 /// Two frames count as the same one if they have the same id and content and their stamps, corrected for the
-/// clock difference, are less than 5 ms apart. The clock difference is the median over frames whose content
+/// clock difference, are at most 5 ms apart. The clock difference is the median over frames whose content
 /// occurs once; its drift is tracked. Error frames are ignored. Error: one line; a log cannot be read or has
 /// no frame.
 Result<StampsCompared> compare_stamps(const std::string& log_a, const std::string& log_b);

@@ -28,7 +28,7 @@ struct DecodeOptions {
 /// Frames that cannot be decoded with the DBC.
 struct LeftOut {
   std::uint64_t frames = 0;
-  std::set<std::string> ids{};        ///< ids of frames without a message in the DBC
+  std::set<std::string> ids{};        ///< ids of frames without a message in the DBC; "error frames"
   std::uint64_t of_another_size = 0;  ///< frames of another size than their message
 };
 

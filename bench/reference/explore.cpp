@@ -35,7 +35,7 @@ std::string toml_of(const std::string& given, const Settings& settings) {
   return text;
 }
 
-/// A run of the reader.
+/// A run of the reader: the settings in its text, and the keys that it requested.
 struct Tried {
   Settings settings;
   std::set<std::size_t> asked;  // indices in found_
@@ -108,8 +108,8 @@ class Explorer {
     };
     const auto any = std::ranges::find_if(found_, same);
     const auto found = std::ranges::find_if(found_, alike);
-    // A reader may request a key that is present in more detail. The earlier entry stays, but if it lacks a
-    // meaning, the later entry replaces it.
+    // If a key is present in the text, the reader may request it once more, with other details. The earlier
+    // entry stays, but if it lacks a meaning, the later entry replaces it.
     if (is_there && any != found_.end()) {
       if (any->meaning.empty() && !key.meaning.empty()) {
         *any = key;
@@ -143,8 +143,8 @@ class Explorer {
     return all;
   }
 
-  /// The key, if its permitted words should be tried one by one: at least two words, but not a long list of
-  /// names.
+  /// The key at `path`, if conditions name its permitted words: it has at least two words, but not a long
+  /// list of names. Null: any other key.
   [[nodiscard]] const DescribedKey* word_key(const std::string& path) const {
     constexpr std::size_t most_words = 12;
     const auto found = std::ranges::find_if(found_, [&](const DescribedKey& key) {

@@ -18,7 +18,7 @@ struct AskedKey {
   std::vector<std::string> in_place{};  ///< keys that make a required key unnecessary
 };
 
-/// Reads a TOML text. It may reject the text: only the keys that it requested are evaluated.
+/// Reads a TOML text. The reader may reject the text, because only the keys that it requests are evaluated.
 using Read = std::function<void(std::string_view text)>;
 
 enum class Depth : std::uint8_t { as_it_is, every_branch };

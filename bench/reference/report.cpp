@@ -11,7 +11,7 @@ namespace canhil::reference {
 namespace {
 
 constexpr std::size_t most_words_shown = 12;
-/// If at least this number of tables in a part have the same key, it is listed once, at the start of the
+/// If at least this number of tables in a part have the same key, the key is listed once, at the start of the
 /// part.
 constexpr std::size_t least_sharing = 4;
 
@@ -80,7 +80,8 @@ std::vector<std::string> shared_rows(const Part& part) {
   return shared;
 }
 
-/// A shared key by its name, and its default if several shared rows have this name.
+/// The name of a shared key. If several shared rows have this name and the key is required, default_of()
+/// follows in brackets.
 std::string reference_to(const AskedKey& one, const std::vector<std::string>& shared) {
   const std::string name = fmt::format("`{}`", one.key.shown), begin = fmt::format("| {} |", name);
   const auto rows = std::ranges::count_if(shared, [&](const auto& row) { return row.starts_with(begin); });

@@ -1,4 +1,4 @@
-// The reference as text.
+// Formats the reference as Markdown and as JSON.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace canhil::reference {
 
 /// A page of Markdown: docs/scenario-reference.md.
 std::string markdown(const std::vector<Part>& parts);
-/// {"parts": [{"title", "tables": [{"name", "about", "keys": [...]}]}]}, each key with all its known
-/// properties.
+/// A JSON object: {"parts": [{"title", "tables": [{"name", "about", "keys": [...]}]}]}. Each key has all its
+/// known properties.
 std::string json(const std::vector<Part>& parts);
 
 }  // namespace canhil::reference

@@ -19,12 +19,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // All of these conditions must hold for a latency to count as worse.
-constexpr double largest_p = 0.01;  // of one test, divided by the number of tests
+constexpr double largest_p = 0.01;  // of a single test; divided by the number of tests
 constexpr double least_us = 2;      // increase of p50 or p99, larger than the resolution of two stamps
 // Further conditions with one run per side, which does not show the scatter between runs:
 constexpr double least_effect = 0.64;  // a 'medium' effect of Vargha and Delaney (2000)
 constexpr double tail_times = 2;       // factor for the fraction beyond the 99 % quantile
-constexpr double least_share = 1;      // increase of p50 or p99 as a fraction of itself
+constexpr double least_share = 1;      // increase of p50 or p99, divided by its value before
 
 Buckets buckets_of(const Json& distribution) {
   Buckets buckets;
@@ -136,8 +136,8 @@ class Comparer {
            report.at("latency_s").at(message).at("count") > 0;
   }
 
-  // The last message of each answer group that occurs in all runs of the first side; the other messages of
-  // the group arrive just before it.
+  // The last message of each answer group, if all runs of the first side contain answers with this message.
+  // The other messages of the group arrive just before it.
   [[nodiscard]] std::vector<std::string> answered_before() const {
     std::vector<std::string> messages;
     if (!before_[0].contains("latency_s")) return messages;
@@ -178,7 +178,7 @@ class Comparer {
                     ranks.p, tail.share_a * 100, tail.share_b * 100, tail.p));
   }
 
-  // With several runs: compares each quantile from run to run.
+  // Compares the latencies of a message with several runs per side. The samples are the runs' quantiles.
   void latency_of(const std::string& message, double p_bar) {
     bool worse = false;
     std::string figures;

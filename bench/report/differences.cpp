@@ -19,7 +19,7 @@ struct Worded {
   std::string_view path, words;
 };
 
-// A path without an entry here is its own name.
+// The words for paths. A path without an entry is shown as it is, except that in_words() replaces folders.
 constexpr std::array<Worded, 28> worded{
     {{"dbc_hash", "DBC"},
      {"latency_stamps", "latency stamps"},

@@ -1,5 +1,5 @@
-// Differences between runs in their conditions rather than in their measurements; a difference may explain
-// why one run is slower.
+// Finds differences between the conditions of runs, not between their measurements. A different condition may
+// explain why one run is slower.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

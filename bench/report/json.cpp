@@ -94,7 +94,7 @@ Json object(const Series& series) {
             {"t_s", Json::array()},
             {"low", Json::array()},
             {"high", Json::array()}};
-  // An estimate needs more digits, because it differs from the truth in the last ones.
+  // An estimate needs more digits, because it differs from the truth only in the last digits.
   const int digits = series.kind == Series::Kind::estimate ? 8 : 5;
   const auto or_null = [&](const std::optional<double>& value) {
     return value && std::isfinite(*value) ? Json(rounded(*value, digits)) : Json(nullptr);

@@ -21,10 +21,10 @@ struct BreakdownPart {
   Bound bound = Bound::exact;      ///< a bound if the target's values saturate at checks::most_reported_us
 };
 
-/// In order of time; the known parts add up to total_s().
+/// The parts in the order of time; the known parts add up to total_s().
 std::vector<BreakdownPart> parts(const checks::TimingRecord& timing);
-/// The parts for the stimuli of one group. The target does not report times for single groups, so its time is
-/// in the last part.
+/// The parts for the stimuli of one group. The target does not report times for single groups, so the last
+/// part includes the time of the target.
 std::vector<BreakdownPart> group_parts(const checks::TimingRecord& timing,
                                        const checks::LatencyBreakdown& breakdown);
 /// The label of a part; the key itself if it has none.

@@ -1,4 +1,4 @@
-// Statistical tests for an increase of latencies: within one run per side, and between several runs.
+// Statistical tests for an increase of latencies: with one run per side, and with several runs per side.
 #pragma once
 
 #include <span>
@@ -18,10 +18,10 @@ struct RankTest {
 };
 RankTest rank_test(const Buckets& a, const Buckets& b);
 
-/// Tests whether a larger fraction of `b` than of `a` exceeds the 99 % quantile of `a`: two proportions.
+/// Test of two proportions: whether a larger fraction of `b` than of `a` exceeds the 99 % quantile of `a`.
 struct TailTest {
   double share_a = 0, share_b = 0;
-  double p = 1;  ///< one-sided, normal approximation of the pooled difference
+  double p = 1;  ///< one-sided, normal approximation with the pooled proportion
 };
 TailTest tail_test(const Buckets& a, const Buckets& b);
 

@@ -18,7 +18,7 @@ using Rows = std::vector<std::vector<std::string>>;
 /// Cells are HTML; on a phone each cell shows the name of its column.
 std::string table(const std::vector<std::string>& head, const Rows& rows, std::string_view style = "");
 
-/// A drawing with its plain title and note. `id`: id of the element; empty: no id.
+/// A drawing (HTML) with its title and note (plain text). `id`: id of the element; empty: no id.
 std::string figure(std::string_view title, std::string_view drawing, std::string_view note,
                    std::string_view id = "");
 

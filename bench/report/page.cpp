@@ -12,9 +12,9 @@
 namespace canhil::report {
 namespace {
 
-constexpr int most_depth = 32;  // a report has 6
+constexpr int most_depth = 32;  // of nested values; a report is 6 deep
 
-// A plot needs one value for each time. Returns which lengths differ; empty: none.
+// A plot needs one value for each time. Describes the first array that has another length; empty: none.
 std::string length_differs(const Json& report) {
   for (const Json& series : report.at("series")) {
     const std::size_t times = series.at("t_s").size();

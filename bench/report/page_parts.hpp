@@ -50,14 +50,15 @@ std::string course(const std::string& title, const Json& line);
 std::string from_zero(const std::string& title, const std::string& unit, double stretch_s,
                       const Json& largest, double scale);
 
-/// A quantity over the run, with a second picture of its later course if the first instants hide it.
+/// A quantity over the run. If the scale of this picture hides the later course or the limits of checks, a
+/// second picture shows that part of the run.
 std::string estimate(const Json& series);
 
 // The sections.
 
 std::string checks_section(const Json& report);
-/// Latency, jitter and lateness, and missing answers. In virtual time, only the reason why there are no
-/// times.
+/// Latency, jitter and lateness, and missing answers. In virtual time, the section gives only the reason why
+/// there are no times.
 std::string timing_section(const Json& report);
 /// Load, drops and errors.
 std::string bus_section(const Json& report);

@@ -38,7 +38,7 @@ LinePlot cut(LinePlot plot, const Part& part) {
   return plot;
 }
 
-// A plotted course. For an error around zero, its range includes zero.
+// A plotted course. If `around_zero` (for errors and innovations), its range includes zero.
 struct Course {
   LinePlot plot;
   bool around_zero = false;
@@ -53,9 +53,9 @@ struct Course {
 
 constexpr double hidden = 0.1;  // a smaller fraction of the picture's height is not visible
 
-// The end of a course that gets its own picture: the values near those of the last quarter. None: a picture
-// of the whole course shows them. A check's limit that this picture would hide counts as a value of the last
-// quarter.
+// The last part of a course, which gets a separate picture: the values near those of the last quarter. None:
+// the picture of the whole course shows them. A check's limit that the picture of the whole course would hide
+// counts as a value of the last quarter.
 std::optional<Part> late_course(const Course& course) {
   constexpr double shown_times = 2.5;  // range of the second picture relative to the late values
   const std::vector<double>& t_s = course.plot.t_s;
@@ -85,8 +85,8 @@ std::optional<Part> late_course(const Course& course) {
   return Part{.first = first, .last = t_s.size()};
 }
 
-// The part of a course for which checks have limits, if a picture of the whole course would hide the limits.
-// None: it shows them, or a picture of this part would not be much finer.
+// The part of a course for which checks have limits, if the picture of the whole course would hide them.
+// None: the picture of the whole course shows the limits, or a picture of this part would not be much finer.
 std::optional<Part> judged_course(const Course& course) {
   constexpr double finer = 0.5;
   const LinePlot& plot = course.plot;
@@ -127,7 +127,7 @@ std::string beyond_words(const LinePlot& plot) {
   return shown == 0 ? " (beyond this picture)" : " (some beyond this picture)";
 }
 
-// Describes the lines of a series of any kind.
+// Adds the truth, the sigmas or the levels of a series to the plot, and describes the lines.
 std::string lines(const Json& series, LinePlot& plot) {
   const std::size_t size = plot.t_s.size();
   if (series.contains("truth")) {

@@ -48,7 +48,7 @@ std::string time_of(double us) {
   return fmt::format("{:g} s", us / 1e6);
 }
 
-// 1, 10, 100 ... and, for less than two decades, also 2 and 5 times these.
+// 1, 10, 100 ...; for less than about two decades also 2 and 5 times these values.
 std::vector<double> decades(double from_log, double to_log) {
   std::vector<double> values;
   const bool fine = to_log - from_log < 2.2;
@@ -89,7 +89,7 @@ std::vector<Stretch> stretches(std::size_t size, There there) {
 }
 
 constexpr double limit_room = 2.5;  // limits up to this multiple of the largest value are shown
-constexpr double bar_room = 6;      // bars have more room, because they matter most
+constexpr double bar_room = 6;      // the same for the limits of checks, which matter most
 
 std::string path_along(const LinePlot& plot, const std::vector<double>& values, double sign, const Axis& x,
                        const Axis& y) {
@@ -202,7 +202,7 @@ std::string svg(const HistogramPlot& plot) {
   const Axis x{extent.low, extent.high, left, right};
   const std::vector<double> counts = columns(plot, x, column_count);
   const double most = std::ranges::max(counts);
-  // A single answer is a visible bar.
+  // The axis begins at 0.5, so that a single answer is a visible bar.
   const Axis y{std::log10(0.5), std::log10(most) + 0.12, bottom, top};
   std::string out = begin(plot.title);
   for (const double value : decades(0, y.to)) {

@@ -1,4 +1,4 @@
-// Plots as SVG, drawn with the page's style classes; dashes and shapes distinguish them without colour.
+// Plots as SVG, drawn with the page's style classes. Dashes and shapes distinguish the lines without colour.
 #pragma once
 
 #include <algorithm>
@@ -61,7 +61,7 @@ std::string svg(const LinePlot& plot);
 /// The range of the picture. It includes `limit` and `bars` unless they are so large that they would hide the
 /// quantity, such as the sigma of the first instants.
 Extent extent_of(const LinePlot& plot);
-/// Whether a bar lies within the picture.
+/// Whether a check's limit lies within the picture.
 bool shows(const LinePlot& plot, const LinePlot::Bar& bar);
 
 /// The labels of an axis's marks, with as many digits as needed to distinguish them.

@@ -44,7 +44,7 @@ inline constexpr std::string_view schema = "canhil-report-1";
 /// angles in rad, unit in every key; docs/report.md describes it.
 nlohmann::ordered_json document(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// The same as text: one line for each key of an object, and one for each array of numbers.
+/// The text of document(): one line for each key of an object, and one for each array of numbers.
 std::string json(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

@@ -40,8 +40,8 @@ struct Series {
   std::vector<Bar> bars{};
 };
 
-/// A series that grows with its track. It has stretches of equal length, and a gap where no answer came for
-/// too long.
+/// A series that grows with its track. It has one point for each stretch of time, all of equal length, and a
+/// gap where no answer came for too long.
 class GrowingSeries {
  public:
   /// `estimates`: show estimates and truth instead of the values. `scenario` must outlive this object.
@@ -69,7 +69,7 @@ using TrackOf = std::function<void(std::string_view estimator, const quantities:
 /// Passes on the tracks of the scenario's estimators, one estimator after another.
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give);
 
-/// For all estimators of the scenario.
+/// The series of all estimators of the scenario.
 std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

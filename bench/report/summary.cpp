@@ -93,7 +93,7 @@ std::vector<wire::BitRates> load_rates(wire::BitRates known, BusFormat format) {
 
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   std::vector<std::string> lines;
-  if (scenario.foreign != nullptr) return lines;  // its own DBC defines the rates of its messages
+  if (scenario.foreign != nullptr) return lines;  // the target's own DBC defines the rates
   for (const bool at_every_epoch :
        {true, false}) {  // first the node whose period is the interval of the truth
     for (const nodes::Kind* kind : nodes::all()) {

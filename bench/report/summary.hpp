@@ -16,7 +16,7 @@ struct EstimatorResults {
   std::vector<estimators::ResultLine> lines;
 };
 
-/// For each estimator of the scenario.
+/// The results of each estimator of the scenario.
 std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run);
 
 /// The tested program: the command that started it, or where it runs.

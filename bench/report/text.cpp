@@ -32,7 +32,7 @@ std::string to_text(const estimators::ResultLine& line) {
   return fmt::format("  {:<29} {}\n", line.what, text.empty() ? "none" : text);
 }
 
-// Events with their times since the bench's first transmission; values in the unit of each event.
+// Counts of bus errors, then events: the time since the bench's first transmission, and the error counters.
 std::string to_text(const checks::BusRecord& bus, std::int64_t first_ns) {
   constexpr std::size_t shown = 20;
   std::string lines = fmt::format("  bus                           {} error frames", bus.errors.frames);
@@ -127,7 +127,7 @@ std::string split_words(const checks::TimingRecord& timing) {
   return lines;
 }
 
-// The bus response times relative to their bounds: all messages beyond the bound, otherwise the nearest one.
+// The bus response times beside their bounds: the message nearest to its bound, and all messages beyond it.
 std::string wire_words(const checks::Observations& seen) {
   if (seen.bit_rates.nominal == 0) return "";
   if (const std::string why = checks::no_bounds(seen); !why.empty())

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The first error ends the check.
+// An error in the report. It is thrown, so the first error ends the check.
 struct Wrong {
   std::string what;
 };

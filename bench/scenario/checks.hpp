@@ -17,13 +17,13 @@ namespace canhil::scenario {
 class Section;
 struct DbcVocabulary;
 
-/// Part of a run, ends included, by the time of validity of an answer's cause.
+/// A part of a run, ends included. An answer belongs to it by the time of validity of the answer's cause.
 struct Window {
   std::int64_t from_us = 0;
   std::int64_t to_us = 0;
 };
 
-/// When a fault of the scenario is active, by time of transmission.
+/// The time in which a fault of the scenario is active, by time of transmission.
 struct FaultWindow {
   std::string name;
   Window window;
@@ -43,7 +43,7 @@ struct CheckContext {
   const DbcVocabulary& contract;
   std::span<const std::string> estimators;  ///< the estimators that run
   std::span<const FaultWindow> faults{};    ///< cut at the end of the run
-  std::int64_t latency_us = 0;              ///< longest time from validity to transmission of all nodes
+  std::int64_t latency_us = 0;              ///< largest latency of a node, from validity to transmission
 };
 
 /// A rule and its subject. The subject is empty for a kind that a scenario may have only once.

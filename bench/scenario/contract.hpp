@@ -34,13 +34,14 @@ struct DbcVocabulary {
   std::vector<CheckKind> check_kinds{};
   std::span<const estimators::Estimator* const> known{};  ///< the estimators known to the bench
   std::vector<FormerCheckKind> former_check_kinds{};
-  /// By message: the only estimator that sends it. Without an entry, every target sends the message, or none.
+  /// By message: the only estimator that sends it. Without an entry, every target sends the message, or none
+  /// does.
   std::map<std::string, std::string, std::less<>> sent_by{};
   std::map<std::string, EstimatorFacts, std::less<>> facts{};  ///< by estimator
   std::vector<const NodeTable*> nodes{};                       ///< in the order in which they are read
   std::vector<FaultKind> fault_kinds{};
   std::shared_ptr<const Foreign> foreign{};  ///< null: the target uses canhil's own DBC
-  /// Reads the table of any node with a key `recorded`; null: recordings are not allowed.
+  /// Reads the table of any node if the table has the key `recorded`; null: recordings are not allowed.
   NodeSettings (*read_recorded)(const NodeTable& table, Section& section, std::int64_t duration_us) = nullptr;
 };
 

@@ -20,7 +20,7 @@ enum class Start : std::uint8_t {
 struct EstimatorFacts {
   std::span<const std::string_view> parameters{};  ///< for suggestions when a name is misspelt; empty: any
   std::span<const std::string_view> nodes{};       ///< required tables
-  std::optional<TruthOf> truth{};                  ///< this truth's table is required
+  std::optional<TruthOf> truth{};                  ///< the table of this truth is required
   Start start = Start::navigation;
   std::string_view start_errors{};  ///< the table of initial errors for the estimator's own truth
   std::string_view aided_by{};      ///< parameter that selects the source of its fixes; empty: no fixes

@@ -1,4 +1,4 @@
-// The facts about a target with its own DBC that a scenario needs. The reader of its DBC and mapping
+// The facts that a scenario needs about a target with its own DBC. The reader of this DBC and of the mapping
 // (bench/mapping) provides them.
 #pragma once
 
@@ -23,12 +23,12 @@ struct Foreign {
   /// The messages of bench and target; the target's messages have the same sender as TargetHeartbeat.
   std::vector<MessageInfo> messages;
   std::string file;            ///< the mapping file, as named by the user
-  std::uint64_t hash = 0;      ///< hash of all texts that it was read from
-  std::string dbc_file;        ///< its DBC
+  std::uint64_t hash = 0;      ///< hash of the mapping file and its DBC
+  std::string dbc_file;        ///< the DBC that the mapping names
   std::uint64_t dbc_hash = 0;  ///< hash of that DBC
-  /// Its answers name their causes, so virtual time can wait for them.
+  /// At least one message of the target names its cause, so virtual time can wait for this message.
   bool answers_by_name = false;
-  /// Its quantities, presented as an estimator.
+  /// The quantities that the target reports, presented as an estimator.
   const estimators::Estimator* estimator = nullptr;
 };
 

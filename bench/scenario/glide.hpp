@@ -1,5 +1,5 @@
-// Reads [glide], [wind] and [airframe]: the truth of a glider. Each run has its own flight, because errors
-// are drawn for each.
+// Reads [glide], [wind] and [airframe]: the truth of a glider. Each run has its own flight, because
+// errors are drawn for each run.
 #pragma once
 
 #include <array>

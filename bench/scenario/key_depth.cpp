@@ -5,8 +5,8 @@
 namespace canhil::scenario {
 namespace {
 
-// The delimiter at the start of a quoted text, which is also its end: " or ', or three of either. A text in
-// triple quotes may span lines.
+// The delimiter at the start of a quoted text: " or ', or three of either. The same delimiter ends the text.
+// A text in triple quotes may span lines.
 std::string_view quote_at(std::string_view text) {
   if (text.starts_with("\"\"\"") || text.starts_with("'''")) return text.substr(0, 3);
   return text.substr(0, 1);
@@ -34,7 +34,7 @@ std::optional<std::size_t> line_of_deep_key(std::string_view text) {
   int dots = 0;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
-    if (c == '"' || c == '\'') {  // part of a key, or a value
+    if (c == '"' || c == '\'') {  // a quoted part of a key, or a quoted value
       const std::size_t length = behind_quoted(text.substr(i));
       for (const char skipped : text.substr(i, length)) line += skipped == '\n' ? 1 : 0;
       i += length;

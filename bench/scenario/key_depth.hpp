@@ -11,8 +11,8 @@ namespace canhil::scenario {
 inline constexpr int most_key_parts = 16;
 inline constexpr std::string_view deep_key = "a key has more than 16 parts, expected at most that";
 
-/// The line (from 1) of the first key with more parts; none: there is no such key. Must be checked before
-/// toml++ parses the text, because toml++ recurses once for each part.
+/// The line (from 1) of the first key with more than most_key_parts parts; none: there is no such key. Must
+/// be called before toml++ parses the text, because toml++ recurses once for each part.
 std::optional<std::size_t> line_of_deep_key(std::string_view text);
 
 }  // namespace canhil::scenario

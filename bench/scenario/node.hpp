@@ -24,7 +24,7 @@ enum class TruthOf : std::uint8_t { navigation, glide, engagement };
 
 /// The properties of a node whose fixes an aided estimator uses.
 struct Aid {
-  double aiding = 0;  ///< these fixes are selected by this value of the parameter aided_by
+  double aiding = 0;  ///< value of the parameter EstimatorFacts::aided_by that selects these fixes
   /// The fraction of the fixes that the node loses at random, as its settings demand. The resulting longer
   /// wait does not count as silence.
   double (*lost)(const NodeSettings& node) = nullptr;
@@ -60,7 +60,8 @@ struct NodeTable {
 /// The settings of a node on the bus. Immutable; copies of the scenario share it.
 class NodeSettings {
  public:
-  /// `own`: the node's own type, with a member `schedule`; for a recording also `recorded_from`.
+  /// `own`: the settings, in the node's own type. This type has a member `schedule` and, for a recording, a
+  /// member `recorded_from`.
   template <class Own>
   NodeSettings(const NodeTable& table, Own own)
       : table_(&table), is_recorded_(requires { own.recorded_from; }) {
@@ -70,14 +71,15 @@ class NodeSettings {
   }
 
   [[nodiscard]] const NodeTable& table() const { return *table_; }
-  /// The node sends a recording; own() then has another type than for an emulated node.
+  /// Whether the node sends a recording. Its settings then have another type (own()) than for an emulated
+  /// node.
   [[nodiscard]] bool is_recorded() const { return is_recorded_; }
   [[nodiscard]] std::int64_t latency_us() const { return schedule_->latency_us; }
   [[nodiscard]] std::int64_t period_us() const {
     return schedule_->period_us.value_or(table_->closes.cycle_time_us);
   }
 
-  /// The settings of this type; null: the node has another type.
+  /// The settings, if their type is `Own`; null: they have another type.
   template <class Own>
   [[nodiscard]] const Own* own() const {
     const auto* shared = std::any_cast<std::shared_ptr<const Own>>(&own_);

@@ -19,7 +19,7 @@ namespace {
 
 using world::units::deg;
 
-// No vehicle turns or accelerates faster than this, but a wrong row does.
+// No vehicle turns or accelerates faster than these limits. If a recording does, it has a wrong row.
 constexpr double most_turn_rate = 1000 * deg;    // [rad/s]
 constexpr double most_acceleration = 1000;       // [m/s^2]
 constexpr double most_turn_of_a_row = 45 * deg;  // beyond this the direction of the turn is ambiguous
@@ -31,7 +31,7 @@ struct Quantity {
   std::string_view name;
   Limits limits{};  // in the unit of the name's suffix
 };
-// Limits of a position as in read_position(). Angles may exceed their range by up to a full turn.
+// Latitude and height have the limits of read_position(). Longitude, roll and heading may exceed 180 deg.
 const std::array<Quantity, 10> quantities{{{"t_s", {}},
                                            {"latitude_deg", Limits::between(-89, 89)},
                                            {"longitude_deg", Limits::between(-180, 360)},
@@ -199,7 +199,7 @@ world::Flight read_recorded_flight(Section& section, std::int64_t duration_us) {
   const auto text = section.read_beside({"file", "CSV file of the flight, relative to the scenario file."},
                                         "a CSV file", most_recorded_bytes);
   if (!text) {
-    read_position(section);  // for the reference: the file would show whether the keys are needed
+    read_position(section);  // describes the keys: without the file it is unknown whether they are needed
     return {};
   }
   const auto table = read_table(

@@ -33,8 +33,8 @@ std::string_view kind_of(const Rule& rule) {
   return std::visit([](const auto& alternative) { return alternative.kind; }, rule);
 }
 
-/// Default-constructs the rule of this kind and passes it to `read`; for an unknown kind returns the first
-/// rule, empty.
+/// Default-constructs the rule of this kind and passes it to `read`; for an unknown kind, returns a
+/// default-constructed rule of the first kind.
 template <class Rule, class Read>
 Rule read_rule(std::string_view kind, Read&& read) {
   Rule rule;

@@ -188,8 +188,8 @@ std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) 
 
 }  // namespace
 
-// An estimator depends on the truth that its nodes sample. For a glide or an engagement the bench simulates
-// its own truth, which is unrelated to a recording.
+// An estimator depends on the truth that its nodes sample. If a node of a glide or an engagement is
+// recorded, the truth that the bench simulates is unrelated to the recording.
 std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts) {
   for (const NodeSettings& node : scenario.nodes) {
     if (std::ranges::find(facts.nodes, node.table().key) == facts.nodes.end()) continue;
@@ -246,7 +246,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
 Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
                         const DbcVocabulary& contract, const FaultPlaces* some) {
   Section root = Section::parse(text, name);
-  if (!root.has("fault")) root.tables("fault");  // the file contains only faults
+  if (!root.has("fault")) root.tables("fault");  // reports the missing key: the file contains only faults
   read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},
               scenario.faults, some);
   root.finish();

@@ -37,7 +37,8 @@ struct Section::State {
     if (std::ranges::find(asked, key) == asked.end()) asked.emplace_back(key);
     return table == nullptr ? nullptr : table->get(key);
   }
-  /// The same, but an absent key counts as missing unless `may_be_absent` is set.
+  /// Requests a key like the function above, but an absent key counts as missing unless `may_be_absent` is
+  /// set.
   const toml::node* ask(std::string_view key, std::string_view expected, bool may_be_absent = false) {
     const toml::node* node = ask(key);
     if (node == nullptr && !may_be_absent) missing.emplace_back(key, expected);
@@ -61,7 +62,8 @@ struct Section::State {
     if (value == nullptr) fail(key, line_of(*node), type_of(*node), expected);
     return value == nullptr ? nullptr : &value->get();
   }
-  /// The elements of an array; none: no node, or an error, which is reported: not an array, or an empty one.
+  /// The elements of an array. Empty: there is no node, or the node is no array or an empty array, which is
+  /// reported as an error.
   const toml::array& elements(std::string_view key, const toml::node* node, std::string_view expected) const {
     static const toml::array none;
     if (node == nullptr) return none;
@@ -373,7 +375,7 @@ void Section::missing(std::string_view key, std::string_view expected) {
 
 void Section::finish(std::string_view unasked) {
   if (state_->table == nullptr) return;
-  // The first unknown key in the file; the table itself is sorted by key.
+  // Finds the unknown key that comes first in the file: the table is sorted by key, not by line.
   const toml::node* unknown = nullptr;
   std::string unknown_key;
   for (const auto& [key, node] : *state_->table) {

@@ -42,7 +42,8 @@ class Section {
   /// Accepts a key and ignores its value.
   void optional(std::string_view key);
 
-  // Each of these requests a key. Without a fallback (in the key's unit) a missing key is an error.
+  // Each of the following functions requests a key. Unless stated otherwise, a missing key is an error if
+  // there is no fallback. The fallback is in the key's unit.
 
   /// A number in SI.
   double number(const Key& key, Limits limits, std::optional<double> fallback = {});
@@ -65,7 +66,7 @@ class Section {
   std::string text(const Key& key, const std::optional<std::string>& fallback = {});
   std::string one_of(const Key& key, std::span<const std::string> names,
                      const std::optional<std::string>& fallback = {});
-  /// The same for names that the files themselves give; the reference does not list them.
+  /// The same for names that the user's files define, so the reference does not list the names.
   std::string given_name(const Key& key, std::span<const std::string> names,
                          const std::optional<std::string>& fallback = {});
 
@@ -73,9 +74,9 @@ class Section {
   [[nodiscard]] std::string beside(std::string_view path) const;
   /// The content of the file that a key names; none: it cannot be read, and the error is reported.
   std::optional<std::string> read_beside(const Key& key, std::string_view kind, std::size_t most_bytes);
-  /// FNV-1a of all files read this way; 0: none.
+  /// FNV-1a of all files that read_beside() has read; 0: none.
   [[nodiscard]] std::uint64_t& files_hash();
-  /// The paths of these files, in the order in which they were read.
+  /// The paths of the files that read_beside() has read, in the order in which they were read.
   [[nodiscard]] std::vector<std::string>& files();
 
   /// An array of some of these names; absent: empty.
@@ -83,10 +84,11 @@ class Section {
   /// Arrays; absent: empty.
   std::vector<std::string> texts(const Key& key);
   std::vector<std::int64_t> integers(const Key& key, std::int64_t least);
-  /// The keys of the table, in the table's order.
+  /// The keys of the table, in the order of their lines in the file.
   [[nodiscard]] std::vector<std::string> keys() const;
   [[nodiscard]] bool holds_text(std::string_view key) const;
-  /// All values of this table, with any keys: settings for another file. Nested tables become keys with dots.
+  /// All values of this table, whatever their keys, as settings for another file. Nested tables become keys
+  /// with dots.
   std::vector<Setting> settings();
 
   /// A table; if it is missing, a table in which all keys are absent without an error.
@@ -100,7 +102,7 @@ class Section {
 
   /// Reports an error in the value of a key, present or missing.
   void reject(std::string_view key, std::string_view what, std::string_view expected);
-  /// The same for an error in the file or text that the key names, in one line.
+  /// Reports an error (one line) in the file or text that a key names.
   void reject(std::string_view key, const Error& error);
   /// Reports that a key, or one of several keys, is missing; an unknown key is reported first.
   void missing(std::string_view key, std::string_view expected);

@@ -1,5 +1,5 @@
-// The parsed file that sections belong to. It includes toml++, which is slow to compile, so only section.cpp
-// includes it.
+// The parsed file that sections belong to. This header includes toml++, which is slow to compile. So only
+// section.cpp includes this header.
 #pragma once
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ inline std::size_t line_of(const toml::node& node) { return node.source().begin.
 
 struct Section::File {
   std::string name;
-  std::string folder;                // folder of the files that it names
+  std::string folder;                // folder of the files that this file names
   std::uint64_t files_hash = 0;      // hash of the files that were read
   std::vector<std::string> files{};  // the files that were read
   toml::table root;

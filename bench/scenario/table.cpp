@@ -43,7 +43,8 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Takes the text before the next separator, or the rest, and removes it with the separator.
+/// Returns the text before the next separator, or the whole rest, and removes this text and the separator
+/// from `rest`.
 std::string_view take(std::string_view& rest, char separator) {
   const std::size_t end = rest.find(separator);
   const std::string_view part = rest.substr(0, end);
@@ -68,7 +69,7 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-/// Formats a user's text to fit one line as far as possible.
+/// A user's text for a message of one line: at most 40 characters, without control characters.
 std::string shown(std::string_view text) {
   constexpr std::size_t most = 40;
   std::string part(text.substr(0, most));
@@ -78,7 +79,7 @@ std::string shown(std::string_view text) {
   return part + (text.size() > most ? "..." : "");
 }
 
-/// The position of a requested name in a file.
+/// The column of a file that has a requested name, and the factor to the requested unit.
 struct Column {
   std::size_t index = 0;
   double factor = 1;

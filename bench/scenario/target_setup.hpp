@@ -13,7 +13,8 @@ namespace canhil::scenario {
 
 class Section;
 
-/// The 1-sigma uncertainty of the initial state; the target receives both (TargetInit*).
+/// The 1-sigma uncertainty of the initial state. The target receives this uncertainty and the state
+/// (TargetInit*).
 struct InitialSigma {
   double velocity = 0;  ///< each component [m/s]
   double tilt = 0;      ///< misalignments about north and east [rad]

@@ -1,4 +1,5 @@
-// Converts a TOML table to settings. Includes toml++, which is heavy: for section.cpp alone.
+// Converts a TOML table to settings. This header includes toml++, which is slow to compile, so only
+// section.cpp should use it.
 #pragma once
 
 #include <toml++/toml.h>

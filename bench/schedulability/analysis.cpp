@@ -14,8 +14,8 @@ constexpr std::int64_t error_frame_bits = 31;
 
 constexpr std::int64_t divide_up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
-/// The number of instances of a stream that can be queued within a closed interval that includes its start:
-/// ceil(interval / T).
+/// The number of instances of a stream that can be queued within an interval that includes its start but not
+/// its end: ceil(interval / T); without a period, 1.
 std::int64_t queued_within(const Stream& stream, std::int64_t interval_ns) {
   if (interval_ns <= 0) return 0;
   return stream.period_ns > 0 ? divide_up(interval_ns, stream.period_ns) : 1;
@@ -118,8 +118,8 @@ Response response(std::span<const Stream> streams, std::size_t index, std::int64
 
 namespace {
 
-/// The first stream at which the bus is certainly overloaded. The streams after it are not analysed: tens of
-/// thousands would take too long.
+/// The index of the first stream at which the bus is certainly overloaded. This stream and those after it are
+/// not analysed: tens of thousands would take too long.
 std::size_t first_overloaded(std::span<const Stream> streams, const wire::BitRates& rates) {
   constexpr double for_sure = 1 + 1e-9;  // sums in a different order differ in the last bits
   double demand = 0;

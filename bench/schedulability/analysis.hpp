@@ -79,12 +79,13 @@ std::vector<Response> responses(std::span<const Stream> streams, const Bus& bus)
 /// idea of Davis, Kollmann, Pollex, Slomka, "Controller Area Network (CAN) schedulability analysis with FIFO
 /// queues" (ECRTS 2011). A frame m of node N that is queued at t waits for the frames before it in its own
 /// queue, for one frame of lower priority than all of N's, and for frames of other nodes with higher priority
-/// than the lowest one L of N. With r_k the longest time from queueing to the end, every frame on the bus at
-/// t was queued after t - r_k:
+/// than L, the frame of N with the lowest priority. With r_k the longest time from queueing to the end, every
+/// frame on the bus at t was queued after t - r_k:
 ///   w_m = B_L + sum over k in N of ceil((r_k + J_k) / T_k) C_k - C_m
 ///             + sum over other k in hp(L) of ceil((w_m + r_k + J_k + tau_bit) / T_k) C_k
 ///   r_m = w_m + C_m,  R_m = J_m + r_m
-/// This bound is sufficient, not exact. The streams are sorted as above; the bus's error model is ignored.
+/// This bound is sufficient, not exact. The streams are sorted by wire::arbitration_rank(). Bus
+/// errors are not taken into account.
 std::vector<Response> fifo_responses(std::span<const Stream> streams, const wire::BitRates& rates);
 
 /// The utilisation of the bus by all streams with a period.

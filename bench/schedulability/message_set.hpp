@@ -24,8 +24,8 @@ struct Assumptions {
 Result<std::vector<Stream>> streams_of(const dbc::Database& database, const Assumptions& assumptions,
                                        const wire::BitRates& rates);
 
-/// The bit rates: the given ones; where 0, the DBC's attributes Baudrate and BaudrateCANFD. Error: no nominal
-/// bit rate.
+/// The bit rates: the given ones; where 0, the DBC's attributes Baudrate and BaudrateCANFD. Error: there
+/// is no nominal bit rate, or the data bit rate is below it.
 Result<wire::BitRates> bit_rates(const dbc::Database& database, const wire::BitRates& given);
 
 }  // namespace canhil::schedulability

@@ -33,7 +33,7 @@ class SpoolFile {
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
   /// Enlarges the file; its contents stay, its address may change. Errors: std::bad_alloc.
   void grow();
-  /// Must be called before each access; from time to time it releases all other pages. Thread-safe.
+  /// Must be called at each access; from time to time it releases all pages. Thread-safe.
   void touch(std::size_t offset) const {
     const std::size_t block = offset / block_bytes;
     if (block != last_block_.load(std::memory_order_relaxed)) enter(block);
@@ -42,7 +42,7 @@ class SpoolFile {
 
  private:
   static constexpr std::size_t block_bytes = 64 << 10;  // loaded by a page fault
-  static constexpr unsigned most_blocks = 32;           // number of accesses after which all are released
+  static constexpr unsigned most_blocks = 32;           // changes of block after which all are released
   static constexpr std::size_t step_bytes = 16 << 20;   // growth step
 
   void enter(std::size_t block) const;

@@ -1,5 +1,5 @@
-// Attitude conventions of the bench: C_bn transforms from body to navigation axes (NED), Euler angles are
-// 3-2-1, small errors phi are resolved in n.
+// Attitude conventions of the bench: C_bn transforms from body axes b to navigation axes n (NED). Euler
+// angles are 3-2-1. Small attitude errors phi are resolved in n.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ struct Euler {
   double heading = 0;
 };
 
-/// The same angle in [-pi, pi]; an angle already in that range keeps its bits.
+/// The equivalent angle in [-pi, pi]. An angle that is already in this range is returned unchanged.
 double wrapped(double angle);
 
 /// C_bn of Euler angles. Groves (2013), eq. (2.22), transposed.
@@ -35,7 +35,7 @@ Matrix3 rotation(const Vector3& a);
 /// [rad/s].
 Vector3 omega_nb_b(const Euler& angles, const Euler& rates);
 
-/// The attitude a navigation system computes when its misalignment is phi [rad, NED]: exp(-[phi x]) C_bn.
+/// The attitude that a navigation system computes if its misalignment is phi [rad, NED]: exp(-[phi x]) C_bn.
 Matrix3 misaligned(const Matrix3& C_bn, const Vector3& phi);
 
 /// The misalignment phi [rad, NED] of a computed attitude: computed = exp(-[phi x]) C_bn. Inverse of

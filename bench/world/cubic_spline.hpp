@@ -51,7 +51,8 @@ class CubicSpline {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
 
  private:
-  // The second derivatives M at the knots, by elimination (Thomas): M is 0 at the ends, and between them
+  // Computes the second derivatives M at the knots (bends_) by elimination (Thomas). M is 0 at the two ends.
+  // Any three successive knots 0, 1, 2 satisfy
   // h0 M0 + 2 (h0 + h1) M1 + h1 M2 = 6 ((y2 - y1) / h1 - (y1 - y0) / h0).
   void solve() {
     if (times_.size() < 3) return;

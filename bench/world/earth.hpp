@@ -12,8 +12,8 @@ struct Position {
   double height = 0;     ///< above the ellipsoid [m]
 };
 
-/// The longitude wrapped to the range of messages, -180 to 180 deg. `longitude` itself continues beyond 180
-/// deg along a flight.
+/// The longitude, wrapped to -180 to 180 deg, the range of its signals on the bus. Position::longitude is not
+/// wrapped: along a flight it continues beyond 180 deg.
 double longitude_deg(const Position& position);
 
 /// Meridian radius of curvature R_N of Groves (2013), eq. (2.105) [m].
@@ -40,8 +40,8 @@ Position advanced(const Position& position, const Vector3& v_begin, const Vector
 /// The position at a small displacement in NED [m] (first order in displacement / Earth radius).
 Position displaced(const Position& position, const Vector3& displacement_n);
 
-/// The displacement in NED [m] between two nearby positions, also across 180 deg, with the radii of `from`.
-/// Inverse of displaced().
+/// The displacement in NED [m] between two nearby positions, also across the meridian of 180 deg, computed
+/// with the radii of curvature at `from`. Inverse of displaced().
 Vector3 displacement_n(const Position& from, const Position& to);
 
 }  // namespace canhil::world

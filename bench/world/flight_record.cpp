@@ -51,7 +51,7 @@ struct Node {
 // ms (1.3 rad) and 1e-17 for one of 5 Hz.
 std::array<Node, 5> gauss_legendre() {
   using Rule = boost::math::quadrature::gauss<double, 5>;
-  const auto& x = Rule::abscissa();  // on [-1, 1], only those >= 0, ascending
+  const auto& x = Rule::abscissa();  // nodes on [-1, 1]: only those >= 0, ascending
   const auto& w = Rule::weights();
   const auto node = [&](std::size_t i, double sign) {
     return Node{.at = 0.5 * (1.0 + sign * x[i]), .weight = 0.5 * w[i]};

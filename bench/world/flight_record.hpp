@@ -1,11 +1,11 @@
-// The truth of a scenario, shared by all its runs: computed once, then read-only, also for several threads.
+// The truth of a scenario, shared by all its runs. It is computed once; then several threads may read it.
 //
 // Velocity and attitude are exactly those of the motion (for a recorded motion see motion/recorded.hpp).
 // Position is integrated. Rate and specific force follow by inverting the navigation equations in NED, Groves
 // (2013), section 5.4:
 //   omega_ib_b = omega_nb_b + C_nb (omega_ie_n + omega_en_n)
 //   f_ib_b     = C_nb (d(v_eb_n)/dt + (2 omega_ie_n + omega_en_n) x v_eb_n - g_n)
-// IMU increments are their integrals over a sample, by Gauss-Legendre quadrature.
+// IMU increments are the integrals of omega_ib_b and f_ib_b over a sample, by Gauss-Legendre quadrature.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ struct ImuIncrement {
 /// The truth on the grid of the IMU, and exact increments between its epochs. Immutable.
 class FlightRecord {
  public:
-  /// Flies from 0 to the last epoch at or before duration_us; epochs every interval_us. Both must be
-  /// positive.
+  /// Flies from 0 to the last epoch at or before duration_us; epochs every interval_us.
+  /// interval_us must be positive; duration_us may be 0.
   FlightRecord(const Flight& flight, std::int64_t duration_us, std::int64_t interval_us);
 
   /// False: only the initial state is known, so errors cannot be computed.

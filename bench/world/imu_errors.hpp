@@ -11,7 +11,7 @@ namespace canhil::world {
 struct TriadErrorModel {
   RandomConstant bias;  ///< [unit]
   Vector3 noise =
-      Vector3::Zero();  ///< density of white noise [unit/sqrt(Hz)]: random walk of the integral per sqrt(s)
+      Vector3::Zero();  ///< density of white noise [unit/sqrt(Hz)]; random walk of its integral per sqrt(s)
   RandomConstant scale_factor;    ///< [-]
   double misalignment_sigma = 0;  ///< of each of the six off-diagonal terms of M [rad]
 };

@@ -1,4 +1,4 @@
-// The motions that a truth may follow. A new one is a struct in motion/ and a name in this variant.
+// The motions that a truth may follow. A new motion needs a struct in motion/ and a name in this variant.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ Movement movement(const Motion& motion, double t);
 /// The velocity alone [m/s].
 Vector3 velocity(const Motion& motion, double t);
 
-/// Times [us] between two times, ends excluded, ascending, at which an acceleration, a rate or one of their
-/// derivatives jumps. Quadrature must not step across them.
+/// The times [us] at which an acceleration, a rate or a derivative of these jumps, ascending: those between
+/// `from_us` and `to_us`, ends excluded. Quadrature must not step across them.
 std::vector<std::int64_t> jumps_us(const Motion& motion, std::int64_t from_us, std::int64_t to_us);
 
 /// A complete truth: initial position and motion.

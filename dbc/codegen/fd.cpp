@@ -196,7 +196,7 @@ Result<Database> on_fd(const Database& classic, std::string_view dbc_name) {
 Result<std::string> fd_text(const Database& classic, std::string_view dbc_name) {
   return on_fd(classic, dbc_name).and_then([&](const Database& fd) -> Result<std::string> {
     std::string text = dbc_text(fd);
-    // Parses the text again: this fails if the writer cannot express something.
+    // Parses the text again: an error shows that the writer cannot express a part of the database.
     if (auto read = parse(text, fmt::format("{} on CAN FD", dbc_name)); !read)
       return tl::unexpected(read.error());
     return text;

@@ -19,8 +19,9 @@ namespace canhil::dbc {
 /// SIG_GROUP_ with the name of the classic message lists its signals; the attribute E2eDataIds lists the data
 /// ids of the messages. Messages without a group keep id and signals. All frames switch the bit rate.
 /// Error: one line `dbc_name:line:column: ...` if a message of a group does not have 8 protected bytes and an
-/// 11-bit id, or differs from its group in sender or cycle time; if the message with the time of validity is
-/// not the last of its group; or if a message is FD or multiplexed.
+/// 11-bit id, has a data id for which eight zeros are a valid frame, or differs from its group in sender or
+/// cycle time; if the message with the time of validity is not the last of its group; or if a message is FD
+/// or multiplexed.
 Result<Database> on_fd(const Database& classic, std::string_view dbc_name);
 
 /// on_fd() as the text of a DBC file.

@@ -19,7 +19,7 @@ namespace canhil::dbc {
 /// and have a name that is unique in its group.
 Result<std::string> c_header(const Database& database, std::string_view dbc_name);
 
-/// A Python module with the same content: VALUE_TABLES, GROUPS, ANSWERS, CYCLE_MS, DBC_HASH24.
+/// A Python module with the contract as VALUE_TABLES, GROUPS, ANSWERS, CYCLE_MS, FROM_TARGET and DBC_HASH24.
 /// Error: as c_header().
 Result<std::string> python_module(const Database& database, std::string_view dbc_name);
 

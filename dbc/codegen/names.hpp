@@ -13,10 +13,11 @@ namespace canhil::dbc {
 /// A C++ identifier close to the text: "fault (hot)" -> fault_hot, "3" -> _3, "class" -> class_.
 std::string identifier(std::string_view text);
 
-/// The struct of a message: the message's name, with "_" appended if the header uses that name already.
+/// The name of a message's struct: the message's name, with "_" appended if the header uses that name
+/// already.
 std::string type_name(const Message& message);
 
-/// The member of a signal: the signal's name, with "_" appended if the struct uses that name already.
+/// The name of a signal's member: the signal's name, with "_" appended if the struct uses that name already.
 std::string member_name(const Message& message, const Signal& signal);
 
 struct EnumType {
@@ -26,13 +27,14 @@ struct EnumType {
   std::vector<std::string> identifiers;  ///< of the values, unique
 };
 
-/// The enumeration types. Each distinct set of named values is one type: all signals whose values equal a
-/// value table have the type of that table.
+/// The enumeration types. All signals whose named values equal a value table share the type of that table.
+/// Each other signal with named values has a type of its own. Signals with a scale or an offset, and the E2E
+/// counter and CRC, have none.
 class Enums {
  public:
   explicit Enums(const Database& database);
   [[nodiscard]] const std::vector<EnumType>& all() const { return types_; }
-  /// Name of the signal's type; empty: the signal has no named values.
+  /// Name of the signal's enumeration type; empty: the signal has none.
   [[nodiscard]] std::string_view name_of(const Message& message, const Signal& signal) const;
 
  private:

@@ -9,7 +9,7 @@ std::vector<Piece> pieces_of(const Message& message, const Signal& signal) {
   const unsigned start = motorola ? signal.start_bit / 8 * 8 + 7 - signal.start_bit % 8 : signal.start_bit;
   Word word{0, std::min(message.size, 8U), signal.byte_order};
   if (message.size > 8) word.first = std::min(start / 8, message.size - 8);
-  const unsigned begin = start - 8 * word.first;  // bits of the word before the signal, in its bit order
+  const unsigned begin = start - 8 * word.first;  // bits before the signal, in the word's bit order
   const unsigned bits = 8 * word.bytes;
   if (begin + signal.length <= bits) {
     return {{word, motorola ? bits - begin - signal.length : begin, signal.length, 0}};

@@ -29,7 +29,8 @@ struct Piece {
 };
 
 /// One piece, or two (most significant first) for a signal that touches nine bytes.
-/// A message of up to 8 bytes is one word; in a longer message the word starts at the signal's first byte.
+/// A message of up to 8 bytes is one word. In a longer message the word starts at the signal's first byte,
+/// but at the latest 8 bytes before the end of the message.
 std::vector<Piece> pieces_of(const Message& message, const Signal& signal);
 
 }  // namespace canhil::dbc

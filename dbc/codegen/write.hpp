@@ -8,7 +8,7 @@
 namespace canhil::dbc {
 
 /// The text of a database; parse() of it returns an equal database with another hash. Omits multiplexing,
-/// environment variables and relation attributes, which canhil's contracts do not use.
+/// further senders, environment variables and relation attributes, which canhil's contracts do not use.
 std::string dbc_text(const Database& database);
 
 }  // namespace canhil::dbc

@@ -90,8 +90,8 @@ class Program : public Command {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Rejects '' as the value of every option and argument, including those of subcommands. Call it after
-  /// adding all options, arguments and subcommands.
+  /// Makes every option and argument, including those of subcommands, reject '' and words that begin with
+  /// "--" as its value. Call it after adding all options, arguments and subcommands.
   void refuse_no_values();
 
   /// Error: what was wrong, in one line. An exit code if help or the version was requested and printed.

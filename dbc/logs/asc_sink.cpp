@@ -32,8 +32,8 @@ class AscSink final : public LogSink {
     if (!begun_) begin(entry.t_ns);
     const std::size_t channel = channel_of(entry.interface);
     const Frame& frame = entry.frame;
-    // The format cannot express times before its start, so a frame with an earlier stamp than the first gets
-    // the time 0.
+    // The format cannot express times before the start of the log, which is the full second of the first
+    // frame. A frame with an earlier stamp gets the time 0.
     const std::int64_t since_us = std::max<std::int64_t>(entry.t_ns - start_s_ * ns_per_s, 0) / 1000;
     std::string line = fmt::format("{:4}.{:06} ", since_us / 1'000'000, since_us % 1'000'000);
     const std::string_view direction = entry.transmitted ? "Tx" : "Rx";

@@ -48,7 +48,7 @@ class LineReader {
   [[nodiscard]] std::string where() const;
 
  private:
-  /// A frame takes about 200 characters.
+  /// In characters. The limit is generous: a line with a frame has about 200.
   static constexpr std::size_t longest_line = 4096;
 
   std::ifstream file_;

@@ -14,7 +14,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// Little and big endian; stamps in microseconds, in nanoseconds; pcapng.
+// How captures begin: pcap with stamps in microseconds (little endian, big endian), pcap with stamps in
+// nanoseconds (the same), pcapng.
 constexpr std::array captures{"\xD4\xC3\xB2\xA1"sv, "\xA1\xB2\xC3\xD4"sv, "\x4D\x3C\xB2\xA1"sv,
                               "\xA1\xB2\x3C\x4D"sv, "\x0A\x0D\x0D\x0A"sv};
 

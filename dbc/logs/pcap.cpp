@@ -1,5 +1,5 @@
 // libpcap's format with link type SocketCAN (LINKTYPE_CAN_SOCKETCAN, 227): a header of eight bytes, then the
-// data. The header: id with SocketCAN's flags, big endian; length; FD flags; three zero bytes.
+// data. The header: id with SocketCAN's flags, big endian; length; FD flags; two zero bytes.
 #include "dbc/logs/pcap.hpp"
 
 #include <fmt/format.h>

@@ -225,7 +225,7 @@ void leave_out(Message& message, const LeftOut& left_out) {
                   [&](const std::string& name) { return find_signal(message, name) == nullptr; });
 }
 
-/// Removes messages and signals that no frame can hold, after all sections about them have been read.
+/// Removes the messages that are marked as left out. By now, all sections about them have been read.
 void leave_out_messages(Draft& draft) {
   std::vector<Message> kept;
   for (std::size_t i = 0; i < draft.left_out.size(); ++i) {

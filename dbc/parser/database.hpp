@@ -184,7 +184,8 @@ const Message* find_message(const Database& database, std::uint32_t id, bool ext
 const Message* find_message(const Database& database, std::string_view name);
 /// The signal with this name, or none.
 const Signal* find_signal(const Message& message, std::string_view name);
-/// The value of an attribute: the object's own; otherwise the default; without a default none.
+/// The value that `attributes` (those of an object) give to an attribute; otherwise the default of its
+/// definition; none if there is no default.
 const AttributeValue* find_attribute(const Database& database, const Attributes& attributes, Owner owner,
                                      std::string_view name);
 
@@ -197,19 +198,20 @@ inline constexpr std::string_view message_time_range = "0 (none) or 0.001..1e9";
 /// True if no frame can hold both signals: both depend on one multiplexor, and no value of it selects both.
 bool mutually_exclusive(const Message& message, const Signal& a, const Signal& b);
 
-/// The raw values that a signal can take: those that fit its bits and lie inside [minimum, maximum].
-/// Integers: `lowest` and `highest` hold 64-bit two's complement. Empty if no raw value lies inside.
+/// The raw values that an integer signal can take: those that fit its bits and lie inside [minimum, maximum].
+/// For an unsigned signal, `lowest` and `highest` hold the bits of a std::uint64_t.
 struct RawRange {
   std::int64_t lowest = 0;
   std::int64_t highest = 0;
 };
-/// The range of an integer signal; none: no raw value is inside.
+/// The raw range of an integer signal; none: no raw value lies inside [minimum, maximum].
 std::optional<RawRange> raw_range(const Signal& signal);
 
-/// Whether a signal can carry a physical value. Up to one step outside its range is accepted.
+/// Whether a signal can carry a physical value. For an integer signal, up to one step outside
+/// its range is accepted.
 bool holds(const Signal& signal, double value);
 
-/// The same for a float signal: finite, and inside [minimum, maximum].
+/// The raw values that a float signal can take: finite, and inside [minimum, maximum].
 struct RealRange {
   double lowest = 0;
   double highest = 0;

@@ -1,5 +1,5 @@
-// Findings: each oddity in a DBC text violates a rule. The table of rules gives the consequence of each;
-// docs/dbc.md shows the table.
+// Findings: each oddity in a DBC text violates a rule. The table of rules gives the consequence of each
+// violation; docs/dbc.md shows the table.
 #pragma once
 
 #include <cstdint>
@@ -89,7 +89,7 @@ struct RuleText {
   Rule rule;
   std::string_view id;  ///< for programs and for people: "undeclared-node"
   Severity severity;
-  std::string_view finding;      ///< what is odd, for any file
+  std::string_view finding;      ///< what is odd, without details of a file
   std::string_view consequence;  ///< what the lenient reader does
 };
 
@@ -114,7 +114,7 @@ class Findings {
 
   /// Adds a finding; throws Abandoned after 10,000.
   void add(Rule rule, Position at, std::string what);
-  /// Adds a finding only once per name: an undeclared node may occur a thousand times.
+  /// Adds at most one finding for each pair of rule and name: an undeclared node may occur a thousand times.
   void add_once(Rule rule, Position at, const std::string& name, std::string what);
 
   /// The findings so far.

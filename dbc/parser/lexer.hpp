@@ -11,8 +11,8 @@
 
 namespace canhil::dbc {
 
-/// Thrown to leave a section from any depth; the reader continues with the next section. Never leaves the
-/// parser.
+/// Exception that leaves a section from any depth of calls. The parser always catches it and continues with
+/// the next section.
 struct SectionFailure {
   Position at;
   std::string what;

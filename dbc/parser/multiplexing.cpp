@@ -1,4 +1,4 @@
-// Assigns multiplexors to signals, and checks that need the complete message.
+// Assigns multiplexors to signals, and checks the multiplexing of complete messages.
 #include <fmt/format.h>
 
 #include <algorithm>

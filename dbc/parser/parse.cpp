@@ -82,7 +82,7 @@ void skip_section(Reader& in) {
   in.take_mark_if(';');
 }
 
-/// Reads the section that begins with the next token. False if none begins there.
+/// Reads the section that begins with the next token. False if neither a section nor an SG_ begins there.
 bool read_section(Reader& in, Draft& draft) {
   const Token first = in.peek();
   const auto section = std::ranges::find(sections, first.text, &Section::keyword);

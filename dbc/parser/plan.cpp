@@ -68,7 +68,7 @@ std::uint64_t BitPlacement::raw(const std::uint8_t* data) const {
 
 void BitPlacement::put(std::uint64_t raw, std::uint8_t* data) const {
   raw &= mask;
-  const unsigned in_ninth = big_endian ? ninth_bits : 0;  // the least significant bits
+  const unsigned in_ninth = big_endian ? ninth_bits : 0;  // number of low bits in the ninth byte
   const std::uint64_t word = load(data + first_byte, big_endian);
   store(data + first_byte, (word & ~(mask >> in_ninth << shift)) | raw >> in_ninth << shift, big_endian);
   if (ninth_bits == 0) return;

@@ -51,7 +51,7 @@ struct Conversion {
   [[nodiscard]] std::int64_t sign_extended(std::uint64_t raw) const {
     return static_cast<std::int64_t>((raw ^ sign_bit) - sign_bit);
   }
-  /// In the signal's unit.
+  /// Raw bits as a physical value, in the signal's unit.
   [[nodiscard]] double physical(std::uint64_t raw) const;
 };
 
@@ -81,12 +81,13 @@ class MessagePlan {
   [[nodiscard]] std::size_t signals() const { return steps_.size(); }
 
   /// Writes the physical value of every signal in the frame, NaN for absent signals. Returns false and writes
-  /// nothing if the data is shorter than the message or `values` is not one value per signal.
+  /// nothing if the data is shorter than the message, or if `values` has fewer elements than the message has
+  /// signals.
   [[nodiscard]] bool decode(std::span<const std::uint8_t> data, std::span<double> values) const;
 
   /// Encodes physical values. Unused bits are 0; signals that the multiplexors do not select are not written;
-  /// where signals overlap, the later one wins. Bytes beyond the message do not change. Returns false and
-  /// writes nothing in the same cases as decode().
+  /// where signals overlap, the one with more multiplexors above it wins, otherwise the later one. Bytes
+  /// beyond the message do not change. Returns false and writes nothing in the same cases as decode().
   [[nodiscard]] bool encode(std::span<const double> values, std::span<std::uint8_t> data) const;
 
   /// Whether the frame holds a signal: every multiplexor above it has one of the values that select it. The
@@ -99,7 +100,7 @@ class MessagePlan {
   struct Step {
     BitPlacement bits;
     Conversion conversion;
-    std::uint32_t multiplexor = always;  ///< number of its signal
+    std::uint32_t multiplexor = always;  ///< index of the multiplexor's signal
     std::uint32_t first_range = 0, end_range = 0;
   };
 
@@ -110,7 +111,7 @@ class MessagePlan {
   std::vector<Step> steps_;
   std::vector<RawLimits> limits_;
   std::vector<MuxRange> ranges_;      ///< of all signals
-  std::vector<std::uint32_t> order_;  ///< of encoding: multiplexors before the signals that they select
+  std::vector<std::uint32_t> order_;  ///< order of encoding: multiplexors before the signals that they select
 };
 
 }  // namespace canhil::dbc

@@ -52,7 +52,8 @@ class Reader {
   std::uint64_t natural_or(Rule rule, std::string_view what, std::uint64_t maximum);
   /// An integer; another number becomes a finding and is rounded.
   std::int64_t whole(std::string_view what);
-  /// A real number; one too large for a double becomes a finding and returns the largest double.
+  /// A real number. A number beyond the range of double becomes a finding; the result is then 0 or the
+  /// largest double, with the number's sign.
   double limit(std::string_view what);
   /// The upper end of a range such as "3-5", whose "-5" the lexer reads as one number. Returns 5.
   std::uint64_t natural_after_minus(std::string_view what);
@@ -88,7 +89,7 @@ struct Draft {
   std::vector<Index> signals;                           ///< of each message
   std::vector<bool> left_out;                           ///< of each message
   Index definitions, relation_definitions;
-  std::map<std::string, Position, std::less<>> mux_extended;  ///< "id signal" given by SG_MUL_VAL_
+  std::map<std::string, Position, std::less<>> mux_extended;  ///< where SG_MUL_VAL_ names "id signal"
 };
 
 /// Id of the pseudo message VECTOR__INDEPENDENT_SIG_MSG, whose signals no frame carries.
@@ -103,7 +104,8 @@ constexpr std::uint64_t text_id(std::uint64_t id) {
   return id > last_standard_id && id <= last_extended_id ? id | extended_flag : id;
 }
 
-/// Each of these functions returns the object that the text names; it leaves the section if there is none.
+/// Each of these functions returns the object that the text names. If there is no such object, the function
+/// leaves the section.
 Message& message_of(Draft& draft, std::uint64_t raw_id, Position at);
 Signal& signal_of(Draft& draft, Message& message, std::string_view name, Position at);
 Node& node_of(Draft& draft, std::string_view name, Position at);
@@ -127,8 +129,8 @@ void read_default(Reader& in, Draft& draft, bool relation);     // BA_DEF_DEF_, 
 void read_attribute(Reader& in, Draft& draft);                  // BA_
 void read_relation_attribute(Reader& in, Draft& draft);         // BA_REL_
 
-/// Copies attribute values into messages and signals, then runs the checks that need the whole text.
-/// check.cpp
+/// Copies attribute values into messages and signals, and runs the checks that need the whole text. Defined
+/// in check.cpp.
 void finish(Draft& draft);
 
 }  // namespace canhil::dbc

@@ -12,8 +12,8 @@ namespace canhil {
 /// Disturbs every bit on the wire independently with probability p, so an error hits a frame of n bits with
 /// probability 1 - (1 - p)^n, at its first disturbed bit. All nodes detect the error: the sender reads a bit
 /// that differs from the one it sent, and the receivers see the error flag of the sender, so two error flags
-/// follow one another. The errors depend only on the seed and the number of the attempt; they are the same on
-/// every machine.
+/// follow one another. The random number of an attempt depends only on the seed and on the number of earlier
+/// attempts on the wire, so the errors are the same on every machine.
 class BitErrors {
  public:
   /// `rate`: probability of an error per bit; `rates`: of the wire.

@@ -34,7 +34,7 @@ struct BusErrors {
   std::uint64_t lost_arbitration = 0;
   std::uint64_t no_ack = 0;
   std::uint64_t tx_timeout = 0;
-  std::uint64_t protocol = 0;     ///< bit, form, stuff, CRC and acknowledgement errors with their kind
+  std::uint64_t protocol = 0;     ///< protocol errors with their kind: bit, form, stuff, CRC, acknowledgement
   std::uint64_t bus_error = 0;    ///< bus error interrupts; most protocol errors come with one
   std::uint64_t rx_overflow = 0;  ///< the controller's own buffers overflowed, before the kernel read them
   std::uint64_t tx_overflow = 0;
@@ -62,7 +62,7 @@ struct ControllerNews {
   int rx_counter = 0;
 };
 
-/// The error frame by which Linux reports what the controller reported, with `berr-reporting on`.
+/// The error frame with which Linux passes the controller's report on, with `berr-reporting on`.
 Frame error_frame(const ControllerNews& news);
 
 /// "bus off 1, restarted 1, no acknowledgement 12; error counters at most tx 136, rx 0"; empty without error

@@ -26,15 +26,16 @@ enum class BusFormat : std::uint8_t { classic, fd, fd_frames };
 constexpr std::string_view name_of(BusFormat format) {
   return format == BusFormat::fd ? "canhil-fd" : "canhil";
 }
-/// "CAN FD (canhil-fd)".
+/// "CAN FD frames (canhil-fd)".
 constexpr std::string_view to_text(BusFormat format) {
   return format == BusFormat::fd          ? "CAN FD frames (canhil-fd)"
          : format == BusFormat::fd_frames ? "CAN FD frames"
                                           : "classic frames (canhil)";
 }
 
-/// Collects the frames of a group into their container. At most one container is open at a time, so frames
-/// keep their order on the bus: a frame that does not continue the open container sends it first, incomplete.
+/// Collects the frames of a group into their container. At most one container is open at a time. Before a
+/// frame that does not continue the open container, the container is sent incomplete. So frames keep their
+/// order on the bus.
 class FdPacker {
  public:
   /// The container that must go on the bus before this frame, or none.
@@ -62,7 +63,8 @@ class FdPacker {
   std::array<std::uint8_t, Frame::max_size> data_{};
 };
 
-/// The content of a frame of an FD bus: the messages of a container, or the frame itself as a classic one.
+/// The content of a frame of an FD bus: the messages of a container, or the frame itself. A frame of at most
+/// 8 bytes becomes a classic one.
 class FdUnpacked {
  public:
   FdUnpacked() = default;
@@ -77,10 +79,10 @@ class FdUnpacked {
 };
 
 /// A node of an FD bus: packs sent frames and unpacks received ones, own echoes included; each unpacked frame
-/// has the stamp of its container. A frame that waits for others of its group counts as sent. If they do not
-/// follow, the next frame outside the group, at the latest a Sync or heartbeat, sends the container
-/// incomplete. Received classic frames are marked foreign and counted. `inner` must have been opened with fd;
-/// its only_ids, if any, are ids on the wire.
+/// has the stamp of its container. A frame that waits for other frames of its group counts as sent. If these
+/// frames do not follow, the container is sent incomplete before the next frame outside the group, which is
+/// at the latest a Sync or heartbeat. Received classic frames are marked foreign and counted. `inner` must
+/// have been opened with fd; its only_ids, if any, are ids on the wire.
 std::unique_ptr<Port> in_fd_groups(std::unique_ptr<Port> inner);
 
 /// Reads a log of either contract as classic frames: `hil-bench run --log` records classic frames on both

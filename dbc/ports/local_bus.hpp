@@ -45,8 +45,8 @@ class LocalHub : public Port {
 /// The hub's limits for nodes, and a callback for nodes that it turns away.
 struct HubRules {
   std::int64_t hello_limit_ns = 1'000'000'000;  ///< longest time from a node's connection to its Hello
-  /// How long a node may stall the bus. Shorter than the 0.4 s for which the bench tolerates a silent target,
-  /// so that a node that does not read cannot end a run.
+  /// How long a node may stall the bus. The limit is shorter than the 0.4 s for which the bench tolerates
+  /// a silent target, so that a node that does not read cannot end a run.
   std::int64_t reading_limit_ns = 250'000'000;
   std::size_t most_nodes = 64;  ///< lowered to a quarter of the process's limit of open files
   std::function<void(const std::string& line)> on_turned_away{};  ///< called at most 20 times

@@ -15,7 +15,7 @@ namespace canhil::local {
 
 class Gate {
  public:
-  /// `bus`: for the lines about nodes that are turned away.
+  /// `bus`: the name of the bus, for the lines about nodes that are turned away.
   Gate(Descriptor listener, HubRules rules, std::string bus);
 
   /// Readable when a node waits for admission.

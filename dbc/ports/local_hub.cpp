@@ -74,9 +74,9 @@ class Hub final : public LocalHub {
     return SendOutcome::sent;
   }
 
-  /// Costs one system call if a frame is waiting. Looking for new nodes costs another, so it is done only if
-  /// this search and the previous one found no frame. Nodes are not overlooked: a new node wakes a host that
-  /// waits.
+  /// If a frame is waiting, receive() needs one system call. Looking for new nodes needs another one. So
+  /// receive() looks for them only after two searches for a frame in a row have found none, or after
+  /// accept_every reads. Nodes are not overlooked: a new node wakes a host that waits.
   std::optional<Received> receive() override {
     if (wire_) run_wire();
     if (!ready_.empty()) return next_ready();  // older than all unread frames
@@ -105,7 +105,7 @@ class Hub final : public LocalHub {
   }
 
   [[nodiscard]] int descriptor() const override { return epoll_.get(); }
-  /// An epoll descriptor is never writable: while the bus is stalled it becomes readable once the slow node
+  /// An epoll descriptor is never writable. While the bus is stalled, it becomes readable once the slow node
   /// has room.
   [[nodiscard]] RoomWait room_wait() const override {
     if (behind_ > 0) return {.events = POLLIN};
@@ -282,7 +282,7 @@ class Hub final : public LocalHub {
     });
   }
 
-  /// Delivers a controller's report to its own node only.
+  /// Delivers a controller's report only to the node of this controller.
   void deliver(const WireReport& report) {
     if (report.node == HubWire::host) return queue_ready(report.frame, report.t_ns, false);
     const auto peer = peer_of(report.node);

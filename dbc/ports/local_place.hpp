@@ -26,7 +26,7 @@ Result<void> make_private(const std::string& path);
 enum class Format : std::uint8_t { classic, fd };
 
 /// The exclusive right to host a bus, for the lifetime of the object. The kernel releases the lock of a
-/// process that dies; the next host removes its sockets.
+/// process that dies; the next host removes the sockets of that process.
 class Claim {
  public:
   /// Error: one line: the directory cannot be used, or another process hosts the bus already.

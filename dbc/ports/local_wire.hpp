@@ -46,7 +46,7 @@ void encode(const Frame& frame, Datagram& datagram);
 /// such a frame.
 bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& frame);
 
-/// The ids as a set. Error: one is not a standard id.
+/// The ids as a set. Error: an id is not a standard one.
 Result<IdSet> id_set(const std::vector<std::uint32_t>& ids);
 
 /// The parts of `local:NAME?bitrate=500000`. The settings after the name apply to the host only; a joining

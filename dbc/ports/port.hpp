@@ -66,7 +66,7 @@ struct PortOptions {
   int receive_buffer_bytes = 0;           ///< SocketCAN: size of the receive queue; 0: up to 4 MiB
 };
 
-/// Known properties of a wire: how long a frame takes, and which one a node sends first.
+/// Known properties of a wire: how long a frame takes, and which frame a node sends first.
 struct WireFacts {
   wire::BitRates rates{};     ///< nominal 0: unknown, or a frame takes no time
   bool urgent_first = false;  ///< each node sends its most urgent frame first; false: its oldest, like Linux

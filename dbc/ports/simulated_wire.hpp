@@ -100,8 +100,9 @@ class SimulatedWire {
   /// report() if has_report(). All frames due before until_ns must be queued first.
   std::optional<Carried> next(std::int64_t until_ns);
 
-  /// The next report of a node with reports_errors, in order of time. Reports that exist when next() returns
-  /// a frame are later than that frame.
+  /// The next report of a node with reports_errors, in order of time. If the caller takes all
+  /// reports before it calls next(), the reports that exist when next() returns a frame are not earlier than
+  /// its delivered_ns.
   std::optional<WireReport> report();
   /// True if report() has something.
   [[nodiscard]] bool has_report() const { return !reports_.empty(); }

@@ -13,8 +13,8 @@ namespace canhil {
 
 /// Opens a SocketCAN interface by its name. Error: no CAN in this kernel, no such interface, not a CAN
 /// interface, interface down, FD on a classic one, or no permission. The port survives an interface that goes
-/// down or is removed and returns under its name: meanwhile up() is false and send() returns `down`. Remote
-/// frames are not received.
+/// down or is removed and returns under the same name. Meanwhile up() is false and send() returns `down`.
+/// Remote frames are not received.
 Result<std::unique_ptr<Port>> open_socketcan(std::string_view interface, const PortOptions& options);
 
 }  // namespace canhil

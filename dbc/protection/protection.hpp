@@ -44,7 +44,7 @@ class Protection {
   [[nodiscard]] std::uint64_t next(std::uint64_t counter) const;
   /// The number of steps from one allowed value to another: 0..period() - 1.
   [[nodiscard]] std::uint64_t steps(std::uint64_t from, std::uint64_t to) const;
-  /// True if both counters take the same values. Messages that share a counter need this.
+  /// True if both counters take the same values, which is necessary for messages that share a counter.
   [[nodiscard]] bool counts_like(const Protection& other) const;
 
  private:

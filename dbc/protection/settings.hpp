@@ -1,5 +1,5 @@
-// The protection of a message as plain values: counter, checksum, fields with a constant value. They come
-// from a profile (profiles.hpp) or a file; protection.hpp turns valid settings into a Protection.
+// The protection of a message as plain values: counter, checksum, fields with a constant value. Settings
+// come from a profile (profiles.hpp) or a file; protection.hpp turns valid settings into a Protection.
 #pragma once
 
 #include <array>

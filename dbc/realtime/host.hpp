@@ -10,8 +10,8 @@ namespace canhil::realtime {
 
 inline constexpr std::string_view cpu_folder = "/sys/devices/system/cpu";
 
-/// The kernel's preemption model: "PREEMPT_RT", "PREEMPT_DYNAMIC", "PREEMPT", or "none or voluntary".
-/// `version`: of uname().
+/// The kernel's preemption model: "PREEMPT_RT", "PREEMPT_DYNAMIC", "PREEMPT_LAZY", "PREEMPT", or "none or
+/// voluntary". `version`: the version that uname() returns.
 std::string preemption(std::string_view version);
 /// The preemption model of the running kernel.
 std::string preemption();

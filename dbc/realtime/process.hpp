@@ -11,8 +11,9 @@
 
 namespace canhil::realtime {
 
-/// Below 50, the priority of interrupt threads under PREEMPT_RT: the thread that empties the CAN controller
-/// must run first, or the controller's few buffers overrun while an estimator computes.
+/// The default is below 50, which is the priority of interrupt threads under PREEMPT_RT. The thread that
+/// empties the CAN controller must run first; otherwise the controller's few buffers overrun while an
+/// estimator computes.
 inline constexpr int default_priority = 40;
 
 /// The real-time settings for a process.

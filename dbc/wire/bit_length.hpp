@@ -47,7 +47,7 @@ class BitStream {
     const bool feedback = bit != ((crc_ >> 14U & 1U) != 0);
     crc_ = (crc_ << 1U & 0x7FFFU) ^ (feedback ? crc15_polynomial : 0);
   }
-  /// The low `count` bits of `value`, most significant first.
+  /// Appends the low `count` bits of `value`, most significant first.
   constexpr void put(std::uint32_t value, int count) {
     while (count-- > 0) put((value >> static_cast<unsigned>(count) & 1U) != 0);
   }
@@ -76,8 +76,8 @@ class BitStream {
   std::uint32_t crc_ = 0;
 };
 
-/// The intermission follows every frame, at the nominal bit rate. The stamp of a frame is the time before its
-/// intermission.
+/// The intermission follows every frame, at the nominal bit rate. The stamp of a frame is the time at
+/// which its intermission begins.
 inline constexpr std::int64_t intermission_bits = 3;
 
 /// Acknowledgement with delimiter, end of frame, intermission.
@@ -140,10 +140,10 @@ constexpr BitLength worst_case_length(unsigned size, bool extended) {
 /// The largest length of an FD frame of size s.
 /// Up to BRS there are 17 bits (11-bit id) or 36 bits (29-bit id). FDF = 1 and res = 0 end every run, so
 /// stuff bits fall into the 14 or 33 bits before them: at most floor((14 - 1) / 4) = 3 or floor((33 - 1) / 4)
-/// = 8. From ESI to the last data bit there are 5 + 8 s bits. A run may begin two bits earlier at res
-/// (without bit rate switch) or one bit earlier at BRS (with it), and a stuff bit due after the last bit is a
-/// fixed one: at most floor((5 + 8 s + 2 - 2) / 4) = 1 + 2 s stuff bits, also for error passive senders (ESI
-/// = 1).
+/// = 8. From ESI to the last data bit there are 5 + 8 s bits. A run may begin before ESI: two bits earlier at
+/// res (without bit rate switch) or one bit earlier at BRS (with it). A stuff bit due after the last bit is a
+/// fixed one. So there are at most floor((5 + 8 s + 2 - 2) / 4) = 1 + 2 s stuff bits, also for error passive
+/// senders (ESI = 1).
 constexpr BitLength worst_case_fd_length(unsigned size, bool extended, bool brs) {
   const std::int64_t arbitration = extended ? 36 + 8 : 17 + 3;
   const std::int64_t s = size;

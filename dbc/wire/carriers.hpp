@@ -1,5 +1,5 @@
-// The frame that carries each message: on classic CAN its own; on CAN FD the container of its group, or its
-// own frame.
+// The frame that carries each message. On classic CAN, each message has its own frame. On CAN FD, the
+// container of its sample group carries the message; a message without a container has its own frame.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace canhil::wire {
 /// A frame on the wire.
 struct Carrier {
   std::size_t first = 0;    ///< index of the first message in the frame; the frame has that message's id
-  std::string_view name{};  ///< in the bus's contract
+  std::string_view name{};  ///< of the frame's message in the bus's contract
   BitLength longest{};
 };
 
@@ -51,8 +51,8 @@ inline constexpr Carriers fd_carriers = [] {
   return carriers;
 }();
 
-/// The carriers of a bus's messages. For the project's contract as above; each message of another DBC has its
-/// own frame.
+/// The carriers of a bus's messages. For the project's contract: fd_carriers or classic_carriers.
+/// Each message of another DBC has its own frame.
 inline std::vector<Carrier> carriers_of(std::span<const MessageInfo> messages, bool fd) {
   if (messages.data() == messages::all_messages.data()) {
     const Carriers& own = fd ? fd_carriers : classic_carriers;

@@ -1,5 +1,5 @@
-// Functions for generated headers, which all include this file: those of the codec, and those of its static
-// assertions.
+// Functions that generated code calls in its codec and in its static assertions. All generated headers
+// include this file.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,8 @@
 
 namespace canhil::wire {
 
-/// True if every signal lies inside its message and signals that are not multiplexed do not overlap.
+/// True if every signal lies inside its message, and signals that are not multiplexed overlap neither each
+/// other nor the E2E fields of a protected message.
 constexpr bool is_sound(const MessageInfo& message, std::span<const SignalInfo> signals) {
   std::array<bool, 512> taken{};
   if (message.e2e_data_id != 0) std::fill_n(taken.begin(), 12, true);
@@ -34,7 +35,7 @@ constexpr bool is_sound(const MessageInfo& message, std::span<const SignalInfo> 
 /// The limit of rounding noise relative to the sensor's noise: LSB / sqrt(12) <= sigma / 4.
 inline constexpr double largest_quantisation_ratio = 0.25;
 
-/// Standard deviation of rounding to multiples of `lsb`, over the sensor's per-sample sigma.
+/// Standard deviation of rounding to multiples of `lsb`, divided by the sensor's per-sample sigma.
 constexpr double quantisation_ratio(double lsb, double sensor_sigma) {
   constexpr double sqrt_12 = 3.4641016151377544;
   return lsb / sqrt_12 / sensor_sigma;
@@ -48,7 +49,8 @@ enum class Resolution : std::uint8_t {
   unknown_sigma     ///< CarriesRemainder shows that the signal is a measurement, but it has no SensorSigma
 };
 
-/// Judges a signal by its LSB and the 1-sigma of its sensor, both in the signal's unit; 0: no sensor.
+/// Judges a signal by its LSB and the 1-sigma of its sensor, both in the signal's unit. A sigma of 0
+/// means: no sensor.
 constexpr Resolution resolution_of(std::string_view name, double lsb, double sensor_sigma,
                                    bool carries_remainder) {
   if (name.starts_with("delta_") && !carries_remainder) return Resolution::loses_remainder;

@@ -56,8 +56,8 @@ constexpr double unrounded(double value, double scale, double offset, double low
   return scale > 0 ? clamped(raw, low, high) : clamped_nan_high(raw, low, high);
 }
 
-/// Raw bits of a signed or narrow unsigned signal (at most 63 bits): rounded half to even, saturated to [low,
-/// high].
+/// Raw bits of a signed signal, or of an unsigned one of at most 63 bits: rounded half to even, saturated to
+/// [low, high].
 constexpr std::uint64_t quantised(double value, double scale, double offset, double low, double high) {
   return static_cast<std::uint64_t>(round_half_even(unrounded(value, scale, offset, low, high)));
 }

@@ -12,8 +12,9 @@
 
 namespace canhil::target {
 
-/// The answers to one frame, at most 134 for two inertial estimators: one IMU sample triggers, for each of
-/// them, a navigation group and the filter groups of all fixes that waited for this sample.
+/// The answers to one frame: at most 134 frames if both inertial estimators run. One IMU sample then
+/// triggers, for each estimator, a navigation group and the filter groups of all fixes that waited for this
+/// sample.
 using Answers = Outbox<160>;
 
 /// Losses since reset, by cause.
@@ -66,7 +67,7 @@ struct Context {
   Answers& answers;
   Losses& losses;
   Errors& errors;
-  ConsistencyMonitor& consistency;  ///< the adapter passes every innovation to it; answers carry its verdict
+  ConsistencyMonitor& consistency;  ///< judges the innovations; answers report degraded()
 };
 
 /// The outcome of a step; `fault` ends the run of the estimator.
@@ -84,7 +85,7 @@ class Adapter {
   /// Restores the state that the adapter had after construction, and selects an algorithm; false: unknown
   /// algorithm.
   virtual bool reset(messages::Algorithm algorithm) = 0;
-  /// Sets a parameter; `running` after start. Accepted values take effect at the next step.
+  /// Sets a parameter; `running` is true after the start. Accepted values take effect at the next step.
   virtual messages::ParameterStatus set(messages::Parameter parameter, double value, bool running) = 0;
   /// The value in force; none: not a parameter of this estimator.
   [[nodiscard]] virtual std::optional<double> get(messages::Parameter parameter) const = 0;
@@ -92,7 +93,7 @@ class Adapter {
   [[nodiscard]] virtual std::optional<ParameterRange> range(messages::Parameter parameter) const = 0;
   /// Starts from an initial state.
   virtual void start(const InitialState& initial) = 0;
-  /// Processes one frame of a sensor whose protection has been checked; `counter` is its E2E counter.
+  /// Processes one sensor frame. The device has checked its E2E protection; `counter` is its E2E counter.
   virtual Health receive(const Frame& frame, std::uint8_t counter, Context context) = 0;
   /// Detects missing inputs; called when the time base has advanced.
   virtual Health tick(Context context) = 0;

@@ -1,5 +1,5 @@
-// Checks whether an estimator's errors match its covariance: compares innovations with their claimed
-// covariance.
+// Checks whether an estimator's errors match its covariance: compares the innovations with the covariance
+// that the estimator computes for them.
 #pragma once
 
 #include <algorithm>
@@ -13,18 +13,21 @@ namespace canhil::target {
 /// Two control charts of exponentially weighted averages (Roberts, 'Control Chart Tests Based on Geometric
 /// Moving Averages', 1959). Each chart is S <- keep S + z. If the filter is consistent, z has mean 0 and
 /// variance 1, so S has the variance 1/(1 - keep^2):
-///   size   z = (NIS - m)/sqrt(2 m), NIS chi-squared of m: detects errors larger than the covariance;
-///   bias   z = each innovation over its sigma: detects innovations that are not white because of a lasting
-///          error (a model's coefficient, a sensor's scale), even if raised noise makes NIS right again
-///          (Mehra, 'On the Identification of Variances and Adaptive Kalman Filtering', 1970).
+///   size   z = (NIS - m)/sqrt(2 m), with a chi-squared NIS of m degrees of freedom: detects errors larger
+///          than the covariance;
+///   bias   z = an innovation divided by its sigma: detects innovations that are not white because of a
+///          lasting error (a model's coefficient, a sensor's scale). It detects them even if the filter has
+///          raised its noise so far that the NIS has its expected value again (Mehra, 'On the Identification
+///          of Variances and Adaptive Kalman Filtering', 1970).
 /// A NIS below its expected value m raises no alarm, as the errors are then smaller than the covariance
 /// indicates.
 class ConsistencyMonitor {
  public:
   void reset() { *this = {}; }
 
-  /// Takes the innovation of a measurement that was used or gated: its NIS, and each component over its own
-  /// sigma (at most nine components, the same number in every call). A NaN counts as the largest value.
+  /// Takes the innovation of a measurement that was used or gated: its NIS, and each component divided
+  /// by its sigma (at most nine components, the same number in every call). A NaN counts as the largest
+  /// value.
   void observe(double nis, std::span<const double> normalised) {
     const auto m = static_cast<double>(normalised.size());
     inconsistent_ = size_.alarmed((nis - m) / std::sqrt(2 * m));

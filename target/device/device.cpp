@@ -59,7 +59,7 @@ std::span<const Frame> Device::receive(const Frame& frame) {
       return {};
     case e2e::Check::repeated:
       // Commands are processed even with a repeated counter: the first command of a new bench may have the
-      // counter of the previous bench's last one.
+      // counter of the previous bench's last command.
       if (frame.id != TargetCommand::info.id) {
         ++losses_.late;
         return {};
@@ -108,7 +108,7 @@ void Device::dispatch(const Frame& frame, std::uint8_t counter) {
   }
 }
 
-// An estimator that faults stops; the others continue.
+// An estimator that faults stops; the other estimators continue.
 template <class Step>
 void Device::for_running(Step&& step) {
   for (Estimation& estimation : selected_) {
@@ -201,7 +201,8 @@ bool Device::select(Estimator estimator, Algorithm algorithm, Estimation& estima
   return true;
 }
 
-// Starts all estimators together, so that their answers depend only on the frames of this run.
+// Starts all selected estimators together, and only if all are ready. Their answers then depend only on the
+// frames of this run.
 void Device::start() {
   // A bench that missed the answer repeats the command.
   const bool again = all_in(TargetState::running) && std::ranges::all_of(selected_, &Estimation::untouched);

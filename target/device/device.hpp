@@ -15,11 +15,12 @@
 
 namespace canhil::target {
 
-/// hil-target without its process: commands, parameters, initial state, heartbeat, counters, and the running
-/// estimators. Several estimators can run at once on the same sensor frames, independently of each other.
+/// The part of hil-target without the process around it. Handles commands, parameters and the initial state,
+/// sends heartbeats and counters, and runs the estimators. Several estimators can run at once on the same
+/// sensor frames, independently of each other.
 class Device {
  public:
-  /// `rounding`: of the answers; Rounding::none only if the bench is in the same process.
+  /// `rounding` applies to the answers. Use Rounding::none only if the bench is in the same process.
   explicit Device(Rounding rounding = Rounding::as_on_the_bus);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -29,11 +30,11 @@ class Device {
   /// Frames that are not for the target are ignored. Allocates nothing.
   std::span<const Frame> receive(const Frame& frame);
 
-  /// A heartbeat for each estimator, without an input frame. The process sends these heartbeats while no
-  /// bench sends Sync or commands.
+  /// Returns a heartbeat for each selected estimator, without an input frame. The process sends these
+  /// heartbeats while no bench sends Sync or commands.
   std::span<const Frame> idle_heartbeat();
 
-  /// The permitted values of an estimator's parameter; none: it has no such parameter.
+  /// The permitted values of a parameter; none: there is no such estimator or parameter.
   [[nodiscard]] std::optional<ParameterRange> range(messages::Estimator estimator,
                                                     messages::Parameter parameter) const;
 
@@ -78,7 +79,7 @@ class Device {
   void send_heartbeats();
   void send_counters();
   [[nodiscard]] bool all_in(messages::TargetState state) const;
-  /// The estimator that was selected last. Parameters and initial state are for this one.
+  /// The estimator that was selected last. Parameters and initial state apply to this estimator.
   [[nodiscard]] Estimation& current() { return selected_.back(); }
 
   using InitialGroup =

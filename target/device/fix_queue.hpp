@@ -10,7 +10,7 @@
 
 namespace canhil::target {
 
-/// A value from the bus with its time.
+/// A value from the bus with its time of validity and its counter.
 template <class Value>
 struct At {
   std::int64_t t_us = 0;
@@ -31,7 +31,7 @@ class FixQueue {
   }
 
   /// Removes the fixes whose time of validity the INS has reached, and calls update(fix) for each, in order,
-  /// until one faults.
+  /// until a call returns a fault.
   template <class Update>
   Health reached(std::int64_t ins_us, const Update& update) {
     std::size_t done = 0;

@@ -15,7 +15,7 @@ inline void drop_group(Context& context) {
 }
 
 /// Adds a frame that carries one Message of a group. True: the group is complete and must be read now. If the
-/// frame begins a new group and the previous one is incomplete, that one is counted as dropped.
+/// frame begins a new group while the previous group is incomplete, the previous group is counted as dropped.
 template <class Message, class Group>
 bool completes(Group& group, const Frame& frame, std::uint8_t counter, Context& context) {
   const auto outcome = group.put(from_frame<Message>(frame), counter);

@@ -42,7 +42,7 @@ class ImuStream {
  public:
   enum class Taken : std::uint8_t {
     foreign,  ///< a frame of another group
-    waiting,  ///< nothing to do yet
+    waiting,  ///< the INS was not advanced: the group is incomplete, invalid or late
     stepped,  ///< the INS has reached now_us()
     fault     ///< a gap too long to bridge
   };
@@ -67,8 +67,8 @@ class ImuStream {
     return Health::fault;
   }
 
-  /// Processes one frame; calls step(increment, t_us of its end) for each increment, also while bridging a
-  /// gap.
+  /// Processes one frame. Calls step(increment, t_us) for each increment, also for those that bridge a gap;
+  /// t_us is the end of the increment.
   template <class Step>
   Taken receive(const Frame& frame, std::uint8_t counter, Context& context, const Step& step) {
     using namespace messages;
@@ -155,7 +155,8 @@ class ImuStream {
     return Taken::stepped;
   }
 
-  // Bridges a gap by increments from the mean of the rates before and after it, and reports coasting.
+  // Bridges a gap by increments from the mean of the rates before and after the gap. The next answer has the
+  // mark coasting.
   template <class Step>
   void bridge(const strapdown::ImuIncrement& after, std::int64_t gap_us, const Step& step) {
     coasting_ = true;

@@ -48,12 +48,12 @@ std::optional<ia::Algorithm> algorithm_of(Algorithm algorithm) {
   }
 }
 
-// False for raw values outside the range of latitude and longitude.
+// False for values outside the range of latitude and longitude, and at the poles.
 bool on_earth(double latitude_deg, double longitude_deg) {
   return std::abs(latitude_deg) < 90 && std::abs(longitude_deg) <= 180;
 }
 
-// The largest value of a counter's signal, from the DBC; the signal must exist.
+// The largest physical value of a signal, from the DBC; the signal must exist.
 template <class Message>
 double maximum(std::string_view signal) {
   return std::ranges::find(Message::signals(), signal, &SignalInfo::name)->maximum;

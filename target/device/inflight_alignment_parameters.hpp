@@ -18,7 +18,7 @@ struct InflightTuning {
   std::int64_t output_interval_us = 0;
 };
 
-/// Parameters in the unit of their name; the defaults are those of Kang, Kim, Park 2006 with an SSBL.
+/// Parameters in the unit of their name; the defaults fit the sensors of Kang, Kim, Park 2006 with an SSBL.
 inline constexpr std::array inflight_alignment_parameters = [] {
   namespace ia = inflight_alignment;
   using Row = ParameterTable<InflightTuning>::Row;

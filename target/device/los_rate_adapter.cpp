@@ -21,7 +21,8 @@ constexpr std::int64_t lead_limit_us = 100'000;     // a group further ahead of 
 constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of the seeker is an error
 
 // Parameters in the unit of their name; the defaults are those of the estimator. The design is computed from
-// them at the start, so none may change while it runs. Within the ranges all designs and gains are finite.
+// them at the start, so no parameter may change during a run. Within the ranges all designs and gains are
+// finite.
 using Tuning = los::Settings;
 using Row = ParameterTable<Tuning>::Row;
 constexpr bool whole = true;
@@ -126,7 +127,7 @@ std::optional<los::Algorithm> algorithm_of(Algorithm algorithm) {
   }
 }
 
-// Outcomes have the same numbers in the estimator and on the bus, as faults do.
+// Outcomes and faults have the same numbers in the estimator and on the bus.
 constexpr LosRateOutcome on_bus(los::Outcome outcome) { return static_cast<LosRateOutcome>(outcome); }
 constexpr LosRateFault on_bus(los::Fault fault) { return static_cast<LosRateFault>(fault); }
 static_assert(on_bus(los::Outcome::waiting) == LosRateOutcome::waiting);
@@ -303,8 +304,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
   los::State state_;
   los::UpdateResult last_;
   SampleGroup<SeekerAntenna, SeekerAngles, SeekerMotion, SeekerRange> group_;
-  std::int64_t now_us_ = 0;  // time of validity of the last step, or the start
-  bool tracking_ = false;    // at least one step since the start
+  std::int64_t now_us_ = 0;  // time of validity of the last step, or of the initial state
+  bool tracking_ = false;    // at least one step since acquire()
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ struct ParameterRange {
   std::string_view meaning{};  ///< one sentence
 };
 
-/// Values of the parameters in the unit of their name, applied to an estimator's own `Tuning`.
+/// Stores the values of the parameters in the unit of their name, and applies them to a `Tuning`.
 template <class Tuning>
 class ParameterTable {
  public:

@@ -211,7 +211,8 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // In a closed loop the INS itself; in an open loop a copy, corrected by the estimated errors.
+  // Returns the INS itself in a closed loop. In an open loop, returns a copy corrected by the estimated
+  // errors.
   const ta::Ins& best_estimate() {
     if (tuning_.filter.loop != ta::Loop::open) return state_.ins;
     corrected_ = ta::estimate(state_);

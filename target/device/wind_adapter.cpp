@@ -22,9 +22,9 @@ constexpr double deg = std::numbers::pi / 180;
 
 constexpr std::int64_t lead_limit_us = 200'000;     // a sample further ahead of the last Sync is rejected
 constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of navigation is an error
-// For this time after a start the sigmas are reported as not valid. They assume that coefficient errors,
-// redrawn every 50 ms, average out over many such intervals, but the gains after a start are too high for
-// this averaging: of 200 flights with errors of 20 %, 15 erred by more than 5 sigma within 0.3 s.
+// For this time after a start the sigmas are reported as not valid. The sigmas assume that coefficient errors
+// are redrawn every 50 ms and average out over many intervals of 50 ms. The gains after a start are too high
+// for this averaging: of 200 flights with errors of 20 %, 15 erred by more than 5 sigma within 0.3 s.
 constexpr std::int64_t settling_us = 1'000'000;
 // Physical limits. They are below the limits of the bus, so that the bus can also carry invalid values.
 constexpr double ground_speed_most = 600;
@@ -48,8 +48,8 @@ std::optional<wind::Algorithm> algorithm_of(Algorithm algorithm) {
   }
 }
 
-// An angle [rad]. A raw value beyond half a turn becomes NaN: an encoder that does not check limits sends
-// such a value for a NaN.
+// An angle [rad]. A value beyond half a turn becomes NaN: an encoder that does not check limits sends a value
+// beyond half a turn for a NaN.
 double angle(double value_deg) {
   return std::abs(value_deg) <= 180.5 ? value_deg * deg : std::numeric_limits<double>::quiet_NaN();
 }
@@ -136,8 +136,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     if (completes<Message>(group_, frame, counter, context)) on_navigation(context);
   }
 
-  // The latest plausible time of validity of a sample that has arrived. It is relative to the last Sync, or
-  // to the start of a run whose first Sync has not arrived.
+  // The latest plausible time of validity of a received sample: lead_limit_us after the last Sync or after
+  // the start, whichever is later.
   [[nodiscard]] std::int64_t latest_us(const Context& context) const {
     return std::max(context.now_us, start_us_) + lead_limit_us;
   }
@@ -157,8 +157,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     }
   }
 
-  // Answers one group per output interval. Answers also every other complete group that did not update the
-  // filter, or updated it outside the range of the model or with late or refused fins.
+  // Answers one group per output interval. In addition, answers every complete group that did not update the
+  // filter, or that updated it outside the range of the model or with late or refused fins.
   void on_navigation(Context& context) {
     const auto& horizontal = group_.get<GliderNavVelocityNE>();
     const auto& attitude = group_.get<GliderNavAttitude>();

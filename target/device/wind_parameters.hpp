@@ -91,7 +91,7 @@ inline constexpr std::array wind_parameters = [] {
       Row{P::fins_missing_ms, 100, 1, 1e4, real, any_time,
           "Answers have the mark `fins_missing` if the deflections of the fins are older than this.",
           [](WindTuning& t, double v) { t.filter.fins_missing = v * ms; }},
-      // A gap is bridged within one frame, in at most 400 parts of 25 ms.
+      // The filter bridges a gap while it processes one frame, in at most 400 parts of 25 ms.
       Row{P::glider_nav_coast_s, 2, 0, 10, real, any_time,
           "Longest gap in the navigation samples that the filter bridges. After a longer gap the filter "
           "restarts.",

@@ -9,8 +9,8 @@
 
 namespace canhil::target {
 
-/// Between two calls of news() events are only counted, so that the frame path stays fast; news() reports the
-/// counts.
+/// Counts the events of a bus; news() reports the counts. To keep the frame path fast, the functions that it
+/// calls only count.
 class BusNotes {
  public:
   void error_frame(const Frame& frame) { add(errors_, frame); }
@@ -18,13 +18,13 @@ class BusNotes {
   void late_in_queue() { ++late_in_queue_; }
   /// An answer was not sent because the interface is down.
   void met_interface_down() { ++unsent_; }
-  /// Reports the interface's state. Must be called often enough to see every outage between two calls of
-  /// news().
+  /// Stores whether the interface is up. An outage is noticed only if this function is called during it, so
+  /// call it more often than news().
   void interface_is(bool up);
 
-  /// One line, with the bus's name, for each change since the last call; empty: no change. Events that may
-  /// come in floods (error frames without a change of state, FD frames on a classic bus or the reverse) are
-  /// reported at most once per second.
+  /// Returns one line with the bus's name for each change since the last call, or an empty string. Events
+  /// that may come in floods (error frames without a change of state, FD frames on a classic bus or the
+  /// reverse) are reported at most once per second.
   std::string news(const Port& port, BusFormat format);
 
  private:
@@ -40,7 +40,7 @@ class BusNotes {
   };
   BusErrors errors_;
   std::uint64_t late_in_queue_ = 0;
-  std::uint64_t unsent_ = 0;  // answers not sent since the last report of an outage
+  std::uint64_t unsent_ = 0;  // answers not sent; 0 again after the report that the interface is up
   std::uint64_t downs_ = 0;
   bool up_ = true;
   std::int64_t changed_ns_ = 0;

@@ -18,21 +18,21 @@ constexpr std::int64_t period_ns = messages::TargetHeartbeat::info.cycle_time_us
 constexpr std::int64_t bench_silent_ns = 2 * period_ns;
 constexpr std::int64_t bench_gone_ns = 2'000'000'000;
 constexpr std::int64_t send_patience_ns = 50'000'000;
-constexpr int looks_every = 16;  // waits between two readings of the clock
-// On a busy bus the target reads its clock after this many frames.
+constexpr int looks_every = 16;  // the largest number of waits between two readings of the clock
+// While more frames are waiting, the target reads its clock after this many frames.
 constexpr int most_at_once = 256;
 
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 
 // A command shows that a bench is at work, as a Sync does. If only Sync counted, the process would send an
-// idle heartbeat between the command start and the first Sync, and a replay would not contain it.
+// idle heartbeat between the command `start` and the first Sync. A replay would not contain this heartbeat.
 bool from_bench(const Frame& frame) {
   return !frame.extended &&
          (frame.id == messages::Sync::info.id || frame.id == messages::TargetCommand::info.id);
 }
 
-// Sends frames in order. Drops frames if the bus is full until the deadline, or if the interface is down.
-// Counts them; the receiver detects the loss by the E2E counters.
+// Sends frames in order. Drops a frame if the transmit queue stays full until the deadline, or if the
+// interface is down. Counts the dropped frames; the receiver detects their loss by the E2E counters.
 void send(Port& port, std::span<const Frame> frames, BusNotes& notes) {
   std::int64_t deadline_ns = 0;  // set when the queue is first full
   for (const Frame& frame : frames) {
@@ -74,7 +74,7 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
   // When the bench last sent Sync or a command; updated only when a report is due.
   std::int64_t bench_ns = now_ns() - bench_silent_ns;
   // Before it sends its first frame, a target listens for longer than a heartbeat period, to detect another
-  // target: two on one bus would corrupt each other's groups.
+  // target: two targets on one bus would corrupt each other's groups.
   std::int64_t report_due_ns = now_ns() + period_ns + period_ns / 4;
   bool established = false;
   bool bench_heard = false;  // since the last report
@@ -121,8 +121,8 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
       print(notes.news(port, format));
       established = true;
       // Sync drives the heartbeat. During a run the process adds no heartbeats, even if the bench is slow, so
-      // that the frames equal those of a replay. After a bench has disappeared, heartbeats resume for the
-      // next one.
+      // that the frames equal those of a replay. After the bench has disappeared, heartbeats resume, so that
+      // the next bench finds the target.
       const std::int64_t patience_ns = device.running() ? bench_gone_ns : bench_silent_ns;
       if (now - bench_ns >= patience_ns) {
         send(port, device.idle_heartbeat(), notes);

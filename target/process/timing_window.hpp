@@ -1,4 +1,4 @@
-// The target's own timing over the last window, for TargetTiming.
+// Collects how long frames wait in the target and how long their processing takes, for TargetTiming.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 
 namespace canhil::target {
 
-/// Collects waiting and processing times of the frames that were answered: the last frames of sample groups.
+/// Collects waiting and processing times of the frames that the device answered, except Sync and commands.
+/// Most of them are the last frames of sample groups.
 class TimingWindow {
  public:
   /// Adds a frame's wait between stamp and processing, and its processing time.
@@ -20,7 +21,8 @@ class TimingWindow {
     ++count_;
   }
 
-  /// The window's message; starts a new window. Times saturate at 8191 us, the limit of the message.
+  /// Returns the message for the window, and starts a new window. Times saturate at 8191 us, the limit of the
+  /// message.
   messages::TargetTiming take() {
     const std::int64_t count = std::max<std::int64_t>(count_, 1);
     const messages::TargetTiming message{.queue_max_us = microseconds(queue_max_ns_),

@@ -24,7 +24,7 @@ void await_carrier(const std::string& interface, bool there);
 /// Waits for `count` Sync frames on can0.
 void await_syncs(int count);
 
-/// Configures the wire, see wire/canhil_wire.c: "can1 broken".
+/// Configures the wire with a command of wire/canhil_wire.c, such as "can1 broken".
 void wire(const std::string& what);
 
 /// Runs a shell command that must succeed; may be called while another thread is in shell().

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double g = 9.80665, radius = 6'371'000;
 
-// The specific force at rest, level, on the equator, for a height above the ellipsoid.
+// The increments of a level IMU at rest on the equator, on the ellipsoid.
 strapdown::ImuIncrement at_rest(double dt) {
   constexpr double earth_rate = 7.292115e-5, gravity_of_equator = 9.7803253359;
   return {.delta_theta = {earth_rate * dt, 0, 0}, .delta_v = {0, 0, -gravity_of_equator * dt}, .dt = dt};

@@ -1,6 +1,7 @@
-// Reads any file as the results of a campaign. It must print a report, or reject the file with one line. The
-// input is either a list of changes to the bytes of a valid file, which must then give the original report or
-// be rejected, or runs with arbitrary samples, which must be stored correctly and give a report.
+// Reads any file as the results of a campaign. It must print a report, or reject the file with one line.
+// There are two kinds of input. The first is a list of changes to the bytes of a valid file. The changed file
+// must give the original report or be rejected. The second is runs with arbitrary samples. They must
+// be stored, and then give a report or an error message.
 #include <unistd.h>
 
 #include <cstdint>
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t runs = 2;
 
-// Every kind of metric, so that arbitrary runs reach all of them.
+// Metrics of four kinds, all of which judge the arbitrary runs.
 constexpr std::string_view asked = R"(title = "Two"
 runs = 2
 seed = 3

@@ -1,5 +1,6 @@
-// Reads any text as a campaign over its own scenario. It must return a Campaign, or one error line that names
-// the file. The input also covers the settings that variants and sweeps put into a scenario.
+// Reads any text as a campaign whose scenario is always the short scenario. It must return a Campaign, or one
+// error line that names the file. The input also covers the settings that variants and sweeps put into a
+// scenario.
 #include <cstdint>
 
 #include "bench/campaign/campaign.hpp"

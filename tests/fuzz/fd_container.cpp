@@ -40,7 +40,7 @@ std::vector<Frame> unpacked(std::span<const Frame> wire) {
 
 }  // namespace
 
-// For each frame: a byte for its kind, a byte that selects its id, and its data.
+// For each frame: a byte for its kind, two bytes that select its id and size, and its data.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   enum Kind : std::uint8_t { any_id = 1, fd = 2, any_size = 4, extended = 8 };
   std::span<const std::uint8_t> rest(data, size);

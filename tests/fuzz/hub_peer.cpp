@@ -1,6 +1,6 @@
 // Peers of the embedded bus's hub that send anything. The hub forwards valid frames byte by byte and drops
 // peers that send anything else. Every frame that a correct node receives was sent by a peer or the host.
-// Input: for each datagram, one byte that selects a peer and the fault of the datagram.
+// Input: for each step, one byte that selects a peer and an action, then the data of the action.
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
-// A bus with a target that sends anything. Behind it is a Device; the fuzzer's input says which of its
-// answers are damaged, dropped, repeated, delayed or extended. Time is simulated; waiting advances it.
+// A bus with a target that sends anything. The target is a Device; the fuzzer's input says which answers of
+// the Device are damaged, dropped, repeated, delayed or extended. Time is simulated; waiting advances it.
 #pragma once
 
 #include <algorithm>

@@ -22,8 +22,8 @@ struct Spoil {
   enum Flag : std::uint8_t { lose_one = 1, wrong_crc = 2, twice = 4, late = 8 };
 
   std::uint8_t flags = 0;
-  std::uint8_t which = 0;  ///< the message of the group, modulo their number
-  std::uint8_t place = 0;  ///< byte of its data, modulo their number
+  std::uint8_t which = 0;  ///< index in the group, modulo the number of messages
+  std::uint8_t place = 0;  ///< index of the changed byte, modulo the number of bytes
   std::uint8_t bits = 0;   ///< these bits are inverted before counter and CRC are written
 
   static Spoil read(Script& script) {

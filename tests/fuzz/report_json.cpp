@@ -25,8 +25,8 @@ namespace {
 using namespace canhil;
 using Json = nlohmann::ordered_json;
 
-// Flies a run over a simulated wire, so that the report has distributions of times. The run has few samples
-// of each kind, because reading them takes most of the time.
+// Flies a run over a simulated wire, so that the report has distributions of times. The report keeps
+// only two messages of each distribution and two series, because reading them takes most of the time.
 Json flown() {
   const auto scenario = scenario::parse(fuzz::short_scenario, "short.toml", drive::contract());
   fuzz::expect(scenario.has_value());

@@ -24,7 +24,7 @@ class Script {
     rest_ = rest_.subspan(taken.size());
     return taken;
   }
-  /// Moves the existing elements to the front and keeps the rest.
+  /// Copies the next bytes of the input to `to`. If too few are left, the rest of `to` keeps its values.
   void fill(std::span<std::uint8_t> to) { std::ranges::copy(bytes(to.size()), to.begin()); }
 
  private:

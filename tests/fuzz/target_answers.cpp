@@ -56,7 +56,8 @@ checks::Observations collected(observe::Monitor& monitor, const observe::BusWatc
   return seen;
 }
 
-// Writes all reports of a run and reads them again: the bench must be able to read its own reports.
+// Writes all reports of a run. The JSON report must be complete and give a page, because the bench must be
+// able to read its own reports.
 void report_all(const scenario::Scenario& scenario, const drive::Run& run) {
   fuzz::expect(!report::text(scenario, run).empty());
   fuzz::expect(!report::junit(scenario, run).empty());

@@ -213,7 +213,7 @@ class SlowWire : public ::testing::Test {
 };
 
 TEST_F(SlowWire, FillsTheSocketFirst) {
-  slow_down(100'000, "1kbit");  // 8 frames per second, so none is sent while the test reads the queue
+  slow_down(100'000, "1kbit");  // 8 frames per second, so none is sent while the test fills the queue
   const auto port = open("vcan1");
   while (port->send(frame_of(1)) == SendOutcome::sent)
     ASSERT_LT(port->counters().sent, 1000U) << "no slow wire";

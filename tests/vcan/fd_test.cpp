@@ -20,7 +20,8 @@ TEST(Fd, AClassicInterfaceIsRefusedWithTheRemedy) {
       remedy);
 }
 
-/// A target on vcan0 during its lifetime, and its output.
+/// Runs the command `then` while a target runs on vcan0. Returns the exit code and the stderr of the command,
+/// then the stderr of the target.
 std::string with_target(const std::string& options, const std::string& then) {
   const std::string said = scratch("target.err");
   const Ended ended = shell(

@@ -47,7 +47,7 @@ TEST(SocketCan, CarriesClassicFrames) {
   EXPECT_EQ(b->counters().received, 3U);
 }
 
-// The waiting call has a time-out of its own, which is much shorter.
+// The system call with which the port waits has a much shorter time-out.
 TEST(SocketCan, AWaitThatHearsNothingLastsToItsDeadline) {
   const auto port = open("vcan0");
   const std::int64_t deadline_ns = clock_ns(CLOCK_MONOTONIC) + 200'000'000;
@@ -264,7 +264,7 @@ TEST(CanUtils, CanplayerPlaysOurLog) {
 
 TEST(CanUtils, Log2ascConvertsOurLogWithDirections) {
   write_log("/tmp/ours.log",
-            mixed_frames(30));  // 15 transmitted, one of them an error frame, which has no direction there
+            mixed_frames(30));  // 15 transmitted; one is an error frame, which has no direction in ASC
   run("log2asc -I /tmp/ours.log -O /tmp/ours.asc vcan1 && [ $(grep -c Tx /tmp/ours.asc) = 14 ]");
 }
 

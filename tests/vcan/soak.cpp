@@ -1,9 +1,9 @@
 // Hours of traffic through the port: two processes on one interface, every frame counted.
 //   soak INTERFACE SECONDS [FRAMES_PER_S]
 // The sender keeps its rate with absolute deadlines of a millisecond; if the host stalls it, the deadlines
-// slip. It receives its own echo, as the bench does. Sender and receiver check that no number is missing or
-// out of order. The program prints ten lines on the way, then the result. It ends with 0 only if nothing was
-// lost or reordered and the resident anonymous memory did not grow.
+// slip. The sender receives its echo, as the bench does. Sender and receiver check that no number is missing
+// or out of order. The program prints ten lines on the way, then the result. It ends with 0 only if nothing
+// was lost or reordered and the resident anonymous memory did not grow.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -21,7 +21,7 @@ struct Answering {
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 
-/// The rest of a window after removing others, in order.
+/// The parts of a window that none of the other windows covers, in order of time.
 std::vector<scenario::Window> without(const scenario::Window& whole, std::vector<scenario::Window> others);
 
 }  // namespace canhil::checks

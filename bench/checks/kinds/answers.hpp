@@ -1,4 +1,5 @@
-// How many answers in a window carry a mark (an outcome or flag), and when the first did.
+// Checks how many answers in a window carry a mark (an outcome or flag), and when the first answer with the
+// mark came.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -13,7 +14,7 @@ struct Answers {
   struct Count {
     std::string mark;  ///< one of the estimator's marks
     std::optional<std::int64_t> at_least{}, at_most{};
-    std::optional<std::int64_t> before_us{};  ///< the first such answer must come earlier than this
+    std::optional<std::int64_t> before_us{};  ///< the first answer with the mark must come before this time
   };
   std::string estimator;
   scenario::Window window;

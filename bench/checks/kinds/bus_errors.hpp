@@ -5,7 +5,8 @@
 
 namespace canhil::checks {
 
-/// Limits; an absent limit is not judged.
+/// Limits of the counts. Bus-offs and outages have the limit 0 by default; another count without a limit is
+/// not judged.
 struct BusErrorLimits {
   static constexpr std::string_view kind = "bus_errors";
   static constexpr std::string_view meaning =

@@ -11,7 +11,8 @@
 namespace canhil::checks {
 namespace {
 
-// The data rate matters only if FD frames were sent; without it they use the nominal rate.
+// The data rate matters only if FD frames were sent. If no data rate is given, FD frames use the nominal
+// rate.
 bool equally_fast(const wire::BitRates& a, const wire::BitRates& b, const Observations& seen) {
   const auto data = [](const wire::BitRates& rates) { return rates.data > 0 ? rates.data : rates.nominal; };
   const bool fd = std::ranges::any_of(seen.length_by_second,

@@ -1,4 +1,4 @@
-// The load of all frames stays below a fraction of each second, at a bit rate.
+// Checks that all frames together occupy less than a given fraction of each second at a given bit rate.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -10,8 +10,8 @@
 namespace canhil::checks {
 namespace {
 
-// The sum of n independent chi-squares of k degrees of freedom is chi-square of n k; the mean divides it by
-// n.
+// The sum of n independent chi-squares of k degrees of freedom is chi-square of n k; the mean is this sum
+// divided by n.
 std::pair<double, double> interval(const Consistency& rule, std::size_t count) {
   if (const auto* between = std::get_if<MeanBetween>(&rule.bound)) return {between->low, between->high};
   const double probability = std::get<Probability>(rule.bound).value;

@@ -1,4 +1,4 @@
-// The mean of a normalised error squared (NEES, NIS) over a window lies in the range of a consistent filter.
+// Checks that the mean of a NEES or NIS over a window lies in the range of a consistent filter.
 #pragma once
 
 #include <variant>

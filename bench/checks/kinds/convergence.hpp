@@ -1,4 +1,5 @@
-// The error of a quantity enters a band before a given time and stays in it to the end of the run.
+// Checks that the error of a quantity enters a band before a given time and stays in the band to the end of
+// the run.
 #pragma once
 
 #include "bench/checks/rule.hpp"

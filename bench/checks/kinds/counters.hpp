@@ -1,4 +1,4 @@
-// The target's own counters at the end of the run (TargetCounters).
+// Checks the counters that the target reports last (TargetCounters).
 #pragma once
 
 #include <span>

@@ -1,4 +1,5 @@
-// The target's own counters (TargetCounters) agree with the frames that the bench withheld or damaged.
+// Checks that the target's own counters (TargetCounters) agree with the frames that the bench withheld or
+// damaged.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -1,4 +1,4 @@
-// After the onset of a fault the target reports a sign of trouble.
+// Checks that the target reports a sign of trouble soon after the onset of a fault.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"

@@ -1,4 +1,4 @@
-// |estimated - true| of a quantity, or a statistic of it, stays below a limit in a stretch of the run.
+// Checks that a statistic of |estimated - true| of a quantity is below a limit in a stretch of the run.
 #pragma once
 
 #include "bench/checks/rule.hpp"

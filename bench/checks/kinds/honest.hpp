@@ -1,4 +1,4 @@
-// Every answer either reports degraded or blind, or has an error within a multiple of its sigma.
+// Checks that every answer either reports degraded or blind, or has an error within a multiple of its sigma.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"

@@ -12,7 +12,7 @@ struct Latency {
   std::string message;
   scenario::Window window;
   std::int64_t below_us = 0;
-  double quantile = 1;  ///< 1: every answer; 0.99: all but one in a hundred
+  double quantile = 1;  ///< 1: every answer must be below the limit; 0.99: all but one in a hundred
 
   static Latency read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return message; }

@@ -1,4 +1,4 @@
-// Shared by the kinds of checks that judge the response to a fault.
+// Functions for the kinds of checks that judge the response to a fault.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace canhil::checks {
 
 /// A disturbed interval of the run: a fault of the scenario, or times given in the check.
 struct Disturbance {
-  std::string fault;        ///< its name; empty: the check gives times
+  std::string fault;        ///< name of the fault; empty: the check gives times
   scenario::Window window;  ///< by time of transmission
   /// The earliest time of validity that the disturbance can affect: nodes measure before they send.
   std::int64_t valid_from_us = 0;
@@ -28,12 +28,12 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
 /// Reads `fault`, or the time of a disturbance, `from_s`.
 Disturbance read_disturbance(scenario::Section& section, const scenario::CheckContext& context);
 
-/// Reads `within_s`, with its meaning for the reference, and adds it to a time. Error: the sum lies after the
-/// end of the run.
+/// Reads `within_s` and returns it. `meaning`: text for the reference. Error: the sum of `after_us` and
+/// `within_s` lies after the end of the run.
 std::int64_t read_within(scenario::Section& section, const scenario::CheckContext& context,
                          std::int64_t after_us, std::string_view meaning);
 
-/// `by`: names of signs; empty: any.
+/// Reads `by`: the names of the signs that count; empty: every sign counts that was absent before the onset.
 std::vector<std::string> read_signs(scenario::Section& section, const scenario::CheckContext& context);
 
 /// The signs of these names; without names, the signs that did not appear just before the disturbance.
@@ -47,8 +47,8 @@ std::vector<const estimators::Estimator*> running(const scenario::CheckContext& 
 /// the estimator still answers.
 std::vector<Subject> always_reported(const estimators::Estimator& estimator);
 
-/// Reports a quantity without answers in a part of the window, and when. Empty: none. A window no longer than
-/// the longest regular wait for an answer contains no silence.
+/// Reports the first quantity that has no answers in a part of the window, and this part. Empty: there is no
+/// such quantity. A window no longer than the longest regular wait for an answer contains no silence.
 std::string silence_of(const Evidence& evidence, const std::vector<Subject>& subjects,
                        const scenario::Window& window);
 

@@ -46,11 +46,12 @@ quantities::Unit read_unit(scenario::Section& section, std::string_view stem, co
 
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates,
                            std::string_view meaning) {
-  // Reported before the keys that depend on the estimator.
+  // A missing estimator is reported before errors of the keys that depend on the estimator.
   if (candidates.size() > 1 && !section.has("estimator"))
     section.reject("estimator", "is missing", fmt::format("one of: {}", fmt::join(candidates, ", ")));
   const std::string name = section.given_name({"estimator", meaning}, candidates, "");
-  // After an error the first one, so that the reference shows the keys that depend on it.
+  // After an error, returns the first candidate, so that the reference shows the keys that depend on the
+  // estimator.
   return name.empty() && !candidates.empty() ? candidates.front() : name;
 }
 

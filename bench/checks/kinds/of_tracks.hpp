@@ -1,4 +1,4 @@
-// Shared by the kinds of checks that judge quantities.
+// Functions for the kinds of checks that judge quantities.
 #pragma once
 
 #include <functional>
@@ -16,11 +16,11 @@ namespace canhil::checks {
 /// estimator reports it, or this kind of check cannot use it.
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
                      const std::function<bool(const quantities::Quantity&)>& wanted);
-/// The estimator that `estimator` names, or the only candidate.
+/// Reads `estimator`, which may be absent if there is only one candidate. Returns the name of the estimator.
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates,
                            std::string_view meaning);
 
-/// `from_s` and `to_s`, or `time_to_go_s` if the flight of the quantity's estimator goes to a target.
+/// Reads `from_s` and `to_s`, or `time_to_go_s` if the flight of the quantity's estimator goes to a target.
 Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& context,
                      const Subject& subject);
 
@@ -28,7 +28,7 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
                                              std::string_view meaning, const quantities::Quantity& quantity);
 
-/// The same for a pair of values, [low, high].
+/// Like read_bar(), for a pair of values, [low, high].
 std::pair<std::pair<double, double>, quantities::Unit> read_range(scenario::Section& section,
                                                                   std::string_view stem,
                                                                   std::string_view meaning,
@@ -46,7 +46,7 @@ std::string to_text(const Stretch& stretch);
 /// Indices of a track's points.
 using Places = Spool<std::size_t>;
 
-/// The points within a stretch.
+/// The indices of the points within a stretch.
 Places inside(const quantities::Track& track, const Stretch& stretch);
 
 /// Describes where answers are missing in a stretch; empty: nowhere. `part`: the indices of the points in the

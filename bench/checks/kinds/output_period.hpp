@@ -13,7 +13,7 @@ struct OutputPeriod {
   std::string message;
   scenario::Window window;
   double within = 0;    ///< fraction of the period: 0.1 is 10 %
-  double quantile = 1;  ///< 1: every interval; 0.99: all but one in a hundred
+  double quantile = 1;  ///< 1: every interval must be within the limit; 0.99: all but one in a hundred
 
   static OutputPeriod read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return message; }

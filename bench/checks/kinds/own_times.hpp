@@ -6,7 +6,8 @@
 
 namespace canhil::checks {
 
-/// The reported queueing and computing times cover at least one stimulus and do not exceed the latencies.
+/// Checks that the reported times cover at least one stimulus, and that mean queueing plus mean computing
+/// time is above 0 and not longer than the mean latency.
 struct OwnTimes {
   static constexpr std::string_view kind = "own_times";
   static constexpr std::string_view meaning =

@@ -1,4 +1,5 @@
-// After the end of a fault the signs of trouble stop for good, and the error of a quantity is small again.
+// Checks that after the end of a fault the signs of trouble stop for good, answers come, and the error of a
+// quantity is small again.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"

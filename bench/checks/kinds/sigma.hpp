@@ -1,5 +1,6 @@
-// The reported sigma of a quantity lies in a range. A filter's covariance hardly depends on the noise of one
-// run, so a single run suffices; the mean of squared errors needs many runs.
+// Checks that the reported sigma of a quantity lies in a range. A filter's covariance hardly depends on the
+// noise of one run, so a single run suffices for this check. In contrast, a mean of squared errors needs many
+// runs.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -34,7 +34,7 @@ Finding SigmaGrows::judge(const Evidence& evidence) const {
                   fault.empty() ? seconds(window) : fmt::format("through fault '{}'", fault));
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
-  // The reference is the last sigma before the window.
+  // The reference is the last sigma before the window or, if there is none, the first sigma in the window.
   std::optional<double> first, last;
   std::size_t inside = 0;
   for (const quantities::TrackPoint& point : tracks.front()->points) {

@@ -1,4 +1,4 @@
-// The reported sigma grows while the target lacks information: during a fault, or in a window.
+// Checks that the reported sigma grows while the target lacks information: during a fault, or in a window.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"
@@ -13,7 +13,7 @@ struct SigmaGrows {
   Subject judged;
   std::string fault;  ///< empty: the check gives the window
   scenario::Window window;
-  double by = 1;  ///< sigma must grow by more than this factor
+  double by = 1;  ///< the sigma must grow by more than this factor
 
   static SigmaGrows read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return judged.text; }

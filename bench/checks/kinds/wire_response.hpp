@@ -1,4 +1,5 @@
-// No frame takes longer over the bus than its theoretical worst case; needs a bus of known bit rate.
+// Checks that no frame takes longer over the bus than its theoretical worst case. The check needs a bus of
+// known bit rate.
 #pragma once
 
 #include "bench/checks/rule.hpp"

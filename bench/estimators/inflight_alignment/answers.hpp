@@ -48,11 +48,12 @@ struct InflightAnswers {
   Spool<SentFix> sent;
 };
 
-/// The stretches of a window in which more than two fixes in a row were not answered; empty: none.
+/// Describes the first place in a window where more than two successive fixes of a source (tolerated_fixes)
+/// were not answered; empty: none.
 std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Window& window);
 
-/// Whether the position in an answer has a known time, and truth at that time: the filter used or gated the
-/// fix, and its time of validity lies within the record.
+/// Whether the position in an answer has a known time, and a truth at that time. It has both if the filter
+/// used or gated the fix, and if the fix's time of validity lies within the record.
 bool has_time_and_truth(const FixAnswer& answer, const world::FlightRecord& truth);
 /// The position error, NED [m].
 world::Vector3 position_error(const FixAnswer& answer, const world::FlightRecord& truth);

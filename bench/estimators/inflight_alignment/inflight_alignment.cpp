@@ -158,8 +158,9 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   give_positions(answers, filters, truth, give);
 }
 
-// Navigation answers that bridged lost input; fixes by outcome; fixes after which the covariance had been
-// repaired; fixes after which the heading was resolved and fed back.
+// The marks are: all navigation answers, and those that bridged lost input; the fixes by outcome, the fixes
+// with which the count of covariance repairs rose, the degraded ones, and the fixes after which the heading
+// was resolved and fed back.
 std::vector<Mark> marks_of(const checks::Observations& seen) {
   const InflightAnswers& answers = seen.of<InflightAnswers>();
   std::vector<Mark> marks{
@@ -184,7 +185,7 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   const FixAnswer& last = answers.fixes.back();
   ResultLine filter{.name = "filter", .what = "filter"};
   filter.add("repairs", last.repairs, fmt::format("repairs of the covariance {}", last.repairs));
-  // The algorithm keeps the heading apart from the INS until it is resolved.
+  // The algorithm sin_cos does not feed the heading back to the INS until the heading is resolved.
   const auto resolved = std::ranges::find(answers.fixes, true, &FixAnswer::handed_over);
   if (resolved != answers.fixes.end()) {
     const double t_s = static_cast<double>(resolved->cause_us) / 1e6;

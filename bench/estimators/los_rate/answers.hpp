@@ -14,7 +14,7 @@ struct LosAnswer {
   std::int64_t cause_us = 0;
   messages::LosRateOutcome outcome = messages::LosRateOutcome::waiting;
   messages::LosRateFault fault = messages::LosRateFault::none;
-  bool blind = false;  ///< too near: the guidance must hold its command
+  bool blind = false;  ///< the range is too small: the guidance must hold its command
   world::Planes<double> rate{};
   world::Planes<double> rate_sigma{};
   world::Planes<double> target{};  ///< acceleration of the target along z (pitch) and y (yaw)
@@ -43,7 +43,7 @@ struct LosError {
   bool trusted = false;           ///< the answer reports neither blind nor degraded
 };
 
-/// Errors of all answers with a rate whose cause is an epoch of the engagement.
+/// Errors of all answers that have an estimate and whose time of cause is an epoch of the engagement.
 Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement);
 
 /// NIS (2 degrees of freedom) of each answer that was an update.

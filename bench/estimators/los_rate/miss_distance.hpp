@@ -1,4 +1,4 @@
-// The closest approach of missile and target stays below a limit.
+// The check that the closest approach of missile and target is below a limit.
 #pragma once
 
 #include "bench/checks/rule.hpp"

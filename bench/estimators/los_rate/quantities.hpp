@@ -7,7 +7,7 @@
 
 namespace canhil::quantities {
 
-/// LOS rate errors in the antenna's axes; `both`: RMS of the two planes.
+/// LOS rate errors in the antenna's axes; los_rate_both is the RMS of the two planes.
 inline constexpr Quantity los_rate_pitch{
     .name = "los.rate.pitch",
     .meaning = "error of the LOS rate in pitch, antenna axes; in campaigns RMS over 20 ms of the time to go",
@@ -36,7 +36,7 @@ inline constexpr Quantity los_rate_over_sigma{.name = "los.rate.over_sigma",
                                                   "ratio of the error of the LOS rate to its sigma: RMS over "
                                                   "both planes and over 20 ms of the time to go",
                                               .unit = plain};
-/// Mean NIS (2 degrees of freedom) over the updates of a stretch; NaN without an update.
+/// Mean NIS (2 degrees of freedom) over the updates in 20 ms of the time to go; NaN without an update.
 inline constexpr Quantity los_mean_nis{
     .name = "los.nis.mean",
     .meaning = "mean NIS of the updates (2 degrees of freedom each) in 20 ms of the time to go",

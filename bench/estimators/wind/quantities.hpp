@@ -35,7 +35,7 @@ inline constexpr Quantity wind_nees{
     .unit = plain,
     .degrees_of_freedom = 3,
     .once = "wind_nees"};
-/// The reported sigmas.
+/// The reported sigma of the wind along the horizontal air velocity.
 inline constexpr Quantity wind_along_sigma{
     .name = "wind.along.sigma",
     .meaning = "sigma of the wind along the horizontal air velocity, as the target reports it",

@@ -62,7 +62,7 @@ class SilentNode final : public FaultyNode {
     }
   }
   When when_;
-  bool restarts_;  // the restart has not happened yet
+  bool restarts_;  // a restart is still to come
   Recount recount_;
 };
 
@@ -90,7 +90,7 @@ class LateNode final : public FaultyNode {
   std::int64_t by_us_;
   Occasions occasions_;
   std::deque<std::pair<std::int64_t, std::vector<Frame>>>
-      waiting_;  // in order of time: the delay is the same for all
+      waiting_;  // in order of time, because all have the same delay
 };
 
 class SlowNode final : public FaultyNode {
@@ -99,7 +99,7 @@ class SlowNode final : public FaultyNode {
       : FaultyNode(std::move(node), settings, run), when_(kind.when), longer_(kind.longer) {}
 
  private:
-  // The k-th sample sent during the fault is due at k periods of the slower clock.
+  // The k-th sample after the first sample of the fault is due k longer periods after that first sample.
   void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
     if (frames.empty() || !is_own(frames.front())) return;
     if (!when_.holds(t_us)) {

@@ -34,7 +34,7 @@ struct Silent : OfNode<Silent> {
                                                   const InRun& run) const;
 };
 
-/// Silent for a time, then its counters restart at 0. The measurements of that time are lost.
+/// The node is silent for a time; then its counters restart at 0. The measurements of that time are lost.
 struct NodeRestart : OfNode<NodeRestart> {
   static constexpr std::string_view kind = "restart";
   static constexpr std::string_view meaning =
@@ -45,7 +45,7 @@ struct NodeRestart : OfNode<NodeRestart> {
                                                   const InRun& run) const;
 };
 
-/// Its samples are sent late, but with the right time of validity.
+/// The node's samples are sent late, but with the right time of validity.
 struct Late : OfNode<Late> {
   static constexpr std::string_view kind = "late";
   static constexpr std::string_view meaning = "The sample is sent later; its time of validity is right.";
@@ -58,7 +58,8 @@ struct Late : OfNode<Late> {
                                                   const InRun& run) const;
 };
 
-/// It sends less often: the newest sample, with the sum of the increments since the previous transmission.
+/// The node sends less often: each time its newest sample, with the sum of the increments since the previous
+/// transmission.
 struct Slow : OfNode<Slow> {
   static constexpr std::string_view kind = "slow";
   static constexpr std::string_view meaning =
@@ -72,7 +73,7 @@ struct Slow : OfNode<Slow> {
                                                   const InRun& run) const;
 };
 
-/// Its reported times have an offset.
+/// The times that the node reports have an offset.
 struct ClockStep : OfNode<ClockStep> {
   static constexpr std::string_view kind = "clock_step";
   static constexpr std::string_view meaning = "The times of validity of the node are wrong by `by_ms`.";
@@ -84,7 +85,7 @@ struct ClockStep : OfNode<ClockStep> {
                                                   const InRun& run) const;
 };
 
-/// Its clock runs too fast, which also affects its reported intervals.
+/// The node's clock runs too fast or too slow, which also affects the intervals that the node reports.
 struct ClockDrift : OfNode<ClockDrift> {
   static constexpr std::string_view kind = "clock_drift";
   static constexpr std::string_view meaning =

@@ -25,7 +25,7 @@ class DelayedFrames final : public OfFrames {
     ++tally().overtaken;
   }
   std::int64_t by_us_;
-  std::deque<std::pair<std::int64_t, Frame>> waiting_;  // in order of time: the delay is the same for all
+  std::deque<std::pair<std::int64_t, Frame>> waiting_;  // in order of time, because all have the same delay
 };
 
 class ReorderedFrames final : public OfFrames {

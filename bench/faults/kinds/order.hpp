@@ -1,11 +1,11 @@
-// Frames that reach the bus later than they were sent.
+// Frames that reach the bus later than their node sent them.
 #pragma once
 
 #include "bench/faults/kinds/frames.hpp"
 
 namespace canhil::faults {
 
-/// Delayed by a time; unaffected frames overtake it.
+/// The frame is delayed by a time; unaffected frames overtake it.
 struct Delayed : Frames {
   static constexpr std::string_view kind = "delayed";
   static constexpr std::string_view meaning = "The frame is sent later.";

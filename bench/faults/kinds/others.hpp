@@ -27,7 +27,7 @@ struct Flood {
   static constexpr Stage stage = Stage::bus;
   When when{};
   std::optional<std::int64_t> period_us{};
-  double load = 0;  ///< used without a period: a fraction of the bus's bit rate
+  double load = 0;  ///< used without a period: the fraction of the bus's bit rate that the frames occupy
   static Flood read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;

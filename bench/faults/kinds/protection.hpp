@@ -13,7 +13,7 @@ struct WrongCrc : Frames {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// From the first affected frame on, all affected frames have its counter; the CRC is right.
+/// All affected frames have the counter of the first affected frame; the CRC is right.
 struct CounterStuck : Frames {
   static constexpr std::string_view kind = "counter_stuck";
   static constexpr std::string_view meaning =

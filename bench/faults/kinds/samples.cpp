@@ -65,7 +65,7 @@ std::vector<Measured> flags_of(const MessageInfo& message) {
   return flags;
 }
 
-// The validity flags in the message of the quantity, or else in other messages of its sample.
+// The validity flags in this message. If it has none, those in the other messages of its sample group.
 std::vector<Measured> flags_for(const MessageInfo& message) {
   std::vector<Measured> flags = flags_of(message);
   if (!flags.empty()) return flags;

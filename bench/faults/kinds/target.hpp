@@ -31,8 +31,8 @@ struct Slowed {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The process is killed, started again and initialised with the state at that time. The bench sends nothing
-/// else until then.
+/// The process is killed, started again and initialised with the state at that time. Until the new process
+/// has been initialised, the bench sends nothing else.
 struct Restarted {
   static constexpr std::string_view kind = "restarted";
   static constexpr std::string_view meaning =

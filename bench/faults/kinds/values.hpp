@@ -13,13 +13,13 @@ namespace canhil::faults {
 /// A value of a sample in a run.
 struct Sampled {
   std::int64_t since_us = 0;    ///< from the start of the fault
-  std::optional<double>& held;  ///< for kinds that remember a value: reset at the start of each stretch
+  std::optional<double>& held;  ///< for kinds that remember a value: reset by an unaffected sample
   world::Stream& noise;
 };
 using Becomes = std::function<double(double value, const Sampled& sample)>;
 
 /// Wraps the node so that these values change; returns the node itself if it has none of them. `exactly`:
-/// does not add the rounding remainders of increments.
+/// the rounding remainders of increments are not added.
 std::unique_ptr<nodes::Node> with_values(std::unique_ptr<nodes::Node> node,
                                          const scenario::NodeSettings& settings, const InRun& run,
                                          const OfValues& of, const When& when, Becomes becomes,

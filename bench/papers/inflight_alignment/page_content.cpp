@@ -18,7 +18,7 @@ constexpr std::size_t drawn_runs = 100;  // the number of runs in the paper
 
 // Heading error at 300 s over the runs of a variant [deg].
 struct Heading {
-  double rms = 0, rms_low = 0, rms_high = 0;  // low and high: 5 % and 95 % quantile for 100 runs
+  double rms = 0, rms_low = 0, rms_high = 0;  // low and high: 5 % and 95 % quantile of the RMS of 100 runs
   double median = 0, p90 = 0;
   double below_10_deg = 0;  // fraction of runs
 };
@@ -103,7 +103,7 @@ void add_headings(Names& names, const Results& results) {
   };
 }
 
-// Compares EKF and UKF by RMS on other paths.
+// Adds names that compare the RMS of EKF and UKF on other flight paths.
 void add_paths(Names& names, const Results& results) {
   const auto cells = [&results](std::string_view aid, std::string_view path) {
     std::string text;
@@ -131,7 +131,8 @@ void add_paths(Names& names, const Results& results) {
   names["reversed"] = [=](Words&) { return fmt::format("{} of {}", reversed, combinations); };
 }
 
-// The paper's claims, and limits that are in no campaign file. Returns whether these limits are met.
+// Adds names for the paper's claims and for limits that are in no campaign file. Returns whether these limits
+// are met.
 bool add_claims(Names& names, const Results& results) {
   const auto claim = [&names](std::string name, bool holds) {
     names[std::move(name)] = [=](Words&) { return holds; };

@@ -31,7 +31,8 @@ double rms(const Flown& flown, std::string_view variant, const Window& window) {
   return figure(flown.answer(fmt::format("RMS {:g}-{:g}", window.most, window.least), variant), "rms_mradps");
 }
 
-// Miss distance over the runs of a variant, in one plane: pitch and yaw of all runs [m].
+// Miss distance over the runs of a variant, for one plane [m]: the mean of the medians in pitch and yaw, and
+// the RMS over both planes.
 struct Miss {
   double median = 0, rms = 0;
 };
@@ -91,14 +92,15 @@ void add_tables(Names& names, const Results& results) {
   };
 }
 
-// The paper's claims, and to what extent they hold.
+// Adds names for the paper's claims: whether each claim holds, and the numbers that it depends on.
 void add_claims(Names& names, const Results& results) {
   const Flown &open = results.of("open_loop"), &closed = results.of("closed_loop");
   const auto claim = [&names](const char* name, bool holds) { names[name] = [=](Words&) { return holds; }; };
   const auto number = [&names](const char* name, const char* format, double value) {
     names[name] = [=](Words&) { return papers::number(format, value); };
   };
-  // Largest deviation of a ratio of RMS values from 1, over the windows after the start-up.
+  // The RMS of the variant is divided by the RMS of the Kalman filter. Returns the largest deviation of this
+  // ratio from 1, over the windows after the start-up.
   const auto departure = [&](const char* variant) {
     double largest = 0;
     for (std::size_t i = first_settled; i < windows.size(); ++i)
@@ -141,7 +143,7 @@ void add_claims(Names& names, const Results& results) {
 }
 
 // Bandwidth of the displacement frame: 1.70 Om, Om = (q / (r^2 R Ts))^(1/6), if vc/r is small compared with
-// Om.
+// Om. q: jerk density, r: range, R: variance of the angle, Ts: sample period, vc: closing speed.
 double bandwidth_hz(double range, double thermal, double glint) {
   constexpr double jerk_density = 300, sample_period = 0.005;
   const double variance = std::pow(thermal * range * range, 2) + std::pow(glint / range, 2);

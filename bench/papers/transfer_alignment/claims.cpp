@@ -24,7 +24,7 @@ std::string verdict(bool holds) { return holds ? "[yes] yes" : "[no] no"; }
 std::vector<CurvePoint> pooled(const std::vector<std::span<const CurvePoint>>& curves) {
   std::vector<CurvePoint> pool(curves.front().begin(), curves.front().end());
   for (std::size_t i = 0; i < pool.size(); ++i) {
-    double sum = 0, variance = 0;  // variance of the squares: (2 rms rms_error)^2 for each
+    double sum = 0, variance = 0;  // variance: sum of the variances of rms^2, (2 rms rms_error)^2
     for (const auto& curve : curves) {
       sum += curve[i].rms * curve[i].rms;
       variance += std::pow(2 * curve[i].rms * curve[i].rms_error, 2);
@@ -73,7 +73,8 @@ double into(const Results& results, std::string_view band, std::string_view vari
       .value_or(never);
 }
 
-// The number of settings in which the H2 filter is faster.
+// The number of settings (initialisation and initial error) in which the H2 filter enters the band before the
+// Kalman filter.
 int first_in(const Results& results, std::string_view band) {
   int count = 0;
   for (const char* initialised : {"", "_fifth"}) {
@@ -130,8 +131,8 @@ void add_tables(Names& names, const Results& results) {
   };
 }
 
-// Comparisons in which the H2 filter is expected not to be better than the Kalman filter, so the page must
-// not present them as a gain. Returns whether all hold.
+// Adds comparisons in which the H2 filter is expected not to be better than the Kalman filter. The page must
+// not present them as a gain. Returns whether the expectation holds in all of them.
 bool add_guards(Names& names, const Results& results) {
   bool all = true;
   const auto add = [&](std::string name, double kf, double h2, const char* unit) {

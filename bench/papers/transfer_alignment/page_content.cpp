@@ -1,5 +1,5 @@
-// Content of the page on transfer alignment: times at which heading enters 3, 2 and 1 mrad, beside the times
-// of the reference simulation.
+// Content of the page on transfer alignment: the times from which the RMS of the heading stays within 3, 2
+// and 1 mrad, beside the times of the reference simulation.
 #include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
@@ -57,7 +57,8 @@ void add_times(Names& names, const Results& results) {
     return fmt::format("{:.1f}", times_of(results.curve(words)).end_mrad);
   };
   names["diverged"] = [&results](Words& words) { return diverged(times_of(results.curve(words))); };
-  // "27 of 300 runs (0 ended early)": runs beyond 20 mrad at the end, if the campaign counts such runs.
+  // "27 of 300 runs (0 ended early)": runs beyond 20 mrad at the end. The campaign must have a metric that
+  // counts these runs.
   const auto diverged_runs = [](const Flown& flown, std::string_view variant) {
     return flown.answer_of_kind(campaign::Diverged::kind, variant).measured;
   };
@@ -84,7 +85,7 @@ void add_times(Names& names, const Results& results) {
   names["compared_counted"] = compared(true);
 }
 
-// The points of a curve at the known times of 3, 2 and 1 mrad.
+// A curve through the times at which 3, 2 and 1 mrad are reached. A level that is never reached has no point.
 Curve through(const Times& times) {
   Curve curve;
   for (const auto& [t_s, level_mrad] :
@@ -118,7 +119,7 @@ Result<PageContent> page_content(const Results& results, const FlyOptions& optio
   if (!store) return tl::unexpected(store.error());
   auto spreads = spreads_of(table.campaign, *store);
   if (!spreads) return tl::unexpected(spreads.error());
-  // The same comparison, with the spread over batches added before the verdict.
+  // The cells of `compared` for the main campaign, with the spread over batches inserted before the verdict.
   content.names["batched"] = [compared = content.names["compared"],
                               spreads = std::move(*spreads)](Words& words) {
     const std::string_view reference = words.next(), variant = words.rest();

@@ -16,7 +16,7 @@ namespace canhil::papers::transfer_alignment {
 
 using campaign::CurvePoint;
 
-/// [s]
+/// The time of a level that is never reached [s].
 inline constexpr double never = std::numeric_limits<double>::infinity();
 struct Times {
   double within_3_mrad = never, within_2_mrad = never, within_1_mrad = never;

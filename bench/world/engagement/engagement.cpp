@@ -38,7 +38,7 @@ const EngagementTruth* EngagementRecord::at(std::int64_t t_us) const {
 }
 
 Engagement::Engagement(const EngagementPlan& plan, Stream stream) : plan_(plan) {
-  // Always ten numbers, whatever the plan is.
+  // Takes ten numbers of the stream, whatever the plan is.
   const Planes<double> heading{.pitch = stream.normal(), .yaw = stream.normal()};
   const Planes<double> pointing{.pitch = stream.normal(), .yaw = stream.normal()};
   const Planes<double> sides{.pitch = side(stream), .yaw = side(stream)};
@@ -149,8 +149,9 @@ void Engagement::fly_to(std::int64_t t_us) {
     const double closing = -r.dot(v);
     std::int64_t end_us = std::min(t_us, t_us_ + longest_step_us);
     if (!commands_.empty()) end_us = std::min(end_us, commands_.front().from_us);
-    // The last step extrapolates straight to the closest approach: within it the deviation from straight
-    // flight is a dt^2 / 2 = 0.2 mm at 35 g, while angles turn too fast for any step size.
+    // The last step extrapolates along a straight line to the closest approach. During this step the
+    // deviation from straight flight is a dt^2 / 2 = 0.2 mm at 35 g, but the LOS turns too fast for any step
+    // size.
     const double to_approach = closing / v.squaredNorm();
     if (to_approach <= 1e-6 * static_cast<double>(end_us - t_us_)) {
       miss_n_ = r + v * std::max(to_approach, 0.0);

@@ -1,4 +1,5 @@
-// One flight of an engagement, computed on demand: in closed loop it depends on the target's answers.
+// One flight of an engagement. It is computed on demand, because in closed loop it depends on the target's
+// answers.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,8 +25,8 @@ struct EngagementTruth {
   Vector3 omega_los_n = Vector3::Zero();  ///< rate of the line of sight, perpendicular to it [rad/s]
   Matrix3 C_na = Matrix3::Identity();     ///< transforms from antenna axes to n
 
-  /// Time to the closest approach without further acceleration [s]; range over closing speed, except in the
-  /// last metres.
+  /// Time to the closest approach [s] if missile and target no longer accelerate. Except in the last metres,
+  /// it equals range over closing speed.
   [[nodiscard]] double time_to_go() const { return range * closing_speed / velocity_n.squaredNorm(); }
 };
 
@@ -92,7 +93,7 @@ class Engagement {
   std::int64_t t_us_ = 0;
   std::int64_t taken_us_ = 0;  // end of the last increment
   bool manoeuvring_ = false;
-  Vector3 turn_ = Vector3::Zero();  // rate of the target's velocity at full manoeuvre [rad/s]
+  Vector3 turn_ = Vector3::Zero();  // turn rate of the target's velocity at full manoeuvre [rad/s]
   Planes<double> phase_{};          // phases of the target's weave [rad]
   std::deque<Command> commands_;    // not yet effective
   Vector3 held_ = Vector3::Zero();  // commanded acceleration, n [m/s^2]

@@ -1,8 +1,8 @@
 // The plan of an engagement: a missile flies by proportional navigation at a target that may manoeuvre, and
 // the antenna of its seeker follows the line of sight. Defaults: head-on at 900 m/s from 5 km.
 //
-// Axes n do not rotate: x along the line of sight at the start, y right, z down. Gravity is left out: it acts
-// on missile and target alike. The antenna's axes a: x forward, y right, z down.
+// Axes n do not rotate: x along the line of sight at the start, y right, z down. Gravity is left out,
+// because it acts on missile and target alike. The antenna's axes a: x forward, y right, z down.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,23 @@
 
 namespace canhil::world {
 
-/// A pair of planes: pitch (about y of the antenna, positive nose up) and yaw (about z, positive nose right).
+/// A pair of values, one for each plane: pitch (about y of the antenna, positive nose up) and yaw (about z,
+/// positive nose right).
 template <class Value>
 struct Planes {
   Value pitch{}, yaw{};
   bool operator==(const Planes&) const = default;
 };
 
-/// The target's acceleration, perpendicular to its velocity. Its sign in each plane is drawn for the run.
+/// The target's acceleration, perpendicular to its velocity. The sign of the acceleration in each plane is
+/// drawn for each run.
 struct Manoeuvre {
   enum class Kind : std::uint8_t { none, step, weave };
   Kind kind = Kind::step;
   double acceleration = 4 * units::standard_gravity;  ///< amplitude of a weave [m/s^2]
   double period = 2;                                  ///< period of a weave [s]; its phase is drawn
   double from_s = 0;                        ///< start of the manoeuvre, if there is no at_time_to_go
-  std::optional<double> at_time_to_go = 1;  ///< start: range over closing speed falls to this [s]
+  std::optional<double> at_time_to_go = 1;  ///< start when range over closing speed falls to this value [s]
 };
 
 /// The source of the LOS rate for the guidance.
@@ -51,7 +53,7 @@ struct EngagementPlan {
   double servo_gain = 12;                                    ///< antenna rate per error angle [1/s]
   double roll_rate = 0;                                      ///< roll rate of the antenna [rad/s]
   Guidance guidance = Guidance::truth;
-  std::int64_t guidance_delay_us = 10'000;  ///< from a sample's transmission to the command from its answer
+  std::int64_t guidance_delay_us = 10'000;  ///< from transmission of a sample to the command by its answer
   bool guidance_predicts = false;           ///< extrapolates the answer to the time of the command
 };
 

@@ -1,5 +1,5 @@
 // The measurements of a seeker. Defaults: an active radar whose error is dominated by thermal noise beyond
-// 1710 m and by glint within.
+// 1710 m and by glint below this range.
 #pragma once
 
 #include "bench/world/engagement/engagement.hpp"
@@ -12,17 +12,18 @@ struct RandomValue {
   double sigma = 0;
 };
 
-/// All noises are 1 sigma per sample. All are white except the glint, whose correlation is exp(-t/tau).
+/// Each noise is the 1-sigma of a sample. All noises are white except the glint, whose correlation is
+/// exp(-t/tau).
 struct SeekerErrorModel {
-  double thermal = 1e-10;                              ///< thermal noise = this * range^2 [rad/m^2]
-  double glint = 0.5;                                  ///< glint noise = this / range [m]
-  double glint_correlation = 0;                        ///< tau; 0: white [s]
+  double thermal = 1e-10;                              ///< thermal noise divided by range^2 [rad/m^2]
+  double glint = 0.5;                                  ///< glint noise multiplied by the range [m]
+  double glint_correlation = 0;                        ///< tau of the glint [s]; 0: white
   double constant = 0;                                 ///< range-independent noise of the error angle [rad]
   double gyro_noise = 1e-3;                            ///< noise of the mean antenna rate [rad/s]
   RandomValue gyro_bias{.value = 0, .sigma = 0.5e-3};  ///< of each axis [rad/s]
   double accel_noise = 0.3;                            ///< [m/s^2]
   RandomValue accel_bias{.value = 0, .sigma = 0.2};    ///< of each axis [m/s^2]
-  double range_noise = 5;  ///< beyond `full_errors_beyond`; nearer, proportional to range [m]
+  double range_noise = 5;  ///< beyond `full_errors_beyond`; below it, proportional to range [m]
   RandomValue range_bias{.value = 0, .sigma = 15};         ///< varies with range as range_noise does [m]
   double full_errors_beyond = 1000;                        ///< [m]
   double closing_speed_noise = 3;                          ///< [m/s]

@@ -10,7 +10,7 @@ constexpr double area = 0.65;   // [m^2]
 constexpr double span = 2.6;    // [m]
 constexpr double chord = 0.25;  // [m]
 
-// Derivatives of one coefficient [1/rad]; for rates with respect to p b/2V, q c/2V, r b/2V.
+// Derivatives of one coefficient [1/rad]. Those for rates are with respect to p b/2V, q c/2V, r b/2V.
 struct Derivatives {
   double zero, alpha, beta;
   double p, q, r;
@@ -65,7 +65,7 @@ std::array<double, coefficient_count> coefficients(const Flow& flow, const Vecto
                  Vector3(d.p, d.q, d.r).dot(reduced),
                  compressibility * Vector3(d.elevator, d.aileron, d.rudder).dot(fins)};
   };
-  // The drag uses the nominal lift, not the true one: the true drag deviates only by its own factors.
+  // The drag uses the nominal lift, not the true one, so that only the factors of the drag change it.
   const Parts lift = parts(lift_table);
   const double nominal_lift = sum(lift, nominal[0]);
   const double wave = 0.03 * (1 + std::tanh((flow.mach - 0.92) / 0.04));

@@ -8,7 +8,7 @@ struct Air {
   double speed_of_sound = 0;  ///< [m/s]
 };
 
-/// Air at a height [m] from -2 km to 20 km; outside, the values at the nearest end.
+/// Air at a height [m] from -2 km to 20 km; outside this range, the values at its nearest end.
 Air standard_air(double height);
 
 }  // namespace canhil::world::glide

@@ -11,7 +11,7 @@
 
 namespace canhil::world::glide {
 
-/// The course of n over time.
+/// How n changes with time.
 enum class ErrorKind : std::uint8_t {
   white,    ///< drawn at every step of the truth
   held,     ///< drawn every `time_us`, then held
@@ -25,7 +25,7 @@ struct CoefficientErrorModel {
   ErrorKind kind = ErrorKind::held;
   std::int64_t time_us = 50'000;  ///< hold or correlation time, for held and markov
   bool per_part = true;           ///< each part of a coefficient has its own factor
-  bool moments = true;            ///< false: forces only
+  bool moments = true;            ///< false: only the coefficients of forces have errors
 };
 
 class CoefficientErrors {

@@ -1,5 +1,5 @@
-// The truth of an unpowered glider in the wind: six degrees of freedom over a flat, non-rotating Earth, the
-// model of the published estimator.
+// The truth of an unpowered glider in the wind: six degrees of freedom over a flat, non-rotating Earth. This
+// is the model of the published estimator.
 //
 // States: position and ground velocity (NED), attitude quaternion, rates, fins, and the autopilot's integral.
 // The air velocity is not a state, so the equations differ from those of any wind filter. The wind acts on
@@ -17,7 +17,8 @@
 
 namespace canhil::world {
 
-/// The parameters of a glide. It starts level on its heading, at `speed` through the air, with fins at zero.
+/// The parameters of a glide. The glider starts level on its heading, at `speed` through the air, with fins
+/// at zero.
 struct GlidePlan {
   double heading = 0;      ///< [rad]
   double speed = 250;      ///< [m/s]
@@ -46,8 +47,8 @@ class GlideRecord {
  public:
   static constexpr std::int64_t step_us = 10'000;
 
-  /// Flies from 0 to the last step at or before duration_us, or until the glider reaches the ground or the
-  /// flow leaves the valid range. The streams are used for coefficients and gusts.
+  /// Flies from 0 to the last step at or before duration_us, or until the glider reaches the ground or its
+  /// speed over ground reaches 1000 m/s. The streams are used for coefficients and gusts.
   GlideRecord(const GlidePlan& plan, std::int64_t duration_us, Stream coefficients, Stream gusts);
 
   /// Truth every 10 ms from 0 on.

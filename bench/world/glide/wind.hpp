@@ -12,12 +12,13 @@ namespace canhil::world::glide {
 enum class Season : std::uint8_t { march, june, september, december };
 inline constexpr std::array<std::string_view, 4> season_names{"march", "june", "september", "december"};
 
-/// Mean wind at whole kilometres of height, 0 to 15, interpolated linearly by component; above 15 km and
-/// below 0 the value at the end.
+/// Mean wind at whole kilometres of height, 0 to 15, interpolated linearly by component. Below 0 and above
+/// 15 km, the value at the nearest end is used.
 class WindProfile {
  public:
   static constexpr std::size_t levels = 16;
-  /// Speed [m/s] and the direction it blows from [deg clockwise from north] at 0, 1 ... 15 km.
+  /// Speed [m/s] of the wind, and the direction from which it blows [deg clockwise from north], at 0, 1 ...
+  /// 15 km.
   WindProfile(const std::array<double, levels>& speed, const std::array<double, levels>& from_deg);
   /// A synthetic profile of a jet from the west, strong in winter.
   explicit WindProfile(Season season);

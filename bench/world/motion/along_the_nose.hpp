@@ -1,5 +1,5 @@
-// Motions of a vehicle along its nose: velocity follows from speed and attitude. It may dive and surface
-// repeatedly.
+// Motions of a vehicle along its nose: velocity follows from speed and attitude. The vehicle may dive and
+// surface repeatedly.
 #pragma once
 
 #include "bench/world/kinematics.hpp"
@@ -18,8 +18,9 @@ double steepest(const DepthProfile& profile);
 /// S-turns about a mean heading: the path of an underwater vehicle in Kang, Kim, Park (2006). With amplitude
 /// 0 the path is straight.
 ///
-/// heading + heading_amplitude sin(w_h t), pitch_amplitude sin(w_p t), roll_amplitude cos(w_r t): with
-/// roll_period = heading_period it rolls with its heading rate.
+/// The heading is heading + heading_amplitude sin(w_h t), the roll is roll_amplitude cos(w_r t), and
+/// pitch_amplitude sin(w_p t) is added to the pitch of the dive. With roll_period = heading_period the roll
+/// is in phase with the heading rate.
 struct SPath {
   double speed = 0;              ///< constant, along the nose [m/s]
   double heading = 0;            ///< mean [rad]
@@ -35,8 +36,8 @@ struct SPath {
 Kinematics kinematics(const SPath& motion, double t);
 
 /// Straight legs joined by half turns to the right: a leg, a half turn, a leg, ... The rate of a turn rises
-/// and falls smoothly, pi / turn (1 - cos(2 pi tau / turn)), and so does the roll: acceleration and rate have
-/// no jumps.
+/// and falls smoothly, pi / turn (1 - cos(2 pi tau / turn)), and so does the roll. So acceleration and rate
+/// have no jumps.
 struct Racetrack {
   double speed = 0;    ///< constant, along the nose [m/s]
   double heading = 0;  ///< of the first leg [rad]
@@ -60,7 +61,7 @@ struct Spiral {
 Kinematics kinematics(const Spiral& motion, double t);
 
 /// At rest for a while, then accelerating to a constant speed along the nose. The acceleration rises and
-/// falls smoothly, speed / start (1 - cos(2 pi tau / start)): it has no jumps. The dive begins with the
+/// falls smoothly, speed / start (1 - cos(2 pi tau / start)), so it has no jumps. The dive begins with the
 /// acceleration.
 struct RestThenGo {
   double speed = 0;    ///< final [m/s]

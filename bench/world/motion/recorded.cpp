@@ -25,7 +25,7 @@ CubicSpline<3> velocity_of(std::span<const RecordedState> states) {
   return {times_of(states), std::move(values)};
 }
 
-// q and -q are the same rotation: each quaternion gets the sign that continues the previous one.
+// q and -q are the same rotation, so each quaternion gets the sign that brings it nearer to the previous one.
 CubicSpline<4> quaternion_of(std::span<const RecordedState> states) {
   std::vector<Vector4> values;
   values.reserve(states.size());
@@ -46,7 +46,7 @@ RecordedPath::RecordedPath(std::span<const RecordedState> states, const Position
   const bool has_positions = states.front().position.has_value();
   integrate(has_positions ? *states.front().position : start);
   if (!has_positions) return;
-  // The second pass removes the residual of the first, because NED axes rotate along the path.
+  // The first pass leaves a residual, because NED axes rotate along the path. The second pass removes it.
   for (int pass = 0; pass < 2; ++pass) correct(states);
   find_contradiction(states);
 }

@@ -5,7 +5,7 @@
 // Position is the integral of velocity. A spline through recorded positions would be worse: at 50 Hz,
 // positions rounded to a centimetre cause 25 m/s^2 of acceleration, velocities rounded to a millimetre per
 // second 0.05 m/s^2. To limit the drift from the recorded positions over a long flight, the velocity is
-// corrected by the rate of the position difference, averaged over `averaged_s`: the additional acceleration
+// corrected by the rate of the position difference, averaged over `averaged_s`. The additional acceleration
 // is negligible.
 //
 // The quaternion's components are splined and the result is normalised. The interpolation error is of fourth

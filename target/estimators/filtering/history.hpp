@@ -1,7 +1,8 @@
 #pragma once
-// Applies late measurements. Keeps the last increments, and before each increment the part of the state that
-// increments change. A measurement valid at an earlier epoch is applied at that epoch, and the later
-// increments are repeated. The result equals the result without the delay, bit for bit.
+// Applies late measurements. Keeps the last increments and, for each increment, the part of the state that
+// increments change, as it was before the increment. A measurement valid at an earlier epoch is applied at
+// that epoch, and the later increments are repeated. The result equals the result without the delay, bit for
+// bit.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -58,9 +59,10 @@ class History {
     step(state, increment, t_us, settings);
   }
 
-  /// Applies a measurement valid at valid_us: at that epoch or, between two epochs, at the later one with a
-  /// linear interpolation of the compared quantity. Refused without a change of the state: not_reached,
-  /// out_of_order (before the last update), older_than_history.
+  /// Applies a measurement valid at valid_us. Between two epochs, applies it at the later epoch; the Model
+  /// then interpolates linearly the quantity that the measurement is compared with. Refuses a measurement,
+  /// without a change of the state, as not_reached, out_of_order (before the last update) or
+  /// older_than_history.
   UpdateResult update(State& state, const Measurement& measurement, std::int64_t valid_us,
                       const Settings& settings) {
     if (valid_us > now_us_) return refused(Outcome::not_reached);
@@ -83,7 +85,7 @@ class History {
       return result;
     }
     last_update_us_ = epoch_us(epoch);
-    prediction_count_ = 0;  // earlier ones can no longer be reached; later ones are repeated below
+    prediction_count_ = 0;  // earlier predictions are out of reach, later ones are repeated below
     for (std::size_t i = epoch; i < count_; ++i) {
       at(i).before = then.ins;
       step(then, at(i).increment, epoch_us(i + 1), settings);

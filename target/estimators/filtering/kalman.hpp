@@ -86,7 +86,7 @@ bool invert_positive_definite(const Matrix<M, M>& S, Matrix<M, M>& inverse) {
 /// (NIS).
 template <int N, int M>
 struct Correction {
-  bool positive_definite = false;  // of S; if false, only S is set
+  bool positive_definite = false;  // S is positive definite; if false, only S is set
   Vector<N> dx;
   Matrix<N, N> P;
   Matrix<N, M> K;
@@ -145,7 +145,8 @@ Correction<N, M> update_states(const Matrix<N, N>& P, const Matrix<M, M>& R, con
       [](const auto& W) -> detail::Padded<N, M> { return W.template middleCols<M>(First); });
 }
 
-/// update() for a measurement of the M states from First minus the M states from Less.
+/// update() for a measurement of a difference: M states, beginning at First, minus M states, beginning at
+/// Less.
 template <int First, int Less, int N, int M>
 Correction<N, M> update_state_difference(const Matrix<N, N>& P, const Matrix<M, M>& R,
                                          const Vector<M>& innovation) {

@@ -11,7 +11,7 @@
 namespace canhil::filtering {
 
 /// beta = sqrt(2 lmax(P N'N P) / lmax(L L')), which minimises 2 lmax(P N'N P)/beta + beta lmax(L L');
-/// 0 if either eigenvalue vanishes (or overflows): then both terms must be omitted, as 1/beta is 0/0.
+/// 0 if either eigenvalue vanishes (or overflows): then both terms must be omitted, as they are undefined.
 inline double h2_beta(double lambda_PNNP, double lambda_LL) {
   const double beta = std::sqrt(2 * lambda_PNNP / lambda_LL);
   const bool usable = lambda_PNNP > 0 && lambda_LL > 0 && std::isnormal(beta) && std::isnormal(1 / beta);

@@ -27,7 +27,7 @@ struct Parts {
 };
 
 /// `shift`: the mean of the K changed states minus the centre's image. `about_central`: the second moments of
-/// all N states (rows, padded if N is odd) with the K changed ones (columns), about the centre's image.
+/// all N states (rows, padded if N is odd) with the K changed states (columns), about the centre's image.
 template <int N, int K>
 struct Moments {
   Vector<K> shift;

@@ -5,8 +5,8 @@
 //   dV+ = dV + (force term) - (2 w_ie + w_en) x dV T + dg T      dg: gravity error, for an open loop
 // (Kang, Kim, Park 2006, eq. (9), corrected: gravity error). Each filter has its own attitude model; biases
 // of sensors and fixes are constant.
-// States: dR dV | attitude: psi (3) or tilts, sin, 1 - cos (4) | accelerometer, gyro [, fix] bias: 15 or 18,
-// and 16 or 19.
+// States: dR dV | attitude: psi (3) or tilts, sin, 1 - cos (4) | accelerometer, gyro [, fix] bias. With psi
+// there are 15 states, or 18 with fix bias; with sin and cos there are 16 or 19.
 #include <Eigen/Core>
 
 #include "target/estimators/filtering/kalman.hpp"
@@ -26,7 +26,7 @@ struct Layout {
   static constexpr bool has_fix_bias = N >= 18;
   static constexpr int attitude_count = N % 3 == 0 ? 3 : 4;
   static constexpr int position = 0, velocity = 3, attitude = 6;
-  static constexpr int moving = 6 + attitude_count;  // the states that change in time
+  static constexpr int moving = 6 + attitude_count;  // number of (leading) states that change in time
   static constexpr int accel_bias = moving, gyro_bias = moving + 3, fix_bias = moving + 6;
 };
 
@@ -38,7 +38,8 @@ struct Errors {
   SinCosForm form = SinCosForm::levelled;  // of sin_cos
 };
 
-/// dg = this o dR [m/s^2] (element-wise): gravity error of an INS with position error dR.
+/// The gravity error of an INS per metre of position error dR, NED: dg = gravity_error_per_m() o dR [m/s^2]
+/// (element-wise).
 inline Eigen::Vector3d gravity_error_per_m() {
   constexpr double rate = standard_gravity / 6378137;
   return {-rate, -rate, 2 * rate};

@@ -46,9 +46,9 @@ enum class Outcome : std::uint8_t {
   no_interval,            // no IMU sample since the last update
   non_finite,             // a NaN or infinity in the fix or in the result
   not_positive_definite,  // innovation covariance or P's diagonal
-  not_reached,            // History: valid after the newest IMU epoch
-  out_of_order,           // History: valid before the last update
-  older_than_history,     // History: valid before the oldest stored epoch
+  not_reached,            // from History: fix valid after the newest IMU epoch
+  out_of_order,           // from History: fix valid before the last update
+  older_than_history,     // from History: fix valid before the oldest stored epoch
 };
 
 /// The result of an update. Unless outcome is ok, the update changed only the count of gated fixes.
@@ -62,7 +62,8 @@ struct UpdateResult {
   int repairs = 0;            // how often this call repaired P
 };
 
-/// The state at the start of an alignment: the INS's own navigation state, with P0 from the settings.
+/// The state at the start of an alignment: `nav` is the navigation state of the INS; P0 follows from the
+/// settings.
 State initial(const strapdown::NavState& nav, const Settings& settings);
 
 /// Processes one IMU increment (dt > 0): mechanisation with the estimated biases removed, and a prediction of
@@ -93,14 +94,14 @@ struct Estimate {
 /// The estimate after the last sample.
 Estimate estimate(const State& state);
 
-/// The uncertainty after the last update.
+/// The uncertainty after the last update or prediction.
 struct Uncertainty {
   Eigen::Vector3d position, velocity;                  // sigmas, NED [m], [m/s]
   Eigen::Matrix3d attitude;                            // covariance, small rotations about NED [rad^2]
   Eigen::Vector3d accel_bias, gyro_bias;               // sigmas, body [m/s^2], [rad/s]
   Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();  // sigmas, NED [m]
 };
-/// The sigmas after the last update.
+/// The uncertainty after the last update or prediction.
 Uncertainty uncertainty(const State& state);
 
 }  // namespace canhil::inflight_alignment

@@ -8,8 +8,8 @@ namespace canhil::inflight_alignment {
 template <int N>
 constexpr bool is_sin_cos = Layout<N>::attitude_count == 4;
 
-/// The update by a fix: z = dR - rho + noise with the fix bias rho (eq. (10)); without a fix bias z = dR +
-/// noise.
+/// The update by a fix: z = dR - rho + noise with the fix bias rho (Kang, Kim, Park 2006, eq. (10)); without
+/// a fix bias z = dR + noise.
 template <int N>
 filtering::Correction<N, 3> correction(const Errors<N>& prior, const Eigen::Vector3d& innovation,
                                        const Settings& settings);

@@ -32,7 +32,8 @@ class PsiMap {
   /// About x; `interval` must outlive the map.
   PsiMap(const Vector<15>& x, const Interval& interval);
 
-  /// The image of x, as arguments of moved().
+  /// The specific force's contribution to dV [m/s]. moved() computes the image of x from it and
+  /// attitude_increment().
   [[nodiscard]] Eigen::Vector3d force_increment() const { return interval_.delta_v_n - terms_.force; }
   /// The increment of psi over the interval [rad].
   [[nodiscard]] const Eigen::Vector3d& attitude_increment() const { return terms_.rates; }
@@ -40,9 +41,9 @@ class PsiMap {
   /// The even and odd parts for x +- d; both points share one evaluation of sin and cos.
   [[nodiscard]] filtering::Parts<9> parts(const Vector<15>& d) const;
 
-  /// C_pc A and -E A: d(velocity+)/d(accelerometer bias) and d(attitude+)/d(gyro bias).
+  /// C_pc A = d(velocity+)/d(accelerometer bias).
   [[nodiscard]] Eigen::Matrix3d velocity_accel() const;
-  /// See velocity_accel().
+  /// -E A = d(attitude+)/d(gyro bias).
   [[nodiscard]] Eigen::Matrix3d attitude_gyro() const;
   /// The length of the interval [s].
   [[nodiscard]] double duration() const { return interval_.duration; }

@@ -9,8 +9,9 @@ namespace {
 constexpr double spread = 3;  // N + kappa
 
 // Adds, in closed form, the sigma points of those columns of the lower root that follow psi. These points
-// differ from the centre only in the biases, and for a given psi the map is linear in the biases. If `rest`
-// is the covariance of these columns, they add rest G_c' and G_c rest G_c' to the second moments.
+// differ from the centre only in the biases, and for a given psi the map is linear in the biases. Let
+// `rest` be the covariance of these columns, and G_c the derivative of the map with respect to the biases.
+// The points then add rest G_c' and G_c rest G_c' to the second moments.
 template <int N>
 void add_points_of_biases(const PsiMap& centre, filtering::Moments<N, 9>& moments,
                           const Matrix<N - 9, N - 9>& rest) {

@@ -12,8 +12,8 @@ inline constexpr double standard_gravity = 9.80665;
 /// One degree [rad].
 inline constexpr double rad_per_deg = std::numbers::pi / 180;
 
-/// sin_cos: the states are sine and cosine of the heading error; the model is linear in them, so any start
-/// heading works. ekf, ukf: the paper's filters, with psi angles as states.
+/// sin_cos: sine and cosine of the heading error are states; the model is linear in these states, so any
+/// start heading works. ekf, ukf: the paper's filters, with psi angles as states.
 enum class Algorithm : std::uint8_t { ekf, ukf, sin_cos };
 
 /// The source of fixes. ssbl: fixes have a constant bias, which adds three states.
@@ -24,7 +24,7 @@ enum class Aiding : std::uint8_t { ssbl, gps };
 /// loop uses platform axes, like the paper.
 enum class AttitudeErrorFrame : std::uint8_t { platform, navigation };
 
-/// The square root of P whose columns are the sample points' offsets.
+/// The square root of P. The offsets of the sigma points are proportional to its columns.
 enum class UkfRoot : std::uint8_t { lower_cholesky, symmetric };
 
 /// The point about which the UKF computes second moments. about_central: the transformed central point; P is

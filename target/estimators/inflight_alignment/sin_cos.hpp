@@ -33,7 +33,8 @@ void set_heading_prior(Errors<N>& errors, double sigma);
 template <int N>
 Vector<N> predicted_sin_cos(const Errors<N>& errors, const Interval& interval);
 
-/// The Jacobian at the estimate, minus I; omits the derivative of the product of heading error and biases.
+/// The Jacobian of predicted_sin_cos() at the estimate, minus I. It omits the derivative of the product of
+/// heading error and biases.
 template <int N>
 Transition<4> transition_sin_cos(const Errors<N>& errors, const Interval& interval);
 
@@ -56,14 +57,16 @@ template <int N>
 void turn_biases_back(Errors<N>& errors);
 
 /// Removes from x the tilt in platform axes, phi_p = E[Rz' phi] / E[s^2 + (1 - k)^2] [rad], which can be
-/// estimated for any heading error. Returns exp([phi_p x]), by which the caller corrects the INS. The rest of
-/// exp([phi x]) Rz exp([-phi_p x]) is phi' = phi - Rz phi_p = phi - phi_p + k phi_p - s e_z x phi_p, which is
-/// linear in (s, k); P is mapped accordingly.
+/// estimated for any heading error. Returns exp([phi_p x]), by which the caller corrects the INS. The
+/// remaining rotation exp([phi x]) Rz exp([-phi_p x]) has the tilt
+///   phi' = phi - Rz phi_p = phi - phi_p + k phi_p - s e_z x phi_p,
+/// which is linear in (s, k); P is mapped accordingly.
 template <int N>
 Eigen::Matrix3d take_out_tilt(Errors<N>& errors);
 
-/// Removes tilts and heading from x, returns C_pc for the INS, and maps their covariance: s <- c s + s k,
-/// k <- 0, as k now depends on s; biases as in turn_biases_back(). After removing the estimates the rest is
+/// Removes tilts and heading from x, returns C_pc for the INS, and maps their covariance: the new s is
+/// s cos psi_z + k sin psi_z, the new k is 0, as it now depends on s. Biases: see turn_biases_back(). After
+/// the removal of the estimates the remaining rotation is
 ///   exp([phi x]) Rz(dpsi) exp([-phi_hat x]) = exp([phi' x]) Rz(dpsi),   phi' = phi - Rz(dpsi) phi_hat,
 /// so dphi' = dphi - dpsi e_z x phi_hat, a first-order term. The published form omits it.
 template <int N>

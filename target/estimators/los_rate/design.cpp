@@ -6,7 +6,7 @@
 namespace canhil::los_rate {
 namespace {
 
-constexpr double table_range_min = 20;  // [m]; the blind range is at least this
+constexpr double table_range_min = 20;  // [m]; least_range() is never smaller
 
 double psd(double sigma, double Ts) { return sigma * sigma * Ts; }
 

@@ -26,7 +26,7 @@ struct ClosedGain {
   Sigma sigma;
 };
 
-/// P-bar for thermal noise over closing speed, and P-bar for glint (eqs. (6)-(8)).
+/// P-bar for thermal noise over closing speed, and P-bar for glint (Na and Lee, eqs. (6)-(8)).
 struct PBarTable {
   static constexpr int nodes = 33;
   std::array<Covariance, nodes> thermal;  // at closing_speed_max * i / (nodes - 1)
@@ -54,7 +54,7 @@ struct CombinedTable {
 /// Fixed gain of the classical filter, and its covariance for measurement noise of PSD 1.
 struct LowPass {
   Gain gain;
-  Covariance noise;  // [1, 1/s, ... per rad^2 s]
+  Covariance noise;  // for a PSD of 1 rad^2 s: ee [rad^2], ew [rad^2/s], ww [rad^2/s^2]
 };
 
 /// The settings and what follows from them; made once, at start-up.
@@ -73,13 +73,13 @@ Design make_design(const Settings& settings);
 /// The range [m] below which guidance must hold its command; transition and gain clamp the range to it.
 double least_range(const Settings& settings, double closing_speed);
 
-/// Steady continuous-time covariance of x in the algorithm's own model: the initial value of a coast. Solves
-/// the equations anew.
+/// Steady continuous-time covariance of x in the algorithm's own model: the initial P of a coast or of a
+/// Kalman update after a closed gain. Solves the equations at each call.
 Covariance steady_covariance(const Settings& settings, const Noise& noise, Geometry at);
 
 /// P-bar at a closing speed [m/s], by cubic interpolation, clamped to the table.
 Covariance thermal_p_bar(const PBarTable& table, double closing_speed);
-/// P of x for thermal noise: Na and Lee, the powers of r for eqs. (6)-(8).
+/// P of x for thermal noise: each element of P-bar (Na and Lee, eqs. (6)-(8)) times a power of r.
 Covariance thermal_covariance(const Covariance& p_bar, double range);
 /// K for thermal noise, eq. (9) corrected: K3 = P3bar/(s2 r^2), not P3bar/(s2 r^3).
 Gain thermal_gain(const Covariance& p_bar, double psd, double range);

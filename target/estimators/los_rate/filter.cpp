@@ -33,7 +33,7 @@ struct Sample {
   Plane error, antenna_increment;
   double roll_increment;
   Motion motion;  // over its interval; a missing value is replaced by its last measurement
-  bool error_ok, antenna_ok, acceleration_ok;  // antenna: over the whole step
+  bool error_ok, antenna_ok, acceleration_ok;  // antenna_ok: over the whole step
   bool motion_known;                           // over its interval
   Fault fault;                                 // the first fault
 };
@@ -177,8 +177,8 @@ void coast(State& state, double dt, const Sample& sample, const Settings& settin
     state.start_up_s = settings.start_up;
 }
 
-// error+ = error + rate dt - antenna increment, turned by the roll: the classical filter tracks the LOS angle
-// itself.
+// The classical filter tracks the LOS angle itself: error+ = error + rate dt - antenna increment, turned by
+// the roll.
 void predict_low_pass(State& state, double dt, Plane antenna_increment, double roll_increment) {
   const Plane half = std::polar(1.0, roll_increment / 2), whole = half * half;
   state.error = (state.error + state.rate * dt) * whole - antenna_increment * half;
@@ -245,8 +245,8 @@ State initial() { return {}; }
 void predict(State& state, Geometry end, double dt, Plane antenna_increment, Plane missile_acceleration,
              double roll_increment) {
   const Transition phi = transition(end, dt);
-  // c' = j p c: the states turn by the whole roll; inputs, measured in mid-turn, are turned back by half of
-  // it.
+  // A roll rate p turns each state c by c' = j p c. The states turn by the whole roll; inputs are measured in
+  // mid-turn, so they are first turned back by half of it.
   const Plane half = std::polar(1.0, roll_increment / 2), whole = half * half;
   antenna_increment *= std::conj(half);
   missile_acceleration *= std::conj(half);

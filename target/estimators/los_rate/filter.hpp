@@ -26,7 +26,7 @@ struct Measurement {
 struct State {
   Plane error, rate, acceleration;  // of the LOS and the target
   Motion motion;                    // the last measurement of each component
-  bool motion_known = false;        // the last sample contained it
+  bool motion_known = false;        // the last sample contained all components that the algorithm uses
   Planes<Covariance> P;             // while `covariance` is set; only pitch if the noises are equal
   RangeTrack track;
   double start_up_s = 0;  // remaining time of the Kalman filter
@@ -75,7 +75,7 @@ UpdateResult step(State& state, const Measurement& measurement, const Design& de
 /// the acceleration); the lag for a = acceleration_sigma_0 counts as 3 sigma.
 Planes<Sigma> reported_sigma(const UpdateResult& result, const Design& design);
 
-/// The state with the signs of the two planes.
+/// The estimate of a state, with the signs of pitch and yaw.
 Estimate estimate(const State& state);
 
 /// Predicts the three states over one step; `end` is the geometry at its end. Error angle and rate follow

@@ -25,9 +25,9 @@ struct Leg {
   double pull = 0;             // sigma of the change of the missile's velocity [m/s]
 };
 
-/// Bridges lost samples over `gap` [s] by the mean of the motions before and after. If the rate steps between
-/// these two at a random time, the error of its integral is uniform in +-|change| gap/2, with sigma
-/// |change| gap/sqrt(12). Each plane gets half of the squared change of both planes.
+/// Bridges lost samples over `gap` [s] by the mean of the motions before and after. If the rate steps from
+/// the first to the second at a random time, the error of its integral is uniform in +-|change| gap/2, with
+/// sigma |change| gap/sqrt(12). Each plane gets half of the squared change of both planes.
 Leg bridge(const Motion& before, const Motion& after, double gap);
 
 }  // namespace canhil::los_rate

@@ -46,7 +46,7 @@ struct Settings {
 
   double range_max = 10'000;           // end of the combined table [m]
   double closing_speed_max = 2000;     // end of both tables [m/s]
-  double blind_range = 50;             // guidance must hold below max(this, 3 range_sigma, 10 vc Ts) [m]
+  double blind_range = 50;             // lower limit of least_range(), below which guidance must hold [m]
   double range_sigma = 15;             // of the range, bias included, near the blind range [m]
   double range_gate = 100;             // a larger deviation from the extrapolation is a jump [m]
   double closing_speed_gate = 100;     // likewise for the closing speed [m/s]

@@ -8,7 +8,7 @@
 
 namespace canhil::strapdown {
 
-/// Attitude, velocity and position of a navigation.
+/// Attitude, velocity and position of a navigation system.
 struct NavState {
   Eigen::Matrix3d C_bn = Eigen::Matrix3d::Identity();  // body to navigation (NED) axes
   Eigen::Vector3d v_eb_n = Eigen::Vector3d::Zero();    // [m/s]
@@ -27,22 +27,22 @@ struct MechanizationStep {
 /// The mechanisation, see mechanize().
 enum class Mechanization : std::uint8_t { reference, two_sample, one_sample };
 
-/// Assumes constant rate and specific force over the sample, and earth terms frozen at its start (like the
-/// published vectors). C1 = exp(-[w_in dt x]) C exp([dtheta x]), V1 = V + (C + C1)/2 dv + (g - (2w_ie + w_en)
-/// x V) dt. Requires dt > 0.
+/// Assumes constant rate and specific force over the sample, and earth terms frozen at its start, as in
+/// the published test vectors. C1 = exp(-[w_in dt x]) C exp([dtheta x]), V1 = V + (C + C1)/2 dv + (g - (2w_ie
+/// + w_en) x V) dt. Requires dt > 0.
 MechanizationStep mechanize_reference(const NavState& nav, const ImuIncrement& imu);
 
 /// Assumes rate and specific force linear over this sample and the previous one: coning and sculling to
 /// second order, rotation to third, earth terms at the middle of the sample (Savage 1998, parts 1 and 2, for
-/// unequal sample times). `previous.dt` = 0 means that there is none; terms that need it are omitted.
-/// Requires dt > 0.
+/// unequal sample times). `previous.dt` = 0 means that there is no previous sample; terms that need it are
+/// omitted. Requires dt > 0.
 MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& previous,
                                        const ImuIncrement& imu);
 
-/// Turns the specific force by half of the sample's rotation, with earth terms frozen at the start (like the
-/// published in-flight vectors): C1 = C exp([(dtheta - C' w_in dt) x]), V1 = V + C (dv + dtheta x dv/2)
-/// + (g - (2w_ie + w_en) x V) dt, gravity proportional to 1 - 2h/a, longitude with the parallel at the end.
-/// Requires dt > 0.
+/// Turns the specific force by half of the sample's rotation, with earth terms frozen at the start, as in
+/// the published test vectors of in-flight alignment: C1 = C exp([(dtheta - C' w_in dt) x]), V1 = V +
+/// C (dv + dtheta x dv/2) + (g - (2w_ie + w_en) x V) dt, gravity proportional to 1 - 2h/a, longitude with the
+/// parallel at the end. Requires dt > 0.
 MechanizationStep mechanize_one_sample(const NavState& nav, const ImuIncrement& imu);
 
 /// A step of the given kind; only two_sample uses `previous`.

@@ -17,15 +17,16 @@ struct Prediction {
   bool degraded = false;
 };
 
-// Without a manoeuvre the attitude error keeps its initial size, except for gyro drift. So an H2 covariance
-// larger than P0 is not a useful bound, and its H2 terms grow with it.
+// True if the attitude covariance (its trace) exceeds P0. Without a manoeuvre the attitude error keeps its
+// initial size, except for gyro drift. So an H2 covariance larger than P0 is not a useful bound, and the H2
+// terms would grow with this covariance.
 bool beyond_the_start(const Covariance& P, const Settings& settings) {
   return !(P.diagonal().segment<3>(attitude_state).sum() <=
            initial_variance(settings).segment<3>(attitude_state).sum());
 }
 
-// P <- Phi P Phi' + Q_k, Phi = I + (A + P N'N/beta) dt, Q_k = (beta L L' + Q) dt: one step per update
-// interval, as the step is part of the H2 filter's definition.
+// P <- Phi P Phi' + Q_k, Phi = I + (A + P N'N/beta) dt, Q_k = (beta L L' + Q) dt. The whole update interval
+// is one step, as the definition of the H2 filter includes the length of the step.
 Prediction predict(const State& state, const Settings& settings) {
   const Interval& interval = state.ins.interval;
   Prediction next;

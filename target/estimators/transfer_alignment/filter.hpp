@@ -36,9 +36,9 @@ enum class Outcome : std::uint8_t {
   no_interval,            // no IMU sample since the last update
   non_finite,             // a NaN or infinity in the measurement or in the result
   not_positive_definite,  // innovation covariance or P's diagonal
-  not_reached,            // History: valid after the newest IMU epoch
-  out_of_order,           // History: valid before the last update
-  older_than_history,     // History: valid before the oldest stored epoch
+  not_reached,            // from History: velocity valid after the newest IMU epoch
+  out_of_order,           // from History: velocity valid before the last update
+  older_than_history,     // from History: velocity valid before the oldest stored epoch
 };
 
 /// The result of an update. Unless outcome is ok, the update changed only the count of gated velocities.
@@ -50,14 +50,15 @@ struct UpdateResult {
   StateVector dx = StateVector::Zero();                             // K innovation: the correction
   double alpha = 0;                                                 // H2 [m/s^2]
   double beta = 0;                                                  // H2; 0: a Kalman step without H2 terms
-  bool degraded = false;  // H2 with Loop::invariant: a Kalman step, as P of the attitude exceeded P0
+  bool degraded = false;  // H2 with Loop::invariant: P of the attitude exceeded P0, so this was a Kalman step
 };
 
-/// The state at the start of an alignment: the slave's own navigation state, with P0 from the settings.
+/// The state at the start of an alignment: `nav` is the navigation state of the slave INS; P0 follows from
+/// the settings.
 State initial(const strapdown::NavState& nav, const Settings& settings);
 
-/// Processes one IMU increment (dt > 0): mechanisation with the estimated biases removed, and the interval's
-/// means.
+/// Processes one IMU increment (dt > 0): removes the estimated biases, advances the INS, and extends the
+/// integrals since the last update (Ins::interval).
 void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings);
 
 /// Processes the master's velocity [m/s, NED] valid at the last IMU epoch: propagates P over the interval

@@ -30,7 +30,7 @@ StateVector invariant_correction(const Eigen::Matrix<double, state_count, 3>& K,
   StateVector x = K.lazyProduct(y);
   const Vector3d phi = x.segment<3>(attitude_state);
   const Vector3d zeta = x.segment<3>(velocity_state);
-  // The innovation that remains after the correction, in the axes before it.
+  // The innovation that remains after the correction, in the axes before the correction.
   const Vector3d left = strapdown::exp_rotation(-phi) * (y - times_left_jacobian(phi, zeta));
   x.noalias() = K.lazyProduct(left + zeta);
   x.segment<3>(velocity_state) =

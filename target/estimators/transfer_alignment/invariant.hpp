@@ -1,7 +1,7 @@
 #pragma once
 // The feedback of an invariant error (Barrau, Bonnabel 2017, 'The invariant extended Kalman filter as a
-// stable observer'): attitude and velocity form one element of SE2(3) with a left-invariant error in the
-// slave's body axes, stored here turned into computed NED:
+// stable observer'). Attitude and velocity form one element of SE2(3). Its error is left-invariant, in the
+// slave's body axes. The filter stores this error turned into computed NED:
 //   C = exp([phi x]) C_computed,  V = V_slave - J(phi) zeta,  J the left Jacobian of SO(3)
 //   zeta' = (C f) x phi + C df,  y = V_slave - V_master = J(phi) zeta + v
 // In body axes neither propagation nor gain depends on an estimate of C or V, so a heading error of any size
@@ -18,7 +18,8 @@ namespace canhil::transfer_alignment {
 StateVector invariant_correction(const Eigen::Matrix<double, state_count, 3>& K, const Eigen::Vector3d& y);
 
 /// Turns P [12 x 12] after a correction phi [rad, NED]. The error is constant in body axes but stored in
-/// computed NED, which the correction changes: P is turned from the axes before it into those after it.
+/// computed NED, which the correction changes. So P is turned from the axes before the correction into the
+/// axes after it.
 void turn_with_correction(Covariance& P, const Eigen::Vector3d& phi);
 
 /// The initial tilt variances [rad^2] for stated attitude variances [rad^2, NED] s_t^2 (tilts) and s_D^2

@@ -18,8 +18,9 @@ inline constexpr double rad_per_deg = std::numbers::pi / 180;
 /// The recursion of the covariance.
 enum class Algorithm : std::uint8_t { kalman, robust_h2 };
 
-/// Structure of the uncertain block A_v,phi = L Delta N, S = [(1 1 1) x]: (alpha I, I), (alpha S, I), (I,
-/// alpha S), (I, alpha I). Cases one and four are the same filter: alpha cancels in beta.
+/// Structure of the uncertain block A_v,phi = L Delta N. With S = [(1 1 1) x], cases one to four have
+/// (L, N) = (alpha I, I), (alpha S, I), (I, alpha S), (I, alpha I). Cases one and four are the same filter,
+/// as alpha cancels in beta.
 enum class H2Case : std::uint8_t { one = 1, two, three, four };
 
 /// cov_df: alpha = sqrt(tr([f x] P_phi [f x]')), capped, computed at each step (the paper's ||dC f|| needs
@@ -42,13 +43,13 @@ struct Settings {
   Loop loop = Loop::published;
   strapdown::Mechanization mechanization = strapdown::Mechanization::two_sample;
 
-  // Loop::invariant: the gate refuses velocities with a larger NIS; 0: no gate. The NIS in a turn must pass
-  // even with a heading error of three sigmas, 90 deg, far beyond first order: with a gate of 250 one run of
-  // 200 became inconsistent (NEES).
+  // Loop::invariant: the gate refuses velocities with a larger NIS; 0: no gate. Velocities in a turn must
+  // pass the gate even with a heading error of three sigmas (90 deg), far beyond first order. With a gate of
+  // 250, one run of 200 became inconsistent (NEES).
   double gate_nis = 2000;
   std::uint32_t gate_recovery = 5;  // the gate refuses at most this many velocities in a row
 
-  double velocity_noise_density = 0.01;                   // of the master, R_k = this/dt [(m/s)^2 s]
+  double velocity_noise_density = 0.01;                   // R of the master: R_k = R/dt [(m/s)^2 s]
   double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]
   double gyro_noise_density = 0.125 * rad_per_deg / 60;   // [rad/s/sqrt(Hz)]
 

@@ -66,7 +66,7 @@ Loads loads(const Flow& flow, const Coefficients& c, const Air& air, const Airfr
 LoadsByPart loads_by_part(const Flow& flow, const Deflection& fins, const Coefficients& c, const Air& air,
                           const Airframe& airframe);
 
-/// v_a is the velocity from which `flow` was computed.
+/// The derivatives of loads(); v_a must be the air velocity from which `flow` was computed.
 LoadsJacobian loads_jacobian(const Flow& flow, const Coefficients& c, const Eigen::Vector3d& v_a,
                              const Air& air, const Airframe& airframe);
 

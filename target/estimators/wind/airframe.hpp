@@ -15,7 +15,8 @@ struct Range {
   double least = 0, most = 0;
 };
 
-/// Static and control terms are multiplied by 1 + mach_squared M^2, rate terms are not.
+/// Coefficients of lift and pitching moment. Here and in Lateral, static and control terms are multiplied by
+/// 1 + mach_squared M^2; rate terms are not.
 struct Longitudinal {
   double constant = 0, alpha = 0, pitch_rate = 0, elevator = 0;
 };

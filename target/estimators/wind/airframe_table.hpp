@@ -1,7 +1,7 @@
 #pragma once
-// The airframe that is compiled in: a 500-lb body with a planar wing kit. Replace it here to use another one.
-// These are not the data of a real weapon: the size is that of the Mk-82 class, and all coefficients are
-// textbook estimates.
+// The airframe that is compiled in: a 500-lb body with a planar wing kit. Replace it here to use another
+// airframe. These are not the data of a real weapon: the size is that of the Mk-82 class, and all
+// coefficients are textbook estimates.
 #include "target/estimators/wind/airframe.hpp"
 
 namespace canhil::wind {

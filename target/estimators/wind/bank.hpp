@@ -1,7 +1,7 @@
 #pragma once
 // A bank of filters that process the same samples. Each filter attributes the residuals of the airframe model
-// to another cause; its weight follows from the likelihood of the measurements (multiple-model adaptive
-// estimation: Magill 1965, IEEE Trans. AC-10, 434-439).
+// to a different cause. The weight of a filter follows from the likelihood of the measurements
+// (multiple-model adaptive estimation: Magill 1965, IEEE Trans. AC-10, 434-439).
 //
 //   J_i <- J_i exp(-dt/memory) + nu_i' S_i^-1 nu_i + ln det S_i
 //   w_i = odds_i exp(-J_i/2), scaled to the sum 1
@@ -37,7 +37,7 @@ struct Bank {
   bool started = false;
 };
 
-/// A bank with one filter; with ProcessNoise::likeliest one for each cause.
+/// The designs of a bank: one filter, or with ProcessNoise::likeliest one filter for each cause.
 BankDesign make_bank(const Settings& settings);
 
 /// The initial bank if the state at release is unknown.

@@ -9,10 +9,10 @@ namespace canhil::wind {
 struct Correction {
   StateVector dx = StateVector::Zero();
   Covariance P;
-  // The whitened innovation: each component minus its prediction from the components processed before it,
-  // over its sigma. The order is rates, angles, velocity.
+  // The whitened innovation: each component minus its prediction from the components processed before it.
+  // This difference is divided by its sigma. Rates are processed first, then angles, then velocity.
   Observation normalised;
-  double nis = 0;  // innovation' S^-1 innovation, the sum of their squares: chi-squared of 9 if consistent
+  double nis = 0;          // innovation' S^-1 innovation = |normalised|^2: chi-squared of 9 if consistent
   double determinant = 1;  // of S, in the units of the innovation
 };
 
@@ -21,8 +21,8 @@ struct Correction {
 Correction corrected(const Covariance& P, const Observation& innovation, const GroundVelocity& at,
                      const Observation& noise_variance, Sensitivity* sensitivity = nullptr);
 
-/// The largest theta up to the given one with theta lambda_max(S^1/2 L P L' S^1/2) <= cap; L selects the air
-/// velocity and the rates, S = diag(1, 1, 1, w, w, w).
+/// The largest theta, but at most the given theta, with theta lambda_max(S^1/2 L P L' S^1/2) <= cap; L
+/// selects the air velocity and the rates, S = diag(1, 1, 1, w, w, w).
 double capped_theta(double theta, double cap, const Covariance& P, double rate_weight);
 
 /// H-infinity (Park and Park 2019, eqs. (25)-(27) without an inverse of P; NOTES.md): reduces the information

@@ -32,7 +32,7 @@ struct State {
   bool sample_used = false;                // the sample of t_us was used
   double altitude = 0;                     // at t_us [m]
   double coasted_s = 0;                    // since the last update
-  double noise_factor = 1;                 // Algorithm::adaptive_q: factor on the variance
+  double noise_factor = 1;                 // adaptive_q: factor on the variance of the process noise
   int jumps = 0;                           // navigation samples refused as jumps in a row
   double unchanged_s = 0;                  // time since navigation changed
   Observation last = Observation::Zero();  // the last navigation sample
@@ -44,7 +44,7 @@ enum class Outcome : std::uint8_t {
   started,  // the filter started from attitude, rates and velocity of the sample, and from the previous wind
   updated,
   coasting,      // predicted only; `fault` says why
-  out_of_order,  // the sample is not later than the last one: ignored
+  out_of_order,  // before the last sample, or at its time if it was used: ignored
   non_finite,    // the result would not be finite and positive definite: restarts with the next sample
 };
 

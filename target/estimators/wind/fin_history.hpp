@@ -13,15 +13,15 @@ namespace canhil::wind {
 /// The outcome of adding a sample of the fins.
 enum class FinOutcome : std::uint8_t {
   kept,
-  out_of_order,  // not valid after the newest
+  out_of_order,  // not valid later than the newest sample
   not_physical,  // not finite, or beyond the airframe's limit
 };
 
 /// The mean deflection over an interval.
 struct ActingFins {
   Deflection mean;
-  std::int64_t gap_us = 0;  // the longest time without a sample, of all such times that overlap the interval
-  bool known = false;       // false: no sample at all; mean is zero
+  std::int64_t gap_us = 0;    // the longest time without a sample that overlaps the interval
+  bool known = false;         // false: no sample at all; mean is zero
   bool not_physical = false;  // the last frame was refused
 };
 
@@ -29,8 +29,9 @@ struct ActingFins {
 class FinHistory {
  public:
   /// Adds deflections [rad] valid at t_us, each at most `limit`. Times must ascend; an earlier sample is
-  /// refused as out of order. Two such samples in a row with ascending times, more than 0.1 s before the
-  /// newest, show that the newest had a wrong time: the history then restarts with these two.
+  /// refused as out of order. Two samples in a row that are out of order, but ascend and are more than 0.1 s
+  /// before the newest, show that the newest had a wrong time. The history then restarts with these two
+  /// samples.
   FinOutcome push(std::int64_t t_us, const Deflection& deflection, double limit);
 
   /// The mean over [from, to] of the deflections, linearly interpolated between samples; constant after the

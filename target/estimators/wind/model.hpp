@@ -18,10 +18,10 @@ using StateVector = filtering::Vector<12>;
 using Covariance = filtering::Matrix<12, 12>;
 using Observation = filtering::Vector<9>;
 
-inline constexpr int air_velocity_at = 0;  ///< the first of its three states
-inline constexpr int rate_at = 3;          ///< likewise
-inline constexpr int attitude_at = 6;      ///< likewise
-inline constexpr int wind_at = 9;          ///< likewise
+inline constexpr int air_velocity_at = 0;  ///< the first state of the air velocity
+inline constexpr int rate_at = 3;          ///< the first state of the rates
+inline constexpr int attitude_at = 6;      ///< the first state of the Euler angles
+inline constexpr int wind_at = 9;          ///< the first state of the wind
 
 /// Inputs that act during a step.
 struct Inputs {
@@ -67,7 +67,8 @@ Covariance predicted(const Covariance& P, const Growth& G);
 /// part of each coefficient (LoadsByPart).
 using Sensitivity = filtering::Matrix<12, part_count>;
 
-/// S+ = Phi S + (I + Phi)/2 (dx'/dshare) dt.
+/// S+ = Phi S + (I + Phi)/2 (dx'/de) dt, where e are the relative errors of the parts; dx'/de follows from
+/// `loads`.
 void predict(Sensitivity& S, const Growth& G, const LoadsByPart& loads, double dt, const Design& design);
 
 /// C_bn v_a, C_bn and d(C_bn v_a)/dPhi.

@@ -70,7 +70,7 @@ struct Settings {
 
   Densities degraded{1, 10 * rad_per_deg, 0.01 * rad_per_deg, 0.3, 0};  // minimum if the model is unreliable
   double longest_prediction = 0.025;                                    // longer steps are divided [s]
-  double coast_limit = 2;           // longer times without navigation restart the filter [s]
+  double coast_limit = 2;           // after a longer time without navigation the filter restarts [s]
   double stale_limit = 0.1;         // navigation that does not change for longer is stale [s]
   double fins_late = 0.03;          // the estimate is flagged if deflections are older [s]
   double fins_missing = 0.1;        // the model is unreliable if deflections are older [s]
@@ -81,8 +81,8 @@ struct Settings {
   double rate_most = 10;            // likewise [rad/s]
 };
 
-/// True if the reported sigmas include the effect of constant coefficient errors. The H-infinity filter has a
-/// method of its own.
+/// True if the reported sigmas include the effect of constant coefficient errors. The H-infinity filter
+/// does not use this method.
 constexpr bool considers_coefficients(const Settings& settings) {
   return settings.coefficient_sigma > 0 && follows_loads(settings.process_noise) &&
          settings.algorithm != Algorithm::h_infinity;

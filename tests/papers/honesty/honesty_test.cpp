@@ -1,6 +1,6 @@
 // Tests that the sigmas of the recommended filters match their errors, where these filters differ from the
-// papers. It flies the campaigns of bench/monte_carlo/honesty, which judge with 200 runs, with as many runs
-// as the time of CTest permits.
+// papers. The tests fly the campaigns of bench/monte_carlo/honesty. These campaigns judge with 200 runs; here
+// they have as many runs as the time of CTest permits.
 #include "tests/papers/bars.hpp"
 
 namespace canhil::papers {

@@ -33,7 +33,7 @@ struct RunResult {
   double mean_nis = 0;
 };
 
-/// runs[filter][run], the same for the same seed.
+/// Returns the results by filter and run. The same seed gives the same results.
 inline std::vector<std::vector<RunResult>> monte_carlo(const std::vector<Settings>& filters,
                                                        const Truth& truth, int runs, std::uint64_t seed) {
   std::vector<std::vector<RunResult>> results(filters.size());

@@ -1,8 +1,8 @@
 // The claims about the robust H2 filter against the Kalman filter (Yang, Shim, Park 2001), with the settings
 // that reproduce the paper's Table 2: P0 of the attitude 1 deg for true errors of 5 deg, R far above the
 // master's noise. 300 runs per test, a fixed seed. The limits are wider than the scatter of five seeds x 300
-// runs and of ten batches of 30 runs of the reference simulation. Seeds 1, 1000, 2000 and 5000 passed them
-// here.
+// runs and of ten batches of 30 runs of the reference simulation. Seeds 1, 1000, 2000 and 5000 meet the
+// limits.
 #include <gtest/gtest.h>
 
 #include "tests/papers/transfer_alignment/monte_carlo.hpp"
@@ -55,8 +55,9 @@ TEST(TransferAlignmentPaper, KalmanFilterConfiguredWithTheTruthIsFasterThanH2) {
   EXPECT_GE(share_ahead(kalman, h2, 12), 0.88);
 }
 
-// P0 1 deg with fading memory equals H2. Reference simulation: 12.0 / 12.4 / 13.6 s for P scaled by exp(2 a
-// dt), a = 0.1 /s; 13.1 / 13.9 / 16.5 s for P scaled by exp(a dt).
+// With P0 of 1 deg and fading memory, the Kalman filter is as fast as the H2 filter. Reference simulation:
+// 12.0 / 12.4 / 13.6 s for P scaled by exp(2 a dt), a = 0.1 /s; 13.1 / 13.9 / 16.5 s for P scaled by exp(a
+// dt).
 TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
   Settings fading = kalman_1;
   fading.fading_per_s = 0.1;
@@ -79,7 +80,8 @@ TEST(TransferAlignmentPaper, KalmanFilterConvergesWithMasterNoise) {
 }
 
 // With true P0, Q and R the innovations are consistent: NIS 3. The standard error for 300 runs x 200 updates
-// of chi-square 3 is 0.01. The square of 5 deg (linearisation) only affects the first updates.
+// of chi-square 3 is 0.01. The linearisation error, of the order of the square of 5 deg, affects only the
+// first updates.
 TEST(TransferAlignmentPaper, HonestKalmanFilterIsConsistent) {
   Truth truth;
   truth.master_noise_sigma = std::sqrt(kalman_5.velocity_noise_density / update_interval);

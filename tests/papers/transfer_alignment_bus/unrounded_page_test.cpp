@@ -1,4 +1,4 @@
-// The page of a reproduction without the rounding of the bus states this.
+// The page of a reproduction without the rounding of the bus states that nothing was rounded.
 #include <gmock/gmock.h>
 
 #include "tests/papers/reproduced.hpp"

@@ -75,8 +75,8 @@ double itself(const campaign::Variant& variant, const campaign::Answer& answer) 
   return run_at(variant, 0, 1).samples.value(0, *answer.quantity) / answer.quantity->unit.factor;
 }
 
-// The claims of the two papers depend on figures that are proportional to the errors of a variant. Just
-// within each limit, its claim and the page pass; just beyond it, both fail.
+// The claims of the papers on LOS rate and wind depend on figures that are proportional to the errors of a
+// variant. Just within each limit, its claim and the page pass; just beyond it, both fail.
 class FiguresBeyondABar : public testing::TestWithParam<int> {};
 
 TEST_P(FiguresBeyondABar, FailItsAnswerAndThePage) {

@@ -11,7 +11,8 @@ struct WarmGlider {
   Navigation navigation;
 };
 
-/// Filters five seconds of a flight by the filter's own model: from 10 km, with crosswind, at 50 Hz.
+/// Filters five seconds at 50 Hz of a flight from 10 km with crosswind, simulated with the filter's own
+/// model.
 inline WarmGlider warm_glider(Algorithm algorithm, ProcessNoise noise = ProcessNoise::block_diagonal) {
   Settings settings;
   settings.algorithm = algorithm;

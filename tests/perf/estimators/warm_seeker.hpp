@@ -1,6 +1,5 @@
 #pragma once
-// A LOS-rate filter in mid-flight, past its start-up and the range of thermal noise, ready for one more
-// sample.
+// A LOS-rate filter in mid-flight, past its start-up, ready for one more sample.
 #include "target/estimators/los_rate/filter.hpp"
 #include "tests/unit/target/estimators/los_rate/engagement.hpp"
 

@@ -33,7 +33,7 @@ class RecordingPort final : public Port {
     return outcome;
   }
   std::optional<Received> receive() override {
-    if (auto first = device_.receive()) return first;  // first reads the heartbeat of a new device
+    if (auto first = device_.receive()) return first;  // the heartbeat of a new device comes first
     if (next_ == heard_.size()) return std::nullopt;
     return heard_[next_++];
   }

@@ -6,7 +6,7 @@
 // p99 and maximum of both, the missing answers, and the ratios.
 //
 // Target and echo take turns in blocks, so that other load of the machine affects both equally. The flight is
-// sent faster than real time: the device's only time is that of the frames.
+// sent faster than real time, because the device knows only the time in the frames.
 #include <fcntl.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>
@@ -106,7 +106,7 @@ Bare bare_node(const std::string& bus) {
   ::_exit(0);
 }
 
-/// Times by the name of the last message of an answer.
+/// The times of the answers that end with one message.
 struct Times {
   std::vector<std::int64_t> ns;
   int unanswered = 0;

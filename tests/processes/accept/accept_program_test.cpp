@@ -71,7 +71,7 @@ class Accept : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_ + "/small");
     std::ofstream(folder_ + "/small/suite.toml") << suite;
-    // A flight of three seconds whose scenario has no checks; the suite has the requirements.
+    // A flight of three seconds whose scenario has only one check; the suite has the requirements.
     std::string flight = read(scenario("transfer_alignment_quick"));
     flight.resize(flight.find("[[check]]"));
     std::ofstream(folder_ + "/small/flight.toml")
@@ -170,7 +170,7 @@ TEST_F(Accept, BadInputIsOneLine) {
   expect_one_line(accept("--record"), "small/suite.toml:7: key 'requirement[1].family'");
 }
 
-// The unchanged target passes each suite, here without its long parts.
+// The unchanged target passes the families protocol and parameters of the suite of los_rate.
 TEST(Suites, ProtocolAndStatesOfTheTargetPass) {
   const Ended ended = hil_bench("accept --family protocol --family parameters --estimator los_rate");
   EXPECT_EQ(ended.code, 0) << ended.out;

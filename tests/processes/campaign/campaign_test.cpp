@@ -174,7 +174,7 @@ TEST(Export, IsATableOfWhatTheRunsReported) {
   EXPECT_THAT(ended.out,
               testing::StartsWith("variant,run,t_s,quantity,unit,value\nKF master_ins.latency_ms=0,0,"));
   // A header, then 30 runs of four variants with 14 quantities per update. Two variants have 29 updates; the
-  // two others, whose master INS is 150 ms late, have 28.
+  // two others, whose master INS is 100 ms late, have 28.
   EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1 + 30 * (2 * 29 + 2 * 28) * 14);
   EXPECT_THAT(ended.out, testing::ContainsRegex(
                              "\nKF master_ins.latency_ms=0,29,[0-9.]+,attitude.heading,rad,-?[0-9.e-]+\n"));
@@ -284,8 +284,9 @@ TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {
   expect_one_line(against("--unrounded --target " HIL_TARGET), "--unrounded");
 }
 
-// In process, because the program takes ten times as long for the same bits. With a sanitizer, two runs are
-// enough to test memory; the limits of the metrics apply to the number of runs in the file.
+// The runs are in process, because a target program takes ten times as long for the same bits. With a
+// sanitizer, two runs are enough to test memory; the limits of the metrics apply to the number of runs in the
+// file.
 TEST(Acceptance, TheTargetIsWithinTheBarsOfEveryCampaign) {
 #ifdef CANHIL_SANITIZED
   constexpr int runs = 2, worst_code = 1;

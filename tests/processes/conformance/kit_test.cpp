@@ -1,5 +1,5 @@
-// The kit for user-written targets: both examples give the same bits and a verdict, and its tables match the
-// DBC.
+// The kit for user-written targets: both examples give the same bits and a verdict, and the tables of the kit
+// match the DBC.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

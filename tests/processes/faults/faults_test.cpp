@@ -26,8 +26,8 @@ std::string file(const std::string& name, const std::string& text) {
   return path;
 }
 
-// Faults of a flight of 6 s with a seeker at 200 Hz: an outage, damaged frames, and a group without an
-// answer.
+// Three faults: an outage and damaged frames of a seeker at 200 Hz, and lost frames of a master INS, which is
+// in another scenario.
 std::string small_set() {
   return file("small.toml", R"(
 [[fault]]
@@ -93,7 +93,8 @@ to_s = 2.3
               HasSubstr("| angles away | detected in"));
 }
 
-// A seeded defect: the target uses a signal that its sensor did not measure, and reports small sigmas.
+// One of three faults is to blame: the target believes the signal of the stuck accelerometer, and reports
+// small sigmas.
 TEST(Faults, AViolationIsMadeSmallAndShowsAgain) {
   const std::string storm = file("storm.toml", R"(
 [[fault]]

@@ -1,4 +1,4 @@
-// hil-bench golden: the first answer that differs.
+// hil-bench golden names the first answer that differs from the recorded answers.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

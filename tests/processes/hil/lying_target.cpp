@@ -1,5 +1,5 @@
-// A target that is correct except for one fault, which its first argument selects: what the bench must
-// detect.
+// A target that is correct except for one fault, which the bench must detect. The first argument selects the
+// fault.
 //   lying_target LIE --bus BUS
 #include <array>
 #include <atomic>

@@ -33,7 +33,8 @@ std::string with(const std::string& flight, const std::string& more) {
   return path;
 }
 
-/// Samples that are lost, repeated and damaged. The only check is on the target's counts of them.
+/// A quick flight in which samples are lost, repeated and damaged, with an additional check of the target's
+/// counts of them.
 std::string lossy() {
   return with("transfer_alignment_quick", R"(
 [[fault]]

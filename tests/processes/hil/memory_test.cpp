@@ -11,8 +11,8 @@
 namespace canhil::test {
 namespace {
 
-// The peak memory [KiB] of all bench runs up to now, including this one with its number of IMU samples and
-// all reports.
+// Runs the bench with this number of IMU samples and with all reports. Returns the peak memory [KiB] of all
+// bench runs up to now.
 long peak_kib(int samples) {
   constexpr double period_s = 0.005;
   const std::regex duration("duration_s = .*"), truth("trajectory = [^]*\\[initial_error\\]"),

@@ -30,8 +30,8 @@ std::string read(const std::string& path);
 nlohmann::json read_json(const std::string& path);
 /// The value of a figure in the results of a report.
 double figure(const nlohmann::json& report, const char* estimator, const char* line, const char* name);
-/// Compiled once for all tests, because every source that instantiates a JSON parser takes over a second
-/// longer.
+/// Parses JSON. This function is compiled once for all tests, because every source that instantiates a JSON
+/// parser takes over a second longer to compile.
 nlohmann::json json_of(const std::string& text);
 
 /// The target's frames in a log, in order, from the first Sync on, without frames that report on the host or
@@ -39,8 +39,8 @@ nlohmann::json json_of(const std::string& text);
 std::vector<Frame> target_frames(const std::string& log_path);
 
 /// True if the host did not disturb this run in real time: it completed, lost no frame, and the bench was
-/// never late by 1 s. Only then can frames be counted and their bits be compared. A host that stalls a
-/// program for half a second causes lost frames, a target that counts as silent, or idle heartbeats. If
+/// never late by 1 s or more. Only then can frames be counted and their bits be compared. A host that stalls
+/// a program for half a second causes lost frames, a target that counts as silent, or idle heartbeats. If
 /// false, the test repeats the run.
 bool whole(const nlohmann::json& report);
 

@@ -201,7 +201,7 @@ TEST(SimulatedWire, OnCanFdEveryContainerKeepsItsBoundAndTheWholeLatencyIsExplai
   EXPECT_THAT(read(scratch("bounds.html")), HasSubstr("Over the bus at 500 and 2000 kbit/s"));
 }
 
-// In real time, with the target's report of its own times. The durations on the host are not judged.
+// A run in real time, in which the target reports its own times. The durations on the host are not judged.
 TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
   const std::string report = scratch("fd.json");
   const Ended ended = hil_bench(

@@ -95,7 +95,7 @@ Flown fly(const Command& command) {
 }
 
 // A flight of 3 s: the slave IMU sends 100 samples per second, the master INS 10. There is a Sync with each
-// sample and one at the start. Each sample is answered, including each master sample that the target
+// IMU sample and one at the start. Each sample is answered, including each master sample that the target
 // receives.
 void expect_from_bench(const Flown& flown) {
   EXPECT_EQ(flown.aiding, (Counts{{"MasterInsVelocityNE", 30},

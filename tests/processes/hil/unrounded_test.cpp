@@ -1,4 +1,5 @@
-// The same run with unrounded frames. The difference is the effect of the rounding on the bus.
+// Compares a run with the same run with unrounded frames. The difference is the effect of the rounding on the
+// bus.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -37,7 +38,7 @@ TEST(Unrounded, TheRunPassesAndItsErrorsDifferByALittle) {
   EXPECT_EQ(exact["provenance"]["bus"], "in-process?unrounded") << "a report says how its frames travelled";
 }
 
-// Such frames exist only within one process; output files do not claim to contain them.
+// Unrounded frames exist only within one process; output files do not claim to contain them.
 TEST(Unrounded, NoLogAndNoOtherBusCarriesThem) {
   const std::string run = fmt::format("{} run {} --bus ", HIL_BENCH, scenario("transfer_alignment_quick"));
   const Ended logged = shell(run + "'in-process?unrounded' --log " + scratch("unrounded.log"));

@@ -1,4 +1,4 @@
-// An ECU on CAN FD: it answers each frame of 0x300 with a frame of 0x301 that repeats the first 24 bytes.
+// An ECU on CAN FD: it answers each frame of 0x300 with a frame of 0x301 with the same data.
 #include <algorithm>
 #include <string>
 

@@ -69,8 +69,8 @@ void babble(const Task& task) {
   }
 }
 
-/// Sends its stream, receives the streams of three nodes, including its own, and prints the order of the
-/// frames.
+/// Sends its stream, receives the streams of three nodes, including its own, and prints a digest of the
+/// frames and their order.
 void witness(const Task& task) {
   const auto port = join(task, true);
   while (!port->receive()) wait_for(*port, WaitFor::frame);  // the start signal
@@ -105,7 +105,8 @@ void ignore(const Task& task) {
   while (!port->closed()) ::pause();
 }
 
-/// Hosts the bus until it is killed. The first frame of the host shows a node that the hub has accepted it.
+/// Hosts the bus until it is killed. A node that receives the first frame of the host knows
+/// that the hub has accepted this node.
 void host(const Task& task) {
   auto hub = host_local_bus(task.bus, {.fd = true});
   if (!hub) give_up(hub.error().message);

@@ -105,8 +105,8 @@ const std::string no_cpu =
     "(no CPU was free for the bench for|the hypervisor gave) [0-9.]+ % of (the run|this machine's .*)";
 const std::string late = "this host kept the bench itself .* ms late \\(.*\\), more than 50 % of the limit";
 
-// Limits of a few ms are not measured for one of these reasons; the target's report of its own times is
-// judged.
+// Checks with limits of a few ms are not measured, and report `no_cpu` or `late`. All other checks pass; the
+// heartbeat is not examined.
 void expect_not_measured(const Ended& ended, const nlohmann::json& report) {
   EXPECT_EQ(report["verdict"], "not measured");
   EXPECT_EQ(ended.code, 3) << ended.out;

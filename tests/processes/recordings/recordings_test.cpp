@@ -274,9 +274,9 @@ TEST(Decode, SaysWhatItLeavesOut) {
   expect_one_line(hil_bench(fmt::format("decode {} --dbc none.dbc", log)), "none.dbc");
 }
 
-// The clock of b is 5 s ahead. The frames 123 are later by 100, 300, 200 and 200 us beyond these 5 s: the
-// mean is 200 us, the standard deviation sqrt((100^2 + 100^2) / 3) = 81.6 us. Frame 03 is only in a, 06 only
-// in b; FF was sent before the beginning of a.
+// The clock of b is 5 s ahead. The stamps of the frames with id 123 are later by 5 s plus 100, 300, 200 and
+// 200 us: the mean is 5 s plus 200 us, the standard deviation sqrt((100^2 + 100^2) / 3) = 81.6 us. Frame 03
+// is only in a, 06 only in b; FF was sent before the beginning of a.
 TEST(LogCompare, ReportsHowFarStampsAreApart) {
   const std::string a =
       file("a.log",
@@ -328,7 +328,7 @@ TEST(LogCompare, OfTheSameAndOfNothing) {
   expect_one_line(hil_bench(fmt::format("log compare {} {}", one, one)), "is named twice");
 }
 
-// Over the embedded bus that the test hosts, ten times as fast.
+// The replay is ten times as fast as the recording. It uses an embedded bus that the test hosts.
 TEST(Replay, SendsTheFramesAgainAtTheirTimes) {
   const std::string bus =
       fmt::format("local:replay-{}", fs::path(scratch("x")).parent_path().filename().string());

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr double heading_step_deg = 0.003;
 
-// A flight with a number of answers, an error of the heading, and a flag that is set in some answers.
+// Collects the answers of a made-up flight. The test sets the heading and the flag `coasting` of each answer.
 class Flown {
  public:
   Flown& attitude(double heading_deg, int coasting = 0) {

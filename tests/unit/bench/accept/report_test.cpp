@@ -1,4 +1,4 @@
-// The verdicts of requirements, and the reports for people and programs.
+// Tests the verdicts of requirements, and the reports as text, JSON, JUnit and HTML.
 #include "bench/accept/report.hpp"
 
 #include <gmock/gmock.h>

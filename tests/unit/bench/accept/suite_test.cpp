@@ -1,4 +1,4 @@
-// Reads the suites of the project, and invalid ones.
+// Reads the suites of the project, and invalid suites.
 #include "bench/accept/suite.hpp"
 
 #include <fmt/format.h>

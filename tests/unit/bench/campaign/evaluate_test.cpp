@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A is within 3 mrad from 0.2 s on, B never; A is better in three runs of four.
+// Variant A is within 3 mrad from 0.2 s on, variant B never is. A is better than B in three runs of four.
 std::vector<RunSeries> runs_of(std::size_t variant) {
   std::vector<RunSeries> runs;
   for (std::uint64_t run = 0; run < 4; ++run) {
@@ -166,7 +166,7 @@ TEST(Report, OfMetricsWithoutABarIsNotMeasured) {
   EXPECT_EQ(evaluation->not_judged(), "nothing was judged: no [[metric]] has a limit");
 }
 
-// B looks worse than A in every run, as it has no values at all.
+// Variant B looks worse than variant A in every run, because B has no values at all.
 TEST(Report, OfAVariantThatNeverFlewIsNoPass) {
   const auto unflown = [](std::size_t variant) {
     auto runs = runs_of(variant);

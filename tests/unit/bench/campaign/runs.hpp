@@ -53,7 +53,7 @@ inline RunSeries run_with(std::uint64_t run, const std::vector<double>& values,
   return series;
 }
 
-/// The same for a run that ended early, at its last value.
+/// A run like that of run_with() that ended early, at its last value.
 inline RunSeries ended_with(std::uint64_t run, const std::vector<double>& values,
                             const Quantity& quantity = quantities::attitude_heading) {
   RunSeries series = run_with(run, values, quantity);
@@ -76,7 +76,7 @@ inline std::string content(const std::filesystem::path& path) {
   return std::move(text).str();
 }
 
-/// A new name in a folder of this process.
+/// The path of a file in the folder of this process. If the file exists, it is removed.
 inline std::filesystem::path scratch(const std::string& name) {
   const std::filesystem::path folder = test::own_folder();
   std::filesystem::remove(folder / name);

@@ -195,7 +195,7 @@ TEST(Freshness, LetsPassTwoFixesInARowAndWhatIsLostOnPurpose) {
       << "nor is an outage";
 }
 
-// The fixes of A end at 1 s of 3 s.
+// With 10 updates, the values end at 1 s of the 3 s of the flight. With 30 updates, there is no silence.
 TEST(Silence, MeetsNoBar) {
   for (const std::string metric :
        {"kind = 'value_at'\nat_s = 3.0\nat_most_mrad = 100\n",

@@ -23,7 +23,7 @@ constexpr std::int64_t second_us = 1'000'000;
 constexpr std::int64_t duration_us = 20 * second_us;
 constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
 
-// 20 s at rest with an SSBL fix each second, all of them used; tests change it.
+// A run of 20 s at rest with an SSBL fix each second; the target uses all fixes. Tests change the run.
 class Fixed : public testing::Test {
  protected:
   Fixed() {

@@ -212,7 +212,8 @@ TEST_F(Judged, NoAnswersAtAllFail) {
 TEST_F(Judged, ConsistencyByTheMeanInTheChiSquareInterval) {
   Consistency rule = consistency(quantities::innovation_nis, Probability{0.95});
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  // 40 values of 3 degrees of freedom: chi-square of 120, 95 %: 91.573 to 152.211.
+  // The sum of 40 values with 3 degrees of freedom each has a chi-square distribution with 120 degrees of
+  // freedom. 95 % of it lie between 91.573 and 152.211.
   EXPECT_THAT(judge(rule).expected, HasSubstr("between 2.29 and 3.81"));
   for (auto& answer : test::Edited(seen_.of<TransferAnswers>().filter)) answer.nis = 3.9;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
@@ -250,7 +251,7 @@ TEST_F(Judged, OutputPeriodCountsEveryMissingMessage) {
   all.erase(all.begin() + 100, all.begin() + 150);  // one gap of half a second
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
   all = kept;
-  all.resize(350);  // and one at the end
+  all.resize(350);  // a gap of half a second at the end
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 

@@ -199,7 +199,7 @@ TEST(Without, CutsStretchesOut) {
   EXPECT_EQ(left[1].to_us, 9);
 }
 
-// The error when a scenario with this check is read.
+// The error message when a scenario with this check is read, "" if there is none.
 std::string error_of_check(const std::string& check) {
   static const std::string flight = *read_text_file(SOURCE_DIR "/bench/flights/transfer_alignment_quick.toml",
                                                     "a scenario file", 1U << 20U);

@@ -109,7 +109,7 @@ TEST_F(Winds, NeesTakesTheCorrelationIn) {
   EXPECT_NEAR(nees_of(seen_.of<WindAnswers>(), glide_)[0].value, 3, 1e-9);
   seen_.of<WindAnswers>()[0].correlation = {0.5, 0, 0};
   EXPECT_NEAR(nees_of(seen_.of<WindAnswers>(), glide_)[0].value, 2.0 / 1.5 + 1,
-              1e-9);  // (1 + 1 - 2 r) / (1 - r^2) and 1
+              1e-9);  // (1 + 1 - 2 r) / (1 - r^2), plus 1 for down
 }
 
 TEST_F(Winds, ACovarianceThatIsNoneExplainsNothing) {

@@ -27,7 +27,7 @@ Message bytes_of(const T& value) {
   return bytes;
 }
 
-// Appends an attribute, padded to four bytes like the kernel does.
+// Appends an attribute and pads it to a multiple of four bytes, as the kernel does.
 Message with(Message message, int type, const Message& payload) {
   const rtattr header{.rta_len = static_cast<unsigned short>(sizeof header + payload.size()),
                       .rta_type = static_cast<unsigned short>(type)};
@@ -129,7 +129,7 @@ Interface healthy() {
           .stamping = std::nullopt};
 }
 
-// The lines that report a problem: subject and remedy.
+// The lines that report a problem: grade, subject, finding and remedy.
 std::vector<std::string> complaints(const Interface& interface) {
   std::vector<std::string> found;
   for (const Line& line : interface_lines(interface)) {

@@ -1,4 +1,4 @@
-// Identifies the adapter of an interface in an artificial sysfs tree; the hash of a file.
+// Tests how the adapter of an interface is identified in an artificial sysfs tree, and the hash of a file.
 #include "bench/drive/adapter.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ class Adapters : public testing::Test {
     fs::create_directories(sys_ / to);
     fs::create_directory_symlink(sys_ / to, sys_ / name);
   }
-  // The interface NAME of a device with this subsystem and driver.
+  // Adds the interface `name` of a device with this subsystem and driver to the tree.
   void plug_in(const std::string& name, const fs::path& device, const std::string& bus,
                const std::string& driver) const {
     link("class/net/" + name, device / "net" / name);

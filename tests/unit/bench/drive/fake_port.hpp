@@ -11,7 +11,8 @@
 
 namespace canhil::drive {
 
-/// Passes every sent frame to `on_send`, which may call give(). All stamps are 0; waiting sleeps.
+/// Passes every sent frame to `on_send`, which may call give(). All stamps are 0. Without a descriptor, a
+/// wait for a frame returns at once. A wait for room pauses for 1 ms.
 class FakePort : public Port {
  public:
   SendOutcome send(const Frame& frame) override {

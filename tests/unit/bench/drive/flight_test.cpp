@@ -1,5 +1,5 @@
-// Which flights are possible: the largest IMU errors whose increments fit into their signals, and the sending
-// order of nodes.
+// Tests the largest IMU errors whose increments still fit into their signals, and the order in which the
+// nodes send.
 #include "bench/drive/flight.hpp"
 
 #include <gmock/gmock.h>

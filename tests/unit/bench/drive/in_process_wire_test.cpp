@@ -43,7 +43,8 @@ const checks::CheckResult* find_check(const Flown& run, std::string_view kind) {
   return found == run.verdict.checks.end() ? nullptr : &*found;
 }
 
-/// The sum of the stamps of each message in a run.
+/// The first and last stamp of a run, and for each message the stamp of its last answer and its histograms of
+/// latency, jitter and transmit echo.
 std::vector<std::int64_t> stamps(const Flown& run) {
   std::vector<std::int64_t> t_ns{run.seen.first_ns, run.seen.last_ns};
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
@@ -200,7 +201,7 @@ TEST_P(Containers, KeepTheirBoundsAndTheirTimesAddUp) {
 INSTANTIATE_TEST_SUITE_P(InProcessWire, Containers, testing::Values("", "&queue=priority"));
 
 // The seeker's container is the first after Sync. Nothing else is on the bus except Sync and the heartbeat,
-// so the response time of the answer is the duration of its two containers.
+// so the time from the hand-over to the answer is the duration of two containers: stimulus and answer.
 TEST(InProcessWire, OnCanFdTheWholeLatencyIsExplained) {
   const Flown run =
       fly(scenario_of("los_quick"), "in-process?bitrate=500000&data-bitrate=2000000", BusFormat::fd);
@@ -224,7 +225,7 @@ TEST(InProcessWire, ADisturbedWireLosesNothingAndTakesLonger) {
   const checks::Histogram& latency = run.seen.timing.answers[index].latency;
   const checks::Histogram& undisturbed = clean.seen.timing.answers[index].latency;
   EXPECT_EQ(latency.count(), undisturbed.count());
-  EXPECT_GT(latency.max_ns(), undisturbed.max_ns() + 50'000);  // a repeated frame and 23 bits
+  EXPECT_GT(latency.max_ns(), undisturbed.max_ns() + 50'000);  // error frame of 23 bits, repetition
   EXPECT_EQ(stamps(run), stamps(quick(disturbed + "1")));
   EXPECT_NE(stamps(run), stamps(quick(disturbed + "2")));
 }
@@ -255,8 +256,7 @@ TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
   EXPECT_EQ(fly(scenario, noisy).verdict.outcome, checks::Outcome::pass);
 }
 
-// Frames of at least 128 bits, more than 100 per second from the IMU alone: 20 kbit/s can carry only a part
-// of them.
+// The IMU alone sends 300 frames of at least 111 bits per second. This is more than 20 kbit/s can carry.
 TEST(InProcessWire, ABusThatIsTooSlowMakesTheBenchLate) {
   static const std::atomic<bool> never = false;
   Options options;
@@ -282,8 +282,8 @@ TEST(InProcessWire, ADeviceThatIsOffTheBusWaitsForItsReturn) {
     }
   }
   ASSERT_GT(at_ns.size(), 64U);
-  // Bits from the error flag of the 32nd error on: 12 bits of flags, 11, 128 times 11, and the first bit of
-  // the next attempt.
+  // Bits from the error flag of the 32nd error on: 12 bits of flags, 11 bits of delimiter and intermission,
+  // 128 times 11 bits until the return to the bus, and the first bit of the next attempt.
   EXPECT_EQ(at_ns[32] - at_ns[31], (12 + 11 + 128 * 11 + 1) * 1'000'000);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 
-// Delivers frames of id 0C0, and a few of each other id in between.
+// Delivers frames with the id 0C0; every tenth frame has the id 123.
 class FloodedPort final : public FakePort {
  public:
   std::optional<Received> receive() override {

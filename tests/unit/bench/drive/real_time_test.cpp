@@ -139,8 +139,8 @@ TEST_F(RealTime, EndsWhenTheBusIsDownOrFullOrTheUserSaysSo) {
   EXPECT_EQ(run(patient_ns).kind, Ending::Kind::interrupted);
 }
 
-// A target that answers every frame; after the second frame, an outage of one and a half times the silence
-// limit.
+// The target answers every frame except the second. After the second frame, the bus takes no frame for
+// one and a half times the silence limit.
 class Trouble : public RealTime {
  protected:
   static constexpr std::int64_t silence_limit_ns = 1'000'000'000;
@@ -150,7 +150,7 @@ class Trouble : public RealTime {
       if (port_.sent.size() == 2) {
         port_.trouble = trouble;
         port_.trouble_until_ns = clock_ns(CLOCK_MONOTONIC) + silence_limit_ns * 3 / 2;
-        return begin();  // the target sends nothing afterwards
+        return begin();  // the target does not answer this frame
       }
       port_.give(TargetHeartbeat{.state = TargetState::running});
     };

@@ -37,7 +37,7 @@ TEST(Registry, KnowsTheEstimatorsOfTheContract) {
   EXPECT_EQ(telling("height"), nullptr);
 }
 
-// Suggestions for a misspelt parameter: only parameters of this target.
+// The list of parameters that the bench suggests for a misspelt one contains exactly those of this target.
 TEST(Registry, TheParametersAreThoseOfTheTarget) {
   const target::Device device;
   for (const auto estimator : messages::enumerators<messages::Estimator>) {

@@ -1,4 +1,4 @@
-// The name of a response to a fault, from the flags of the target and the checks of the flight.
+// Tests how a response to a fault is named after the flags of the target and the checks of the flight.
 #include "bench/fault_matrix/response.hpp"
 
 #include <fmt/format.h>
@@ -209,8 +209,8 @@ TEST(Plan, DependsOnItsSeedAlone) {
   EXPECT_EQ(one.rows.front().name(), no_fault);
 }
 
-// The faults of the default plan: faults that work in virtual time on a bus without a bit rate, and that have
-// an effect.
+// The default plan contains the faults that work in virtual time on a bus without a bit rate and that have an
+// effect.
 TEST(Plan, HasEachKindOnEachNode) {
   std::vector<Column> columns;
   for (const char* name :

@@ -1,4 +1,4 @@
-// A quick flight whose faults a test applies directly.
+// A quick flight with faults, without a target: the test examines the frames that the bench sends.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ inline std::string fault(const std::string& kind, const std::string& more) {
   return "[[fault]]\nkind = \"" + kind + "\"\n" + more;
 }
 
-/// The error of these faults, as text.
+/// The error message when these faults are read; "nothing" if they are accepted.
 inline std::string refusal(const std::string& faults) {
   const auto scenario = parsed(faults);
   return scenario ? "nothing" : scenario.error().message;
@@ -91,7 +91,7 @@ struct Flight {
   Timed frames;
 };
 
-/// The value of a signal in a message of a flight.
+/// All messages of one kind in a flight, each with the time at which it is sent. Their CRCs must be right.
 template <class Message>
 std::vector<std::pair<std::int64_t, Message>> said(const Flight& flight) {
   std::vector<std::pair<std::int64_t, Message>> all;

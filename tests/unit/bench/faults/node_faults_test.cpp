@@ -20,7 +20,8 @@ const Flight& right() {
   return flight;
 }
 
-// Compares a number in the flight without and with the fault, sample by sample, within a time window.
+// Passes a number of each sample in a time window to `look`: its value without and with the fault, and the
+// time. Outside the window, both values must be equal.
 template <class Message, class Number>
 void each(const Flight& faulty, double from_s, double to_s, Number number,
           const std::function<void(double was, double is, double t_s)>& look) {

@@ -13,7 +13,8 @@ namespace {
 
 constexpr scenario::Window whole{.from_us = 0, .to_us = 20'000'000};
 
-// A roll of 15 deg in 3 s, sent every 10 ms with the delay `delay`, with noise and an offset.
+// A sinusoidal roll with an amplitude of 15 deg and a period of 3 s. It is sent every 10 ms with the delay
+// `delay`, with noise and an offset.
 quantities::Track track(double delay, double noise, double offset, unsigned seed, double amplitude = 0.26) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;

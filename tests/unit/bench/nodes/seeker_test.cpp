@@ -240,7 +240,7 @@ class GuidedSeeker : public testing::Test {
     plan.guidance_delay_us = 10'000;
     return plan;
   }
-  /// The miss distance when each answer is the truth, changed by `distort`.
+  /// The miss distance when `answer` answers each sample.
   template <class Answer>
   double miss(Bench& bench, Answer answer) {
     while (bench.node().due_us() != never_us) {

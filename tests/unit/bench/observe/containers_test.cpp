@@ -94,7 +94,7 @@ TEST_F(OnAnFdWire, TheLatencyIsSplitIntoTheTimesOfContainers) {
   EXPECT_EQ(response<AlignVelocityD>().count, 0U);
 }
 
-// Nine messages: eight in a container, the ninth in a separate frame that is delayed by 2 ms.
+// The answer has nine messages: eight in a container, the ninth in a separate frame that is delayed by 2 ms.
 TEST_F(OnAnFdWire, TheFramesOfAnAnswerCountOneBehindTheOther) {
   bench_.send(MasterInsVelocityNE{}, MasterInsAttitude{}, MasterInsLatitude{}, MasterInsLongitude{},
               MasterInsVelocityD{.time_of_validity_us = 20'000});

@@ -457,7 +457,7 @@ TEST_F(OnAWire, TheLatencyIsSplitAndItsPartsAddUp) {
   EXPECT_EQ(timing.responses[message_index<AlignVelocityD>()].max_ns, wire_ns);
 }
 
-// IMU samples are answered at once, samples of the master INS after 3 ms.
+// IMU samples are answered after 0.5 ms, samples of the master INS after 3 ms.
 TEST_F(OnAWire, EachGroupOfStimuliHasASplitOfItsOwn) {
   for (const std::int64_t t_us : {10'000, 20'000}) {
     imu(t_us, 1000 * t_us);

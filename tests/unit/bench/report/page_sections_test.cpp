@@ -112,7 +112,8 @@ TEST(PageSections, ShowsTheWordsOfEveryFigureThatHasSome) {
                         "down none judged</td>"));
 }
 
-// 200 stimuli without an answer of a group that an estimator in use should send.
+// The master INS sends 200 samples, and the target answers none of them. An estimator in use should answer
+// them with AlignUpdate.
 TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
   drive::Run run = run_of();
   for (int i = 0; i < 200; ++i)

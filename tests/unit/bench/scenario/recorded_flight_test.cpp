@@ -27,7 +27,8 @@ const Row header{"t_s",
                  "pitch_deg",
                  "heading_deg"};
 
-/// 21 s to the north at 10 m/s, turning slowly across north, from 5 s of the file's clock on, at 50 Hz.
+/// Rows at 50 Hz of a flight of 21 s to the north at 10 m/s, whose heading turns slowly through north. The
+/// file's clock begins at 5 s.
 std::vector<Row> rows() {
   std::vector<Row> all{header};
   for (int i = 0; i <= 1050; ++i) {
@@ -110,7 +111,7 @@ TEST(RecordedFlight, TakesEachQuantityInAnyUnit) {
   }
 }
 
-// A changed row changes the scenario: a campaign resumes with the same data only.
+// A changed row changes the hash of the scenario, so a campaign resumes only with the same data.
 TEST(RecordedFlight, IsPartOfTheHash) {
   std::vector<Row> all = rows();
   const auto first = read(text_of(all));

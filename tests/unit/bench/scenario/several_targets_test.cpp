@@ -18,7 +18,7 @@ initial_sigma = { velocity_mps = 0.1, tilt_deg = 1.0, heading_deg = 90.0, positi
 initial_error = { heading_magnitude_deg = 90.0 }
 )";
 
-// `valid` with another estimator, and GPS for it.
+// The scenario `valid` with a second estimator, and with GPS for that estimator.
 std::string two(std::string_view other = second, std::string_view check = "") {
   const std::string several = with("[target]", "[[target]]");
   return with("[truth]", std::string(other) + "[gps]\n" + std::string(check) + "[truth]", several);

@@ -82,7 +82,7 @@ inline std::string error_of(std::string_view text) {
   return result ? "no error" : result.error().message;
 }
 
-/// The text of a scenario about a node on its bus.
+/// The settings of the node whose settings have this type.
 template <class Settings>
 Settings node_of(const Scenario& scenario) {
   for (const NodeSettings& node : scenario.nodes) {

@@ -77,7 +77,7 @@ std::vector<Stream> sae_benchmark() {
 }
 
 // Here every message has one instance in its busy period, so the analysis of 1994 gives the same response
-// times. The expected R were computed with its recurrence by a separate program.
+// times. A separate program computed the expected times with the recurrence of 1994.
 TEST(SaeBenchmark, At125KilobitsPerSecond) {
   EXPECT_THAT(bounds_us(sae_benchmark(), bus_125k),
               ElementsAre(1'440, 2'040, 2'560, 3'160, 3'680, 4'280, 5'040, 8'400, 9'000, 9'680, 10'200,
@@ -105,8 +105,8 @@ TEST(Responses, QueueingJitterOfTheOthersIsInterferenceOwnJitterIsAdded) {
   EXPECT_THAT(bounds_us(streams, bus), ElementsAre(2'000 + 9'990, 3'500));
 }
 
-// A frame that becomes due during the first bit of another frame still takes part in the arbitration. At w =
-// 9.995 ms, `high` is due again after 5 us, half a bit.
+// A frame that becomes due during the first bit of another frame still takes part in the arbitration. At a
+// queueing delay of 9.995 ms, `high` is due again after 5 us, half a bit.
 TEST(Responses, TheFirstBitIsStillOpenToHigherPriority) {
   const std::vector<Stream> streams{stream("high", 100, 10 * ms, 10 * ms),
                                     stream("low", 100, 100 * ms, 100 * ms)};

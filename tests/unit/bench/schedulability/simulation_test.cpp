@@ -44,7 +44,7 @@ TEST(Simulation, NeverExceedsTheAnalysis) {
   }
 }
 
-// The same with frames of any content; the analysis knows only their size.
+// The same comparison with frames of random content; the analysis knows only their size.
 TEST(Simulation, NeverExceedsTheAnalysisWhateverTheContent) {
   for (std::uint64_t seed = 0; seed < sets / 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -151,8 +151,8 @@ std::vector<Due> critical_instant(const MessageSet& set, std::size_t m, std::int
 }
 
 // Exact bounds: at the critical instant the response equals the bound. The blocking frame must have won the
-// arbitration before, so its first bit is over and it blocks for one bit less than B. The stream of lowest
-// priority is not blocked, and its response equals the full bound.
+// arbitration before, so its first bit is over and it blocks for one bit less than the analysis assumes. The
+// stream of lowest priority is not blocked, and its response equals the full bound.
 TEST(Simulation, ReachesTheAnalysisAtTheCriticalInstant) {
   std::int64_t beyond_the_first = 0;
   for (std::uint64_t seed = 0; seed < sets; ++seed) {
@@ -177,8 +177,8 @@ TEST(Simulation, ReachesTheAnalysisAtTheCriticalInstant) {
   EXPECT_GT(beyond_the_first, 20);  // some of the sets violate the analysis of 1994
 }
 
-// Errors no closer than the error model allows, each at any bit of a frame and with an error flag of any
-// length.
+// The errors are no closer than the error model allows. Each error occurs at a random bit of a frame, and its
+// error flag has a random length.
 TEST(Simulation, NeverExceedsTheAnalysisWithErrors) {
   std::uint64_t errors_seen = 0;
   for (std::uint64_t seed = 0; seed < sets / 2; ++seed) {

@@ -110,7 +110,7 @@ TEST(Spool, LetsGoOfWhatItPassed) {
     ASSERT_TRUE(is_right(found, index));
     if (index++ % 10'000 == 0) look();
   }
-  // 2 MiB in memory, half as much again while they grow, 2 MiB of the file, and the heap's own memory.
+  // 2 MiB in memory, 1 MiB more while this memory grows, 2 MiB of the file, and the heap's own memory.
   EXPECT_LT(most, 10 * megabyte);
 }
 #endif

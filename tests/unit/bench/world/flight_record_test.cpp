@@ -208,7 +208,7 @@ TEST(FlightRecord, LookUpAgreesWithAFinerRecordBetweenEpochs) {
     EXPECT_EQ(a.v_eb_n, b.v_eb_n);
     EXPECT_EQ(a.C_bn, b.C_bn);
     // Rounding: an ulp of the longitude is 2 nm; over the 1.2e5 steps of the fine record this is 0.7 um if
-    // independent.
+    // the rounding errors are independent.
     EXPECT_LT(displacement_n(a.position, b.position).norm(), 1e-6);
     EXPECT_LT((a.f_ib_b - b.f_ib_b).norm(), 1e-12);
     EXPECT_LT((a.omega_ib_b - b.omega_ib_b).norm(), 1e-15);

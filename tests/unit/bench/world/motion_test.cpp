@@ -22,7 +22,7 @@ const Weave weave{.heading = 0.7,
                   .coning_amplitude = 0.2 * deg,
                   .coning_period = 0.1};
 
-// The path of the reference simulation of Kang, Kim, Park (2006): its roll follows its heading rate.
+// The path of the reference simulation of Kang, Kim, Park (2006), in which the roll follows the heading rate.
 const SPath s_path{.speed = 3,
                    .heading = 40 * deg,
                    .heading_amplitude = 50 * deg,
@@ -75,7 +75,7 @@ TEST(Motion, TheLevelFlightCruisesThenAccelerates) {
 }
 
 TEST(Motion, TheWeaveIsCoordinated) {
-  // Without coning, roll causes only the small lateral specific force of the climb rate.
+  // Without coning and pitch, a coordinated turn has no lateral specific force.
   Weave smooth = weave;
   smooth.coning_amplitude = 0;
   smooth.pitch_amplitude = 0;

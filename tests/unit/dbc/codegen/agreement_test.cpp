@@ -86,8 +86,8 @@ Member random_member(std::mt19937_64& random, const SignalInfo& info) {
   }
 }
 
-// The visitors are named types, because with lambdas each message would have its own type. So the code of a
-// visitor is compiled once per type of member.
+// The visitors are named types, so the code of a visitor is compiled once per type of member. With lambdas,
+// each message would have a separate type of visitor.
 struct Collect {
   std::vector<NamedValue>& values;
   template <class Member>

@@ -68,8 +68,8 @@ TEST(FdContract, OneFrameASampleGroupOfUpToEightMessages) {
   EXPECT_EQ(find_message(fd, "FixFilter2")->size, 48U);
 }
 
-// Random bytes in every message of the classic DBC: the FD DBC decodes the same values from the container
-// that the port packs.
+// The classic messages of each container get random bytes. The FD DBC must decode the same values from the
+// container that the port packs.
 TEST(FdContract, AContainerHoldsTheValuesOfItsMessages) {
   const Database old = classic();
   const Database fd = committed();

@@ -1,4 +1,4 @@
-// The compiled codec against a codec that handles one bit at a time, on random layouts.
+// The compiled codec, compared with a codec that handles one bit at a time, on random layouts.
 #include "dbc/parser/plan.hpp"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ bool present_by_bits(const Message& message, const Signal& signal, const Bytes& 
          present_by_bits(message, multiplexor, data);
 }
 
-/// A signal at a random place in a message, often at the ends of windows and bytes.
+/// A signal at a random place in a message, often with nearly the largest possible length.
 Signal any_signal(unsigned size, std::size_t number) {
   Signal signal;
   signal.name = "s" + std::to_string(number);
@@ -88,7 +88,7 @@ Signal any_signal(unsigned size, std::size_t number) {
   return signal;
 }
 
-/// Signals may overlap; some lie under multiplexors, up to three deep.
+/// A message whose signals may overlap; some signals lie under multiplexors, possibly in several levels.
 Message any_message() {
   Message message;
   message.name = "M";
@@ -164,7 +164,7 @@ RC_GTEST_PROP(PlanProperty, EncodesAsBitByBit, (double any)) {
   RC_ASSERT(data == expected);
 }
 
-// Up to 48 bits, because doubles represent these values exactly with scale and offset.
+// Up to 48 bits, because doubles then represent the physical value within half an LSB.
 RC_GTEST_PROP(PlanProperty, RawValuesComeBack, (std::uint64_t any)) {
   Signal signal = any_signal(8, 0);
   RC_PRE(!signal.is_float() && signal.length <= 48);

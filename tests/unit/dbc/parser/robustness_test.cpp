@@ -31,7 +31,7 @@ void expect_sound_or_one_line(const Result<Database>& database) {
 
 class Robustness : public testing::TestWithParam<const char*> {};
 
-// Removes, repeats, swaps and changes pieces of a correct file.
+// Removes and copies pieces of a correct file, and changes single characters.
 TEST_P(Robustness, MutatedFilesAreReadOrRefused) {
   const std::string original = content_of(std::string(TEST_DATA_DIR "/dbc/") + GetParam());
   ASSERT_FALSE(original.empty());

@@ -1,4 +1,4 @@
-// Artificial control messages, because no virtual interface has hardware time stamps.
+// The tests use artificial control messages, because no virtual interface has hardware time stamps.
 #include "dbc/ports/ancillary.hpp"
 
 #include <gmock/gmock.h>

@@ -41,7 +41,7 @@ TEST(BitErrors, AFrameIsHitAsOftenAsItsBitsSayAndAnywhere) {
   const double share = 1 - std::pow(1 - p, bits);
   EXPECT_NEAR(hits, tries * share, 5 * std::sqrt(tries * share * (1 - share)));
   // Only the first of several errors in a frame counts, so the distribution is not quite uniform: its mean is
-  // off by p n / 12 of the length, here 1 %.
+  // off by p n / 12 of the length of n bits, here 1 %.
   EXPECT_NEAR(mean / hits / bits, 0.5, 0.01 + 5 * std::sqrt(1. / 12 / hits));
   EXPECT_EQ(first_ns, bit_ns);
   EXPECT_EQ(last_ns, static_cast<std::int64_t>(bits) * bit_ns);
@@ -68,7 +68,7 @@ TEST(BitErrors, NeverAndAlways) {
   for (std::uint32_t i = 0; i < 100; ++i) EXPECT_FALSE(hardly(attempt_of(frame(i))));
 }
 
-// For any disturbed bit, the error flag begins at the end of this bit, which has the length of its phase.
+// The error flag begins at the end of the disturbed bit. In the data phase, bits are shorter.
 TEST(BitErrors, BitsOfTheDataPhaseAreShorter) {
   Frame fd{.id = 0x123, .size = 64, .fd = true, .brs = true};
   const wire::BitLength length = wire::bit_length(fd);
@@ -87,7 +87,7 @@ TEST(BitErrors, BitsOfTheDataPhaseAreShorter) {
   EXPECT_GT(in_data, 100);
 }
 
-// Three nodes send a frame every 2 ms at 500 kbit/s. Every fiftieth attempt is disturbed; no node goes
+// Three nodes send a frame every 2 ms at 500 kbit/s. About every fiftieth attempt is disturbed; no node goes
 // bus-off.
 TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -15,7 +15,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// A bus of this test and this process.
+/// A bus whose name contains the test's name and the process id, so that no other test uses it.
 class LocalBus : public ::testing::Test {
  protected:
   std::unique_ptr<LocalHub> host(const PortOptions& options = {}) const {
@@ -96,7 +96,7 @@ TEST_F(LocalBus, GivesNodesTheirNamesAndForgetsTheDead) {
   b->send(frame_of(7));
   b.reset();
   EXPECT_EQ(hub->send(frame_of(8)), SendOutcome::sent);
-  EXPECT_EQ(next_frame(*hub)->frame.id, 7U);  // the hub still delivers frames that were sent before the end
+  EXPECT_EQ(next_frame(*hub)->frame.id, 7U);  // the hub delivers frames that a node sent before its end
   EXPECT_FALSE(hub->receive());
   EXPECT_THAT(hub->nodes(), ElementsAre("target"));
 }

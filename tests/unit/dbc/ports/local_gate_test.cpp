@@ -163,7 +163,7 @@ class AnotherUser : public LocalGate {
     for (const std::string& path : {runtime_, directory(), directory() + "/x.classic"})
       ::chmod(path.c_str(), 0777);
   }
-  /// Connects without the checks of the host, sends Hello and a frame. Returns 0 or errno.
+  /// Connects without checking the host, sends Hello and a frame. Returns 0, or errno of the connection.
   [[nodiscard]] int intrude() const {
     const Descriptor socket = local::connect_to(directory(), "x", Format::classic);
     if (!socket) return errno;

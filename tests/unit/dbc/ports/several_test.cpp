@@ -87,7 +87,7 @@ TEST_F(Several, ABusThatIsNotThereIsNamed) {
   EXPECT_THAT(missing.error().message, HasSubstr("local:nobody-hosts-this"));
 }
 
-// A controller with a separate clock that delivers one frame.
+// A controller that delivers one frame, with a time stamp of a separate clock.
 class Controller final : public Port {
  public:
   explicit Controller(std::int64_t hardware_ns) {

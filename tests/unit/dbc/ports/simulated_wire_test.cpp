@@ -24,7 +24,7 @@ std::vector<std::uint32_t> sent(SimulatedWire& wire) {
   return ids;
 }
 
-/// Every attempt of frames with this id fails, the first `times` times.
+/// The first `times` attempts to send frames with this id fail.
 Disturb failing(std::uint32_t id, int times, WireError error = {.after_ns = 20 * bit_ns}) {
   return [id, times, error, n = 0](const Attempt& attempt) mutable {
     return attempt.frame.id == id && n++ < times ? std::optional(error) : std::nullopt;
@@ -191,11 +191,11 @@ TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
   while (wire.state(0) != NodeState::bus_off) ASSERT_TRUE(wire.next(long_enough));
   for (int i = 0; i < 126; ++i) ASSERT_TRUE(wire.next(long_enough));
   EXPECT_EQ(wire.state(0), NodeState::bus_off);
-  ASSERT_TRUE(wire.next(long_enough));  // the 128th frame: the first was sent in the call that went bus-off
+  ASSERT_TRUE(wire.next(long_enough));  // the 128th; the first came with the last error
   EXPECT_EQ(wire.state(0), NodeState::error_active);
 }
 
-/// The reports of a controller, in order: event, counters, time.
+/// One report of a controller: event, counters, time.
 struct Reported {
   std::optional<BusEvent> event;
   int tx = 0, rx = 0;

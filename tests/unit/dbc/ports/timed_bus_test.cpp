@@ -207,7 +207,7 @@ TEST_F(TimedBus, WhereEveryBitIsWrongASenderGoesOffTheBusAndComesBack) {
   EXPECT_EQ(of_other.tx_counter_max, 0);
 }
 
-// While the host is bus-off, its queue is full; afterwards the queued frames are sent.
+// While the host is bus-off, send() reports a full queue; after the return to the bus it takes frames again.
 TEST_F(TimedBus, AHostThatIsOffTheBusWaitsForItsReturn) {
   const auto hub = host("?bitrate=10000&bit-error-rate=1");
   ASSERT_EQ(hub->send(frame_of(1)), SendOutcome::sent);

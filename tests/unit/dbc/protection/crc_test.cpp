@@ -28,8 +28,8 @@ TEST(Crc, HasThePublishedCheckValues) {
   }
 }
 
-// Boost's table-driven CRC types have parameters of their own, so this does not depend on the project's
-// table.
+// Boost defines the parameters of its table-driven CRC types, so this test does not depend on the project's
+// table of CRC models.
 TEST(Crc, AgreesWithTheTableDrivenOnesOfBoost) {
   const auto with = [](auto crc) {
     crc.process_bytes(digits.data(), digits.size());
@@ -44,7 +44,7 @@ TEST(Crc, AgreesWithTheTableDrivenOnesOfBoost) {
   EXPECT_EQ(with(boost::crc_32_type()), ours("CRC-32/ISO-HDLC"));
 }
 
-/// The definition: polynomial division bit by bit, right-aligned, without the 64-bit register.
+/// The definition of a CRC: polynomial division bit by bit, in a register as wide as the CRC.
 std::uint64_t by_division(const Crc& crc, std::span<const std::uint8_t> bytes) {
   std::uint64_t rest = crc.start;
   for (const std::uint8_t byte : bytes) {

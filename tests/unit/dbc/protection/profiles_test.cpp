@@ -105,8 +105,8 @@ TEST(E2eProfile22, HasThePublishedExamples) {
 
 // The text of the standard contains no example of profile 2. Profile 2 is bus-compatible with profile 22
 // (R19-11, document change history: 'Fixed interoperability issues between P01 and P11, P02 and P22'), so the
-// examples of profile 22 are used. The two others are from the tests of autosar-e2e on PyPI, data id list 0,
-// 1, .. 15.
+// examples of profile 22 are used. The two examples with data id list 0, 1, .. 15 are from the tests of
+// autosar-e2e on PyPI.
 TEST(E2eProfile2, HasTheExamplesOfProfile22) {
   for (std::uint8_t counter = 0; counter < 16; ++counter)
     EXPECT_EQ(zeros("autosar-e2e-2", with_list(1), 8, counter), at(0, {crc_of_counter[counter], counter}, 8));

@@ -54,7 +54,7 @@ TEST(Sums, SumOfAListOfBytes) {
   EXPECT_EQ(summed(checksum, {0xF0, 0x20, 0x03, 9, 9, 9, 9, 0})[7], 0x13);
 }
 
-// F0 + 20 + 03 = 113; its lowest 8 bits' complement: FF - 13 = EC.
+// F0 + 20 + 03 = 113; the complement of its lowest 8 bits is FF - 13 = EC.
 TEST(Sums, ComplementOfASum) {
   Checksum checksum;
   checksum.place = last_byte;
@@ -97,8 +97,8 @@ TEST(Sums, SumWithLengthAndMessageId) {
   EXPECT_EQ(summed(checksum, {0x80, 0x00, 0x0A, 0x00, 0xEE}, 0x2E4)[4], 0x75);
 }
 
-// Sum of nibbles, as Honda uses it: 8 - (nibbles of the CAN id and of all bytes except the checksum's own
-// nibble), modulo 16. Id E4: E + 4 = 18. Data 12 34 56 79 2_: 1 + 2 + 3 + 4 + 5 + 6 + 7 + 9 + 2 = 39. 8 - 57
+// Sum of nibbles, as Honda uses it: 8 - (sum of the nibbles of the CAN id and of the bytes, without the
+// checksum) modulo 16. Id E4: E + 4 = 18. Data 12 34 56 79 2_: 1 + 2 + 3 + 4 + 5 + 6 + 7 + 9 + 2 = 39. 8 - 57
 // = -49 = 15 - 64: F. As a negated sum: -(8 + 57) = -65 = 15 - 80, since 8 and -8 are equal modulo 16.
 TEST(Sums, NibblesInANibble) {
   Checksum checksum;

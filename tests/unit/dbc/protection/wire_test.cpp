@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// The messages of a DBC that have a data id, each with the preset's protection.
+/// A message of a DBC that has a data id, with the protection of the preset.
 struct ProtectedMessage {
   std::uint16_t data_id = 0;
   Protection protection;
@@ -72,7 +72,7 @@ Check in_our_words(e2e::Check check) {
   return Check::wrong_checksum;
 }
 
-// Streams of messages with lost, repeated and damaged ones, and with a counter of 15.
+// Streams of messages, some of which are lost, repeated or damaged, or have a counter of 15.
 RC_GTEST_PROP(OwnWire, ReceiversSayTheSame, ()) {
   const ProtectedMessage& message = contract()[*rc::gen::inRange<std::size_t>(0, contract().size())];
   Receiver receiver;

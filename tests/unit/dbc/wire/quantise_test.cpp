@@ -15,7 +15,7 @@ TEST(RoundHalfEven, InConstantExpressionsToo) {
   static_assert(round_half_even(-0.75) == -1 && round_half_even(7) == 7 && round_half_even(-7) == -7);
 }
 
-// Both branches of round_half_even: one at run time, the other in a table that is computed at compile time.
+// Compares both branches of round_half_even: one at run time, the other in a table made at compile time.
 TEST(RoundHalfEven, BothWaysGiveTheSame) {
   constexpr auto table = [] {
     std::array<std::int64_t, 4001> rounded{};

@@ -76,8 +76,8 @@ TEST(Allocation, TheFramePathOfTheDeviceHasNone) {
   }
 }
 
-// The same for in-flight alignment: fixes that are late, gated, invalid, or from the other aid; a P that
-// needs a repair.
+// The frames of a session of in-flight alignment: fixes that are late, gated, invalid, or from the other aid,
+// and a covariance P that needs a repair.
 std::vector<Frame> inflight_session(messages::Algorithm algorithm) {
   using namespace messages;
   BenchSide bench;
@@ -116,8 +116,8 @@ TEST(Allocation, TheFramePathOfInflightAlignmentHasNone) {
   }
 }
 
-// The same for the LOS rate: groups that are lost, invalid or late, and a seeker that falls silent and
-// returns.
+// The frames of a session of the LOS rate: groups that are lost, invalid or late, and a seeker that falls
+// silent and returns.
 std::vector<Frame> los_rate_session(messages::Algorithm algorithm) {
   using namespace messages;
   Missile missile(algorithm, {{.parameter = Parameter::glint_noise_yaw_m, .value = 0.7F}});
@@ -143,8 +143,8 @@ TEST(Allocation, TheFramePathOfTheLosRateHasNone) {
   }
 }
 
-// The same for the wind: late and rejected fins; navigation that is lost, invalid or jumps, falls silent, and
-// returns.
+// The frames of a session of the wind: fins that are late or rejected; navigation that is lost or invalid,
+// jumps, falls silent, and returns.
 std::vector<Frame> wind_session(messages::Algorithm algorithm) {
   using namespace messages;
   BenchSide bench;

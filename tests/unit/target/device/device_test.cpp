@@ -149,8 +149,8 @@ TEST(Device, AnswersEachMasterGroupWithSigmasAndInnovation) {
 }
 
 TEST(Device, AppliesALateFixAtItsTimeOfValidity) {
-  // The same fixes, in one stream in time and in the other 60 ms late: when both targets have received
-  // everything, their answers agree bit for bit.
+  // Two targets receive the same fixes, one target in time, the other 60 ms late. When both targets have
+  // received all fixes, their answers agree bit for bit.
   const auto last_answer = [](int delay_samples) {
     BenchSide bench;
     bench.start();
@@ -190,7 +190,7 @@ TEST(Device, KeepsAFixThatIsAheadOfTheImu) {
 }
 
 TEST(Device, EveryFixThatIsAheadOfASlowImuWaits) {
-  // Fixes at 20 ms, and an IMU that is 50 ms behind them: each fix is applied when the IMU reaches its time.
+  // A fix is sent every 20 ms; the IMU is 50 ms behind. Each fix waits until the IMU reaches its time.
   BenchSide bench;
   bench.start();
   for (int k = 1; k <= 30; ++k) {
@@ -211,7 +211,7 @@ TEST(Device, FixesThatWaitedForOneImuSampleAreAllAnswered) {
   bench.imu(10'000);
   for (int k = 2; k <= 10; ++k) bench.master(k * 10'000L);  // one fix more than the device can hold
   EXPECT_FALSE(bench.last<AlignUpdate>());
-  bench.imu(150'000);  // this sample bridges the gap
+  bench.imu(150'000);  // the device bridges the gap before this sample
   bench.sync(150'000);
   EXPECT_EQ(bench.all<AlignUpdate>().size(), 8U);
   EXPECT_EQ(bench.all<AlignInnovation>().size(), 8U);

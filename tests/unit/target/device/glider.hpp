@@ -13,7 +13,7 @@ inline const wind::RecordedRun& recorded() {
   return run;
 }
 
-/// Sends the initial state of the published run, or another one.
+/// Sends the initial state of the published run, or another initial state, and then rows of this run.
 class Glider : public BenchSide {
  public:
   static constexpr double deg = std::numbers::pi / 180;
@@ -51,8 +51,8 @@ class Glider : public BenchSide {
     command(Command::start, Estimator::wind, release.algorithm);
   }
 
-  /// Sends the rows [from, to): fins, navigation, time base. `spoil` changes the frames; a time of -1 means
-  /// not sent.
+  /// Sends the rows [from, to): fins, navigation, time base. `spoil` changes the frames. If it sets
+  /// the time of the navigation to -1, no navigation is sent.
   void fly(
       std::size_t from, std::size_t to, const wind::Spoil& spoil = [](auto...) {}) {
     for (std::size_t k = from; k < to; ++k) {

@@ -218,7 +218,7 @@ TEST(InflightAlignment, AFixOlderThanTheHistoryIsLate) {
   EXPECT_EQ(bench.last<TargetCounters>()->late, 1);
 }
 
-// The frame of an encoder that does not check for NaN.
+// An encoder that does not check for NaN sends the raw minimum instead of NaN.
 TEST(InflightAlignment, TheRawMinimumIsNoRelativePosition) {
   Vehicle bench(by_ssbl);
   bench.imu_until(1'000'000);
@@ -259,7 +259,7 @@ TEST(InflightAlignment, WithoutAGateEveryFixIsTaken) {
   EXPECT_TRUE(bench.device().running());
 }
 
-// Velocities after fixes that arrive `late` [us] after their validity.
+// The north velocity at the end of a run whose fixes arrive `late_us` after their time of validity.
 double north_after(std::int64_t late_us, float late_fixes) {
   Vehicle bench(by_gps, Algorithm::sin_cos, {{.parameter = Parameter::late_fixes, .value = late_fixes}});
   for (std::int64_t t = 100'000; t <= 8'000'000; t += 100'000) {

@@ -1,4 +1,4 @@
-// The LOS rate through the device: frames of an engagement go in, and the estimator's own values come out.
+// The LOS rate through the device: for the frames of an engagement, the device sends the estimator's values.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -46,7 +46,7 @@ los::UpdateResult own_step(los::State& state, const SeekerSample& sample, const 
                    design);
 }
 
-// The value on the bus is the estimator's own value within half an LSB, or the limit of the signal.
+// The value on the bus equals the estimator's value `own` within half an LSB, or the limit of the signal.
 void expect_near(double on_bus, double own, double lsb, double limit, const char* what) {
   EXPECT_NEAR(on_bus, std::clamp(own, -limit, limit), lsb * 0.5000001) << what;
 }

@@ -9,7 +9,7 @@
 
 namespace canhil::target {
 
-/// The messages of one group Seeker.
+/// The messages of one sample group `Seeker`.
 struct SeekerSample {
   messages::SeekerAntenna antenna;
   messages::SeekerAngles angles;
@@ -38,7 +38,7 @@ class Missile : public BenchSide {
     return setup;
   }
 
-  /// The next sample, with the meanings of the DBC: acceleration along antenna y is in the plane of yaw.
+  /// The next sample, with the signals of the DBC: acceleration along antenna y is in the plane of yaw.
   SeekerSample next() {
     using messages::Validity;
     const los_rate::Measurement m = engagement_.next();
@@ -91,7 +91,7 @@ class Missile : public BenchSide {
   [[nodiscard]] const los_rate::Truth& truth() const { return engagement_.truth(); }
   [[nodiscard]] messages::LosRateEstimate estimate() const { return *last<messages::LosRateEstimate>(); }
   [[nodiscard]] messages::LosRateSigma sigma() const { return *last<messages::LosRateSigma>(); }
-  /// The error of both planes against the truth [rad/s].
+  /// The magnitude of the error of the LOS rate, over both planes [rad/s].
   [[nodiscard]] double rate_error() const {
     const los_rate::Plane rate{estimate().los_rate_yaw_radps, estimate().los_rate_pitch_radps};
     return std::abs(rate - truth().rate);

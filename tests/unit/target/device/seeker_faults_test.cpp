@@ -48,7 +48,7 @@ TEST_P(BadSamples, AreNamedCoastedOverAndRecoveredFrom) {
       ASSERT_EQ(missile.estimate().fault, LosRateFault::none);
       ASSERT_NE(missile.estimate().outcome, LosRateOutcome::coasting);
     }
-    // The error of the classical low-pass filter is its lag, with and without the fault.
+    // The lag of the classical low-pass filter causes an error with and without the fault.
     EXPECT_LT(missile.rate_error(), algorithm == Algorithm::low_pass ? 3e-3 : 5e-4);
     EXPECT_TRUE(missile.device().running());
     EXPECT_EQ(missile.last<TargetHeartbeat>()->error_input_lost, 1);
@@ -231,7 +231,7 @@ struct Untimely {
 
 class UntimelyGroups : public testing::TestWithParam<Untimely> {};
 
-// These samples are answered and counted, but do not affect later answers.
+// Untimely groups are answered and counted, but do not affect later answers.
 TEST_P(UntimelyGroups, AreAnsweredCountedAndLeaveNoTrace) {
   const auto flight = [&](bool untimely) {
     Missile missile;

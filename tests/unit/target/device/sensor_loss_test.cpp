@@ -37,7 +37,7 @@ TEST(SensorLoss, AFrameOfTheWrongSizeOrFormatIsDroppedAndCounted) {
   };
   wrong([](Frame& frame) { frame.size = 4; });
   wrong([](Frame& frame) { frame.fd = true; });
-  wrong([](Frame& frame) {  // the CRC covers the whole frame
+  wrong([](Frame& frame) {  // the CRC is correct for the 12 bytes
     frame.size = 12;
     frame.data[0] = e2e::crc(frame.payload(), SlaveImuDeltaV::info.e2e_data_id);
   });
@@ -81,7 +81,7 @@ TEST(SensorLoss, ABridgeIsTheMeanOfItsNeighboursAtTheirRates) {
     bench.send(velocity);
     bench.send(BenchSide::status(t_us, 10'000));
   };
-  // Two samples are lost between samples of 0.1 and 0.3 m/s: each counts as 0.2 m/s.
+  // Two samples are lost between samples of 0.1 and 0.3 m/s. Each lost sample counts as 0.2 m/s.
   BenchSide bench;
   bench.start();
   accelerated(bench, 10'000, 0.1);

@@ -15,11 +15,11 @@ using wind::FinFrame;
 using wind::Navigation;
 
 constexpr std::size_t rows = 1001;
-constexpr std::size_t bad_from = 500, bad_to = 550;  // a second
+constexpr std::size_t bad_from = 500, bad_to = 550;  // 1 s
 
 bool is_bad(std::size_t k) { return k >= bad_from && k < bad_to; }
 
-// Mean error of the wind over the last second of the run; `winds` ends with its answers.
+// Mean error of the wind over the last second of the run; the last 50 elements of `winds` belong to it.
 double final_error(const std::vector<Eigen::Vector3d>& winds) {
   double sum = 0;
   for (std::size_t i = 1; i <= 50; ++i)
@@ -74,7 +74,7 @@ TEST(Wind, StartsWithTheFirstUsableSampleWhereTheAirVelocityIsNotKnown) {
   EXPECT_EQ(status[10].outcome, WindOutcome::started);
   EXPECT_EQ(bench.all<WindVector>()[10].started, 1);
   EXPECT_EQ(status[11].outcome, WindOutcome::updated);
-  expect_recovered(bench, 1.0);  // the along-track wind, 20 s after a start without knowledge of the wind
+  expect_recovered(bench, 1.0);  // 20 s after a start with unknown wind, the along-track wind is less exact
 }
 
 struct Bad {
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
             }}),
     [](const auto& which) { return which.param.name; });
 
-// The frame of an encoder that does not check for NaN.
+// An encoder that does not check for NaN sends the raw minimum instead of NaN.
 TEST(Wind, TheRawMinimumIsNoAngle) {
   Glider bench;
   bench.fly(0, 10);
@@ -203,7 +203,7 @@ TEST(Wind, DeflectionsThatAreNotPhysicalAreRefused) {
   }
 }
 
-// With process noise that does not adapt, so that only its increase for missing fins is visible.
+// The process noise does not adapt here, so that only its increase for missing fins is visible.
 TEST(Wind, MissingFinsAreFlaggedAndWidenTheSigmas) {
   Glider::Release release;
   release.parameters = {{.parameter = Parameter::process_noise, .value = 0},

@@ -62,7 +62,7 @@ TEST(Wind, RefusesParametersOutOfRangeOrTooLate) {
   EXPECT_EQ(status(Parameter::h2_case, 1), ParameterStatus::unknown);
 }
 
-// Each parameter reaches the filter: the answers differ from those with the default.
+// Each parameter reaches the filter: two values of the parameter give different answers.
 TEST(Wind, EveryParameterOfTheFilterActs) {
   const auto flight = [](const ParamSet& parameter) {
     Glider::Release release{.parameters = {}};

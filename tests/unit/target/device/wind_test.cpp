@@ -63,7 +63,7 @@ TEST(Wind, ComesAsComponentsAndAsSpeedAndDirectionWithTheirSigmas) {
     EXPECT_NEAR(track.wind_speed_sigma_mps, sigma_along(north / speed, east / speed), 0.01);
     EXPECT_NEAR(track.wind_from_sigma_deg, sigma_along(-east / speed, north / speed) / speed / Glider::deg,
                 0.03);
-    // This is nearly the direction of the air velocity.
+    // The heading is nearly the direction of the air velocity.
     const double heading = bench.all<WindAttitude>()[k].heading_deg * Glider::deg;
     EXPECT_NEAR(track.along_track_sigma_mps, sigma_along(std::cos(heading), std::sin(heading)), 0.05);
     EXPECT_NEAR(track.cross_track_sigma_mps, sigma_along(-std::sin(heading), std::cos(heading)), 0.05);

@@ -1,6 +1,6 @@
-// The published test vector through the Device: its rows go in as frames, and its states come out. The test
-// is built twice: with the DBC, where the states agree within its rounding, and with a version of the DBC
-// without rounding.
+// The published test vector through the Device: the test sends its rows as frames and compares the answers
+// with its states. The test is built twice: with the DBC, where the states agree within the rounding of the
+// signals, and with a version of the DBC without rounding.
 #include <gtest/gtest.h>
 
 #include "tests/unit/target/device/glider.hpp"
@@ -11,7 +11,7 @@ namespace {
 using namespace messages;
 
 // The published run holds the fins of a row until the next row, but the target interpolates linearly between
-// samples. Therefore each row is sent again this long before the next row, and only the rest is interpolated.
+// samples. Therefore the fins of a row are sent again 10 us before the next row: only 10 us are interpolated.
 constexpr std::int64_t before_next_us = 10;
 
 struct Misses {

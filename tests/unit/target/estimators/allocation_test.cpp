@@ -64,7 +64,7 @@ void* __wrap_aligned_alloc(std::size_t alignment, std::size_t size) {
 namespace canhil::transfer_alignment {
 namespace {
 
-// Not local to the tests below, where GCC would remove the allocation.
+// Global, because GCC would remove the allocation of a variable that is local to a test.
 std::unique_ptr<int> kept_value;
 Eigen::MatrixXd kept_matrix;
 

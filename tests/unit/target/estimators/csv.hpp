@@ -30,7 +30,7 @@ class Csv {
   }
   std::size_t rows() const { return rows_.size(); }
   double at(std::size_t row, const std::string& name) const { return rows_.at(row).at(column_.at(name)); }
-  /// `count` neighbouring columns, the first by name.
+  /// Points to the value in the named column; the values of the columns to its right follow.
   const double* from(std::size_t row, const std::string& name) const {
     return &rows_.at(row).at(column_.at(name));
   }

@@ -23,8 +23,8 @@ strapdown::NavState published_start();
 /// trapezoidal rule.
 strapdown::NavState flight_next(const strapdown::NavState& nav, double t, double dt);
 
-/// The increments of this sample: mean rate and mean specific force, with the earth terms at the middle of
-/// the sample.
+/// The increments of the sample from t to t + dt: mean rate and mean specific force, with the earth terms at
+/// the middle of the sample.
 strapdown::ImuIncrement flight_increment(const strapdown::NavState& nav, double t, double dt);
 
 }  // namespace canhil::transfer_alignment

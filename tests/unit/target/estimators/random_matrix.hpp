@@ -9,7 +9,7 @@ namespace canhil {
 
 /// A matrix of standard normal numbers, filled by columns.
 Dense random_dense(int rows, int columns, std::mt19937_64& engine);
-/// Symmetric, smallest eigenvalue at least 1.
+/// A symmetric matrix whose smallest eigenvalue is at least 1.
 Dense random_covariance_dense(int size, std::mt19937_64& engine);
 
 template <int Rows, int Cols>

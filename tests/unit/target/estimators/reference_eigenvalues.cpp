@@ -43,7 +43,7 @@ double largest_stretch(const Dense& m) { return std::sqrt(symmetric_eigenvalues(
 // Gelfand's formula: the limit of |m^n|^(1/n), with n doubled at each step.
 double spectral_radius(const Dense& m) {
   Dense power = m;
-  double logarithm = 0;  // the exponent of the extracted scale, per factor m
+  double logarithm = 0;  // of the extracted scales, per factor m
   double share = 1;
   for (int doubling = 0; doubling < 50; ++doubling) {
     const double size = norm(power);

@@ -28,7 +28,7 @@ Dense both(const Dense& a, const Dense& b, const Function& function) {
   return out;
 }
 
-// The determinant of `m`, by Gauss-Jordan elimination with row pivots, which turns m into I and `right` into
+// Returns the determinant of `m`. Gauss-Jordan elimination with row pivots turns m into I and `right` into
 // m^-1 right.
 double eliminate(Dense m, Dense& right) {
   double determinant = 1;

@@ -1,6 +1,6 @@
 #pragma once
-// Matrices of any size for references in tests. This type is compiled once, in reference_matrix.cpp. With
-// fixed-size Eigen matrices every expression is a type of its own, and one test took longer to compile than
+// Matrices of any size for references in tests. Class Dense is compiled once, in reference_matrix.cpp. With
+// fixed-size Eigen matrices, each expression has a separate type, and one test took longer to compile than
 // the filter.
 #include <Eigen/Core>
 #include <iosfwd>
@@ -42,7 +42,7 @@ class Dense {
   std::size_t index(int row, int column) const {
     return static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(row);
   }
-  const double* entries_of(int rows, int columns) const;  // after checking the size
+  const double* entries_of(int rows, int columns) const;  // throws if the size differs
 
   int rows_, columns_;
   std::vector<double> values_;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 
-/// Delivers frames endlessly, for 5 s if the target does not stop reading.
+/// Delivers a frame on each call, for at most 5 s. Ends the run when the target has sent two heartbeats.
 class FloodedPort final : public Port {
  public:
   SendOutcome send(const Frame& frame) override {

@@ -45,8 +45,9 @@ TEST(Glide, FliesThePublishedPath) {
   EXPECT_LT(std::abs(euler_from(end.C_bn).pitch) / deg, 0.5);
 }
 
-// Fins of the published run, recorded without noise, with coefficient errors of 20 % (so within 30 %). The
-// glider is released with fins at zero, pitches up, and is then stabilised.
+// The fin deflections of the published run. They were recorded without noise, but with coefficient errors of
+// 20 %, so the test allows 30 %. The glider is released with fins at zero, pitches up, and is then
+// stabilised.
 TEST(Glide, ReleaseIsThePublishedOne) {
   const GlideRecord record = flown({}, 20);
   const auto elevator_deg = [&](std::int64_t t_ms) { return record.at(1000 * t_ms).fins.x() / deg; };

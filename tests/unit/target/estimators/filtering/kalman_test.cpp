@@ -26,7 +26,7 @@ TEST(Kalman, UpdateIsTheInformationFormAndSymmetric) {
   EXPECT_EQ(Dense(c.P), transposed(c.P));
 }
 
-// A measurement far more precise than the prior: P - K H P is 0 in double precision, the Joseph form gives R.
+// For a measurement far more precise than the prior, P - K H P is 0 in doubles, but the Joseph form gives R.
 TEST(Kalman, JosephFormKeepsTheVarianceOfAPreciseMeasurement) {
   Matrix<2, 2> P;
   P << 1e12, 3e11, 3e11, 1e12;

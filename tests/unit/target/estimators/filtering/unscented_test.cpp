@@ -48,7 +48,7 @@ TEST(Cholesky, FindsWhatIsNotPositiveDefinite) {
   }
 }
 
-// f(x, c) = (x0^2, x1 + c x0): its moments for a normal distribution are known in closed form.
+// f(x) = (x0^2, x1 + x2 x0): for a normally distributed x, the moments of f are known in closed form.
 TEST(Unscented, MeanOfASquareIsItsVariance) {
   constexpr int N = 3, K = 2;
   std::mt19937_64 engine(2);
@@ -60,9 +60,9 @@ TEST(Unscented, MeanOfASquareIsItsVariance) {
     return Parts<K>{0.5 * (plus + minus) - f(x), 0.5 * (plus - minus)};
   };
   const auto moments = unscented_moments<K, N>(padded(symmetric_root<N>(P)), 3.0, parts);
-  EXPECT_NEAR(moments.shift(0), P(0, 0), 1e-12);  // E x0^2 = x0^2 + var
+  EXPECT_NEAR(moments.shift(0), P(0, 0), 1e-12);  // mean of the square = square of the mean + variance
   EXPECT_NEAR(moments.shift(1), P(0, 2), 1e-12);
-  // cov(c, f) = P_c. grad f, exactly, for a function of second degree.
+  // cov(x2, f) = (row 2 of P) grad f; this is exact for a function of second degree.
   const Vector<2> gradient_0(2 * x(0), 0);
   EXPECT_NEAR(moments.about_central(2, 0), P(2, 0) * gradient_0(0), 1e-12);
   EXPECT_NEAR(moments.about_central(2, 1), P(2, 1) + P(2, 0) * x(2) + P(2, 2) * x(0), 1e-12);

@@ -49,7 +49,7 @@ constexpr Case cases[] = {{Algorithm::ekf, Aiding::ssbl},     {Algorithm::ekf, A
                           {Algorithm::ukf, Aiding::ssbl},     {Algorithm::ukf, Aiding::gps},
                           {Algorithm::sin_cos, Aiding::ssbl}, {Algorithm::sin_cos, Aiding::gps}};
 
-// Acceptance limit D. In sin_cos only the variance of k may be zero, after the handover of the heading.
+// Acceptance limit D. In sin_cos, only the variance of k = 1 - cos psi may be 0, after the heading handover.
 TEST(InflightFilter, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
   for (const auto [algorithm, aiding] : cases) {
     for (const double start_deg : {90.0, 170.0}) {
@@ -114,8 +114,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnywhere) {
   }
 }
 
-// The tilts are 40 deg, with a configured sigma of 30 deg. The first sample levels the INS, so heading and
-// sigma equal those of a level start. Without this levelling, one filter ends 3.4 sigma off.
+// The tilts are up to 40 deg, with a configured sigma of 30 deg. The first sample levels the INS, so heading
+// and sigma are as after a level start. Without this levelling, one run ends 3.4 sigma off.
 TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   for (const double tilt_deg : {-40.0, 8.0, 40.0}) {
     RecordedRun from = inputs(Aiding::ssbl);
@@ -133,8 +133,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   }
 }
 
-// The vehicle accelerates by 1 m/s^2, so levelling by the first sample would tilt it by 6 deg. A start with
-// smaller sigmas must not be levelled.
+// The vehicle accelerates by 1 m/s^2, so levelling by the first sample would tilt the INS by 6 deg. If the
+// sigma of the initial tilts is smaller, the INS must not be levelled.
 TEST(InflightFilter, OnlyAnUnknownTiltIsLevelled) {
   Settings settings = recorded_settings(Algorithm::sin_cos, Aiding::ssbl);
   const RecordedRun& from = inputs(Aiding::ssbl);
@@ -261,7 +261,7 @@ TEST(InflightFilter, PredictsByItselfWithoutFixes) {
   EXPECT_EQ(update(state, from.fixes[19], settings).outcome, Outcome::ok);
 }
 
-// The mean of the prediction, propagated to the present, must equal the correction of the INS.
+// A prediction to the present must not change the estimate between fixes.
 TEST(InflightFilter, TheEstimateBetweenFixesIsThePredictionsMean) {
   for (const auto [algorithm, aiding] : cases) {
     const Settings settings = recorded_settings(algorithm, aiding);
@@ -275,7 +275,7 @@ TEST(InflightFilter, TheEstimateBetweenFixesIsThePredictionsMean) {
   }
 }
 
-// Passes fixes to a history, each `late` samples late; the last fixes still arrive before the run ends.
+// Passes fixes to a history, fix k late(k) samples late; the last fixes still arrive before the run ends.
 template <class Late>
 State run_late(const Settings& settings, Late late) {
   const RecordedRun& from = inputs(settings.aiding);

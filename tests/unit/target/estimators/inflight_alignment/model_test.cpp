@@ -20,7 +20,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using strapdown::NavState;
 
-// The printed eq. (8) lacks the minus sign of the first row, so it is not a rotation.
+// The printed eq. (8) lacks the minus sign of the first row, so the printed matrix is not a rotation.
 TEST(PsiAngle, PlatformToComputerIsTheRotationByRollPitchYaw) {
   const Vector3d psi(0.3, -0.2, 1.2);
   const Matrix3d C = platform_to_computer(psi);
@@ -84,7 +84,7 @@ struct Flight {
     ins.ins.nav.longitude -= 500 / 5.2e6;
     ins.ins.nav.height += 400;
     ins.ins.nav.v_eb_n += Vector3d(50, 70, -40);
-    // C_pc with the given psi, for the INS's own frame.
+    // The attitude of the INS is chosen so that C_pc is the rotation by the given psi.
     const Matrix3d C_tc = C_ne(ins.ins.nav).transpose() * C_ne(truth.ins.nav);
     ins.ins.nav.C_bn = platform_to_computer(psi).transpose() * C_tc * truth.ins.nav.C_bn;
     start = errors_of(ins.ins.nav, truth.ins.nav);
@@ -114,7 +114,7 @@ TEST(PsiAngle, PredictsTheErrorsOfAnIns) {
   EXPECT_LT(strapdown::log_rotation(off).norm(), 1e-8);
 }
 
-// C_pc = exp([phi x]) Rz(psi_z): heading from the first column, tilts from the remaining rotation.
+// C_pc = exp([phi x]) Rz(psi_z): heading from the upper left 2x2 block, tilts from the remaining rotation.
 Vector<4> states(const Matrix3d& C_pc) {
   const double psi = std::atan2(C_pc(1, 0) - C_pc(0, 1), C_pc(0, 0) + C_pc(1, 1));
   const Vector3d phi = strapdown::log_rotation(C_pc * strapdown::exp_rotation({0, 0, -psi}));
@@ -190,7 +190,7 @@ TEST(PsiAngle, JacobianIsThatOfCentralDifferences) {
   const auto without_E = [&](const Vector<18>& at) {
     Vector<18> next = predicted<18>(at, flight.interval);
     const Vector3d psi = at.segment<3>(6), rates = next.segment<3>(6) - psi;
-    // rate in p: C_pc' (axes rates), the axes being in c
+    // The rotation rate in p is C_pc' (axes rates); the axes are given in c.
     next.segment<3>(6) = psi + platform_to_computer(psi).transpose() * rotation_axes(psi) * rates;
     return next;
   };
@@ -217,7 +217,7 @@ TEST(SinCos, JacobianIsThatOfCentralDifferences) {
   }
 }
 
-// The vertical row is exact at any tilt.
+// The row of the vertical velocity in the Jacobian is exact at any tilt.
 TEST(SinCos, JacobianOfTheVerticalForceHoldsWithTilts) {
   const Flight flight(0.01);
   Errors<16> errors;
@@ -232,7 +232,7 @@ TEST(SinCos, JacobianOfTheVerticalForceHoldsWithTilts) {
   EXPECT_LT((G.block<1, 4>(5, 6) - expected.block<1, 4>(5, 6)).norm(), 1e-8);
 }
 
-// At any heading error, the attitude taken out of the states and the remaining states together equal the
+// At any heading error, the product of the attitude left and the attitude taken out equals the
 // attitude before. An error of (s, k) changes both parts, so the new P must be the covariance of the
 // remaining part's error.
 TEST(SinCos, TiltTakenOutLeavesTheSameAttitude) {
@@ -274,7 +274,7 @@ TEST(SinCos, TiltIsTakenOutBeforeTheHeadingIsKnown) {
   EXPECT_LT(left.norm(), 1e-12);
 }
 
-// The same for the biases: rotated by the heading error, they become the biases in body axes.
+// The biases, rotated by the heading error, become the biases in body axes; P is transformed accordingly.
 TEST(SinCos, BiasesTurnedBackAreThoseOfTheBody) {
   Errors<16> errors;
   const double psi = 1.9, d_psi = 1e-5;

@@ -38,7 +38,7 @@ struct Normal {
   Dense x, P;
 };
 
-// `image` maps the errors over the interval, `root` is a matrix square root of P.
+// The textbook transform. `image` maps the errors over the interval, `root` is a matrix square root of P.
 Normal as_written(const Dense& x, const Dense& root, const std::function<Dense(const Dense&)>& image,
                   const Interval& interval, const Settings& settings) {
   const int N = x.rows();

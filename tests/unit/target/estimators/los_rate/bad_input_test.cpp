@@ -255,7 +255,7 @@ TEST(BlindRange, RangeIsClampedAndSaidSo) {
       ASSERT_EQ(result.used.range, std::max(r, 50.0));
       ASSERT_TRUE(finite(state));
     }
-    // After the pass: neither range nor target for a minute.
+    // After the pass, neither the range nor the error angle is valid for a minute.
     Measurement m{.dt = 0.005, .antenna_valid = true, .acceleration_valid = true};
     double sigma = 0;
     for (int k = 0; k < 12'000; ++k) {

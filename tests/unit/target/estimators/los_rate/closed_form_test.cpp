@@ -60,7 +60,7 @@ TEST(Riccati, SolvesItsEquationWhateverTheRatioOfSpeedToNoise) {
     const Dense size =
         entrywise_sizes(A * P) + P_size * transposed(A) + P_size.column(0) * P_size.row(0) / s2 + Q;
     EXPECT_LT(largest(entrywise_quotient(residual, size)), 1e-12) << x;
-    // Selects the stabilising solution: (A - k C)' is stable for every x.
+    // These conditions select the stabilising solution: (A - k C)' is stable for every x.
     const double c1 = P(0, 0) / s2 - 4.5 * v;
     EXPECT_GT(c1, 0);
     EXPECT_GT(determinant(P), 0);
@@ -76,9 +76,9 @@ TEST(Riccati, WithoutProcessNoiseMirrorsThePoles) {
 
 class DifferentialRiccati : public testing::TestWithParam<double> {};
 
-// Integrates the covariance from the closed form, which it must continue to equal. Returns the largest
-// relative difference of the gains from 5 km to 50 m. `transform` is the paper's operation on P-bar,
-// corrected or as printed.
+// Integrates the covariance from P0 at 5 km to 50 m. Returns the largest relative difference, at ranges of
+// at most r_from, between `gain` and the gain of the integrated covariance. `gain` is the paper's closed
+// form, corrected or as printed.
 double worst_gain_error(const Noise& noise, double vc, const Matrix3d& P0, double r_from,
                         const std::function<Vector3d(double)>& gain) {
   double worst = 0;
@@ -168,8 +168,8 @@ TEST(SteadyState, OfOneNoiseAloneIsThatNoisesClosedForm) {
   }
 }
 
-// The discrete algebraic Riccati equation of the glint problem, by iterating the Kalman filter at r = 1,
-// vc = 0, where x = y.
+// The gain of the discrete algebraic Riccati equation of the glint problem, found by iterating the Kalman
+// filter at r = 1, vc = 0. There, the polar and the displacement states are equal.
 Vector3d discrete_gain(double W, double T) {
   const double psd = 0.25 * T, jerk = std::pow(W, 6) * psd;
   Covariance P{.ee = 1, .ww = 1, .aa = 100};

@@ -194,7 +194,7 @@ TEST(StartUp, KalmanFilterFirstThenTheClosedGain) {
   EXPECT_GT(early_rms(Algorithm::combined, 0), 1.2 * kalman);
 }
 
-// The treatment of the first samples after a coast of `lost` samples.
+// The outcome of the first sample after a coast of `lost` samples.
 Outcome after_coast(int lost, void (*breakage)(Measurement&)) {
   const EngagementSetup setup = setup_of(Algorithm::combined);
   const Design design = make_design(setup.settings);
@@ -249,8 +249,8 @@ TEST(Coasting, AnUnseenAntennaIsTakenToTrack) {
   EXPECT_NEAR(wide * wide - usual * usual, pull * pull, 0.01 * pull * pull);
 }
 
-// A step of the target's acceleration, with a filter designed for zero noise: the lag of the rate is three
-// times the part of the sigma that allows for such a step.
+// The target's acceleration steps, and the measurements have no noise. The lag of the rate is three times the
+// part of the reported sigma that allows for the step.
 TEST(ClosedGain, ReportedSigmaAllowsForATurnAllAtOnce) {
   Settings settings;
   settings.start_up = 0;
@@ -258,7 +258,7 @@ TEST(ClosedGain, ReportedSigmaAllowsForATurnAllAtOnce) {
   const double a = settings.acceleration_sigma_0;
   for (const double range : {400.0, 1000.0, 3000.0}) {
     SCOPED_TRACE(range);
-    // At rest towards each other: e' = w, w' = a/r after the step, in yaw.
+    // Missile and target are nearly at relative rest: in yaw, e' = w, and after the step w' = a/r.
     Measurement m;
     m.dt = settings.sample_period;
     m.error_valid = m.antenna_valid = m.acceleration_valid = true;

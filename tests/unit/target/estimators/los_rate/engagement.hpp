@@ -1,7 +1,7 @@
 #pragma once
-// A head-on engagement with constant closing speed in both planes of a rolling antenna. It is the filter's
-// own model, so the statistics of the filter are known. Angles are small; the antenna rolls, the reference
-// axes do not.
+// A head-on engagement with constant closing speed in both planes of a rolling antenna. It follows the
+// model of the filter, so the statistics of the filter are known. Angles are small; the antenna rolls, the
+// reference axes do not.
 #include <cmath>
 #include <complex>
 #include <random>

@@ -116,7 +116,7 @@ TEST(TwoPlanes, WithoutTheRollTermTheEstimateIsLost) {
 }
 
 // The 6-state Kalman filter of section 5 of the notes, with the roll in its transition. With equal noises its
-// covariance must have two equal blocks, and its estimate must equal the estimate of this filter.
+// covariance must have two equal blocks, and its estimate must equal the estimate of the tested filter.
 TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -183,8 +183,8 @@ TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
   }
 }
 
-// Two sets of gains: a second set with equal values must give the same estimate, a different set a different
-// one.
+// With unequal noises, pitch and yaw have separate gains. Nearly equal noises must give the same estimate; a
+// larger noise in yaw must increase the sigma of yaw only.
 TEST(TwoPlanes, UnequalNoisesTakeTwoGainSets) {
   for (const Algorithm algorithm : algorithms) {
     EngagementSetup equal = setup_of(algorithm);

@@ -43,7 +43,7 @@ TEST(Gaps, AreBridgedWithTheMeanOfTheRatesBeforeAndAfter) {
   EXPECT_LT(std::abs(leg.antenna_increment - Plane(0.005, 0)), 1e-15);
   EXPECT_DOUBLE_EQ(leg.roll_increment, 0.04);
   EXPECT_EQ(leg.missile_acceleration, Plane(25, 0));
-  // The variance of a step of (0.3, -0.4) rad/s at any time of the gap, over both planes.
+  // The variance of the increment over both planes, if the rate steps by (0.3, -0.4) rad/s at a random time.
   double variance = 0;
   for (int k = 0; k < 1000; ++k) {
     const double share = (k + 0.5) / 1000;
@@ -54,7 +54,7 @@ TEST(Gaps, AreBridgedWithTheMeanOfTheRatesBeforeAndAfter) {
   EXPECT_NEAR(leg.pull / leg.turn, 50 / 0.5, 1e-9) << "changes of 50 m/s^2 and 0.5 rad/s";
 }
 
-// The flight from a time to go of 3 s, with a turning missile, a tracking antenna and noise as modelled. One
+// The flight from 2.5 to 0.2 s to go, with a turning missile, a tracking antenna and noise as modelled. One
 // sample in ten is lost.
 TEST(Gaps, CostLittleMoreThanTheSamplesThatAreGone) {
   for (const Algorithm algorithm : algorithms) {

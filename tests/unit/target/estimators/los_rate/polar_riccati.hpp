@@ -37,7 +37,7 @@ Eigen::Matrix3d integrate_riccati(Eigen::Matrix3d P, const Noise& noise, double 
   };
   double r = r_begin;
   while (r > r_end) {
-    // The step: a small fraction of the shortest time constant, either of the filter or of the geometry.
+    // The step is a small fraction of the filter's time constant 1/Omega; the last step ends at r_end.
     const double Omega = std::pow(q / displacement_noise(noise, {r, vc}, Ts).R_y, 1.0 / 6);
     const double dt = std::min(0.004 / Omega, (r - r_end) / vc);
     const Eigen::Matrix3d k1 = slope(P, r), k2 = slope(P + dt / 2 * k1, r - vc * dt / 2);

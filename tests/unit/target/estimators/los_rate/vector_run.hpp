@@ -1,6 +1,6 @@
 #pragma once
-// The published flight (200 Hz, pitch plane), and filters composed of the estimator's own parts with exact
-// gains. Ranges are used without limits and without start-up.
+// The published flight (200 Hz, pitch plane), and filters composed of the estimator's functions with exact
+// gains. These filters do not limit the range and have no start-up.
 #include <functional>
 #include <string>
 #include <vector>
@@ -40,7 +40,7 @@ inline constexpr Noise vector_noise{.thermal = 1e-10, .glint = 0.5, .constant = 
 inline constexpr Noise thermal_part{.thermal = 1e-10, .glint = 0, .constant = 0};
 inline constexpr Noise glint_part{.thermal = 0, .glint = 0.5, .constant = 0};
 
-/// The continuous gain of x for the noise that a rule selects.
+/// The continuous gain of the polar states for this noise.
 inline Gain exact_gain(const Noise& noise, Geometry at) {
   return polar(steady_state(vector_q, displacement_noise(noise, at, vector_T)).d, at);
 }

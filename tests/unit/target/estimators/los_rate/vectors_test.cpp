@@ -65,7 +65,7 @@ Settings vector_settings(Algorithm algorithm) {
   return settings;
 }
 
-// The whole step, down to the estimator's least range of 10 vc Ts.
+// Passes the rows to step(), down to the estimator's least range of 10 vc Ts.
 std::vector<Point> run_steps(const std::vector<Row>& rows, const Design& design) {
   State state = initial();
   std::vector<Point> points;
@@ -85,7 +85,7 @@ std::vector<Point> run_steps(const std::vector<Row>& rows, const Design& design)
   return points;
 }
 
-// The largest |w - reference| of the rows within [from, to) s, also relative to the largest reference.
+// The largest |w - reference| of the rows within [from, to) s.
 double worst_rate(const std::vector<Point>& points, const std::string& column, double from, double to) {
   double worst = 0;
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -105,7 +105,7 @@ TEST(Vector, KalmanThroughTheWholeStep) {
   }
 }
 
-// P-bar between the nodes is a cubic, so the table loses no accuracy; the combined table is bilinear.
+// The table of P-bar uses cubic interpolation and loses no accuracy; the combined table is bilinear.
 TEST(Vector, TablesThroughTheWholeStep) {
   const std::vector<Point> switched =
       run_steps(vector_rows(), make_design(vector_settings(Algorithm::switched_table)));
@@ -115,8 +115,8 @@ TEST(Vector, TablesThroughTheWholeStep) {
   EXPECT_LE(worst_rate(combined, "comb_w", 0, 6), 1e-3 * largest("comb_w"));
 }
 
-// Rows are changed like a wrong sign in a driver or in the filter would change them; they must fail the same
-// comparison. Between 3 and 1 s to go they are nearly right, so the start and the end are compared.
+// Rows are changed as a wrong sign in a driver or in the filter would change them. The result must fail the
+// same comparison. Between 3 and 1 s to go the result is nearly right, so start and end are compared.
 using Change = void (*)(Row&);
 double wrong_over_right(Change change, double from, double to) {
   std::vector<Row> rows = vector_rows();
@@ -144,8 +144,8 @@ TEST(SignTraps, MissingMissileAccelerationIsCaught) {
   EXPECT_GT(wrong_over_right(drop, 5, 6), 1e5);
 }
 
-// The same compared with the truth: the last 0.5 s (without the last 0.05 s) separate right from wrong
-// without a reference filter.
+// The RMS error of the estimate from the changed rows, compared with the truth from 5.05 to 5.45 s. It
+// distinguishes right from wrong signs without a reference filter.
 double rms_error(Change change) {
   std::vector<Row> rows = vector_rows();
   for (Row& row : rows) change(row);

@@ -7,7 +7,7 @@
 namespace canhil::strapdown {
 namespace {
 
-// NIMA TR8350.2 (2000), tables 3.1 to 3.4.
+// The values are from NIMA TR8350.2 (2000), tables 3.1 to 3.4.
 TEST(Earth, RadiiAndGravityAreThoseOfWgs84) {
   const LocalEarth equator = local_earth(0, 0);
   EXPECT_NEAR(equator.transverse_radius, 6378137.0, 1e-9);

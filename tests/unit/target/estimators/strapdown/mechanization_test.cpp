@@ -81,8 +81,8 @@ TEST_P(BothKinds, StaysAtRest) {
   EXPECT_LT(errors.velocity, 1e-12 * 9.8 * 60);  // a tilt of this size under gravity for 60 s
 }
 
-// A tilted INS at rest oscillates with Schuler's period: after a quarter, V_N = g tilt / w_s, w_s =
-// sqrt(g/R). At the equator the coupling through the earth rate is of order (w_ie/w_s)^2 = 0.3 %.
+// A tilted INS at rest oscillates with Schuler's period: after a quarter of it, |V_N| = g tilt / w_s,
+// w_s = sqrt(g/R). At the equator the coupling through the earth rate is of order (w_ie/w_s)^2 = 0.3 %.
 TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   const LocalEarth earth = local_earth(0, 0);
   const double omega = std::sqrt(earth.gravity / earth.meridian_radius), tilt = 1e-4, dt = 0.5;
@@ -105,8 +105,8 @@ TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   EXPECT_NEAR(nav.latitude / (2 * amplitude / omega / earth.meridian_radius), 1, 0.01);
 }
 
-// The quantities of a step that a filter uses: the velocity change must equal the specific force plus gravity
-// and Coriolis terms.
+// Tests the quantities of a step that a filter uses. The velocity change must equal the specific force plus
+// gravity and Coriolis terms.
 TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
   NavState nav;
   nav.C_bn = dcm_from_euler({0.1, 0.2, 0.3});
@@ -152,7 +152,7 @@ TEST(Mechanization, TwoSamplesFollowConing) {
   EXPECT_LT(two.velocity, one.velocity / 20);
 }
 
-// A lost sample is bridged with a longer one; this must not bring back the coning error.
+// A lost sample is bridged with a longer sample. The unequal times must not bring back the coning error.
 TEST(Mechanization, TwoSamplesFollowConingAtUnequalSampleTimes) {
   const Motion motion = coning(0.02, 2 * std::numbers::pi * 5);
   const auto uneven = [](int k) { return k % 3 == 0 ? 2.0 : 1.0; };

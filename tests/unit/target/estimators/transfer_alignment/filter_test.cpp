@@ -128,7 +128,7 @@ TEST(TransferAlignment, TwoMechanisationsAgreeOnTheFullRun) {
   EXPECT_EQ(k, 200);
 }
 
-// Small errors are linear: open and closed loop must give the same estimate.
+// For small errors the model is linear: open and closed loop must give the same estimate.
 TEST(TransferAlignment, OpenLoopEstimatesWhatTheClosedLoopDoesForSmallErrors) {
   Settings closed, open;
   closed.algorithm = open.algorithm = Algorithm::kalman;
@@ -149,7 +149,7 @@ TEST(TransferAlignment, OpenLoopEstimatesWhatTheClosedLoopDoesForSmallErrors) {
   EXPECT_EQ(largest(a.x), 0);
   EXPECT_GT(norm(Dense(b.x).block(attitude_state, 0, 3, 1)), 1e-4) << "the open loop leaves the INS alone";
   const Ins from_a = estimate(a), from_b = estimate(b);
-  // Second order: |phi| 2e-4 squared, and 20 s of g times that.
+  // The differences are of second order: |phi|^2 with |phi| = 2e-4, and 20 s of g times |phi|^2.
   EXPECT_LT(norm(strapdown::misalignment(from_a.nav.C_bn, from_b.nav.C_bn)), 2e-7);
   EXPECT_LT(norm(Dense(from_a.nav.v_eb_n) - from_b.nav.v_eb_n), 1e-5);
 }

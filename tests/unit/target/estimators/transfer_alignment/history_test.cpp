@@ -29,8 +29,8 @@ void expect_same_bits(const State& a, const State& b) {
   EXPECT_EQ(a.ins.interval.duration, b.ins.interval.duration);
 }
 
-// The full run with every master velocity `late` samples late; the last velocities arrive before the run
-// ends.
+// The full run with every master velocity `late` samples late. Velocities that are still under way after the
+// last sample arrive then.
 State run_late(std::size_t late) {
   const Settings settings;
   State state = initial(published_start(), settings);

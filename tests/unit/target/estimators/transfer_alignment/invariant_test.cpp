@@ -60,7 +60,7 @@ TEST(InvariantCorrection, TurnsTheCovarianceOfVelocityAndAttitude) {
 struct Flown {
   State cruised, ended;
   int degraded = 0;             // number of updates
-  double attitude_trace = 0;    // trace of the attitude block of P, its maximum in the cruise
+  double attitude_trace = 0;    // maximum trace of the attitude block of P in the cruise
   double worst_of_heading = 0;  // error over sigma, after the first second of the manoeuvre
 };
 
@@ -122,7 +122,7 @@ TEST(InvariantLoop, FindsALargeHeadingWithinItsSigma) {
   EXPECT_GT(fly(configured(Algorithm::kalman, Loop::published, 1, 30), phi).worst_of_heading, 2);
 }
 
-// A single wrong velocity must not turn the INS; five in a row must.
+// With the gate, a single wrong velocity must not change the INS; after five in a row, the sixth must.
 TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
   for (const Loop loop : {Loop::invariant, Loop::published}) {
     const Settings settings = configured(Algorithm::kalman, loop, 1, 5);
@@ -149,8 +149,8 @@ TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
   }
 }
 
-// H2 with an initial sigma of 15 deg: without the guard the covariance of H2 diverges in the cruise. With the
-// guard it stays below its initial value, and the filter reports it.
+// H2 with an initial heading sigma of 15 deg: without the guard, its attitude covariance diverges in the
+// cruise. With the guard, the covariance stays below its initial value, and the filter reports `degraded`.
 TEST(InvariantLoop, GuardsH2AgainstItsOwnCovariance) {
   const Vector3d phi = Vector3d(5, -5, 15) * rad_per_deg;
   const Settings settings = configured(Algorithm::robust_h2, Loop::invariant, 5, 15);

@@ -1,4 +1,4 @@
-// Frequent mistakes in such a filter; each test names the mistake that it detects.
+// Frequent mistakes in a filter for transfer alignment; each test detects one of them.
 #include <gtest/gtest.h>
 
 #include <cmath>

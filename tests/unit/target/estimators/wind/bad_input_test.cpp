@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t bad_from = 500, bad_to = 550;  // a second
+constexpr std::size_t bad_from = 500, bad_to = 550;  // 1 s
 
 bool is_bad(std::size_t k) { return k >= bad_from && k < bad_to; }
 
@@ -89,7 +89,7 @@ TEST(WindBadInput, StaleNavigation) {
     n.t_us = t_us;
   });
   expect_sound(flown);
-  EXPECT_EQ(flown.results[bad_from + 4].outcome, Outcome::updated);  // may be chance
+  EXPECT_EQ(flown.results[bad_from + 4].outcome, Outcome::updated);  // so few equal samples may be chance
   for (std::size_t k = bad_from + 6; k < bad_to; ++k) {
     ASSERT_EQ(flown.results[k].outcome, Outcome::coasting) << k;
     ASSERT_EQ(flown.results[k].fault, Fault::stale) << k;
@@ -194,13 +194,13 @@ TEST(WindBadInput, OneMissedFinFrameIsFlaggedLate) {
   const Flown flown = fly(recorded(), Settings(),
                           [](std::size_t k, Navigation&, FinFrame& fins) { fins.arrives = k != bad_from; });
   EXPECT_FALSE(flown.results[bad_from - 1].flags.fins_late);
-  EXPECT_TRUE(flown.results[bad_from + 1].flags.fins_late);  // bridged by the next fin frame
+  EXPECT_TRUE(flown.results[bad_from + 1].flags.fins_late);  // the next fin frame bridges the gap
   EXPECT_FALSE(flown.results[bad_from + 2].flags.fins_late);
   for (const UpdateResult& result : flown.results) EXPECT_FALSE(result.flags.fins_missing);
   expect_recovered(flown);
 }
 
-// With process noise that does not adapt, so that only its increase for missing fins is visible.
+// The process noise does not adapt here, so that only its increase for missing fins is visible.
 Settings constant_noise() {
   Settings settings;
   settings.algorithm = Algorithm::ekf;
@@ -221,8 +221,8 @@ TEST(WindBadInput, MissingFinsWidenTheUncertainty) {
   expect_recovered(flown);
 }
 
-// Fins are missing from the start. Every step must have the flag, and the other input must still give a wind
-// of the right magnitude.
+// Fins are missing from the start. Every step must have the flag, and the states must stay finite with a
+// positive definite P.
 TEST(WindBadInput, NoFinsAtAll) {
   const Flown flown =
       fly(recorded(), Settings(), [](std::size_t, Navigation&, FinFrame& fins) { fins.arrives = false; });

@@ -90,7 +90,7 @@ TEST(WindBank, WeighsByLikelihoodsAndAddsTheSpread) {
   });
 }
 
-// -2 ln of a Gaussian density without its constant term, by dense algebra.
+// The surprise is -2 ln of a Gaussian density without its constant term, here computed by dense algebra.
 TEST(WindBank, SurpriseIsThatOfTheInnovation) {
   const RecordedRun run;
   const Design design = make_design(likeliest());

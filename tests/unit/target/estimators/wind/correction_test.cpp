@@ -46,7 +46,7 @@ struct Posterior {
   Dense dx, P;
 };
 
-// Runs the vector and compares each update with expected(x_prior, P_prior, innovation) -> {dx, P}.
+// Runs the vector and compares each update with expected(H, P_prior, innovation) -> {dx, P}.
 Misses compared(const RecordedRun& run, const Settings& settings,
                 const std::function<Posterior(const Dense&, const Dense&, const Dense&)>& expected) {
   Misses worst;

@@ -92,8 +92,8 @@ TEST(WindFilter, EveryChoiceStaysPositiveDefinite) {
   }
 }
 
-// Starting from the published, over-tight noise, the mean statistic falls to its degrees of freedom, and the
-// error falls too.
+// Starting from the published, over-tight noise, the mean NIS falls nearly to its 9 degrees of freedom, and
+// the error falls too.
 TEST(WindFilter, AdaptiveNoiseMakesTheStatisticConsistent) {
   const RecordedRun run;
   Settings settings = run.settings;
@@ -107,8 +107,8 @@ TEST(WindFilter, AdaptiveNoiseMakesTheStatisticConsistent) {
   for (const State& state : tight.states) EXPECT_EQ(state.noise_factor, 1);
 }
 
-// A gap is predicted in parts, each with its own fins. The result is nearly the same as if only the update
-// had been missing.
+// A gap is predicted in parts, each with the fins of its time. The result is nearly the same as that of the
+// run without a gap.
 TEST(WindFilter, LostNavigationIsBridged) {
   const RecordedRun run;
   const Settings settings;
@@ -182,7 +182,7 @@ TEST(WindEstimate, SigmasAreOfSpeedDirectionAndTrack) {
   EXPECT_NEAR(uncertainty(x, P).wind_from, std::numbers::pi / std::numbers::sqrt3, 1e-12);
 }
 
-// Nearly all uncertainty of the wind lies along the air velocity, not along the ground track.
+// Most of the uncertainty of the wind lies along the air velocity, not along the ground track.
 TEST(WindEstimate, AlongTrackIsWhereTheUncertaintyLies) {
   const RecordedRun run;
   const State state = fly(run, Settings()).states[900];

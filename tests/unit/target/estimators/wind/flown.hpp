@@ -1,5 +1,5 @@
 #pragma once
-// The recorded run through step(), as the bus delivers it; a test can change the input.
+// Passes the recorded run to step() in the order of the bus; a test can change the input.
 #include <functional>
 
 #include "target/estimators/filtering/cholesky.hpp"

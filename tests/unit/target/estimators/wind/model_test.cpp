@@ -1,5 +1,5 @@
 // Each equation of the model, compared with its physical meaning. If a corrected equation is replaced by the
-// printed equation, the test that names it fails.
+// printed equation, the test with its number in the name fails.
 #include "target/estimators/wind/model.hpp"
 
 #include <gtest/gtest.h>
@@ -88,7 +88,7 @@ TEST(WindModel, JacobianIsThatOfCentralDifferences) {
       EXPECT_LT(jacobian_miss(x, at_altitude(altitude)), 1e-6) << x.transpose() << " at " << altitude;
 }
 
-// Compares every entry, not only the largest: rows are scaled by their own size.
+// Compares every entry; the tolerance depends on the largest entry of the column, not of the matrix.
 TEST(WindModel, JacobianIsRightRowByRow) {
   RangeFlags outside;
   const Inputs inputs = at_altitude(9000);
@@ -132,7 +132,7 @@ TEST(WindModel, ObservationJacobianIsThatOfCentralDifferences) {
 }
 
 // Eqs. (3), (16): for any rotation, only force and gravity change the ground velocity C_bn v_a + v_w. The
-// printed -omega x (v_a + v_w), a force not divided by the mass, or a sum of body and NED vectors fail.
+// printed -omega x (v_a + v_w), a force not divided by the mass, or a sum of body and NED vectors would fail.
 TEST(WindModel, Eq3And16GroundAccelerationIsForcePerMassAndGravity) {
   const Inputs inputs = at_altitude(9000);
   const auto v_eb_n = [](const StateVector& x) -> Vector3d { return ground_velocity(x).C_v_a + x.tail<3>(); };
@@ -156,7 +156,7 @@ TEST(WindModel, Eq4AngularMomentumIsConservedWithoutAir) {
   EXPECT_EQ(design().inertia(0, 2), -airframe_table.Ixz);
 }
 
-// Eq. (5): d(C_bn)/dt = C_bn [omega x]; the printed third row and a missing omega fail.
+// Eq. (5): d(C_bn)/dt = C_bn [omega x]; the printed third row or a missing omega would fail this test.
 TEST(WindModel, Eq5EulerAnglesFollowTheRates) {
   const auto motion = along_motion(banked, at_altitude(9000), attitude_of);
   const Matrix3d expected = attitude_of(banked) * strapdown::skew(banked.segment<3>(rate_at));
@@ -164,7 +164,7 @@ TEST(WindModel, Eq5EulerAnglesFollowTheRates) {
 }
 
 // Eq. (7): lift perpendicular to the flow and drag against the flow in the plane of symmetry, side force
-// along y; and the equivalent in full wind axes, where S has the opposite sign in the paper.
+// along y. The same force in full wind axes: there, the side force S has the opposite sign in the paper.
 TEST(WindModel, Eq7ForcesAreOfStabilityAxesAndBodySideForce) {
   const Air air = standard_atmosphere(9000);
   const Vector3d v_a(200, 25, 30);
@@ -246,7 +246,7 @@ TEST(WindModel, Eq3NoiseWindNoiseDoesNotMoveTheGroundVelocity) {
   EXPECT_NEAR(added(ProcessNoise::block_diagonal)(0, 0), 0.09 * 0.02, 1e-15);
 }
 
-// Increases each part of each coefficient by 1 separately, in the airframe. The change of the loads is the
+// Doubles each part of each coefficient separately, in the airframe. The change of the loads is the
 // contribution of this part; the covariance is the sum of the squares. The drag polar keeps the nominal lift.
 TEST(WindModel, CovarianceOfTheLoadsIsTheSumOverTheParts) {
   const Deflection fins{0.05, -0.03, 0.02};
@@ -317,7 +317,7 @@ TEST(WindModel, NoiseOfTheCoefficientsIsThatOfTheLoads) {
   EXPECT_LT((P - expected).norm(), 1e-12 * expected.norm());
 }
 
-// F = I + A dt + (A dt)^2/2 in full, by dense products.
+// The expected covariance is F P F' with F = I + A dt + (A dt)^2/2, by dense products.
 TEST(WindModel, CovariancePredictionIsThatOfTheDenseTransition) {
   RangeFlags outside;
   const Jacobian A = linearise(banked, at_altitude(9000), design(), outside).A;

@@ -22,7 +22,7 @@ RecordedRun::RecordedRun() {
     x0(static_cast<int>(i)) = vector["x0"][i];
     for (std::size_t j = 0; j < 12; ++j) P0(static_cast<int>(i), static_cast<int>(j)) = vector["P0"][i][j];
   }
-  filtering::mirror_lower<12>(P0);  // symmetric to 5e-20 as published
+  filtering::mirror_lower<12>(P0);  // the published P0 is symmetric only to 5e-20
   for (std::size_t k = 0; k < csv.rows(); ++k) {
     y.push_back(Eigen::Map<const Observation>(csv.from(k, "y_vn")));
     altitude.push_back(csv.at(k, "h"));

@@ -1,4 +1,4 @@
-// The published test vector: every state and variance of both filters, and the printed H-infinity recursion.
+// Both filters reproduce every state and every variance of the published test vector.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
