@@ -83,8 +83,8 @@ struct TimedWindow {
   /// The time from the deadline of each stimulus until it was on the bus: the delay that the host causes.
   Histogram lateness{};
   /// The bench's own deviation from the period of the stimuli that the message answers: for each stimulus,
-  /// the time between two stimuli on the bus minus the time between their deadlines. A stimulus that replaces
-  /// n due stimuli counts n times.
+  /// the time between two stimuli on the bus minus the time between their deadlines. If the bench sends
+  /// one stimulus in place of n due stimuli, it counts n times.
   Histogram stimulus_deviation{};
   std::optional<Arrival> last_arrival{};
   std::optional<std::int64_t> last_stimulus_ns{};  ///< stamp of the last stimulus whose time of validity is

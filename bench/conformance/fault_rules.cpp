@@ -132,7 +132,8 @@ constexpr Rule all[] = {
      drops_a_repetition},
     {"P-LOST", "protocol", "Frames that are missing by their counters are counted in frames_lost.",
      counts_what_is_lost},
-    {"P-HALF", "protocol", "A sample of which a message is missing is counted in bad_group and is not answered.",
+    {"P-HALF", "protocol",
+     "A sample of which a message is missing is counted in bad_group and is not answered.",
      answers_no_half_sample},
     {"P-COUNT", "protocol", "Counters of losses stay at their largest value.", counts_to_the_end},
 };

@@ -24,8 +24,8 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 struct PerRunTruth {
   std::optional<world::EngagementRecord> engagement{};  ///< none: the scenario has no engagement, or its
                                                         ///< seeker is recorded; filled during the flight
-  std::optional<world::GlideRecord> glide{};  ///< none: not in the scenario
-  bool glide_is_sampled = true;               ///< false: the nodes send a recording of another glide
+  std::optional<world::GlideRecord> glide{};            ///< none: not in the scenario
+  bool glide_is_sampled = true;  ///< false: the nodes send a recording of another glide
 };
 
 /// The complete truth, for comparison with answers. `duration_us`: duration of the run.

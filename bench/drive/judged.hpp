@@ -6,7 +6,8 @@
 
 namespace canhil::drive {
 
-/// The observations, extended by the counts that the faults of the run cause in a target.
+/// The observations, with the target's expected counts (bad groups, late groups ...) raised by what the
+/// faults of the run may cause.
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario);
 

@@ -225,8 +225,8 @@ class Explorer {
     return keys;
   }
 
-  /// Whether the reader requests a key with some value of `path`. The caller has found another value of
-  /// `path` with which the reader does not request the key.
+  /// Whether the reader requests the key at `place` if `path` has one of the tried values. The caller has
+  /// found another value of `path` with which the reader does not request the key.
   [[nodiscard]] bool words_differ(const std::string& path, std::size_t place) const {
     return std::ranges::any_of(tried_, [&](const Tried& tried) {
       return tried.settings.size() == 1 && tried.settings.contains(path) && tried.asked.contains(place);

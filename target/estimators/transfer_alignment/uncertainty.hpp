@@ -1,6 +1,6 @@
 #pragma once
 // The uncertain block of the H2 filter: dA_v,phi = L Delta N bounds the effect of an unknown attitude error
-// on (C f) x.
+// on the cross-product matrix [(C f) x].
 #include <Eigen/Core>
 
 #include "target/estimators/transfer_alignment/error_model.hpp"

@@ -11,8 +11,8 @@ struct WarmSeeker {
   Measurement measurement;
 };
 
-/// `range` [m] selects the side of the crossing range, 1710 m. Unequal noises in the planes require two gain
-/// sets.
+/// The filter stops at `range` [m], above or below 1710 m, where thermal noise and glint are equal. Unequal
+/// noises in the planes require two gain sets.
 inline WarmSeeker warm_seeker(Algorithm algorithm, double range = 2000, bool equal = true) {
   EngagementSetup setup;
   setup.settings.algorithm = algorithm;

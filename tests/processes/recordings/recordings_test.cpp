@@ -301,7 +301,7 @@ TEST(LogCompare, ReportsHowFarStampsAreApart) {
   EXPECT_EQ(json["outside"], 1);
 }
 
-// The same content is sent repeatedly, and one of these frames is lost on the way to a.
+// The same content is sent repeatedly, and one of these frames is lost on the way to the recorder of log `a`.
 TEST(LogCompare, PairsRepeatedFramesByTheirTimes) {
   std::string a, b;
   for (int i = 0; i < 20; ++i) {

@@ -89,7 +89,7 @@ TEST(WindModel, JacobianIsThatOfCentralDifferences) {
 }
 
 // Compares every entry; the tolerance depends on the largest entry of the column, not of the matrix.
-TEST(WindModel, JacobianIsRightRowByRow) {
+TEST(WindModel, JacobianIsRightColumnByColumn) {
   RangeFlags outside;
   const Inputs inputs = at_altitude(9000);
   const Covariance A = dense(linearise(banked, inputs, design(), outside).A);
