@@ -45,7 +45,7 @@ struct RecordedSettings {
   std::shared_ptr<const RecordedFrames> frames{};  ///< exactly one of `samples` and `frames` is set
 };
 
-/// The keys recorded and period_ms and, for a CSV file, latency_ms, from_s and gap_s.
+/// Reads the keys `recorded` and `period_ms` and, for a CSV file, `latency_ms`, `from_s` and `gap_s`.
 NodeSettings read_recorded(const NodeTable& table, Section& section, std::int64_t duration_us);
 
 /// Error: one line about the file.

@@ -17,7 +17,8 @@ struct Breach {
 /// The first breach, or none.
 std::optional<Breach> find_breach(const Database& database);
 
-/// A table row for every measurement: signal, LSB, sensor sigma, (LSB / sqrt 12) / sigma, remainder, verdict.
+/// A table row for every measurement: signal, LSB, sensor sigma, (LSB / sqrt 12) / sigma, whether the
+/// rounding remainder is carried to the next sample, verdict.
 std::string quantisation_table(const Database& database);
 
 }  // namespace canhil::dbc

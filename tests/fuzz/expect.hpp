@@ -1,4 +1,4 @@
-// Conditions that every input and every error must meet.
+// Conditions that must hold for every input, and conditions that every error message must meet.
 #pragma once
 
 #include <algorithm>

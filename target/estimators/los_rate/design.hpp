@@ -26,7 +26,7 @@ struct ClosedGain {
   Sigma sigma;
 };
 
-/// P-bar for thermal noise over closing speed, and P-bar for glint (Na and Lee, eqs. (6)-(8)).
+/// P-bar (Na and Lee, eqs. (6)-(8)): for thermal noise as a table over the closing speed, and for glint.
 struct PBarTable {
   static constexpr int nodes = 33;
   std::array<Covariance, nodes> thermal;  // at closing_speed_max * i / (nodes - 1)

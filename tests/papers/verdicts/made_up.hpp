@@ -49,7 +49,8 @@ inline campaign::Campaign read(const Paper& paper, const report::EmbeddedFile& f
   return std::move(*campaign);
 }
 
-/// A run in which every quantity is constant, in the unit of the reports.
+/// A run in which every quantity has the constant value `value`, given in the quantity's unit in the
+/// reports.
 inline campaign::RunSeries run_at(const campaign::Variant& variant, std::uint64_t run, double value) {
   const quantities::Layout& layout = estimators::of(variant.scenario).layout;
   campaign::RunSeries series{.run = run, .ending = {}, .samples = quantities::Samples(layout)};

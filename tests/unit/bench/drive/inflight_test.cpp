@@ -1,5 +1,5 @@
-// In-flight alignment from the text of a scenario to its checks, with the device in this process: nodes,
-// faults, and the responses of the target.
+// In-flight alignment from the text of a scenario to its checks, with the device in this process.
+// Tests the nodes, the faults, and the responses of the target.
 #include <gtest/gtest.h>
 
 #include <fstream>
