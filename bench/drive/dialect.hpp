@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -18,6 +19,9 @@
 #include "dbc/ports/fd_groups.hpp"
 
 namespace canhil::drive {
+
+/// How long the bench looks for a target on the bus: it may still be starting.
+constexpr std::int64_t find_limit_ns = 5'000'000'000;
 
 /// The properties of a run before it begins.
 struct Setting {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "bench/drive/dialect.hpp"
 #include "bench/drive/target_dialogue.hpp"
 #include "bench/observe/heartbeat_errors.hpp"
 #include "target/device/device.hpp"
@@ -14,7 +15,6 @@ namespace {
 
 using namespace messages;
 
-constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
 constexpr std::int64_t several_syncs_ns = 8 * Sync::info.cycle_time_us * 1000;
 
 TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {

@@ -16,7 +16,6 @@
 namespace canhil::drive {
 namespace {
 
-constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
 constexpr std::int64_t poll_ns = 20'000'000;
 
 // Sends nothing, because the bench sends no time base on this bus. This node only makes the schedule last

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 namespace canhil::drive {
 namespace {
@@ -76,7 +77,10 @@ void RunRigControl::report_error(const Frame& error) {
     sockaddr_can address{};
     address.can_family = AF_CAN;
     address.can_ifindex = static_cast<int>(if_nametoindex(bus_.c_str()));
-    if (bind(errors_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) return;
+    if (bind(errors_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+      close(std::exchange(errors_, -1));
+      return;
+    }
   }
   can_frame raw{};
   raw.can_id = error.id | CAN_ERR_FLAG;

@@ -27,7 +27,7 @@ std::string content(const char* path) {
 }
 
 CpuAccount cpu_account_now() {
-  CpuAccount account = cpu_account(content("/proc/self/schedstat"), content("/proc/stat"));
+  CpuAccount account = cpu_account(content("/proc/thread-self/schedstat"), content("/proc/stat"));
   rusage usage{};
   getrusage(RUSAGE_THREAD, &usage);
   account.preempted = static_cast<std::uint64_t>(usage.ru_nivcsw);

@@ -27,15 +27,15 @@ class ClockSteps {
   std::int64_t largest_ns_ = 0;
 };
 
-/// CPU times of this process since its start and of the machine since its start, from the kernel.
+/// CPU times of the calling thread since its start and of the machine since its start, from the kernel.
 struct CpuAccount {
-  std::int64_t run_ns = 0;   ///< this process (its main thread) was running
-  std::int64_t wait_ns = 0;  ///< this process (its main thread) was ready to run but had no CPU
+  std::int64_t run_ns = 0;   ///< the thread was running
+  std::int64_t wait_ns = 0;  ///< the thread was ready to run but had no CPU
   std::uint64_t preempted = 0;
   std::uint64_t all_ticks = 0;     ///< sum over all CPUs
   std::uint64_t stolen_ticks = 0;  ///< part of all_ticks that the hypervisor gave to other guests
 };
-/// Parses /proc/self/schedstat and /proc/stat; missing values are 0.
+/// Parses /proc/thread-self/schedstat and /proc/stat; missing values are 0.
 CpuAccount cpu_account(std::string_view schedstat, std::string_view stat);
 
 /// Watches from its construction on.

@@ -14,7 +14,7 @@ std::uint32_t written_id(const Message& message) {
   return message.id | (message.extended ? extended_flag : 0U);
 }
 
-std::string in_quotes(std::string_view text) {
+std::string dbc_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -25,7 +25,7 @@ std::string in_quotes(std::string_view text) {
 
 std::string names_text(const std::vector<ValueName>& values) {
   std::string text;
-  for (const ValueName& value : values) text += fmt::format("{} {} ", value.value, in_quotes(value.name));
+  for (const ValueName& value : values) text += fmt::format("{} {} ", value.value, dbc_string(value.name));
   return text;
 }
 
@@ -33,7 +33,7 @@ std::string signal_text(const Signal& s) {
   return fmt::format(
       " SG_ {} : {}|{}@{}{} ({},{}) [{}|{}] {} {}\n", s.name, s.start_bit, s.length,
       s.byte_order == ByteOrder::little_endian ? 1 : 0, s.type == RawType::unsigned_integer ? '+' : '-',
-      s.scale, s.offset, s.minimum, s.maximum, in_quotes(s.unit),
+      s.scale, s.offset, s.minimum, s.maximum, dbc_string(s.unit),
       s.receivers.empty() ? std::string(nobody) : fmt::format("{}", fmt::join(s.receivers, ",")));
 }
 
@@ -47,7 +47,7 @@ std::string message_text(const Message& message) {
 std::string comments_text(const Database& database) {
   std::string text;
   const auto add = [&](const std::string& object, const std::string& comment) {
-    if (!comment.empty()) text += fmt::format("CM_ {}{};\n", object, in_quotes(comment));
+    if (!comment.empty()) text += fmt::format("CM_ {}{};\n", object, dbc_string(comment));
   };
   add("", database.comment);
   for (const Node& node : database.nodes) add(fmt::format("BU_ {} ", node.name), node.comment);
@@ -89,12 +89,12 @@ std::string type_text(const AttributeDefinition& definition) {
       break;
   }
   std::vector<std::string> labels;
-  for (const std::string& label : definition.labels) labels.push_back(in_quotes(label));
+  for (const std::string& label : definition.labels) labels.push_back(dbc_string(label));
   return fmt::format("ENUM {}", fmt::join(labels, ","));
 }
 
 std::string value_text(const AttributeValue& value) {
-  if (const auto* text = std::get_if<std::string>(&value)) return in_quotes(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return dbc_string(*text);
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
   return fmt::format("{}", std::get<double>(value));
 }
@@ -102,11 +102,11 @@ std::string value_text(const AttributeValue& value) {
 std::string definitions_text(const Database& database) {
   std::string text, defaults;
   for (const AttributeDefinition& definition : database.definitions) {
-    text += fmt::format("BA_DEF_ {}{} {};\n", owner_text(definition.owner), in_quotes(definition.name),
+    text += fmt::format("BA_DEF_ {}{} {};\n", owner_text(definition.owner), dbc_string(definition.name),
                         type_text(definition));
     if (definition.initial)
       defaults +=
-          fmt::format("BA_DEF_DEF_ {} {};\n", in_quotes(definition.name), value_text(*definition.initial));
+          fmt::format("BA_DEF_DEF_ {} {};\n", dbc_string(definition.name), value_text(*definition.initial));
   }
   return text + defaults;
 }
@@ -128,7 +128,7 @@ std::string attributes_text(const Database& database) {
   const auto add = [&](Owner owner, const std::string& object, const Attributes& attributes) {
     for (const auto& [name, value] : attributes)
       text +=
-          fmt::format("BA_ {} {}{};\n", in_quotes(name), object, given_text(database, owner, name, value));
+          fmt::format("BA_ {} {}{};\n", dbc_string(name), object, given_text(database, owner, name, value));
   };
   add(Owner::network, "", database.attributes);
   for (const Node& node : database.nodes)
@@ -165,7 +165,7 @@ std::string dbc_text(const Database& database) {
   std::string text = fmt::format(
       "VERSION {}\n\nNS_ :\n\tCM_\n\tBA_DEF_\n\tBA_\n\tVAL_\n\tBA_DEF_DEF_\n\tSIG_VALTYPE_\n\tSIG_GROUP_\n"
       "\tVAL_TABLE_\n\nBS_:\n\nBU_:",
-      in_quotes(database.version));
+      dbc_string(database.version));
   for (const Node& node : database.nodes) text += " " + node.name;
   text += "\n\n";
   for (const ValueTable& table : database.value_tables)

@@ -29,7 +29,12 @@ class PcapSink final : public LogSink {
   explicit PcapSink(File file)
       : capture_(pcap_open_dead_with_tstamp_precision(DLT_CAN_SOCKETCAN, header_size + Frame::max_size,
                                                       PCAP_TSTAMP_PRECISION_NANO)),
-        dump_(pcap_dump_fopen(capture_.get(), file.release())) {}
+        dump_(pcap_dump_fopen(capture_.get(), file.get())) {
+    if (dump_ != nullptr)
+      static_cast<void>(file.release());  // the dumper closes it
+    else
+      error_ = errno;  // the file's header was not written
+  }
 
   void write(const LogEntry& entry) override {
     if (error_ != 0) return;

@@ -61,9 +61,9 @@ inline constexpr std::array wind_parameters = [] {
           "unit of this key is 1/(m/s)^2/s.",
           [](WindTuning& t, double v) { t.filter.theta_per_s = v; }},
       Row{P::theta_cap_per_s, 2, 0, 1e3, real, any_time,
-          "`h_infinity`: limit of theta. The product of theta and the largest eigenvalue of the covariance, "
-          "weighted by S, must not exceed this multiplied by the interval of the sample, nor 0.9. If it "
-          "would, theta is lowered.",
+          "`h_infinity`: theta is lowered until the product of theta and the largest eigenvalue of the "
+          "covariance weighted by S (see `theta_rate_weight`) is at most this multiplied by the interval of "
+          "the sample, and at most 0.9.",
           [](WindTuning& t, double v) { t.filter.theta_cap_per_s = v; }},
       Row{P::theta_rate_weight, 1, 0, 1e8, real, any_time,
           "`h_infinity`: weight of the body rates in S, in (m/s)^2/(rad/s)^2. S is the diagonal matrix that "

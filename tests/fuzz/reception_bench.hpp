@@ -19,7 +19,7 @@ namespace canhil::fuzz {
 
 /// Changes of the messages of one group on their way.
 struct Spoil {
-  enum Flag : std::uint8_t { lose_one = 1, wrong_crc = 2, twice = 4, late = 8 };
+  enum Flag : std::uint8_t { lose_one = 1, wrong_crc = 2, twice = 4 };
 
   std::uint8_t flags = 0;
   std::uint8_t which = 0;  ///< index in the group, modulo the number of messages

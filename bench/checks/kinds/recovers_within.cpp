@@ -27,10 +27,10 @@ RecoversWithin RecoversWithin::read(scenario::Section& section, const scenario::
     rule.error = read_subject(section, context, [](const quantities::Quantity& quantity) {
       return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
     });
-    std::tie(rule.below, rule.unit) =
-        read_bar(section, "below",
-                 "From `within_s` after the end of the fault on, |estimated - true| must be below this.",
-                 *rule.error->quantity);
+    std::tie(rule.below, rule.unit) = read_bar(section, "below",
+                                               "|estimated - true| must be below this at all times later "
+                                               "than `within_s` after the end of the fault.",
+                                               *rule.error->quantity);
   }
   for (const estimators::Estimator* one : running(context)) {
     const std::vector<Subject> reported = always_reported(*one);

@@ -17,7 +17,7 @@ class WithValues final : public FaultyNode {
   WithValues(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run,
              const OfValues& of, const When& when, Becomes becomes, bool exactly)
       : FaultyNode(std::move(node), settings, run),
-        from_us_(when.from_us),
+        when_(when),
         becomes_(std::move(becomes)),
         exactly_(exactly) {
     for (const Measured& one : of.all)
@@ -38,13 +38,11 @@ class WithValues final : public FaultyNode {
     for (Own& own : own_) {
       Frame* frame = own.value.in(frames);
       if (frame == nullptr) continue;
-      if (!own.occasions.next(t_us)) {
-        own.held.reset();
-        continue;
-      }
+      if (!when_.holds(t_us)) own.held.reset();
+      if (!own.occasions.next(t_us)) continue;
       const double interval_s = interval_of(frames, period_us_);
       const double value = becomes_(own.value.get(*frame, interval_s),
-                                    {.since_us = t_us - from_us_, .held = own.held, .noise = own.noise});
+                                    {.since_us = t_us - when_.from_us, .held = own.held, .noise = own.noise});
       if (exactly_)
         own.value.put_exactly(*frame, value, interval_s);
       else
@@ -55,7 +53,7 @@ class WithValues final : public FaultyNode {
     }
   }
 
-  std::int64_t from_us_;
+  When when_;
   Becomes becomes_;
   bool exactly_;
   std::vector<Own> own_;

@@ -13,7 +13,7 @@ namespace canhil::faults {
 /// A value of a sample in a run.
 struct Sampled {
   std::int64_t since_us = 0;    ///< from the start of the fault
-  std::optional<double>& held;  ///< for kinds that remember a value: reset by an unaffected sample
+  std::optional<double>& held;  ///< for kinds that remember a value: reset when the fault is not active
   world::Stream& noise;
 };
 using Becomes = std::function<double(double value, const Sampled& sample)>;

@@ -66,6 +66,14 @@ TEST(SensorFaults, EachKindChangesTheNumberAsItSays) {
     if (!first) first = was;
     EXPECT_NEAR(is, *first, 1e-12);
   });
+  int sample = 0, changed = 0;
+  each<SlaveImuDeltaTheta>(Flight(fault("stuck", rate + "every = 5")), 1, 2, rate_z,
+                           [&](double was, double is, double) {
+                             const bool affected = sample++ % 5 == 0;
+                             EXPECT_NEAR(is, affected ? *first : was, 1e-12);
+                             changed += is != was ? 1 : 0;
+                           });
+  EXPECT_GT(changed, 0) << "the samples between affected ones do not end the fault";
   each<SlaveImuDeltaV>(
       Flight(fault("saturated", "quantity = \"imu.specific_force.x\"\nat_mps2 = 5")), 0, 9, force_x,
       [&](double was, double is, double) { EXPECT_NEAR(is, std::min(was, 5.0), 2e-5 / 0.01); });
