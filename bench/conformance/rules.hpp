@@ -62,7 +62,8 @@ inline constexpr std::int64_t flight_us = 1'000'000, some_flight_us = 500'000;
 std::string made_to_run(Subject& subject);
 /// Calls made_to_run(), flies for some_flight_us and expects answers; returns the violation, empty: none.
 std::string flies(Subject& subject);
-/// Formats a heartbeat for people: "state idle, none kalman, errors: none".
+/// Formats the state, estimator, algorithm and errors of a heartbeat for people:
+/// "state running, transfer_alignment kalman, errors: none".
 std::string described(const std::optional<messages::TargetHeartbeat>& beat);
 
 /// The flight without faults, flown at the first call. Error: the target does not start, or answers too few

@@ -1,5 +1,6 @@
-// Reads [[check]]: the criteria for a run. A kind of check is a file of bench/checks/kinds or of an
-// estimator's folder; this folder only uses the kinds that it receives (DbcVocabulary::check_kinds).
+// Reads [[check]]: the criteria for a run. Each kind of check is implemented in a file of
+// bench/checks/kinds or of an estimator's folder; bench/scenario only uses the kinds that it receives
+// (DbcVocabulary::check_kinds).
 #pragma once
 
 #include <cstdint>

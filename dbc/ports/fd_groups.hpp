@@ -45,7 +45,7 @@ class FdPacker {
   /// Takes a frame for which due_before() is none. Returns what to send: the container that it completes, the
   /// frame itself as an FD frame if it belongs to no container, or nothing yet.
   std::optional<Frame> put(const Frame& frame);
-  /// Passes everything that must be sent before and with the frame to `out`.
+  /// Takes a frame, and calls `out` with each frame to send now: due_before(), then what put() returns.
   template <class Out>
   void pack(const Frame& frame, const Out& out) {
     if (const auto due = due_before(frame)) {

@@ -70,9 +70,10 @@ State initial();
 /// allocation, no exception; never leaves a NaN in the state.
 UpdateResult step(State& state, const Measurement& measurement, const Design& design);
 
-/// The sigmas to report for a step. `combined` allows for a sudden turn of the target, which white jerk does
-/// not model: the rate lags by up to 0.885 a/(Om r) (third-order Butterworth poles of bandwidth Om, a step of
-/// the acceleration); the lag for a = acceleration_sigma_0 counts as 3 sigma.
+/// The sigmas to report for a step. Those of Algorithm::combined include the lag after a sudden turn of the
+/// target, which white jerk does not model. The rate lags by up to 0.885 a/(Om r) (third-order Butterworth
+/// poles of bandwidth Om, a step of the acceleration); the lag for a = acceleration_sigma_0 counts as 3
+/// sigma.
 Planes<Sigma> reported_sigma(const UpdateResult& result, const Design& design);
 
 /// The estimate of a state, with the signs of pitch and yaw.

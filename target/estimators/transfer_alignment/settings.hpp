@@ -28,8 +28,9 @@ enum class H2Case : std::uint8_t { one = 1, two, three, four };
 enum class AlphaRule : std::uint8_t { cov_df, constant };
 
 /// How an update uses its correction. open: stored separately from the INS. published: applied to the INS; P
-/// is not turned. invariant: the correction of an invariant error (invariant.hpp) is applied to the INS, H2
-/// is guarded, and velocities beyond the gate are refused.
+/// is not rotated with it. invariant: the correction of an invariant error (invariant.hpp) is applied to the
+/// INS, and P is rotated with it; a Kalman step replaces an H2 step that would make P too large (NOTES.md);
+/// velocities beyond the gate are refused.
 enum class Loop : std::uint8_t { open, published, invariant };
 
 /// The settings of the filter.

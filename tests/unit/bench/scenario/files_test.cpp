@@ -74,7 +74,7 @@ TEST(ScenarioFiles, TheKalmanFilterIsConfiguredWithTheTruth) {
   for (const Parameter& parameter : s.targets.front().parameters) {
     const auto imu = node_of<nodes::SlaveImuSettings>(s).errors;
     if (parameter.name == "velocity_noise_m2ps") {
-      // The 100 ms between updates in the DBC convert a sigma to a density.
+      // Density = sigma^2 * interval: 100 ms, the cycle time of the master's velocity in the DBC.
       EXPECT_NEAR(parameter.value,
                   0.1 * std::pow(node_of<nodes::MasterInsSettings>(s).errors.velocity.sigma.x(), 2), 1e-15);
     } else if (parameter.name == "accel_bias_sigma_ug") {
