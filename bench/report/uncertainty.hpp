@@ -41,7 +41,7 @@ std::array<double, 5> half_widths_s(const StampConditions& conditions, double la
                                     double bucket_s);
 /// u of one influence [s]. For `stamps`, the half-width is that of one of the two stamps.
 double standard_s(Influence influence, double half_width_s);
-/// The combined uncertainty: the root of the sum of the squares.
+/// The combined standard uncertainty [s]: the root of the sum of the squares of all standard_s().
 double combined_s(const std::array<double, 5>& half_widths_s);
 
 /// A figure of a latency, with its uncertainty budget.

@@ -3,16 +3,18 @@
 
   live.py HIL_BENCH [ROUNDS [SCENARIO]]
 
-Runs with and without a client of the page take turns, in real time and, if permitted, with real-time
-priority. The lateness of a frame is the time from its deadline until the bench writes it to the bus. Prints
-p99 and maximum of both sides, their ratios, the number of frames, and the number of frames that the view
-missed. There is no verdict; fails if a program did not run.
+A round is one run with a client of the page and one without, in real time and, if permitted, with real-time
+priority; the order changes from round to round. The lateness of a frame is the time from its deadline until
+the bench writes it to the bus. Prints quantiles and maximum of both sides, their ratios, the 95 % range of
+the ratios of the quantiles (bootstrap over the rounds), the number of frames, and the number of frames that
+the view missed. There is no verdict; fails if a program did not run.
 """
 
 import collections
 import json
 import math
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -37,18 +39,32 @@ def quantile(counts, q):
 
 
 class Side:
+    """The runs of one side, each with the number of frames per microsecond of lateness."""
+
     def __init__(self):
-        self.counts, self.max_us = collections.Counter(), 0.0
+        self.runs, self.max_us = [], 0.0
         self.frames = self.missed = self.messages = 0
 
     def add(self, report):
         lateness = json.loads(report.read_text())["bench_lateness_s"]
-        self.counts.update(dict(lateness["buckets_us"]))
+        self.runs.append(collections.Counter(dict(lateness["buckets_us"])))
         self.max_us = max(self.max_us, 1e6 * lateness["max"])
 
-    @property
-    def p99_us(self):
-        return quantile(self.counts, 0.99)
+    def quantile_us(self, q, rounds):
+        return quantile(sum((self.runs[i] for i in rounds), collections.Counter()), q)
+
+
+def ratio(above, below, q, rounds):
+    """Of two quantiles; 1 us is added to both, because the buckets are of 1 us."""
+    return (above.quantile_us(q, rounds) + 1) / (below.quantile_us(q, rounds) + 1)
+
+
+def ratio_range(above, below, q, samples=500):
+    """95 % range of the ratio: rounds are drawn with replacement (Efron, Tibshirani 1993)."""
+    draw = random.Random(1)
+    every = range(len(above.runs))
+    ratios = sorted(ratio(above, below, q, draw.choices(every, k=len(every))) for _ in range(samples))
+    return ratios[round(0.025 * (samples - 1))], ratios[round(0.975 * (samples - 1))]
 
 
 def look_on(bench, side):
@@ -87,15 +103,19 @@ def main():
     permitted = subprocess.run(["chrt", "-f", "40", "true"], capture_output=True).returncode == 0
     real_time = ["--realtime"] if permitted else []
     without, with_page = Side(), Side()
-    for _ in range(rounds):
-        fly(program, scenario, real_time, without, False)
-        fly(program, scenario, real_time, with_page, True)
-    print(f"lateness of every frame [us], {scenario.name}, {rounds} runs a side, {'real-time priority' if permitted else 'usual priority'}")
-    print(f"{'':<20}{'frames':>9}{'p99':>9}{'max':>10}")
+    for i in range(rounds):
+        for open_page in (False, True) if i % 2 == 0 else (True, False):
+            fly(program, scenario, real_time, with_page if open_page else without, open_page)
+    print(f"lateness of every frame [us], {scenario.name}, {rounds} rounds, {'real-time priority' if permitted else 'usual priority'}")
+    print(f"{'':<20}{'frames':>9}{'p50':>16}{'p99':>16}{'max':>9}")
+    every = range(rounds)
     for name, side in (("without the view", without), ("page open", with_page)):
-        print(f"  {name:<18}{side.counts.total():>9}{side.p99_us:>9.1f}{side.max_us:>10.1f}")
-    print(f"  {'ratio':<18}{'':>9}{(with_page.p99_us + 1) / (without.p99_us + 1):>9.3f}{with_page.max_us / without.max_us:>10.3f}"
-          "   (of p99 + 1 us: its buckets are of 1 us)")
+        p50, p99 = (side.quantile_us(q, every) for q in (0.5, 0.99))
+        print(f"  {name:<18}{sum(run.total() for run in side.runs):>9}{p50:>16.0f}{p99:>16.0f}{side.max_us:>9.0f}")
+    words = [f"{ratio(with_page, without, q, every):.2f}" for q in (0.5, 0.99)]
+    ranges = ["{:.2f}..{:.2f}".format(*ratio_range(with_page, without, q)) for q in (0.5, 0.99)]
+    print(f"  {'ratio':<27}{words[0]:>16}{words[1]:>16}{with_page.max_us / without.max_us:>9.2f}")
+    print(f"  {'its 95 % range':<27}{ranges[0]:>16}{ranges[1]:>16}")
     print(f"  the view saw {with_page.frames} frames, missed {with_page.missed}; the page had {with_page.messages} messages")
 
 

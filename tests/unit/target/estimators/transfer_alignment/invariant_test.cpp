@@ -111,7 +111,8 @@ TEST(InvariantLoop, LeavesTheHeadingSigmaAloneInTheCruise) {
   EXPECT_LT(std::sqrt(published.cruised.P(5, 5)) / sigma_0, 0.75);
 }
 
-// The manoeuvre makes a large heading error, far beyond first order, observable within one or two updates.
+// The initial heading error is large, far beyond first order. It becomes observable within one or two updates
+// when the manoeuvre begins.
 TEST(InvariantLoop, FindsALargeHeadingWithinItsSigma) {
   for (const double heading_deg : {-60.0, -25.0, 40.0}) {
     const Vector3d phi = Vector3d(1, -1, heading_deg) * rad_per_deg;
