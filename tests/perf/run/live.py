@@ -5,12 +5,15 @@
 
 A round is one run with a client of the page and one without, in real time and, if permitted, with real-time
 priority; the order changes from round to round. The lateness of a frame is the time from its deadline until
-the bench writes it to the bus. Prints quantiles and maximum of both sides, their ratios, the 95 % range of
-the ratios of the quantiles (bootstrap over the rounds), the number of frames, and the number of frames that
-the view missed. There is no verdict; fails if a program did not run.
+the bench writes it to the bus. A round is left out, and another one flown, if other guests of the hypervisor
+took more than 0.1 % of the CPUs' time: its p99 would be theirs. Prints quantiles and maximum of both sides,
+their ratios, the 95 % range of the ratios of the quantiles (bootstrap over the rounds), the number of frames,
+and the number of frames that the view missed. There is no verdict. Exit code 3: two thirds of the rounds were
+left out.
 """
 
 import collections
+import dataclasses
 import json
 import math
 import pathlib
@@ -26,10 +29,26 @@ sys.path.insert(0, str(ROOT / "tests/processes/live"))
 from client import Bench, WebSocket  # noqa: E402
 
 USUAL = ROOT / "bench/flights/los_quick.toml"
+MOST_STOLEN = 0.001  # share of the CPUs' time that the hypervisor gave to other guests
+QUANTILES = (0.5, 0.99)
 
 
-def quantile(counts, q):
-    """Nearest rank of a Counter."""
+@dataclasses.dataclass
+class Run:
+    counts: collections.Counter = None  # number of frames per microsecond of lateness
+    max_us: float = 0.0
+    frames: int = 0  # seen by the view
+    missed: int = 0  # by the view
+    messages: int = 0  # received by the page
+
+    def read(self, report):
+        lateness = json.loads(report.read_text())["bench_lateness_s"]
+        self.counts, self.max_us = collections.Counter(dict(lateness["buckets_us"])), 1e6 * lateness["max"]
+
+
+def quantile_us(runs, q):
+    """Nearest rank, over the frames of all runs."""
+    counts = sum((run.counts for run in runs), collections.Counter())
     rank, seen = math.ceil(q * counts.total()), 0
     for value in sorted(counts):
         seen += counts[value]
@@ -38,85 +57,96 @@ def quantile(counts, q):
     raise ValueError("empty")
 
 
-class Side:
-    """The runs of one side, each with the number of frames per microsecond of lateness."""
-
-    def __init__(self):
-        self.runs, self.max_us = [], 0.0
-        self.frames = self.missed = self.messages = 0
-
-    def add(self, report):
-        lateness = json.loads(report.read_text())["bench_lateness_s"]
-        self.runs.append(collections.Counter(dict(lateness["buckets_us"])))
-        self.max_us = max(self.max_us, 1e6 * lateness["max"])
-
-    def quantile_us(self, q, rounds):
-        return quantile(sum((self.runs[i] for i in rounds), collections.Counter()), q)
+def ratio(rounds, q):
+    """Of the quantiles with and without the page; 1 us is added to both, because the buckets are of 1 us."""
+    without, with_page = zip(*rounds)
+    return (quantile_us(with_page, q) + 1) / (quantile_us(without, q) + 1)
 
 
-def ratio(above, below, q, rounds):
-    """Of two quantiles; 1 us is added to both, because the buckets are of 1 us."""
-    return (above.quantile_us(q, rounds) + 1) / (below.quantile_us(q, rounds) + 1)
-
-
-def ratio_range(above, below, q, samples=500):
+def ratio_range(rounds, q, samples=500):
     """95 % range of the ratio: rounds are drawn with replacement (Efron, Tibshirani 1993)."""
     draw = random.Random(1)
-    every = range(len(above.runs))
-    ratios = sorted(ratio(above, below, q, draw.choices(every, k=len(every))) for _ in range(samples))
+    ratios = sorted(ratio(draw.choices(rounds, k=len(rounds)), q) for _ in range(samples))
     return ratios[round(0.025 * (samples - 1))], ratios[round(0.975 * (samples - 1))]
 
 
-def look_on(bench, side):
+def look_on(port, run):
     """Reads the live view to the end, as a page does."""
-    view = WebSocket(bench.port)
+    view = WebSocket(port)
     while (message := view.message()) is not None:
-        side.messages += 1
+        run.messages += 1
         last = message
-    side.frames += last["frames"]
-    side.missed += last["dropped"]
+    run.frames, run.missed = last["frames"], last["dropped"]
 
 
-def fly(program, scenario, real_time, side, open_page):
-    words = ["run", scenario, *real_time, "--json", "run.json"]
+def fly(program, scenario, real_time, open_page):
+    words, run = ["run", scenario, *real_time, "--json", "run.json"], Run()
     if open_page:
         with Bench(program, *words, hurried=False) as bench:
-            looker = threading.Thread(target=look_on, args=(bench, side))
+            looker = threading.Thread(target=look_on, args=(bench.port, run))
             looker.start()
             code, _ = bench.end()
             looker.join()
             if code == 2:
                 sys.exit("live.py: a run with the page open did not take place")
-            side.add(pathlib.Path(bench.folder.name, "run.json"))
-        return
+            run.read(pathlib.Path(bench.folder.name, "run.json"))
+        return run
     with tempfile.TemporaryDirectory() as folder:
         ended = subprocess.run([program, *map(str, words)], capture_output=True, text=True, timeout=300, cwd=folder, stdin=subprocess.DEVNULL)
         if ended.returncode == 2:
             sys.exit(f"live.py: {ended.stderr.strip()}")
-        side.add(pathlib.Path(folder, "run.json"))
+        run.read(pathlib.Path(folder, "run.json"))
+    return run
+
+
+def cpu_ticks():
+    """(all, stolen) since the machine's start."""
+    ticks = [int(word) for word in pathlib.Path("/proc/stat").read_text().split("\n", 1)[0].split()[1:9]]
+    return sum(ticks), ticks[7]
+
+
+def fly_rounds(number, fly_one):
+    """The rounds, each a pair of runs without and with the page, and the number of rounds that were left out."""
+    rounds, left_out = [], 0
+    while len(rounds) < number:
+        if left_out > 2 * number:
+            print(f"live.py: not measured: the hypervisor disturbed {left_out} of {left_out + len(rounds)} rounds", file=sys.stderr)
+            sys.exit(3)
+        all_before, stolen_before = cpu_ticks()
+        order = (False, True) if (len(rounds) + left_out) % 2 == 0 else (True, False)
+        runs = {open_page: fly_one(open_page) for open_page in order}
+        all_after, stolen_after = cpu_ticks()
+        if stolen_after - stolen_before <= MOST_STOLEN * (all_after - all_before):
+            rounds.append((runs[False], runs[True]))
+        else:
+            left_out += 1
+        if sys.stderr.isatty():
+            print(f"\rlive: {len(rounds)} / {number} rounds, {left_out} left out", end="", file=sys.stderr, flush=True)
+    if sys.stderr.isatty():
+        print(file=sys.stderr)
+    return rounds, left_out
 
 
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
-    rounds = int(sys.argv[2]) if len(sys.argv) > 2 else 5
+    number = int(sys.argv[2]) if len(sys.argv) > 2 else 5
     scenario = pathlib.Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else USUAL
     permitted = subprocess.run(["chrt", "-f", "40", "true"], capture_output=True).returncode == 0
-    real_time = ["--realtime"] if permitted else []
-    without, with_page = Side(), Side()
-    for i in range(rounds):
-        for open_page in (False, True) if i % 2 == 0 else (True, False):
-            fly(program, scenario, real_time, with_page if open_page else without, open_page)
-    print(f"lateness of every frame [us], {scenario.name}, {rounds} rounds, {'real-time priority' if permitted else 'usual priority'}")
-    print(f"{'':<20}{'frames':>9}{'p50':>16}{'p99':>16}{'max':>9}")
-    every = range(rounds)
-    for name, side in (("without the view", without), ("page open", with_page)):
-        p50, p99 = (side.quantile_us(q, every) for q in (0.5, 0.99))
-        print(f"  {name:<18}{sum(run.total() for run in side.runs):>9}{p50:>16.0f}{p99:>16.0f}{side.max_us:>9.0f}")
-    words = [f"{ratio(with_page, without, q, every):.2f}" for q in (0.5, 0.99)]
-    ranges = ["{:.2f}..{:.2f}".format(*ratio_range(with_page, without, q)) for q in (0.5, 0.99)]
-    print(f"  {'ratio':<27}{words[0]:>16}{words[1]:>16}{with_page.max_us / without.max_us:>9.2f}")
-    print(f"  {'its 95 % range':<27}{ranges[0]:>16}{ranges[1]:>16}")
-    print(f"  the view saw {with_page.frames} frames, missed {with_page.missed}; the page had {with_page.messages} messages")
+    rounds, left_out = fly_rounds(number, lambda open_page: fly(program, scenario, ["--realtime"] if permitted else [], open_page))
+    print(f"lateness of every frame [us], {scenario.name}, {number} rounds, {'real-time priority' if permitted else 'usual priority'}")
+    print(f"{'':<20}{'frames':>9}{'p50':>14}{'p99':>14}{'max':>9}")
+    sides = list(zip(*rounds))
+    worst = [max(run.max_us for run in side) for side in sides]
+    for name, side, max_us in zip(("without the view", "page open"), sides, worst):
+        p50, p99 = (quantile_us(side, q) for q in QUANTILES)
+        print(f"  {name:<18}{sum(run.counts.total() for run in side):>9}{p50:>14}{p99:>14}{max_us:>9.0f}")
+    p50, p99 = (f"{ratio(rounds, q):.2f}" for q in QUANTILES)
+    print(f"  {'ratio':<27}{p50:>14}{p99:>14}{worst[1] / worst[0]:>9.2f}")
+    p50, p99 = ("{:.2f} to {:.2f}".format(*ratio_range(rounds, q)) for q in QUANTILES)
+    print(f"  {'its 95 % range':<27}{p50:>14}{p99:>14}")
+    print(f"  rounds left out because the hypervisor took more than {MOST_STOLEN:.1%} of the CPUs' time: {left_out}")
+    seen, missed, messages = (sum(getattr(run, one) for run in sides[1]) for one in ("frames", "missed", "messages"))
+    print(f"  the view saw {seen} frames, missed {missed}; the page had {messages} messages")
 
 
 if __name__ == "__main__":
