@@ -32,6 +32,7 @@ class FlightInProgress final : public observe::Observer {
   void time_set(std::int64_t t_ns) override;
   void interface_changed(bool up, std::int64_t t_ns) override;
 
+  [[nodiscard]] bool real_time() const { return departure_.real_time; }
   /// The record that receives epochs of the engagement; null: the flight has no engagement.
   [[nodiscard]] world::EngagementRecord* engagement() { return engagement_ ? &*engagement_ : nullptr; }
 

@@ -101,8 +101,7 @@ void View::look_at_requests() {
   if (!asked_.exchange(false)) return;
   const std::scoped_lock lock(mutex_);
   if (requests_.departure) {
-    real_time_ = requests_.departure->real_time;
-    if (real_time_) run_when_idle();
+    if (requests_.departure->real_time) run_when_idle();
     flight_.emplace(*requests_.departure);
     requests_.departure.reset();
   }
@@ -110,7 +109,6 @@ void View::look_at_requests() {
     look_at_frames();
     if (flight_ && snapshot_.flight) flight_->update(*snapshot_.flight, feed_.dropped() == 0, true);
     flight_.reset();
-    real_time_ = false;
     landed_.notify_all();
   }
   if (requests_.batch) snapshot_.batch = std::exchange(requests_.batch, {});
@@ -152,7 +150,7 @@ void View::give_up() {
 void View::look_on() {
   Clock::time_point next = Clock::now();
   while (!closing_) {
-    const Pace pace = real_time_ ? real_time : usual;
+    const Pace pace = flight_ && flight_->real_time() ? real_time : usual;
     look_at_requests();
     look_at_frames();
     if (const auto began = Clock::now(); began >= next) {

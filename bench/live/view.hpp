@@ -76,10 +76,9 @@ class View {
   Requests requests_;
   bool gave_up_ = false;
   std::atomic<bool> asked_ = false, closing_ = false;
-  // Only the view's thread uses these.
+  // Only the view's thread uses snapshot_ and flight_.
   Snapshot snapshot_;
   std::optional<FlightInProgress> flight_{};
-  bool real_time_ = false;  // the flight
   std::thread thread_;
 };
 
