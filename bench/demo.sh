@@ -19,7 +19,7 @@ mkdir -p build
 : >build/demo.log
 progress_start "demo: building" build/demo.log >&2
 built=yes
-{ cmake --preset default && cmake --build build/default --target hil-bench hil-target; } >build/demo.log 2>&1 || built=no
+{ { [[ -e build/default/build.ninja ]] || cmake --preset once; } && cmake --build build/default --target hil-bench hil-target; } >build/demo.log 2>&1 || built=no
 progress_stop >&2
 if [[ $built == no ]]; then
   progress_rest build/demo.log | tail -n 40 >&2

@@ -97,9 +97,14 @@ logged() { # logged WHAT LOG COMMAND...: runs the command with its output in the
   return "$code"
 }
 
-# Compiles sources together, unless clang-tidy needs each source by itself. In a working tree that would slow down every rebuild.
-together=(-DCANHIL_TOGETHER=OFF)
-if [[ $mode == full && $tidy$analyse == nono ]]; then together=(-DCANHIL_TOGETHER=ON); fi
+# Compiles sources together, unless clang-tidy or gcov needs each source by itself. A later change then
+# takes longer to compile, so an existing build keeps its setting.
+together=()
+if [[ $mode == coverage || $tidy$analyse != nono ]]; then
+  together=(-DCANHIL_TOGETHER=OFF)
+elif [[ $mode == full || ! -e build/default/build.ninja ]]; then
+  together=(-DCANHIL_TOGETHER=ON)
+fi
 build() { # build PRESET [TARGET...]
   local preset=$1 log=$results/$1.build.log
   shift
