@@ -218,6 +218,18 @@ TEST(Tshark, DecodesOurCaptures) {
             "1790000002.500001000,74565,1,16,000102030405060708090a0b0c0d0e0f\n");
 }
 
+TEST(Tshark, WritesWhatWeRead) {
+  const std::string capture = scratch("for_tshark.pcap");
+  convert(all_kinds(), capture);
+  for (const char* format : {"pcapng", "nsecpcap", "pcap"}) {
+    const std::string theirs = scratch(fmt::format("{}.pcap", format)), back = theirs + ".log";
+    const Ended ended = shell(fmt::format("tshark -r {} -F {} -w {}", capture, format, theirs));
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    convert(theirs, back);
+    EXPECT_EQ(frames_in_words(back), frames_in_words(all_kinds())) << format;
+  }
+}
+
 TEST(Decode, SaysWhatCanmatrixSays) {
   const std::string dbc = SOURCE_DIR "/dbc/canhil.dbc";
   const Ended ours = hil_bench(fmt::format("decode {} --dbc {} --format jsonl", recorded(), dbc));
