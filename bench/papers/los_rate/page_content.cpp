@@ -31,8 +31,8 @@ double rms(const Flown& flown, std::string_view variant, const Window& window) {
   return figure(flown.answer(fmt::format("RMS {:g}-{:g}", window.most, window.least), variant), "rms_mradps");
 }
 
-// Miss distance over the runs of a variant, for one plane [m]: the mean of the medians in pitch and yaw, and
-// the RMS over both planes.
+// Miss distance per plane over the runs of a variant [m], averaged over the pitch and the yaw plane: the mean
+// of the two medians, and the root of the mean of the two mean squares.
 struct Miss {
   double median = 0, rms = 0;
 };

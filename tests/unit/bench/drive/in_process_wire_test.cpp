@@ -164,7 +164,7 @@ TEST(InProcessWire, CarriesTheContractOfCanFd) {
             classic.seen.timing.answers[index].latency.min_ns());
 }
 
-/// All four estimators on CAN FD, in both orders of the queues.
+/// All four estimators on CAN FD; the nodes' queues are FIFO or sorted by priority.
 class Containers : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(Containers, KeepTheirBoundsAndTheirTimesAddUp) {

@@ -246,8 +246,9 @@ TEST(WindModel, Eq3NoiseWindNoiseDoesNotMoveTheGroundVelocity) {
   EXPECT_NEAR(added(ProcessNoise::block_diagonal)(0, 0), 0.09 * 0.02, 1e-15);
 }
 
-// Doubles each part of each coefficient separately, in the airframe. The change of the loads is the
-// contribution of this part; the covariance is the sum of the squares. The drag polar keeps the nominal lift.
+// Doubles each part of each coefficient, one at a time, in a copy of the airframe data. The change of the
+// loads is the contribution of this part; the covariance is the sum of the squares. The drag polar keeps the
+// nominal lift.
 TEST(WindModel, CovarianceOfTheLoadsIsTheSumOverTheParts) {
   const Deflection fins{0.05, -0.03, 0.02};
   const Air air = standard_atmosphere(9000);
