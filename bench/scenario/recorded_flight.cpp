@@ -189,11 +189,12 @@ world::Flight read_recorded_flight(Section& section, std::int64_t duration_us) {
           {"gap_s", "Longest time from a row of the file to the next; a file with a longer gap is refused."},
           Limits::above(0), usual_gap_s),
       .duration_us = duration_us,
-      .agree_within =
-          section.number({"agree_within_m",
-                          "Largest difference between the positions of the file and the positions that "
-                          "follow from its velocities; a file with a larger difference is refused."},
-                         Limits::above(0), usual_agreement_m)};
+      .agree_within = section.number(
+          {"agree_within_m",
+           "Largest drift within 10 s between the positions of the file and the integral of its velocities, "
+           "and largest difference in any row after the bench corrected the velocities by this drift; a file "
+           "with larger values is refused."},
+          Limits::above(0), usual_agreement_m)};
   std::vector<std::string> names;
   for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
   const auto text = section.read_beside({"file", "CSV file of the flight, relative to the scenario file."},
