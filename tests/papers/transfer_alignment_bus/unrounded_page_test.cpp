@@ -1,4 +1,4 @@
-// The page of a reproduction without the rounding of the bus states that nothing was rounded.
+// If a reproduction leaves out the bus's rounding, its page says that nothing was rounded.
 #include <gmock/gmock.h>
 
 #include "tests/papers/reproduced.hpp"
