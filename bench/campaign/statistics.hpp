@@ -82,7 +82,7 @@ ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, const Quantity&
 
 /// The fraction of pairs of runs with the same random numbers in which one variant is better.
 struct PairedFraction {
-  std::size_t better = 0;  ///< runs with |quantity| of `a` < that of `b`; no value counts as the worst
+  std::size_t better = 0;  ///< runs with |quantity| of `a` < that of `b`; a missing value counts as the worst
   std::size_t pairs = 0;
   double fraction = 0;
   double low = 0, high = 0;  ///< Clopper-Pearson interval of the probability

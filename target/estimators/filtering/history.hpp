@@ -17,9 +17,9 @@ namespace canhil::filtering {
 ///     UpdateResult with a member `outcome` of enum Outcome (ok, not_reached, out_of_order,
 ///     older_than_history, ...)
 ///   step(state, increment, settings)
-///   update(state, earlier, share, measurement, settings): updates by a measurement valid at the state's
-///     epoch (earlier == nullptr), or before it by the fraction `share` of the last increment; at the start
-///     of that increment the ins was `*earlier`
+///   update(state, earlier, share, measurement, settings): applies a measurement. If earlier == nullptr, it
+///     is valid at the state's epoch. Otherwise it is older, by the fraction `share` of the last increment,
+///     at whose start the ins was `*earlier`
 ///   keep_refusal(state, tried): copies from the tried state the members that a refused update changes
 ///   applied_at(t_us, now_us, settings): the epoch at which to apply a measurement valid at t_us
 /// For a filter that also predicts between measurements, Predictions > 0 is the largest number of predictions
@@ -136,7 +136,8 @@ class History {
     predictions_[prediction_count_++] = {state, t_us};
   }
 
-  // The state at an epoch: `ins` as at that epoch, the other members as before the first prediction after it.
+  // The state at an epoch: `ins` has its value at that epoch, the other members have their values from just
+  // before the first prediction after it.
   State state_at(const State& now, std::size_t epoch) {
     const State* then = &now;
     for (std::size_t i = prediction_count_; i > 0 && predictions_[i - 1].t_us > epoch_us(epoch); --i)

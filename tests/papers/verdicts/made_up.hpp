@@ -1,4 +1,4 @@
-// Artificial results of a paper's campaigns: a test sets every figure, and nothing is flown.
+// Artificial results of a paper's campaigns: a test sets every value, and no run is flown.
 #pragma once
 
 #include <fmt/format.h>
