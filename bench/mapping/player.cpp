@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bench/nodes/recorded_group.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/observe/values.hpp"
 #include "dbc/parser/codec.hpp"
@@ -45,7 +46,10 @@ Result<void> Player::check(const Mapping& mapping, const scenario::Scenario& sce
 }
 
 Player::Player(Conversation& conversation, const nodes::Run& run)
-    : conversation_(conversation), end_us_(run.flight.end_us()), values_(conversation.mapping.plays.size()) {
+    : conversation_(conversation),
+      end_us_(run.flight.end_us()),
+      values_(conversation.mapping.plays.size()),
+      samples_(conversation.mapping.plays.size(), 0) {
   for (const nodes::Kind* kind : nodes::all()) {
     const scenario::NodeSettings* node = run.scenario.node(kind->table.key);
     const auto& all = conversation.mapping.plays;
@@ -58,9 +62,7 @@ Player::Player(Conversation& conversation, const nodes::Run& run)
                       .latency_us = node->latency_us()});
   }
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    const Play& play = conversation.mapping.plays[i];
-    next_us_.push_back(play.period_us);
-    for (const PlayedMessage& message : play.messages) {
+    for (const PlayedMessage& message : conversation.mapping.plays[i].messages) {
       for (const Source& source : message.sources) {
         if (source.stimulus != nullptr) values_[i][source.stimulus];
       }
@@ -102,8 +104,8 @@ void Player::sample(Played& played) {
   if (!closed) return;
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const Play& play = conversation_.mapping.plays[i];
-    if (play.node != played.table->key || played.valid_us < next_us_[i]) continue;
-    next_us_[i] += play.period_us;
+    if (play.node != played.table->key) continue;
+    if (++samples_[i] % (play.period_us / played.period_us) != 0) continue;
     if (due_us + play.latency_us > end_us_) continue;  // an answer would come after the end of the run
     Sent sent = put_together(i, played, due_us + play.latency_us);
     const auto after = std::ranges::upper_bound(due_, sent.due_us, {}, &Due::due_us);
@@ -117,13 +119,14 @@ void Player::take(const Played& played, const Frame& frame) {
     return value.enumerator == name_of(messages::Validity::invalid);
   });
   for (const observe::Value& value : values) {
+    const bool interval = nodes::role_of(*value.signal, false) == nodes::Role::interval;
     for (auto& of_play : values_) {
       for (auto& [stimulus, kept] : of_play) {
+        if (interval && stimulus->node == played.table->key) kept.over_us += value.value;
         if (stimulus->message->id != frame.id || stimulus->signal != value.signal->name) continue;
         kept.newest = value.value * stimulus->factor;
         kept.valid = valid;
         kept.sum += kept.newest;
-        kept.over_us += played.period_us;
       }
     }
   }
@@ -138,7 +141,7 @@ double Player::value_of(std::size_t play, const Source& source, std::int64_t val
     case Over::sum:
       return value.sum;
     case Over::rate:
-      return value.over_us == 0 ? 0 : value.sum / (1e-6 * static_cast<double>(value.over_us));
+      return value.over_us == 0 ? 0 : value.sum / (1e-6 * value.over_us);
   }
   return 0;
 }

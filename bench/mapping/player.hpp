@@ -38,7 +38,7 @@ class Player final : public nodes::Node {
   struct Value {
     double newest = 0, sum = 0;  // newest value; sum since the play was last sent
     bool valid = true;           // validity flag in the newest message that carries the quantity
-    std::int64_t over_us = 0;
+    double over_us = 0;          // sum of the samples' intervals since the play was last sent
   };
   struct Due {
     std::int64_t due_us = 0;
@@ -56,7 +56,7 @@ class Player final : public nodes::Node {
   std::int64_t end_us_;  // of the run
   std::vector<Played> nodes_;
   std::vector<std::map<const Stimulus*, Value>> values_;  // for each play
-  std::vector<std::int64_t> next_us_;                     // time of validity of each play's next transmission
+  std::vector<std::int64_t> samples_;                     // for each play, sent and lost ones
   std::deque<Due> due_;                                   // ascending by time
   std::map<std::string, protection::Sender> shared_;
   std::map<const dbc::Message*, protection::Sender> own_;

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
 
 #include "bench/drive/contract.hpp"
@@ -146,6 +148,28 @@ TEST(Player, AddsIncrementsUpAndTakesTheMeanOfRates) {
     EXPECT_EQ(flown.value(2 * k + 1, "Count"), static_cast<double>(k));
   }
   EXPECT_NEAR(flown.value(1, "RateZ"), -2 * std::numbers::pi / 10, 1e-3);
+}
+
+// The stamps of a recording are not regular: a frame may wait for the bus or for the host. Each sample is
+// played once, with the rate in its row, whatever the time since the row before.
+TEST(Player, PlaysEachRecordedRateWhateverItsStamp) {
+  constexpr int samples = 99;
+  const std::string file = testing::TempDir() + "canhil_player_test.csv";
+  std::ofstream rows(file);
+  rows << "t_s,rate_x_radps,rate_y_radps,rate_z_radps,specific_force_x_mps2,specific_force_y_mps2,"
+          "specific_force_z_mps2\n";
+  constexpr std::array<double, 5> late_ms{-0.1, 3, 17, 7.5, 0};  // row by row
+  for (int k = 1; k <= samples; ++k)
+    rows << fmt::format("{:.6f},0,0,{},0,0,-9.8\n", 1e-3 * (10 * k + late_ms[k % late_ms.size()]), k / 128.0);
+  rows.close();
+  const auto scenario =
+      read(fmt::format("recorded = \"{}\"", file), mapping_with("every_ms = 20", "every_ms = 10"));
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  ASSERT_EQ(flown.due.size(), samples);
+  for (std::size_t k = 0; k < samples; ++k)
+    EXPECT_FLOAT_EQ(static_cast<float>(flown.value(2 * k + 1, "RateZ")), static_cast<float>(k + 1) / -128.0F)
+        << k;
 }
 
 TEST(Player, SaysWhatASignalCouldNotHold) {
