@@ -2,9 +2,11 @@
 """Creates a copy of the project with a fifth estimator: python3 tests/fifth_estimator/add.py FOLDER
 
 This file contains all changes outside tests/fifth_estimator that the estimator needs: one line in each registry, and the additions to the DBC, which
-contract.dbc lists.
+contract.dbc lists. The estimator's sensor and one of its checks are the examples of docs/adding-a-node.md and docs/adding-a-check.md: the copy has
+their code from the pages, so its tests fail if a page is out of date.
 """
 import pathlib
+import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -13,12 +15,33 @@ import copied_tree  # noqa: E402
 
 HERE = "tests/fifth_estimator"
 
+
+
+def fail(what: str) -> None:
+    sys.exit(f"add.py: {what}")
+
+
+def block(page: str, above: str) -> str:
+    """The first code block of docs/PAGE.md below the line that begins with `above`."""
+    found = re.search(rf"^{re.escape(above)}.*?^```\w*\n(.*?)\n```$", (ROOT / f"docs/{page}.md").read_text(), re.DOTALL | re.MULTILINE)
+    if not found:
+        fail(f"docs/{page}.md: has no line '{above}...' with code below it")
+    return found[1]
+
+
+# Files of the pages: each follows a line that begins with its name.
+FROM_PAGES = {name: block(page, f"`{name}`").encode() + b"\n" for page, name in [
+    ("adding-a-node", "bench/nodes/barometer.hpp"), ("adding-a-node", "bench/nodes/barometer.cpp"),
+    ("adding-a-check", "bench/checks/kinds/spread.hpp"), ("adding-a-check", "bench/checks/kinds/spread.cpp")]}
+
 # (registry, an existing line in it, the line to insert after it)
 LINES = [
     ("bench/estimators/registry.cpp", '#include "messages/canhil.hpp"', f'#include "{HERE}/baro_inertial.hpp"'),
     ("bench/estimators/registry.cpp", "    &los_rate,", "    &baro_inertial,"),
-    ("bench/nodes/registry.cpp", '#include "bench/nodes/ssbl.hpp"', f'#include "{HERE}/barometer.hpp"'),
-    ("bench/nodes/registry.cpp", "    &fins,        // of the glider", "    &barometer,   // of the vehicle"),
+    ("bench/nodes/registry.cpp", '#include "bench/nodes/master_ins.hpp"', '#include "bench/nodes/barometer.hpp"'),
+    ("bench/nodes/registry.cpp", "    &fins,        // of the glider", block("adding-a-node", "## 3. The registry")),
+    ("bench/checks/kinds.cpp", '#include "bench/checks/kinds/sigma_grows.hpp"', '#include "bench/checks/kinds/spread.hpp"'),
+    ("bench/checks/kinds.cpp", "constexpr std::array of_any_estimator{", block("adding-a-check", "## 2. The registry")),
     ("target/device/adapters.hpp", "std::unique_ptr<Adapter> make_wind_adapter();",
      "std::unique_ptr<Adapter> make_baro_inertial_adapter();"),
     ("target/device/adapters.hpp", "  adapters.push_back(make_wind_adapter());",
@@ -27,10 +50,6 @@ LINES = [
      "add_subdirectory(fifth_estimator)"),
 ]
 LAST_ESTIMATOR, ONE_MORE = '4 "wind"', '5 "baro_inertial" '
-
-
-def fail(what: str) -> None:
-    sys.exit(f"add.py: {what}")
 
 
 def with_lines(name: str, text: str) -> str:
@@ -47,6 +66,9 @@ def contract(text: str) -> str:
     """Adds the nodes to BU_, the estimator to the lists of estimators, and the rest at the end."""
     own = (ROOT / HERE / "contract.dbc").read_text()
     nodes, rest = own.split("\n", 1)
+    for line in block("adding-a-node", "## 1. The DBC").splitlines():
+        if line not in own.splitlines():
+            fail(f"docs/adding-a-node.md: '{line}' is not in {HERE}/contract.dbc")
     lines = []
     for line in text.splitlines():
         if line.startswith("BU_:"):
@@ -69,7 +91,7 @@ def main() -> None:
     if len(sys.argv) != 2:
         fail("expected one argument, the folder for the copy")
     # dbcgen --fd derives the FD variant of the DBC from the DBC of the copy.
-    copied_tree.copy_tree(pathlib.Path(sys.argv[1]), copied, made=("dbc/canhil-fd.dbc",))
+    copied_tree.copy_tree(pathlib.Path(sys.argv[1]), copied, made=("dbc/canhil-fd.dbc",), added=FROM_PAGES)
 
 
 if __name__ == "__main__":

@@ -61,6 +61,15 @@ TEST(FifthEstimator, ItsDefectsFail) {
                                            with("fix_noise_vertical_m = 2.0", "fix_noise_vertical_m = 0.4")));
   EXPECT_EQ(sure.code, 1) << sure.out;
   EXPECT_TRUE(std::regex_search(sure.out, std::regex("FAIL +consistency"))) << sure.out;
+  // The barometer drifts by 3 m in the last minute, and the estimate follows it.
+  const std::string spread = "[[check]] # docs/adding-a-check.md";
+  const Ended drifting = hil_bench(fmt::format(
+      "run {} --bus in-process",
+      with(spread,
+           "[[fault]]\nkind = \"drift\"\nquantity = \"barometer.height\"\nby_mps = 0.05\nfrom_s = 30.0\n" +
+               spread)));
+  EXPECT_EQ(drifting.code, 1) << drifting.out;
+  EXPECT_TRUE(std::regex_search(drifting.out, std::regex("FAIL +spread"))) << drifting.out;
 }
 
 TEST(FifthEstimator, BadInputOfItsOwnIsOneLine) {

@@ -8,12 +8,20 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PARTS = ("CMakeLists.txt", "CMakePresets.json", "README.md", "bench", "cmake", "dbc", "docs", "target", "tests")
 
 
-def copy_tree(target, changed=lambda name, content: content, made=()):
+def write(file, content):
+    """Writes the file unless it has this content. Returns the file."""
+    if not file.exists() or file.read_bytes() != content:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(content)
+    return file
+
+
+def copy_tree(target, changed=lambda name, content: content, made=(), added=None):
     """Copies the project into the folder `target`. The content of each file is changed(name, content).
 
     Deletes files of the copy that the project does not have. `made` are files that the build of the copy
-    generates: they are copied only if they do not exist."""
-    names = set()
+    generates: they are copied only if they do not exist. `added` are the contents of further files, by name."""
+    names = set(added or ())
     for part in PARTS:
         path = ROOT / part
         for file in [path] if path.is_file() else sorted(path.rglob("*")):
@@ -21,14 +29,11 @@ def copy_tree(target, changed=lambda name, content: content, made=()):
                 continue
             name = file.relative_to(ROOT).as_posix()
             names.add(name)
-            to, content = target / name, changed(name, file.read_bytes())
-            if name in made and to.exists():
+            if name in made and (target / name).exists():
                 continue
-            if to.exists() and to.read_bytes() == content:
-                continue
-            to.parent.mkdir(parents=True, exist_ok=True)
-            to.write_bytes(content)
-            to.chmod(file.stat().st_mode)
+            write(target / name, changed(name, file.read_bytes())).chmod(file.stat().st_mode)
+    for name, content in (added or {}).items():
+        write(target / name, content)
     for part in PARTS:
         for file in (target / part).rglob("*"):
             if file.is_file() and file.relative_to(target).as_posix() not in names:
