@@ -1,4 +1,5 @@
-// Watches the bench's own machine during a run: steps of its clock, and waits for a CPU.
+// Watches the bench's own machine during a run: steps of its clock, and the times in which the bench waited
+// for a CPU.
 #pragma once
 
 #include <cstdint>

@@ -111,7 +111,7 @@ class Comparer {
       return false;
     }
     if (one_a_side())
-      say("latency  one run a side: counts as worse only if p50 or p99 grew by {:.0f} % or more, because "
+      say("latency  one run a side: counts as worse only if p50 or p99 grew by more than {:.0f} %, because "
           "runs differ",
           least_share * 100);
     const double p_bar = largest_p / static_cast<double>(2 * messages.size());

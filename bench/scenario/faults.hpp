@@ -1,4 +1,4 @@
-// Reads [[fault]]: deliberate faults of a sensor, a node, the bus or the target. A kind of fault is a file of
+// Reads [[fault]]: deliberate faults of a sensor, a node, the bus or the target. The kinds are in
 // bench/faults/kinds; this folder only uses the kinds that it receives (DbcVocabulary::fault_kinds).
 #pragma once
 

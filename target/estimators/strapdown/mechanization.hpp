@@ -41,8 +41,8 @@ MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& 
 
 /// Turns the specific force by half of the sample's rotation, with earth terms frozen at the start, as in
 /// the published test vectors of in-flight alignment: C1 = C exp([(dtheta - C' w_in dt) x]), V1 = V +
-/// C (dv + dtheta x dv/2) + (g - (2w_ie + w_en) x V) dt, gravity proportional to 1 - 2h/a, longitude with the
-/// parallel at the end. Requires dt > 0.
+/// C (dv + dtheta x dv/2) + (g - (2w_ie + w_en) x V) dt, gravity proportional to 1 - 2h/a, the rate
+/// of the longitude with the radius of the circle of latitude at the end. Requires dt > 0.
 MechanizationStep mechanize_one_sample(const NavState& nav, const ImuIncrement& imu);
 
 /// A step of the given kind; only two_sample uses `previous`.

@@ -81,8 +81,8 @@ struct Settings {
   double rate_most = 10;            // likewise [rad/s]
 };
 
-/// True if the reported sigmas include the effect of constant coefficient errors. The H-infinity filter
-/// does not use this method.
+/// True if the reported sigmas include the effect of constant coefficient errors. Those of the H-infinity
+/// filter never do.
 constexpr bool considers_coefficients(const Settings& settings) {
   return settings.coefficient_sigma > 0 && follows_loads(settings.process_noise) &&
          settings.algorithm != Algorithm::h_infinity;
