@@ -174,10 +174,9 @@ ExitCode extract(const ExtractArguments& arguments) {
 void add_extract(command_line::Command command, int& code) {
   auto arguments = std::make_shared<ExtractArguments>();
   const auto own = command.add_subcommand(
-      "extract",
-      "a candump log of somebody else's bus as the CSV of a sensor, which a scenario can send again");
+      "extract", "a log of a bus with another DBC as the CSV of a sensor, which a scenario can send again");
   own.add_option("MAPPING", arguments->mapping, "mapping (TOML), which names the DBC").required();
-  own.add_option("LOG", arguments->log, "candump log").required();
+  own.add_option("LOG", arguments->log, "log: candump, pcap or ASC").required();
   own.add_option("--play", arguments->play, "the play that was recorded: its last message").required();
   own.on_given([&code, arguments] { code = static_cast<int>(extract(*arguments)); });
 }

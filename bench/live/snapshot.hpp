@@ -26,9 +26,10 @@ struct TimingLine {
   double p50_us = 0, p99_us = 0, max_us = 0;
   std::uint64_t jitter_count = 0;
   double jitter_p99_us = 0, jitter_max_us = 0;
-  /// The largest latency in each stretch of `stretch_s`; empty unless the message is the last of its answer.
-  double stretch_s = 0;
-  std::vector<double> slowest_us{};  ///< NaN: no answer in this stretch
+  double stretch_s = 0;  ///< length of a stretch of time
+  /// The largest latency in each stretch; NaN: no answer in it. Empty unless the message is the last of its
+  /// answer.
+  std::vector<double> slowest_us{};
 };
 
 struct FaultLine {

@@ -28,8 +28,8 @@ struct Asked {
 /// Watches a run from the target's start on.
 class Monitor final : public Watcher {
  public:
-  /// Without `asked`, the monitor measures no times. A campaign saves this work in its thousands of runs: in
-  /// virtual time, times have no meaning.
+  /// Without `asked`, the monitor measures no times. A campaign saves this work in its thousands of runs: it
+  /// judges no times.
   explicit Monitor(std::optional<Asked> asked = std::nullopt);
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;

@@ -54,11 +54,11 @@ class Comparer {
       return result_;
     }
     result_.text += differences(before_, after_);
-    const bool virtual_time = before_[0].at("provenance").at("clock") == "lockstep";
-    const ChecksCompared checks = compare_checks(before_, after_, virtual_time);
+    const bool lockstep = before_[0].at("provenance").at("clock") == "lockstep";
+    const ChecksCompared checks = compare_checks(before_, after_, lockstep);
     result_.text += checks.text;
     if (checks.worse) result_.outcome = Comparison::worse;
-    const bool measured = latencies(virtual_time) && !checks.unknown;
+    const bool measured = latencies(lockstep) && !checks.unknown;
     const bool worse = result_.outcome == Comparison::worse;
     if (!worse && !measured) result_.outcome = Comparison::not_comparable;
     say("{}", worse      ? "worse"
@@ -88,8 +88,8 @@ class Comparer {
   }
 
   // False: one of the runs has no latencies to compare.
-  bool latencies(bool virtual_time) {
-    if (virtual_time) {
+  bool latencies(bool lockstep) {
+    if (lockstep) {
       say("latency  none in virtual time");
       return true;
     }

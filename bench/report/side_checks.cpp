@@ -111,7 +111,7 @@ Tally verdicts(const Reports& side) {
 
 }  // namespace
 
-ChecksCompared compare_checks(const Reports& before, const Reports& after, bool virtual_time) {
+ChecksCompared compare_checks(const Reports& before, const Reports& after, bool lockstep) {
   const auto first = judged_in_all(before), second = judged_in_all(after);
   std::vector<Key> keys;
   for (const auto* side : {&second, &first}) {
@@ -125,7 +125,7 @@ ChecksCompared compare_checks(const Reports& before, const Reports& after, bool 
   for (const Key& key : keys) {
     const Tally was = tally_of(first, key), is = tally_of(second, key);
     const auto together = [&](Says what) { return was.saying[what] + is.saying[what]; };
-    const bool never_judged = together(not_measured) == was.runs() + is.runs() && virtual_time;
+    const bool never_judged = together(not_measured) == was.runs() + is.runs() && lockstep;
     const bool worse = got_worse(was, is);
     const bool unknown = together(not_there) > 0 || (together(not_measured) > 0 && !never_judged);
     result.worse = result.worse || worse;

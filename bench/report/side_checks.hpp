@@ -19,9 +19,9 @@ struct UnknownOutcome {
 };
 
 /// A check got worse if it fails in a run of `after` and in none of `before`, or in most runs of `after` and
-/// not in most of `before`. In virtual time, timing is never judged, so a check that no run measured does not
+/// not in most of `before`. In lockstep, timing is never judged, so a check that no run measured does not
 /// count as unknown.
 ChecksCompared compare_checks(const std::vector<nlohmann::ordered_json>& before,
-                              const std::vector<nlohmann::ordered_json>& after, bool virtual_time);
+                              const std::vector<nlohmann::ordered_json>& after, bool lockstep);
 
 }  // namespace canhil::report

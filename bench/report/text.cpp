@@ -77,7 +77,7 @@ std::string load_words(const drive::Run& run) {
 
 // Latency of the last message of each group; messages without a latency come first.
 std::string latency_words(const scenario::Scenario& scenario, const checks::Observations& seen,
-                          bool virtual_time) {
+                          bool lockstep) {
   std::string none, lines;
   for (const std::string_view message : closing_answers(scenario)) {
     const auto place = std::ranges::find(seen.timing.messages, message, &MessageInfo::name);
@@ -88,7 +88,7 @@ std::string latency_words(const scenario::Scenario& scenario, const checks::Obse
     const std::string missing = unanswered > 0 ? fmt::format(", {} never came", unanswered) : "";
     if (answers == 0) {
       none += fmt::format("  latency {:<22}no answers{}\n", message, missing);
-    } else if (!virtual_time) {
+    } else if (!lockstep) {
       lines += fmt::format("  latency {:<22}{}  of {} answers{}\n", message,
                            milliseconds(checks::distribution_s(timing.latency)), answers, missing);
       lines += fmt::format("    its period's deviation      {}\n",
@@ -198,9 +198,9 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
     if (scenario.targets.size() > 1) page += fmt::format("  {}\n", one.estimator);
     for (const estimators::ResultLine& line : one.lines) page += to_text(line);
   }
-  const bool virtual_time = run.clock == drive::ClockKind::lockstep;
-  page += latency_words(scenario, run.seen, virtual_time);
-  if (!virtual_time) {
+  const bool lockstep = run.clock == drive::ClockKind::lockstep;
+  page += latency_words(scenario, run.seen, lockstep);
+  if (!lockstep) {
     const checks::Distribution lateness_s = checks::distribution_s(run.seen.timing.lateness);
     page += fmt::format("  bench's own lateness          {}  of {} frames  (latency by {})\n",
                         milliseconds(lateness_s), lateness_s.count, stamp_source(run));

@@ -18,9 +18,9 @@ struct Assumptions {
 
 /// The messages of a DBC by priority, with the longest frame of each. Times come from message attributes, in
 /// ms: the period from GenMsgCycleTime, for event messages from GenMsgDelayTime; the deadline from
-/// GenMsgDeadline, by default the period; the jitter from GenMsgJitter. FD messages switch the bit rate
-/// unless their attribute CANFD_BRS is 0; then the data bit rate must be known. Error: one line that names
-/// the message.
+/// GenMsgDeadline, by default the period; the jitter from GenMsgJitter. An FD message switches the bit
+/// rate unless its attribute CANFD_BRS is 0. If a message switches, the data bit rate must be known. Error:
+/// one line that names the message.
 Result<std::vector<Stream>> streams_of(const dbc::Database& database, const Assumptions& assumptions,
                                        const wire::BitRates& rates);
 

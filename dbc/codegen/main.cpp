@@ -100,7 +100,7 @@ bool is_namespace(std::string_view name) {
   return std::regex_match(name.begin(), name.end(), parts);
 }
 
-// Why the options contradict each other; empty: they do not.
+// Why the options are refused; empty: they are not.
 std::string refused(const Options& options) {
   for (const auto& [a, b] : {std::pair(options.output, options.dbc), std::pair(options.source, options.dbc),
                              std::pair(options.source, options.output)}) {

@@ -22,6 +22,8 @@ from pages import Command, commands_of  # noqa: E402
 from rules import PLACEHOLDERS, PREPARED, Rule, rule_of  # noqa: E402
 
 LONGEST_S = 120
+# What a run in real time prints if the host stalled the target, which has no CPU of its own here. The command is repeated: a defect shows each time.
+STALLED = re.compile(r"target silent|FAIL +(output_period|latency|heartbeat) ")
 WRITTEN_TO = ("docs", "dbc")  # copied, because commands write to them; all other folders are linked
 
 
@@ -98,7 +100,9 @@ def attempt(command: Command, rule: Rule, session: Session) -> str:
     for pattern, replacement in (*rule.instead, *PLACEHOLDERS):
         text = re.sub(pattern, replacement, text)
     code, printed = session.run(text)
-    if code not in rule.codes and "target silent" in printed:  # the host stalled a program for 0.4 s
+    for _ in range(3):
+        if code in rule.codes or not STALLED.search(printed):
+            break
         code, printed = session.run(text)
     tail = "\n    ".join(printed.splitlines()[-12:])
     if code not in rule.codes:

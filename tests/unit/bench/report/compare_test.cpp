@@ -148,7 +148,7 @@ TEST(Compare, RunsOfTheSameThatScatterAreNoWorse) {
 TEST(Compare, OneRunASideSaysWhatDifferenceCounts) {
   const Json one = report_of(latencies_us(1, 60));
   EXPECT_THAT(compared(one, one).text,
-              HasSubstr("one run a side: counts as worse only if p50 or p99 grew by 100 % or more"));
+              HasSubstr("one run a side: counts as worse only if p50 or p99 grew by more than 100 %"));
 }
 
 TEST(Compare, SeveralRunsASideShowADifferenceBeyondTheirScatter) {
