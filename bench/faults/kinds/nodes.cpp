@@ -11,6 +11,7 @@
 #include "bench/faults/frame_edit.hpp"
 #include "bench/faults/measured_value.hpp"
 #include "bench/observe/values.hpp"
+#include "bench/scenario/rule.hpp"
 
 namespace canhil::faults {
 namespace {
@@ -198,6 +199,7 @@ NodeRestart NodeRestart::read(Section& section, const FaultContext& context) {
   kind.table = read_node(section, context);
   kind.when.from_us = section.time_us({"from_s", "Time of transmission at which the fault begins."},
                                       scenario::Limits::at_least(0));
+  scenario::expect_within_run(section, "from_s", kind.when.from_us, context.duration_us);
   kind.when.to_us = kind.when.from_us + section.time_us({"silent_s", "Time for which the node is silent."},
                                                         scenario::Limits::at_least(0));
   return kind;

@@ -22,7 +22,6 @@ MAY_INCLUDE = {
     "target/estimators/": ESTIMATOR_SHARED,  # and the estimator's own folder, see allowed_prefixes()
     "bench/": ("dbc/", "bench/"),
     "bench/drive/": ("dbc/", "bench/", DEVICE),
-    "bench/campaign/": ("dbc/", "bench/", DEVICE),
     "bench/checks/": ("dbc/", "bench/"),
 }
 # Folders that must not be included even indirectly: a check compares decoded frames with the truth and uses nothing

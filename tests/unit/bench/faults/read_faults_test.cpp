@@ -59,6 +59,8 @@ TEST(ReadFaults, WhatIsWrongIsSaidInOneLine) {
       {fault("paused", "from_s = 1\nfor_s = 2"),
        "key 'fault[1].for_s': lasts to the end of the run or longer"},
       {fault("restarted", "from_s = 9"), "key 'fault[1].from_s': is after the end of the run"},
+      {fault("restart", "node = \"slave_imu\"\nfrom_s = 9\nsilent_s = 1"),
+       "key 'fault[1].from_s': is after the end of the run"},
   };
   for (const auto& [text, what] : wrong) {
     const std::string said = refusal(text);
