@@ -115,9 +115,17 @@ void Player::sample(Played& played) {
 
 void Player::take(const Played& played, const Frame& frame) {
   const std::vector<observe::Value> values = observe::values_of(frame);
+  const bool flagged =
+      std::ranges::any_of(values, [](const observe::Value& value) { return is_validity(*value.signal); });
   const bool valid = std::ranges::none_of(values, [](const observe::Value& value) {
     return value.enumerator == name_of(messages::Validity::invalid);
   });
+  for (auto& of_play : values_) {
+    for (auto& [stimulus, kept] : of_play) {
+      const bool of_group = stimulus->node == played.table->key && !stimulus->flagged;
+      if (flagged && (of_group || stimulus->message->id == frame.id)) kept.valid = valid;
+    }
+  }
   for (const observe::Value& value : values) {
     const bool interval = nodes::role_of(*value.signal, false) == nodes::Role::interval;
     for (auto& of_play : values_) {
@@ -125,7 +133,6 @@ void Player::take(const Played& played, const Frame& frame) {
         if (interval && stimulus->node == played.table->key) kept.over_us += value.value;
         if (stimulus->message->id != frame.id || stimulus->signal != value.signal->name) continue;
         kept.newest = value.value * stimulus->factor;
-        kept.valid = valid;
         kept.sum += kept.newest;
       }
     }

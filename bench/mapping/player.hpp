@@ -37,7 +37,7 @@ class Player final : public nodes::Node {
   // Accumulates a quantity of a node between transmissions of a play.
   struct Value {
     double newest = 0, sum = 0;  // newest value; sum since the play was last sent
-    bool valid = true;           // validity flag in the newest message that carries the quantity
+    bool valid = true;           // newest validity flag of its message, or of its sample group
     double over_us = 0;          // sum of the samples' intervals since the play was last sent
   };
   struct Due {

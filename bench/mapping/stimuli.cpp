@@ -27,7 +27,9 @@ std::vector<Stimulus> all_stimuli() {
     for (const MessageInfo& message : messages::all_messages) {
       if (message.sample_group != table.closes.sample_group || message.sender != table.closes.sender)
         continue;
-      for (const SignalInfo* signal : observe::signals_of(message)) {
+      const std::vector<const SignalInfo*> signals = observe::signals_of(message);
+      const bool flagged = std::ranges::any_of(signals, [](const auto* one) { return is_validity(*one); });
+      for (const SignalInfo* signal : signals) {
         const auto unit = signal->unit.empty() ? std::nullopt : wire_unit(signal->unit);
         if (!unit || of_the_sample(*signal)) continue;
         Stimulus stimulus{.name = std::string(table.key) + "." + std::string(without_unit(signal->name)),
@@ -36,7 +38,8 @@ std::vector<Stimulus> all_stimuli() {
                           .message = &message,
                           .signal = signal->name,
                           .column = signal->name,
-                          .factor = unit->factor};
+                          .factor = unit->factor,
+                          .flagged = flagged};
         const auto increment =
             std::ranges::find(table.increments, signal->name, &scenario::Increment::signal);
         if (increment != table.increments.end()) {
@@ -55,6 +58,8 @@ std::vector<Stimulus> all_stimuli() {
 }
 
 }  // namespace
+
+bool is_validity(const SignalInfo& signal) { return signal.name.ends_with("_validity"); }
 
 std::span<const Stimulus> stimuli() {
   static const std::vector<Stimulus> all = all_stimuli();

@@ -29,7 +29,11 @@ struct Stimulus {
   std::string_view column;  ///< name in a recording (docs/recorded-data.md): signal, or rate in SI
   double factor = 1;        ///< from the signal's unit to SI
   Over over = Over::newest;
+  bool flagged = false;  ///< its message has a validity flag; if not, a flag of its sample group applies
 };
+
+/// Whether a signal is a validity flag of its message or sample group.
+bool is_validity(const SignalInfo& signal);
 
 /// All stimuli, in the order of the nodes.
 std::span<const Stimulus> stimuli();

@@ -182,6 +182,38 @@ TEST(Player, SaysWhatASignalCouldNotHold) {
   EXPECT_EQ(flown.value(2 * 48, "Millis"), 255);
 }
 
+// The flag of a fix is in another message (GpsLongitude) than its height (GpsLatitude).
+TEST(Player, SendsAQuantityAsInvalidIfAFlagOfItsSampleGroupIs) {
+  const std::string text = R"(
+dbc = "ecu.dbc"
+[units]
+"Answer.Roll" = "deg"
+"Rates.Mode" = "m"
+[[play]]
+messages = ["Rates"]
+every_ms = 100
+signals = { "Rates.Mode" = "gps.height" }
+invalid = { "Rates.Mode" = 255 }
+[[hear]]
+message = "Answer"
+answers = "Rates"
+echo = { signal = "Repeated", of = "Rates.Count" }
+signals = { Roll = "attitude.roll" }
+[[protection]]
+messages = ["Rates"]
+counter = { signal = "Count" }
+)";
+  for (const bool valid : {true, false}) {
+    const auto scenario =
+        read(fmt::format("[gps]\nperiod_ms = 100\ninvalid_percent = {}", valid ? 0 : 100), text);
+    ASSERT_TRUE(scenario) << scenario.error().message;
+    const Flown flown(*scenario);
+    ASSERT_GE(flown.due.size(), 9U);
+    for (std::size_t k = 0; k < flown.due.size(); ++k)
+      EXPECT_EQ(flown.value(k, "Mode") == 255, !valid) << k << ": " << flown.value(k, "Mode");
+  }
+}
+
 TEST(Player, ALostSampleUsesItsCounterUp) {
   const auto scenario = read("loss_percent = 30");
   ASSERT_TRUE(scenario) << scenario.error().message;
