@@ -66,7 +66,7 @@ TEST(FifthEstimator, ItsDefectsFail) {
   const Ended drifting = hil_bench(fmt::format(
       "run {} --bus in-process",
       with(spread,
-           "[[fault]]\nkind = \"drift\"\nquantity = \"barometer.height\"\nby_mps = 0.05\nfrom_s = 30.0\n" +
+           "[[fault]]\nkind = \"drift\"\nquantity = \"barometer.height\"\nby_m = 0.05\nfrom_s = 30.0\n" +
                spread)));
   EXPECT_EQ(drifting.code, 1) << drifting.out;
   EXPECT_TRUE(std::regex_search(drifting.out, std::regex("FAIL +spread"))) << drifting.out;

@@ -79,12 +79,15 @@ TEST(Realtime, IsNotInForceUnlessAskedFor) {
 // Scheduling and locked memory of the started target in the middle of a run, and the number of page faults of
 // the bench from then on.
 std::string started_target(const std::string& options) {
-  const Ended seen = shell(fmt::format(
-      "faults() {{ cut -d' ' -f10 /proc/$1/stat; }}; "
-      "{} {} {} >{} 2>&1 & sleep 1.2; before=$(faults $!); read pid rest </proc/$!/task/$!/children; "
-      "chrt -p $pid; grep -E '^(VmLck|Cpus_allowed_list)' /proc/self/status /proc/$pid/status; "
-      "sleep 1.5; echo bench: $(($(faults $!) - before)) faults; wait $!",
-      HIL_BENCH, quick_run(), options, scratch("started.out")));
+  const Ended seen = shell(
+      fmt::format("faults() {{ cut -d' ' -f10 /proc/$1/stat; }}; "
+                  "{} {} {} >{} 2>&1 & "
+                  "for i in $(seq 100); do read pid rest </proc/$!/task/$!/children; [ \"$pid\" ] && break; "
+                  "sleep 0.1; done; "
+                  "sleep 1; before=$(faults $!); "
+                  "chrt -p $pid; grep -E '^(VmLck|Cpus_allowed_list)' /proc/self/status /proc/$pid/status; "
+                  "sleep 1.5; echo bench: $(($(faults $!) - before)) faults; wait $!",
+                  HIL_BENCH, quick_run(), options, scratch("started.out")));
   return seen.out + seen.err + read(scratch("started.out"));
 }
 
