@@ -115,26 +115,27 @@ void Player::sample(Played& played) {
 
 void Player::take(const Played& played, const Frame& frame) {
   const std::vector<observe::Value> values = observe::values_of(frame);
-  const bool flagged =
-      std::ranges::any_of(values, [](const observe::Value& value) { return is_validity(*value.signal); });
-  const bool valid = std::ranges::none_of(values, [](const observe::Value& value) {
-    return value.enumerator == name_of(messages::Validity::invalid);
-  });
+  bool flagged = false, valid = true;
+  double interval_us = 0;
+  for (const observe::Value& value : values) {
+    const nodes::Role role = nodes::role_of(*value.signal);
+    if (role == nodes::Role::interval) interval_us = value.value;
+    if (role != nodes::Role::validity) continue;
+    flagged = true;
+    valid = valid && value.enumerator != name_of(messages::Validity::invalid);
+  }
   for (auto& of_play : values_) {
     for (auto& [stimulus, kept] : of_play) {
-      const bool of_group = stimulus->node == played.table->key && !stimulus->flagged;
-      if (flagged && (of_group || stimulus->message->id == frame.id)) kept.valid = valid;
-    }
-  }
-  for (const observe::Value& value : values) {
-    const bool interval = nodes::role_of(*value.signal, false) == nodes::Role::interval;
-    for (auto& of_play : values_) {
-      for (auto& [stimulus, kept] : of_play) {
-        if (interval && stimulus->node == played.table->key) kept.over_us += value.value;
-        if (stimulus->message->id != frame.id || stimulus->signal != value.signal->name) continue;
-        kept.newest = value.value * stimulus->factor;
-        kept.sum += kept.newest;
-      }
+      if (stimulus->node != played.table->key) continue;
+      const bool own = stimulus->message->id == frame.id;
+      if (flagged && (own || !stimulus->flagged)) kept.valid = valid;
+      kept.over_us += interval_us;
+      if (!own) continue;
+      const auto value = std::ranges::find(values, stimulus->signal,
+                                           [](const observe::Value& one) { return one.signal->name; });
+      if (value == values.end()) continue;
+      kept.newest = value->value * stimulus->factor;
+      kept.sum += kept.newest;
     }
   }
 }

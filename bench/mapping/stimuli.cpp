@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bench/mapping/units.hpp"
+#include "bench/nodes/recorded_group.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/observe/values.hpp"
 #include "messages/canhil.hpp"
@@ -11,11 +12,8 @@
 namespace canhil::mapping {
 namespace {
 
-// Whether a signal is the time or the interval of a sample. Such a signal is no measurement, and a mapping
-// has time signals of its own.
-bool of_the_sample(const SignalInfo& signal) {
-  return signal.name.starts_with("time_of_validity") || signal.name.starts_with("interval");
-}
+using nodes::Role;
+using nodes::role_of;
 
 // "latitude_deg" -> "latitude": signal names in canhil's DBC end in their units.
 std::string_view without_unit(std::string_view signal) { return signal.substr(0, signal.rfind('_')); }
@@ -28,10 +26,13 @@ std::vector<Stimulus> all_stimuli() {
       if (message.sample_group != table.closes.sample_group || message.sender != table.closes.sender)
         continue;
       const std::vector<const SignalInfo*> signals = observe::signals_of(message);
-      const bool flagged = std::ranges::any_of(signals, [](const auto* one) { return is_validity(*one); });
+      const bool flagged =
+          std::ranges::any_of(signals, [](const auto* one) { return role_of(*one) == Role::validity; });
       for (const SignalInfo* signal : signals) {
         const auto unit = signal->unit.empty() ? std::nullopt : wire_unit(signal->unit);
-        if (!unit || of_the_sample(*signal)) continue;
+        // The time and the interval of a sample are no measurements, and a mapping has time signals of its
+        // own.
+        if (!unit || role_of(*signal) != Role::value) continue;
         Stimulus stimulus{.name = std::string(table.key) + "." + std::string(without_unit(signal->name)),
                           .si = unit->si,
                           .node = table.key,
@@ -58,8 +59,6 @@ std::vector<Stimulus> all_stimuli() {
 }
 
 }  // namespace
-
-bool is_validity(const SignalInfo& signal) { return signal.name.ends_with("_validity"); }
 
 std::span<const Stimulus> stimuli() {
   static const std::vector<Stimulus> all = all_stimuli();

@@ -32,9 +32,6 @@ struct Stimulus {
   bool flagged = false;  ///< its message has a validity flag; if not, a flag of its sample group applies
 };
 
-/// Whether a signal is a validity flag of its message or sample group.
-bool is_validity(const SignalInfo& signal);
-
 /// All stimuli, in the order of the nodes.
 std::span<const Stimulus> stimuli();
 /// Null if there is none.

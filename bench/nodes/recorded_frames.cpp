@@ -97,7 +97,7 @@ class Reading {
       const auto message = from_frame<Message>(frame);
       Message::visit(message, [&](const SignalInfo& signal, const auto& member) {
         using Member = std::remove_cvref_t<decltype(member)>;
-        if (role_of(signal, false) != Role::time_of_validity) return;
+        if (role_of(signal) != Role::time_of_validity) return;
         constexpr std::int64_t period_us =
             std::is_floating_point_v<Member> ? short_period_us : std::int64_t{1} << 32U;
         const std::int64_t before_us = valid_us_.empty() ? 0 : valid_us_.back();

@@ -32,10 +32,10 @@ struct GroupSignal {
   Role role = Role::value;
 };
 
-inline Role role_of(const SignalInfo& signal, bool is_validity) {
+inline Role role_of(const SignalInfo& signal) {
   if (signal.name == "time_of_validity_us") return Role::time_of_validity;
   if (signal.name == "interval_us") return Role::interval;
-  return is_validity ? Role::validity : Role::value;
+  return signal.name.ends_with("_validity") ? Role::validity : Role::value;
 }
 
 /// All signals of the group, message by message.
@@ -43,9 +43,8 @@ inline std::vector<GroupSignal> signals_of(const MessageInfo& closes) {
   std::vector<GroupSignal> all;
   each_message(closes, [&]<class Message>() {
     const Message message{};
-    Message::visit(message, [&](const SignalInfo& signal, const auto& member) {
-      constexpr bool is_validity = std::is_same_v<std::remove_cvref_t<decltype(member)>, messages::Validity>;
-      all.push_back({.info = signal, .role = role_of(signal, is_validity)});
+    Message::visit(message, [&](const SignalInfo& signal, const auto& /*member*/) {
+      all.push_back({.info = signal, .role = role_of(signal)});
     });
   });
   return all;

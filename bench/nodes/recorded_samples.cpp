@@ -150,7 +150,7 @@ class Samples final : public Node {
  private:
   template <class Member>
   void assign(Member& member, const SignalInfo& signal, std::size_t index, Rounding rounding) {
-    const Role role = role_of(signal, false);
+    const Role role = role_of(signal);
     double value = samples_->values[next_ * samples_->signals + index];
     if (role == Role::time_of_validity) {
       // The 16-bit time signal has a resolution of 10 us, the 32-bit one of 1 us.
