@@ -195,7 +195,7 @@ address_sanitizer() {
     ThePapersFlight 'Ecu[.]PassesInRealTime' # long flights in real time: they run the same code as the quick ones
     # Many runs of code that other tests run once: they find no further memory errors.
     '[.]Bits[./]' 'ClassicAndFdAgree.*all_four' ScenarioFiles Defective 'Killed[.]' 'Divided.*/[(]([17]|3, 1)' 'Acceptance[.]' 'Slurm[.]' 'Suites[.]'
-    'Faults[.](WhatIsKnown|Shards|AViolation)' 'IsJudgedAsItWasFlown/.(all_four|inflight)' 'OfScenario[.].*/.inflight_(gps|ssbl_180)'
+    'Faults[.](WhatIsKnown|Shards|AViolation)' 'IsJudgedAsItWasFlown/.(all_four|inflight)' 'OfScenario[.].*/.?inflight_(gps|ssbl_180)'
     'LogFlownAgain.*all_four'
     'kit_in_Python|/Python$' # the target is not instrumented
     'live[.](Refusals|Run|Terminal)' # wait for the live view: it has the lowest priority, and with the sanitizer it is too slow

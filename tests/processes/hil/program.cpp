@@ -86,34 +86,84 @@ std::string scenario(const std::string& name) {
   return fmt::format("{}/bench/flights/{}.toml", SOURCE_DIR, name);
 }
 
-std::vector<Frame> target_frames(const std::string& log_path) {
+namespace {
+
+/// Calls `take(entry)` for each frame of a log.
+template <class Take>
+void each_entry(const std::string& log_path, const Take& take) {
   auto reader = LogReader::open(log_path);
   if (!reader) throw std::runtime_error(reader.error().message);
-  std::vector<Frame> frames;
-  bool synchronised = false;
   for (;;) {
     const auto next = reader->next();
     if (!next) throw std::runtime_error(next.error().message);
-    if (!*next) return frames;
-    const Frame& frame = (*next)->frame;
-    synchronised = synchronised || frame.id == messages::Sync::info.id;
-    const MessageInfo* info = messages::find_message(frame.id);
-    if (!synchronised || info == nullptr || info->sender != messages::TargetHeartbeat::info.sender) continue;
-    if (frame.id == messages::TargetTiming::info.id || frame.id == messages::StepDone::info.id) continue;
-    frames.push_back(frame);
+    if (!*next) return;
+    take(**next);
   }
 }
 
-bool whole(const nlohmann::json& report) {
-  return largest_lateness_s(report) < 1 && report["ending"]["completed"] == true &&
-         report["target_counters"]["frames_lost"] == 0 && report["from_target"]["frames_lost"] == 0 &&
-         report["from_target"]["bench_overflows"] == 0;
+bool of_target(const Frame& frame) {
+  const MessageInfo* info = messages::find_message(frame.id);
+  return info != nullptr && info->sender == messages::TargetHeartbeat::info.sender;
+}
+
+double longest_silence_of_bench_s(const std::string& log_path) {
+  std::optional<std::int64_t> last_ns;
+  std::int64_t longest_ns = 0;
+  each_entry(log_path, [&](const LogEntry& entry) {
+    if (of_target(entry.frame)) return;
+    if (last_ns) longest_ns = std::max(longest_ns, entry.t_ns - *last_ns);
+    last_ns = entry.t_ns;
+  });
+  return static_cast<double>(longest_ns) * 1e-9;
+}
+
+}  // namespace
+
+std::vector<Frame> target_frames(const std::string& log_path) {
+  std::vector<Frame> frames;
+  bool synchronised = false;
+  each_entry(log_path, [&](const LogEntry& entry) {
+    const Frame& frame = entry.frame;
+    synchronised = synchronised || frame.id == messages::Sync::info.id;
+    if (!synchronised || !of_target(frame)) return;
+    if (frame.id == messages::TargetTiming::info.id || frame.id == messages::StepDone::info.id) return;
+    frames.push_back(frame);
+  });
+  return frames;
+}
+
+std::string disturbance(const RealTimeRun& run) {
+  if (run.report["ending"]["completed"] != true) return run.report["ending"].dump();
+  std::string found;
+  const auto add = [&](const char* what, const char* place) {
+    const int count = run.report.value(nlohmann::json::json_pointer(place), -1);  // -1: not in the report
+    if (count != 0) found += fmt::format("{} {}; ", what, count);
+  };
+  add("frames lost by the target:", "/target_counters/frames_lost");
+  add("frames of the target lost:", "/from_target/frames_lost");
+  add("overflows of the bench's queue:", "/from_target/bench_overflows");
+  if (const double silence_s = run.log.empty() ? 0 : longest_silence_of_bench_s(run.log); silence_s >= 1)
+    found += fmt::format("the bench was silent for {:.3f} s; ", silence_s);
+  return found;
+}
+
+std::string fly_undisturbed(const std::function<RealTimeRun()>& fly) {
+  std::string found;
+  for (int attempt = 1; attempt <= 4; ++attempt) {
+    const RealTimeRun run = fly();
+    const std::string what = run.report.is_null() ? "" : disturbance(run);
+    if (what.empty()) return "";
+    found += fmt::format("run {}: {}\n", attempt, what);
+  }
+  return found;
 }
 
 Ended hil_bench_whole(const std::string& arguments, const std::string& report) {
-  Ended ended = hil_bench(arguments);
-  for (int left = 3; left > 0 && ended.code != 2 && !whole(read_json(report)); --left)
+  Ended ended;
+  fly_undisturbed([&] {
     ended = hil_bench(arguments);
+    return RealTimeRun{.report = ended.code == 2 ? nlohmann::json() : read_json(report)};
+  });
   return ended;
 }
 

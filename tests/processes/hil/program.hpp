@@ -1,6 +1,7 @@
 // Starts the project's programs as a user does.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -38,17 +39,26 @@ nlohmann::json json_of(const std::string& text);
 /// the step.
 std::vector<Frame> target_frames(const std::string& log_path);
 
-/// True if the host did not disturb this run in real time: it completed, lost no frame, and the bench was
-/// never late by 1 s or more. Only then can frames be counted and their bits be compared. A host that stalls
-/// a program for half a second causes lost frames, a target that counts as silent, or idle heartbeats. If
-/// false, the test repeats the run.
-bool whole(const nlohmann::json& report);
+/// A run in real time.
+struct RealTimeRun {
+  nlohmann::json report;  // null: the configuration was rejected
+  std::string log = {};   // path of the recording; needed if the target's bits are compared
+};
+
+/// What the host did to the run: it did not complete, or lost frames. With a recording also whether the bench
+/// was silent for 1 s or more: a target that hears nothing for 2 s sends heartbeats of its own. Empty:
+/// nothing; only then can frames be counted and their bits be compared. A bench that is late, but never
+/// silent, changes neither.
+std::string disturbance(const RealTimeRun& run);
+
+/// Flies until the host disturbed no run, at most four times; a rejected configuration once. Returns the
+/// disturbances of all runs if there is no other, otherwise an empty string.
+std::string fly_undisturbed(const std::function<RealTimeRun()>& fly);
 
 /// The largest lateness of the bench itself; 0 in virtual time.
 double largest_lateness_s(const nlohmann::json& report);
 
-/// Runs hil-bench, at most four times, until the run that writes `report` is complete. Returns the last run.
-/// A rejected configuration is not tried again.
+/// fly_undisturbed() for hil-bench with arguments as typed, which writes `report`. Returns the last run.
 Ended hil_bench_whole(const std::string& arguments, const std::string& report);
 
 /// Bad input: exit code 2, one line on stderr that contains `what`, nothing on stdout.
