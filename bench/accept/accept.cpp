@@ -191,9 +191,10 @@ class Run {
     if (options_.seed) {
       for (campaign::Variant& variant : campaign->variants) variant.scenario.seed = *options_.seed;
     }
-    const fs::path file =
-        fs::temp_directory_path() / fmt::format("canhil-accept-{}-{}.sqlite", getpid(), name);
-    std::error_code ignored;
+    std::error_code no_folder, ignored;
+    const fs::path folder = fs::temp_directory_path(no_folder);
+    if (no_folder) return failure("environment TMPDIR: expected a folder, for the results of campaigns");
+    const fs::path file = folder / fmt::format("canhil-accept-{}-{}.sqlite", getpid(), name);
     fs::remove(file, ignored);
     campaign::Options options;
     options.file = file;
@@ -202,23 +203,25 @@ class Run {
       options_.progress(
           fmt::format("{}: {} {} / {} runs", suite_.estimator, name, progress.done, progress.total));
     };
-    auto flown = campaign::execute(*campaign, options, stop_);
-    if (flown && *flown == campaign::Execution::complete) flown = judge(*campaign, name, file);
+    bool of_target = false;
+    options.not_flown = [&](const Error& why) {
+      if (campaign->metrics.empty()) return;
+      of_target = true;
+      add(item(requirement_of(*campaign), fmt::format("campaign {}", name), why.message, all_runs));
+    };
+    const auto flown = campaign::execute(*campaign, options, stop_);
+    Result<void> judged;
+    if (flown && *flown == campaign::Execution::complete) judged = judge(*campaign, name, file);
     fs::remove(file, ignored);
-    if (!flown) {
-      if (campaign->metrics.empty()) return tl::unexpected(flown.error());
-      add(item(requirement_of(*campaign), fmt::format("campaign {}", name), flown.error().message,
-               "all runs to their end"));
-    }
-    return {};
+    if (!flown && !of_target) return tl::unexpected(flown.error());
+    return judged;
   }
 
   static std::string requirement_of(const campaign::Campaign& campaign) {
     return campaign.metrics.front().requirement;
   }
 
-  Result<campaign::Execution> judge(const campaign::Campaign& campaign, const std::string& name,
-                                    const fs::path& file) {
+  Result<void> judge(const campaign::Campaign& campaign, const std::string& name, const fs::path& file) {
     const auto store = campaign::Store::open(file);
     if (!store) return tl::unexpected(store.error());
     const auto evaluation = campaign::evaluate(campaign, *store);
@@ -228,7 +231,7 @@ class Run {
       add(item(requirement_of(campaign), fmt::format("{}: {}", name, ending.variant),
                fmt::format("{} of {} runs completed, {} with values that are not numbers; {}",
                            ending.completed, ending.runs, ending.not_finite, ending.first_fault),
-               "all runs to their end"));
+               all_runs));
     }
     for (const campaign::Answer& answer : evaluation->answers) {
       if (!answer.passed) continue;
@@ -238,11 +241,12 @@ class Run {
            .measured = answer.measured,
            .expected = answer.expected});
     }
-    return campaign::Execution::complete;
+    return {};
   }
 
   static constexpr double least_move = 1.01;
   static constexpr const char* flown_to_its_end = "a flight to its end";
+  static constexpr const char* all_runs = "all runs to their end";
 
   const Suite& suite_;
   const Options& options_;

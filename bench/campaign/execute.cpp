@@ -213,6 +213,7 @@ Result<Execution> execute(const Campaign& campaign, const Options& options, cons
     // Remove a results file without runs, because it would block the next attempt.
     std::error_code ignored;
     if (progress.stored + progress.done == 0) std::filesystem::remove(options.file, ignored);
+    options.not_flown(*error);
     return tl::unexpected(*error);
   }
   return work.next < work.tasks.size() ? Execution::interrupted : Execution::complete;

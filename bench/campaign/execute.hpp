@@ -43,6 +43,9 @@ struct Options {
   /// `committed` is called with the runs just committed, then `progress`, always from the same thread.
   std::function<void(std::span<const Finished>)> committed = [](std::span<const Finished>) {};
   std::function<void(const Progress&)> progress = [](const Progress&) {};
+  /// Called if a run cannot be flown, for example because the target does not answer, before execute()
+  /// returns that error. Any other error is one of the campaign or of its results file.
+  std::function<void(const Error&)> not_flown = [](const Error&) {};
 };
 
 enum class Execution : std::uint8_t { complete, interrupted };

@@ -170,6 +170,35 @@ TEST_F(Accept, BadInputIsOneLine) {
   expect_one_line(accept("--record"), "small/suite.toml:7: key 'requirement[1].family'");
 }
 
+// Otherwise a full disk of the bench would be a defect of the target.
+TEST_F(Accept, ACampaignWhoseResultsCannotBeKeptIsNoFailureOfTheTarget) {
+  std::ofstream(folder_ + "/small/suite.toml", std::ios::app) << "\n[[campaign]]\nfile = \"campaign.toml\"\n";
+  std::ofstream(folder_ + "/small/campaign.toml") << R"(title = "Two flights"
+runs = 2
+seed = 1
+
+[[variant]]
+name = "quick"
+scenario = "flight.toml"
+
+[[metric]]
+kind = "value_at"
+name = "velocity north"
+quantity = "velocity.north"
+requirement = "S-1"
+at_s = 2.9
+at_most_mps = 100
+)";
+  const std::string flight =
+      fmt::format("{} accept --suites {} --estimator transfer_alignment --family errors", HIL_BENCH, folder_);
+  ASSERT_EQ(accept("--record").code, 0);
+  const Ended kept = shell(flight);
+  EXPECT_EQ(kept.code, 0) << kept.err;
+  EXPECT_THAT(kept.out, HasSubstr("(3 looked at)"));  // two of the flight, one of the campaign
+  expect_one_line(shell("TMPDIR=/no/such/folder " + flight), "environment TMPDIR: expected a folder");
+  expect_one_line(shell("TMPDIR=/proc " + flight), "/proc/canhil-accept-");
+}
+
 // The unchanged target passes the families protocol and parameters of the suite of los_rate.
 TEST(Suites, ProtocolAndStatesOfTheTargetPass) {
   const Ended ended = hil_bench("accept --family protocol --family parameters --estimator los_rate");
