@@ -105,11 +105,15 @@ if [[ $mode == coverage || $tidy$analyse != nono ]]; then
 elif [[ $mode == full || ! -e build/default/build.ninja ]]; then
   together=(-DCANHIL_TOGETHER=ON)
 fi
+configure() { # configure PRESET LOG
+  { cmake --preset "$1" "${together[@]}" || cmake --fresh --preset "$1" "${together[@]}"; } >"$2" 2>&1 ||
+    { tail -n 20 "$2"; failure "configuring $1"; return 1; }
+}
+
 build() { # build PRESET [TARGET...]
   local preset=$1 log=$results/$1.build.log
   shift
-  { cmake --preset "$preset" "${together[@]}" || cmake --fresh --preset "$preset" "${together[@]}"; } >"$log" 2>&1 ||
-    { tail -n 20 "$log"; failure "configuring $preset"; return 1; }
+  configure "$preset" "$log" || return
   # -k 0: continue after errors and test all targets that can be built.
   if ! logged "building $preset" "$log" ninja -C "build/$preset" -j "$jobs" -k 0 "$@"; then
     progress_rest "$log"
@@ -141,7 +145,7 @@ optimised() { build default tests_unit tests_processes tests_vcan && run_ctest d
 optimised_all() {
   local code=0
   build default || code=$?
-  if make_fifth; then build_ahead; fi
+  if make_fifth; then build_ahead "$fifth" asan "${asan_targets[@]}"; fi
   if ((!code)); then run_ctest default; fi
 }
 
@@ -175,15 +179,21 @@ make_fifth() {
   cd "$root" || exit 2
 }
 
-# The optimised tests leave a quarter of the processors idle: they wait for real time and for guests. Meanwhile, build_ahead begins the
-# sanitizers' build at the lowest priority (of the process, and of its session's group, if the kernel has such groups).
-asan_targets=(tests_input tests_processes tests_fuzz tests_fifth_estimator)
-build_ahead() {
+# Tests leave a part of the processors idle: they wait for real time and for guests. Meanwhile, build_ahead begins the next build at the
+# lowest priority (of the process, and of its session's group, if the kernel has such groups).
+build_ahead() { # build_ahead FOLDER PRESET TARGET...: of the configured preset in this folder
   setsid chrt --idle 0 bash -c '{ echo 19 >/proc/self/autogroup; } 2>/dev/null; exec ninja -C "$0" -j "$1" -k 0 "${@:2}"' \
-    "$fifth/build/asan" "$jobs" "${asan_targets[@]}" >"$results/asan.ahead.log" 2>&1 &
+    "$1/build/$2" "$jobs" "${@:3}" >"$results/$2.ahead.log" 2>&1 &
   ahead=$!
 }
+await_ahead() { # await_ahead PRESET
+  progress_start "building $1" "$results/$1.ahead.log"
+  wait "$ahead"
+  progress_stop
+  ahead=
+}
 
+asan_targets=(tests_input tests_processes tests_fuzz tests_fifth_estimator)
 address_sanitizer() {
   echo "address, leak and undefined-behaviour sanitizers on: code that reads external input, and both programs; docs/ci.md lists the rest"
   echo "built with a fifth estimator in it (tests/fifth_estimator), in build/with_fifth"
@@ -200,18 +210,18 @@ address_sanitizer() {
     'kit_in_Python|/Python$' # the target is not instrumented
     'live[.](Refusals|Run|Terminal)' # wait for the live view: it has the lowest priority, and with the sanitizer it is too slow
   )
-  progress_start "building asan" "$results/asan.ahead.log"
-  wait "$ahead"
-  progress_stop
-  ahead=
+  await_ahead asan
   # Builds what is left, and reports the errors.
-  build asan "${asan_targets[@]}" &&
+  if build asan "${asan_targets[@]}"; then
+    (cd "$root" && configure tsan "$results/tsan.ahead.log") && build_ahead "$root" tsan tests_threads
     run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E "$(IFS='|' && echo "${left_out[*]}")"
+  fi
   cd "$root" || exit 2
 }
 
 thread_sanitizer() {
   echo "thread sanitizer on: code with threads (hil-target and hil-bench run have one thread each, with --live a second, whose queue is tested here)"
+  if [[ -n "$ahead" ]]; then await_ahead tsan; fi
   build tsan tests_threads && run_ctest tsan -L "$(labelled threads)"
 }
 
