@@ -1,11 +1,11 @@
-# Precompiles the heavy headers of the standard library, Eigen and fmt (for the tests also GoogleTest) once for all targets that share
+# Precompiles the heavy headers of the standard library, fmt and tl::expected (outside dbc also Eigen, for the tests GoogleTest) once for all targets that share
 # compiler options, instead of parsing them in each of some five hundred sources.
 #
 # Only for one-off builds (CANHIL_TOGETHER, the sanitizers). While sources are edited, a precompiled header hides missing includes and
 # lowers the hit rate of ccache.
 set(canhil_headers <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <cstring> <deque> <filesystem> <fstream> <functional>
     <limits> <map> <memory> <optional> <random> <set> <span> <sstream> <string> <string_view> <tuple> <utility> <variant> <vector>
-    <fmt/format.h> <fmt/ranges.h>)
+    <fmt/format.h> <fmt/ranges.h> <tl/expected.hpp>)
 
 # The C++ targets of a folder and its subfolders.
 function(canhil_targets_of folder result)

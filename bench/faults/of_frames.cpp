@@ -5,9 +5,9 @@
 namespace canhil::faults {
 namespace {
 
-class Changed final : public OfFrames {
+class ChangedFrames final : public OfFrames {
  public:
-  Changed(const OfMessages& of, const When& when, const InRun& run, Change change)
+  ChangedFrames(const OfMessages& of, const When& when, const InRun& run, Change change)
       : OfFrames(of, when, run), change_(change) {}
 
  private:
@@ -46,7 +46,7 @@ void OfFrames::apply(std::vector<Frame>& frames, std::int64_t t_us) {
 
 std::unique_ptr<Injector> change_frames(const OfMessages& of, const When& when, const InRun& run,
                                         Change change) {
-  return std::make_unique<Changed>(of, when, run, change);
+  return std::make_unique<ChangedFrames>(of, when, run, change);
 }
 
 }  // namespace canhil::faults
