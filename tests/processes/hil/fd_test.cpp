@@ -6,6 +6,7 @@
 #include <atomic>
 #include <fstream>
 #include <numeric>
+#include <optional>
 #include <thread>
 
 #include "dbc/logs/log.hpp"
@@ -64,14 +65,14 @@ INSTANTIATE_TEST_SUITE_P(Fd, FdBitsOfScenario,
 
 TEST(Fd, RealTimeGivesTheSameFrames) {
   const auto in_process = record(quick, "--bus in-process").target;
-  Recorded fd;
+  std::optional<Recorded> fd;
   ASSERT_EQ(fly_undisturbed([&] {
-              fd = record(quick, fmt::format("--bus {} --dbc {}", bus(), fd_file));
-              return RealTimeRun{.report = fd.report, .log = scratch("fd.log")};
+              fd.emplace(record(quick, fmt::format("--bus {} --dbc {}", bus(), fd_file)));
+              return RealTimeRun{.report = fd->report, .log = scratch("fd.log")};
             }),
             "");
-  EXPECT_TRUE(in_process == fd.target);
-  EXPECT_EQ(fd.report["bus"]["foreign_frames"], 0);
+  EXPECT_TRUE(in_process == fd->target);
+  EXPECT_EQ(fd->report["bus"]["foreign_frames"], 0);
 }
 
 /// Records the frames on an FD bus during the lifetime of the object; hosts the bus if it is local.

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "dbc/logs/log.hpp"
 #include "dbc/ports/local_bus.hpp"
@@ -73,25 +75,25 @@ struct Flown {
 // is repeated if the host disturbed it.
 template <class Command>
 Flown fly(const Command& command) {
-  Flown flown;
+  std::optional<Flown> flown;
   const auto once = [&] {
     WatchedBus main("main"), aiding("aiding");
     const std::string report = scratch("several.json");
     const std::string bench =
         fmt::format("{} run {} --bus {} --bus-of master_ins={} --json {}", HIL_BENCH,
                     scenario("transfer_alignment_quick"), main.name, aiding.name, report);
-    flown = {.ended = shell(command(bench, main.name)),
-             .report = {},
-             .main_name = main.name,
-             .aiding_name = aiding.name,
-             .main = main.frames(),
-             .aiding = aiding.frames()};
-    if (flown.ended.code != 2) flown.report = read_json(report);
-    return RealTimeRun{.report = flown.report};
+    const Ended ended = shell(command(bench, main.name));
+    flown.emplace(Flown{.ended = ended,
+                        .report = ended.code == 2 ? nlohmann::json() : read_json(report),
+                        .main_name = main.name,
+                        .aiding_name = aiding.name,
+                        .main = main.frames(),
+                        .aiding = aiding.frames()});
+    return RealTimeRun{.report = flown->report};
   };
   EXPECT_EQ(fly_undisturbed(once), "");
-  EXPECT_NE(flown.ended.code, 2) << flown.ended.err;
-  return flown;
+  EXPECT_NE(flown->ended.code, 2) << flown->ended.err;
+  return std::move(*flown);
 }
 
 // A flight of 3 s: the slave IMU sends 100 samples per second, the master INS 10. There is a Sync with each
