@@ -1,5 +1,5 @@
-# Precompiles the heavy headers of the standard library, fmt and tl::expected (outside dbc also Eigen, for the tests GoogleTest) once for all targets that share
-# compiler options, instead of parsing them in each of some five hundred sources.
+# Precompiles the heavy headers of the standard library, fmt and tl::expected, outside dbc also Eigen, and for the tests GoogleTest, once
+# for all targets that share compiler options, instead of parsing them in each of some five hundred sources.
 #
 # Only for one-off builds (CANHIL_TOGETHER, the sanitizers). While sources are edited, a precompiled header hides missing includes and
 # lowers the hit rate of ccache.

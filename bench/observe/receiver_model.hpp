@@ -1,5 +1,6 @@
 // Models the counters of a receiver that follows the protocol. The input is the frames that the bench hands
-// over to the bus: they show which frames nodes withheld and faults damaged.
+// over to the bus: they show which frames were withheld by nodes and which were
+// damaged by faults.
 #pragma once
 
 #include <array>

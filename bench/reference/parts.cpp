@@ -201,8 +201,8 @@ Part checks_part(const scenario::DbcVocabulary& contract) {
       "", Depth::as_it_is);
   Part part{.title = "Checks",
             .about =
-                "A scenario has at least one `[[check]]` table (scenarios.md). A timing check is not "
-                "measured in virtual time, except on a simulated wire.",
+                "A scenario has at least one `[[check]]` table (scenarios.md). In virtual time the "
+                "outcome of a timing check is 'not measured', except on a simulated wire.",
             .tables = {}};
   part.tables.push_back({.name = "[[check]]", .about = "", .keys = of_all});
   for (const scenario::CheckKind& kind : contract.check_kinds)

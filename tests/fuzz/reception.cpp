@@ -1,9 +1,9 @@
 // The device and its estimators under any input. The first bytes select estimators, algorithm and parameters;
-// the harness plays the handshake and starts. Each further step either advances the time, with sensors on a
-// plausible flight whose frames the input delays, drops, repeats or changes bit by bit, or sends a frame that
-// the input defines. So inputs get past counters, CRCs and groups, and most of their bytes have an effect. A
-// custom mutator that repairs checksums would have to do so after every mutation, and could not keep the
-// sensors of a hundred steps plausible.
+// the harness plays the handshake and starts. Each further step either advances the time or sends a
+// frame that the input defines. While the time advances, sensors report a plausible flight; the input delays,
+// drops or repeats their frames, or inverts bits in them. So inputs get past counters, CRCs and groups, and
+// most of their bytes have an effect. A custom mutator that repairs checksums would have to do so after every
+// mutation, and could not keep the sensors of a hundred steps plausible.
 //
 // Conditions: the device survives; it answers with complete groups of its own frames, with consecutive
 // counters; its attitude is always a valid rotation; after a reset it gives the same answers to the same

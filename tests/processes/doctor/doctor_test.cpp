@@ -86,10 +86,9 @@ TEST(Doctor, AnInterfaceThatIsNotThereIsBadAndTheRestIsStillReported) {
 }
 
 TEST(Doctor, WithoutRightsItSaysHowToGetThemAndMeasuresAllTheSame) {
-  const std::string drop = shell("id -u").out == "0\n" ? "setpriv --bounding-set -sys_nice,-ipc_lock " : "";
   const Ended ended = shell(fmt::format(
-      "prlimit --rtprio=0 --memlock=65536 {}{} doctor --bus local:doctor-rights --seconds 1 --json -", drop,
-      HIL_BENCH));
+      "prlimit --rtprio=0 --memlock=65536 {}{} doctor --bus local:doctor-rights --seconds 1 --json -",
+      without_capabilities("-sys_nice,-ipc_lock"), HIL_BENCH));
   const nlohmann::json page = json_of(ended.out);
   EXPECT_EQ(line_of(page, "real time")["grade"], "weak");
   EXPECT_THAT(line_of(page, "real time")["remedy"].get<std::string>(),

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -77,6 +78,10 @@ Ended shell(const std::string& command) {
 Ended hil_bench(const std::string& arguments) { return shell(fmt::format("{} {}", HIL_BENCH, arguments)); }
 Ended hil_target(const std::string& arguments) { return shell(fmt::format("{} {}", HIL_TARGET, arguments)); }
 
+std::string without_capabilities(const std::string& dropped) {
+  return geteuid() == 0 ? fmt::format("setpriv --bounding-set {} ", dropped) : "";
+}
+
 std::string bus() {
   const char* chosen = std::getenv("CANHIL_TEST_BUS");
   return chosen == nullptr ? "local:" : chosen;
@@ -88,7 +93,7 @@ std::string scenario(const std::string& name) {
 
 namespace {
 
-/// Calls `take(entry)` for each frame of a log.
+// Calls `take(entry)` for each frame of a log.
 template <class Take>
 void each_entry(const std::string& log_path, const Take& take) {
   auto reader = LogReader::open(log_path);
@@ -106,11 +111,12 @@ bool of_target(const Frame& frame) {
   return info != nullptr && info->sender == messages::TargetHeartbeat::info.sender;
 }
 
+// From the first Sync on: during the handshake the bench waits for answers.
 double longest_silence_of_bench_s(const std::string& log_path) {
   std::optional<std::int64_t> last_ns;
   std::int64_t longest_ns = 0;
   each_entry(log_path, [&](const LogEntry& entry) {
-    if (of_target(entry.frame)) return;
+    if (of_target(entry.frame) || (!last_ns && entry.frame.id != messages::Sync::info.id)) return;
     if (last_ns) longest_ns = std::max(longest_ns, entry.t_ns - *last_ns);
     last_ns = entry.t_ns;
   });

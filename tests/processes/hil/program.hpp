@@ -24,6 +24,9 @@ Ended hil_target(const std::string& arguments);
 
 /// The bus of these tests: "local:", or the value of CANHIL_TEST_BUS.
 std::string bus();
+/// What to write before a command so that it runs without root's capabilities in `dropped`, for example
+/// "-sys_nice,-ipc_lock". Empty if the caller is not root.
+std::string without_capabilities(const std::string& dropped);
 std::string scenario(const std::string& name);
 /// A file name in a folder that only this test program uses.
 std::string scratch(const std::string& name);

@@ -13,11 +13,10 @@ namespace {
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-// Runs a command without the resource limits and capabilities for real time; for root, the bounding set
-// removes the capabilities.
+// Runs a command without the resource limits and capabilities for real time.
 Ended without_rights(const std::string& command) {
-  const std::string drop = geteuid() == 0 ? "setpriv --bounding-set -sys_nice,-ipc_lock " : "";
-  return shell(fmt::format("prlimit --rtprio=0 --memlock=65536 {}{}", drop, command));
+  return shell(fmt::format("prlimit --rtprio=0 --memlock=65536 {}{}",
+                           without_capabilities("-sys_nice,-ipc_lock"), command));
 }
 
 std::string quick_run() { return fmt::format("run {} ", scenario("transfer_alignment_quick")); }
