@@ -1,4 +1,5 @@
-// The adapter of in-flight alignment: groups SlaveImu, Ssbl and Gps in, groups FixNav and FixFilter out.
+// The adapter of in-flight alignment. Input: the groups SlaveImu, Ssbl and Gps; output: the groups FixNav and
+// FixFilter.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,5 @@
-// The adapter of the LOS rate estimator: group Seeker in, group LosRate out. Answers every complete group.
+// The adapter of the LOS rate estimator. Input: the group Seeker; output: the group LosRate. Answers every
+// complete group.
 #include <array>
 #include <cmath>
 #include <cstdlib>

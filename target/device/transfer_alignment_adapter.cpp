@@ -1,4 +1,5 @@
-// The adapter of transfer alignment: groups SlaveImu and MasterIns in, groups AlignNav and AlignFilter out.
+// The adapter of transfer alignment. Input: the groups SlaveImu and MasterIns; output: the groups AlignNav
+// and AlignFilter.
 #include <array>
 #include <cmath>
 #include <numbers>

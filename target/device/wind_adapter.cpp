@@ -1,4 +1,4 @@
-// The adapter of wind estimation: groups Fins and GliderNav in, group Wind out.
+// The adapter of wind estimation. Input: the groups Fins and GliderNav; output: the group Wind.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -256,7 +256,7 @@ TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
   EXPECT_EQ(fly(scenario, noisy).verdict.outcome, checks::Outcome::pass);
 }
 
-// The IMU alone sends 300 frames of at least 111 bits per second. This is more than 20 kbit/s can carry.
+// The IMU alone sends 300 frames per second, each of at least 111 bits: more than 20 kbit/s can carry.
 TEST(InProcessWire, ABusThatIsTooSlowMakesTheBenchLate) {
   static const std::atomic<bool> never = false;
   Options options;
