@@ -69,7 +69,7 @@ class Injector {
 
   /// Changes the frames of a transmission that is due at `t_us`.
   virtual void apply(std::vector<Frame>& /*frames*/, std::int64_t /*t_us*/) {}
-  /// Time of the next action by which the injector acts itself (transmit()); nodes::never_us: none.
+  /// When the injector next acts on its own, in transmit(); nodes::never_us: never.
   [[nodiscard]] virtual std::int64_t due_us() const { return nodes::never_us; }
   /// Acts at due_us() and appends the frames to be sent.
   virtual void transmit(std::vector<Frame>& /*out*/) {}

@@ -173,8 +173,8 @@ TEST(Export, IsATableOfWhatTheRunsReported) {
   expect_done(ended);
   EXPECT_THAT(ended.out,
               testing::StartsWith("variant,run,t_s,quantity,unit,value\nKF master_ins.latency_ms=0,0,"));
-  // A header, then 30 runs of four variants with 14 quantities per update. Two variants have 29 updates; the
-  // two others, whose master INS is 100 ms late, have 28.
+  // A header, then the 30 runs of each of the four variants, with 14 quantities per update. Two variants have
+  // 29 updates; the two others, whose master INS is 100 ms late, have 28.
   EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1 + 30 * (2 * 29 + 2 * 28) * 14);
   EXPECT_THAT(ended.out, testing::ContainsRegex(
                              "\nKF master_ins.latency_ms=0,29,[0-9.]+,attitude.heading,rad,-?[0-9.e-]+\n"));
