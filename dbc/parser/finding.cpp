@@ -73,10 +73,10 @@ constexpr std::array texts{
              "a signal reaches beyond its message", "the signal is left out"},
     RuleText{Rule::signal_length, "signal-length", warning, "a signal has no bits, or more than 64",
              "the signal is left out"},
-    RuleText{
-        Rule::overlap, "overlap", warning, "two signals of the same frame share bits",
-        "both are kept; when encoded, the one with more multiplexors above it overwrites the other, or else "
-        "the later one the earlier one"},
+    RuleText{Rule::overlap, "overlap", warning, "two signals of the same frame share bits",
+             "both are kept; when encoded, the one with more multiplexors above it overwrites the other; if "
+             "both have "
+             "as many, the later one overwrites the earlier one"},
     RuleText{Rule::scale_zero, "scale-zero", warning, "a scale is 0", "each raw value means the offset"},
     RuleText{Rule::minimum_above_maximum, "minimum-above-maximum", warning,
              "the minimum of a signal is above its maximum", "the signal has no limits"},
