@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds canhil and runs the 20 s transfer alignment in real time over the best bus that this machine has.
-# Needs nothing but Debian 12: what is missing is installed first. Exit code: 0 outputs passed, 1 failed, 2 set-up failed.
+# Needs only Debian 12: missing packages are installed first. Exit code: 0 the outputs passed, 1 the outputs failed, 2 the set-up failed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 case "${1:-}" in
@@ -27,7 +27,7 @@ if [[ $built == no ]]; then
   exit 2
 fi
 
-# vcan is the kernel's own CAN stack, the embedded bus a stand-in for machines without it.
+# vcan is the kernel's own CAN stack; the embedded bus is a substitute on machines without vcan.
 choose_bus() {
   if [[ -d /sys/class/net/vcan0 ]]; then echo vcan0; return; fi
   if ((EUID == 0)) && { modprobe -q vcan 2>/dev/null || true; } && ip link add dev vcan0 type vcan 2>/dev/null; then
@@ -41,7 +41,7 @@ bus=$(choose_bus)
 if [[ $bus == vcan0 && $had_vcan == no ]]; then trap 'ip link del vcan0' EXIT; fi
 if [[ $bus == vcan0 ]]; then say "bus: vcan0"; else say "bus: embedded (this kernel has no vcan that this user may make)"; fi
 
-# The bench's standard error is printed when it has ended, so that it does not interrupt the progress line.
+# The bench's standard error is printed after the bench has ended, so that it does not interrupt the progress line.
 say "flying 20 s in real time"
 code=0
 progress_start "demo: flying 20 s" /dev/null >&2

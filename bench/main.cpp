@@ -11,7 +11,7 @@ namespace {
 
 using namespace canhil::commands;
 
-// For the help text only: the subcommands themselves belong to hil-bench-campaign.
+// Adds names and summaries for the help text only; the subcommands themselves belong to hil-bench-campaign.
 void name_campaign(canhil::command_line::Command program, int& /*code*/) {
   program.add_subcommand(std::string(accept_name), std::string(accept_summary));
   program.add_subcommand(std::string(campaign_name), std::string(campaign_summary));

@@ -1,5 +1,5 @@
 // hil-bench-paper: the program for `hil-bench campaign --paper NAME`. Flies the campaigns of a paper, prints
-// the tables, writes the page.
+// the tables, and writes the page.
 #include <fmt/format.h>
 
 #include <chrono>

@@ -1,7 +1,7 @@
 # canhil_generate(TARGET name DBC file [NAMESPACE ns] [HEADER dir/name.hpp]): creates a library with the
-# codecs for the messages of a DBC file. Targets that link it can #include "dir/name.hpp" (default:
-# messages/NAME.hpp, namespace NAME). The build fails if the DBC is malformed or breaks the contract's rules
-# (docs/dbc.md).
+# codecs for the messages of a DBC file. Targets that link this library can #include "dir/name.hpp" (default:
+# messages/NAME.hpp, namespace NAME). The build fails if the DBC file is malformed or breaks a rule of
+# docs/dbc.md.
 function(canhil_generate)
   cmake_parse_arguments(ARG "" "TARGET;DBC;NAMESPACE;HEADER" "" ${ARGN})
   if(NOT ARG_TARGET OR NOT ARG_DBC)

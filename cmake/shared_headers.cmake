@@ -1,5 +1,5 @@
-# Precompiles the heavy headers of the standard library, fmt and tl::expected, outside dbc also Eigen, and for the tests GoogleTest, once
-# for all targets that share compiler options, instead of parsing them in each of some five hundred sources.
+# Precompiles large headers: those of the standard library, fmt and tl::expected; outside dbc also those of Eigen; for the tests also those of
+# GoogleTest. They are then compiled once for all targets that share compiler options, not in each of some five hundred sources.
 #
 # Only for one-off builds (CANHIL_TOGETHER, the sanitizers). While sources are edited, a precompiled header hides missing includes and
 # lowers the hit rate of ccache.
@@ -26,8 +26,8 @@ function(canhil_targets_of folder result)
   set(${result} ${targets} PARENT_SCOPE)
 endfunction()
 
-# canhil_share_headers(FOLDER LIBRARIES lib... HEADERS <header>...): one precompiled header for each set of compiler options in the folder.
-# All targets get the macros that the libraries define: the compiler accepts a precompiled header only if the macros agree.
+# canhil_share_headers(FOLDER LIBRARIES lib... HEADERS <header>...): makes one precompiled header for each set of compiler options in the
+# folder. All targets get the macros that the libraries define, because the compiler accepts a precompiled header only if the macros agree.
 function(canhil_share_headers folder)
   cmake_parse_arguments(ARG "" "" "LIBRARIES;HEADERS" ${ARGN})
   set(definitions "")
@@ -51,7 +51,7 @@ function(canhil_share_headers folder)
   list(REMOVE_DUPLICATES ways)
   foreach(way IN LISTS ways)
     list(LENGTH ${way}_targets count)
-    if(count LESS 4) # for so few targets compiling the header takes as long as it saves
+    if(count LESS 4) # for so few targets, compiling the header takes as long as it saves
       continue()
     endif()
     string(SUBSTRING ${way} 0 6 short)

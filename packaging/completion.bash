@@ -1,4 +1,4 @@
-# Completes the subcommands and options of hil-bench and hil-target; the program lists them in its --help.
+# Completes the subcommands and options of hil-bench and hil-target. They are read from the program's --help.
 _canhil() {
   local current=${COMP_WORDS[COMP_CWORD]} program=${COMP_WORDS[0]} word words
   local -a path=()

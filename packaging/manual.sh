@@ -8,7 +8,7 @@ page() { # page NAME COMMAND...
   shift
   help2man --no-info --section 1 --version-string "canhil $version" --name "$("$@" --help | head -n 1)" --output "$out/$name.1" "$*"
 }
-export PATH=$programs:$programs/dbc/codegen:$PATH # so that the pages show program names without a path
+export PATH=$programs:$programs/dbc/codegen:$PATH # with it, the manual pages show program names without a path
 page hil-target hil-target
 page dbcgen dbcgen
 page hil-bench hil-bench

@@ -1,5 +1,5 @@
-// A temporary folder for one process of a test program: CTest runs each case as its own process, several at a
-// time.
+// A temporary folder for one process of a test program. CTest runs each case in a separate process, and
+// several processes at the same time, so each process needs a folder of its own.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 
 namespace canhil::test {
 
-/// Removed at the end of the process that created it (not of its children). Kept if a test failed, so that
-/// its files can be inspected.
+/// The folder is removed when the process that created it ends; the end of a child process does not remove
+/// it. It is kept if a test failed, so that the files in it can be inspected.
 class OwnFolder {
  public:
   OwnFolder() { std::filesystem::create_directories(path); }

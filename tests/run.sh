@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Builds and runs the tests of the project; the last line is "N passed, N failed", the exit code 0 only when none failed.
+# Builds and runs the tests of the project. The last line is "N passed, N failed"; the exit code is 0 only if nothing failed.
 #   bash tests/run.sh                 format and structure, every unit, property and process test, one pass over vcan
 #   bash tests/run.sh --full          also the sanitizers, all of vcan, two emulated controllers, Slurm, the papers, the fuzzers
 #   bash tests/run.sh --coverage      unit tests, process tests and the papers' pages, with line coverage of dbc, target and bench
 #   bash tests/run.sh --tidy          with either of the first two: also clang-tidy on every source, about ten minutes
 #   bash tests/run.sh --analyse       with either of the first two: also clang's static analyser on every source, about an hour
 #   bash tests/run.sh --soak          with either of the first two: also five minutes of random flights against one target (tests/soak)
-#   bash tests/run.sh --package       with --full: also the Debian package, installed and flown in a fresh Debian (root, network; tests/package)
-#   bash tests/run.sh --only REGEX    with any: only the CTest cases whose name matches, in every configuration
+#   bash tests/run.sh --package       with --full: also installs the Debian package in a fresh Debian and flies with it (root, network; tests/package)
+#   bash tests/run.sh --only REGEX    with any option: runs only the CTest cases whose name matches, in every configuration
 # The totals count each CTest case in each configuration, each static check, and each failed build.
 # The end of the output lists the checks that the mode did not run. JUnit files and logs: build/results/.
 set -uo pipefail
@@ -41,14 +41,15 @@ done
 if [[ $mode == coverage && $tidy$analyse$soak != nonono ]]; then usage "--coverage excludes --tidy, --analyse and --soak"; fi
 if [[ $package == yes && $mode != full ]]; then usage "--package needs a full build, expected --full as well"; fi
 
-# For the same result from any shell: Debian's tools first, one locale, no build settings of the caller.
+# Makes the result independent of the caller's shell: Debian's tools come first in PATH, the locale is fixed, and the caller's
+# build settings are removed.
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:${PATH:-} LC_ALL=C.UTF-8
 unset CXXFLAGS CPPFLAGS LDFLAGS CXX CC CMAKE_GENERATOR MAKEFLAGS DESTDIR LD_PRELOAD CDPATH
 unset "${!GTEST_@}" "${!CTEST_@}" "${!GCOV_@}"
 source tests/setup/progress.sh
 jobs=$(nproc)
 mkdir -p "$results" && rm -f "$results"/* || exit 2
-if [[ ! -w "${HOME:-/nonexistent}" ]]; then export HOME=$root/build/home && mkdir -p "$HOME"; fi # for ccache
+if [[ ! -w "${HOME:-/nonexistent}" ]]; then export HOME=$root/build/home && mkdir -p "$HOME"; fi # ccache needs a writable home
 
 passed=0 failed=0 rows=() not_run=()
 finish() {
@@ -97,8 +98,8 @@ logged() { # logged WHAT LOG COMMAND...: runs the command with its output in the
   return "$code"
 }
 
-# Compiles sources together, unless clang-tidy or gcov needs each source by itself. A later change then
-# takes longer to compile, so an existing build keeps its setting.
+# Compiles several sources as one, unless clang-tidy or gcov needs each source separately. In such a build, a later
+# change of a source takes longer to compile; therefore the default mode does not change the setting of an existing build.
 together=()
 if [[ $mode == coverage || $tidy$analyse != nono ]]; then
   together=(-DCANHIL_TOGETHER=OFF)
@@ -138,7 +139,7 @@ run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
 }
 personality=()
 
-# A plus sign joins labels (tests/CMakeLists.txt): "unit+threads" has the labels unit and threads; "vcan-full" does not have vcan.
+# Prints a regular expression for ctest -L. A plus sign joins labels (tests/CMakeLists.txt): unit matches "unit+threads"; vcan does not match "vcan-full".
 labelled() { echo "(^|[+])($1)([+]|$)"; }
 
 optimised() { build default tests_unit tests_processes tests_vcan && run_ctest default -L "$(labelled 'static|unit|processes|vcan')"; }
@@ -149,7 +150,7 @@ optimised_all() {
   if ((!code)); then run_ctest default; fi
 }
 
-# Checks whether the sanitizers run here: some need fixed addresses (setarch -R), the leak checker needs ptrace.
+# Checks whether the sanitizers work on this machine: some need fixed addresses (setarch -R), the leak checker needs ptrace.
 probe_sanitizers() {
   local dir=$root/build/probe
   mkdir -p "$dir"
@@ -168,7 +169,7 @@ probe_sanitizers() {
   export UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
 }
 
-# The sanitizers' tree: a copy with one more estimator in the build, because adding an estimator must break nothing.
+# The tree for the address sanitizer: a copy of the project with a fifth estimator. So this stage also tests that adding an estimator breaks nothing.
 fifth=$root/build/with_fifth
 make_fifth() {
   local dbcgen=build/asan/dbc/codegen/dbcgen kit=docs/examples/kit/canhil_messages
@@ -179,9 +180,9 @@ make_fifth() {
   cd "$root" || exit 2
 }
 
-# Tests leave a part of the processors idle: they wait for real time and for guests. Meanwhile, build_ahead begins the next build at the
-# lowest priority (of the process, and of its session's group, if the kernel has such groups).
-build_ahead() { # build_ahead FOLDER PRESET TARGET...: of the configured preset in this folder
+# While tests wait for real time or for guest systems, a part of the processors is idle. Therefore build_ahead begins the next build while tests
+# run. The build has the lowest priority, both as a process and as a session (autogroup of the scheduler, if the kernel has autogroups).
+build_ahead() { # build_ahead FOLDER PRESET TARGET...: builds the targets of a configured preset of the tree FOLDER, in the background
   setsid chrt --idle 0 bash -c '{ echo 19 >/proc/self/autogroup; } 2>/dev/null; exec ninja -C "$0" -j "$1" -k 0 "${@:2}"' \
     "$1/build/$2" "$jobs" "${@:3}" >"$results/$2.ahead.log" 2>&1 &
   ahead=$!
@@ -197,21 +198,21 @@ asan_targets=(tests_input tests_processes tests_fuzz tests_fifth_estimator)
 address_sanitizer() {
   echo "address, leak and undefined-behaviour sanitizers on: code that reads external input, and both programs; docs/ci.md lists the rest"
   echo "built with a fifth estimator in it (tests/fifth_estimator), in build/with_fifth"
-  if [[ -z "$ahead" ]]; then return; fi # the copy could not be made, which is counted as a failure
+  if [[ -z "$ahead" ]]; then return; fi # the copy of the project could not be made; this is already counted as a failure
   cd "$fifth" || return
-  # Left out:
+  # Tests that are not run with this sanitizer, and why:
   local left_out=(
-    '[.]Documentation[.]' # compare the documentation with the DBC: the DBC of this copy has one more estimator
-    ThePapersFlight 'Ecu[.]PassesInRealTime' # long flights in real time: they run the same code as the quick ones
-    # Many runs of code that other tests run once: they find no further memory errors.
+    '[.]Documentation[.]' # these compare the documentation with the DBC, and the DBC of this copy has one more estimator
+    ThePapersFlight 'Ecu[.]PassesInRealTime' # these long flights in real time run the same code as the quick flights
+    # These run code many times that other tests run once, so they find no further memory errors.
     '[.]Bits[./]' 'ClassicAndFdAgree.*all_four' ScenarioFiles Defective 'Killed[.]' 'Divided.*/[(]([17]|3, 1)' 'Acceptance[.]' 'Slurm[.]' 'Suites[.]'
     'Faults[.](WhatIsKnown|Shards|AViolation)' 'IsJudgedAsItWasFlown/.(all_four|inflight)' 'OfScenario[.].*/.?inflight_(gps|ssbl_180)'
     'LogFlownAgain.*all_four'
-    'kit_in_Python|/Python$' # the target is not instrumented
-    'live[.](Refusals|Run|Terminal)' # wait for the live view: it has the lowest priority, and with the sanitizer it is too slow
+    'kit_in_Python|/Python$' # the target of these tests is a Python program, so it is not instrumented
+    'live[.](Refusals|Run|Terminal)' # these wait for the live view, which has the lowest priority and is too slow with the sanitizer
   )
   await_ahead asan
-  # Builds what is left, and reports the errors.
+  # Builds what build_ahead has not built, and reports the errors.
   if build asan "${asan_targets[@]}"; then
     (cd "$root" && configure tsan "$results/tsan.ahead.log") && build_ahead "$root" tsan tests_threads
     run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E "$(IFS='|' && echo "${left_out[*]}")"
@@ -227,8 +228,8 @@ thread_sanitizer() {
 
 coverage() {
   find build/coverage -name '*.gcda' -delete 2>/dev/null # removes the counts of an earlier run
-  export GCOV_ERROR_FILE=/dev/null # a process that cannot write its counts would print an extra line, where a test expects one
-  # Left out: two tests that prevent the program from writing files, because gcov's counts would be lost too.
+  export GCOV_ERROR_FILE=/dev/null # a process that cannot write gcov's counts would print a second line on stderr; tests expect one line
+  # -E leaves out two tests that prevent the program from writing files: the process could not write gcov's counts either.
   # The time-out is longer, because long tests take twice as long with instrumentation and less optimisation.
   build coverage tests_unit tests_processes tests_pages &&
     run_ctest coverage --timeout 600 -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&

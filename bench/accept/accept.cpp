@@ -28,7 +28,7 @@ drive::Options in_process(std::string_view bus) {
   return options;
 }
 
-/// Magnitude of a signal's mean over a flight; none: no answer contains the signal.
+/// Magnitude of a signal's mean over a flight; nullopt if no answer contains the signal.
 std::optional<double> mean_of(const Answers& answers, const Move& move) {
   const Series* series = answers.find(move.message);
   if (series == nullptr) return std::nullopt;
@@ -43,7 +43,7 @@ class Run {
   Run(const Suite& suite, const Options& options, const std::atomic<bool>& stop)
       : suite_(suite), options_(options), stop_(stop) {}
 
-  // The fastest tests run first, the flights in real time last.
+  // The fastest tests run first; the flights in real time run last.
   Result<std::vector<Item>> fly() {
     if (auto flown = fly_all(false); !flown) return tl::unexpected(flown.error());
     if (suite_.dialogue && (wanted("protocol") || wanted("parameters")) && !done()) {
@@ -75,7 +75,7 @@ class Run {
     return options_.families.empty() ||
            std::ranges::find(options_.families, family) != options_.families.end();
   }
-  /// Whether a selected requirement needs this flight or compares another flight with it.
+  /// Whether a selected requirement needs this flight itself, or compares another flight with this flight.
   [[nodiscard]] bool wanted(const Flight& flight) const {
     const auto of = [&](const std::string& id) {
       const Requirement* requirement = suite_.find(id);
@@ -95,7 +95,7 @@ class Run {
     failed_ = failed_ || item.outcome == Outcome::fail;
     items_.push_back(std::move(item));
   }
-  /// `wrong`: the violation; empty: no violation.
+  /// `wrong`: text of the violation; empty if there is no violation.
   static Item item(const std::string& requirement, const std::string& name, const std::string& wrong,
                    const std::string& expected) {
     return {.requirement = requirement,
@@ -106,7 +106,7 @@ class Run {
   }
 
   /// A flight in real time that does not pass is repeated, up to twice, because the host may cause occasional
-  /// delays. The last flight counts.
+  /// delays. Only the results of the last attempt are used.
   Result<void> fly(const Flight& flight) {
     constexpr int most_attempts = 3;
     for (int left = flight.real_time ? most_attempts : 1;; --left) {
@@ -147,7 +147,7 @@ class Run {
     return found;
   }
 
-  /// Converts the results of the checks, and how the flight ended, to items.
+  /// Converts the results of the checks and the ending of the flight to items.
   Items judged(const Flight& flight, const std::string& name, const drive::Run& run) const {
     if (flight.faults) {
       const bool fault = run.ending.kind == Ending::Kind::target_fault;
@@ -159,7 +159,8 @@ class Run {
     Items found{item(flight.requirement, name + " ends", run.ending.detail, flown_to_its_end)};
     if (run.ending.kind != Ending::Kind::completed) return found;
     for (const checks::CheckResult& check : run.verdict.checks) {
-      // Timing is not measured in lockstep; the suite's flights in real time judge it.
+      // In lockstep, timing checks are not measured and are skipped here. The suite's flights in real time
+      // judge the timing.
       if (!flight.real_time && check.outcome == Outcome::not_measured) continue;
       found.push_back(
           {.requirement = suite_.find(check.requirement) != nullptr ? check.requirement : flight.requirement,

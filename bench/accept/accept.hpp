@@ -1,4 +1,4 @@
-// Flies a suite against a target and decides for each requirement whether it is met.
+// Flies the flights of a suite against a target and judges for each requirement whether it is met.
 #pragma once
 
 #include <atomic>
@@ -14,21 +14,21 @@
 
 namespace canhil::accept {
 
-/// One test for a requirement.
+/// The result of one test for a requirement.
 struct Item {
   std::string requirement;  ///< id of the requirement
-  std::string name;         ///< "flight 'paper': error attitude.heading"
+  std::string name;         ///< for example "flight 'paper': error attitude.heading"
   checks::Outcome outcome = checks::Outcome::not_measured;
   std::string measured;
   std::string expected;
 };
 
 struct Options {
-  std::string target;                   ///< program
-  std::optional<std::uint64_t> seed{};  ///< replaces the campaigns' own seeds
-  double share = 1;                     ///< factor for the tolerances of the references
-  bool first_failure = false;           ///< stops at the first failure
-  std::vector<std::string> families{};  ///< only requirements of these families; empty: all
+  std::string target;                   ///< the target's command: program and arguments
+  std::optional<std::uint64_t> seed{};  ///< replaces the seeds in the campaign files
+  double share = 1;                     ///< factor by which the tolerances of the references are multiplied
+  bool first_failure = false;           ///< stop at the first failure
+  std::vector<std::string> families{};  ///< test only requirements of these families; empty: all
   std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
 
@@ -43,17 +43,17 @@ struct Finding {
 struct Acceptance {
   std::string estimator;
   std::string title;
-  std::vector<Finding> findings;  ///< in the order of the suite
+  std::vector<Finding> findings;  ///< in the order of the suite's requirements
   double wall_s = 0;
   [[nodiscard]] checks::Outcome outcome() const;
 };
 
-/// Error: the suite cannot be flown (usage or configuration). A failing target is no Error: the findings
-/// report it.
+/// Returns an Error if the suite cannot be flown because of wrong usage or configuration. A target that fails
+/// requirements does not cause an Error: the findings report the failures.
 Result<Acceptance> accept(const Suite& suite, const Options& options, const std::atomic<bool>& stop);
 
-/// Flies the suite's flights in this process, with rounded and unrounded frames, and writes their references.
-/// Error: one line.
+/// Flies the suite's flights that need a reference, in this process, once with rounded and once with
+/// unrounded frames. Writes the reference of each flight. An Error has one line.
 Result<void> record(const Suite& suite, const std::atomic<bool>& stop,
                     const std::function<void(const std::string&)>& progress);
 

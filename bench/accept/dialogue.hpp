@@ -1,4 +1,5 @@
-// Tests the target's handling of the protocol command by command: required actions and required rejections.
+// Tests, command by command, whether the target handles the protocol correctly: whether the target executes
+// and rejects commands as required.
 #pragma once
 
 #include <atomic>
@@ -10,10 +11,11 @@
 
 namespace canhil::accept {
 
-/// Requirements for every target, whatever it estimates.
+/// The protocol requirements that every target must meet, whichever estimator it is.
 std::vector<Requirement> protocol_requirements(const Suite& suite);
 
-/// Starts the target and tests it as the estimator of suite.dialogue. Error: the target does not start.
+/// Starts the target and tests the protocol with the estimator that suite.dialogue selects. Returns an Error
+/// if the target does not start.
 Result<std::vector<Item>> talk(const Suite& suite, const std::string& target, const std::atomic<bool>& stop);
 
 }  // namespace canhil::accept

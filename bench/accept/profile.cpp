@@ -11,7 +11,8 @@ namespace {
 
 constexpr double full_turn_deg = 360;
 
-/// True for signals that identify the program, such as its version: they may differ between correct targets.
+/// True for signals that identify the program, such as its version. Such signals may differ between two
+/// correct targets.
 bool of_the_program(const SignalInfo& signal) {
   return signal.name.starts_with("version_") || signal.name == "dbc_hash";
 }
@@ -29,7 +30,7 @@ double distance(const SignalInfo& signal, double a, double b) {
 double Series::mean(std::size_t signal) const {
   double sum = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    // Angles are unwrapped relative to the first one, because headings near south jump between +-180 deg.
+    // Angles are unwrapped relative to the first angle, because headings near south jump between +-180 deg.
     const double first = value(0, signal), now = value(i, signal);
     sum += turns(*signals[signal]) ? first + std::remainder(now - first, full_turn_deg) : now;
   }

@@ -17,12 +17,12 @@ namespace canhil::accept {
 struct Series {
   std::vector<const SignalInfo*> signals;
   std::vector<double> t_s;     ///< bench time at the last Sync before each answer
-  std::vector<double> values;  ///< answer by answer, one number per signal
+  std::vector<double> values;  ///< for each answer, one number per signal
   [[nodiscard]] std::size_t size() const { return t_s.size(); }
   [[nodiscard]] double value(std::size_t answer, std::size_t signal) const {
     return values[answer * signals.size() + signal];
   }
-  /// The mean over the flight; 0 without answers.
+  /// The mean over the flight; 0 if there are no answers.
   [[nodiscard]] double mean(std::size_t signal) const;
 };
 
@@ -40,7 +40,7 @@ class Answers final : public drive::Onlooker {
   }
   /// The answers of each message, sorted by message name.
   [[nodiscard]] const std::map<std::string, Series, std::less<>>& messages() const { return messages_; }
-  /// The answers of a message; null: unknown message, or none in this flight.
+  /// The answers of a message; null if the message is unknown or has no answers in this flight.
   [[nodiscard]] const Series* find(std::string_view message) const;
 
  private:
@@ -48,7 +48,7 @@ class Answers final : public drive::Onlooker {
   double t_s_ = 0;
 };
 
-/// The difference of two values of a signal; for angles, the smaller of the two arcs.
+/// The magnitude of the difference of two values of a signal; for angles, the smaller of the two arcs.
 double distance(const SignalInfo& signal, double a, double b);
 
 }  // namespace canhil::accept

@@ -29,7 +29,7 @@ std::string counts(const Acceptance& suite) {
   return words;
 }
 
-/// The items shown by default: the violations.
+/// The items shown by default: those that did not pass, failures first.
 std::vector<const Item*> shown_items(const Finding& finding) {
   std::vector<const Item*> items;
   for (const Item& item : finding.items) {
@@ -46,7 +46,7 @@ std::string sign_of(Outcome outcome) {
   return fmt::format("<span class=\"{}\">{} {}</span>", style, sign, checks::name(outcome));
 }
 
-/// All items, collapsed.
+/// All items as an HTML list, collapsed by default.
 std::string all_of(const Finding& finding) {
   std::string list;
   for (const Item& item : finding.items)

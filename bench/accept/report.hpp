@@ -1,4 +1,4 @@
-// Reports of an acceptance test for people and programs.
+// Formats the report of an acceptance test: as text and HTML for people, as JSON and JUnit XML for programs.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@ namespace canhil::accept {
 
 /// The report of one `hil-bench accept`.
 struct Report {
-  std::string target;  ///< as given by the user
+  std::string target;  ///< the target's command as given by the user
   std::int64_t started_s = 0;
   std::vector<Acceptance> suites;
   [[nodiscard]] checks::Outcome outcome() const;
 };
 
-/// One line for each requirement, followed by what failed or was not measured.
+/// One line for each requirement, followed by its items that failed or were not measured.
 std::string text(const Report& report);
 std::string json(const Report& report);
-/// One test suite for each estimator, one test case for each test.
+/// JUnit XML: one test suite for each estimator, one test case for each item.
 std::string junit(const Report& report);
-/// A self-contained page.
+/// A self-contained HTML page.
 std::string page(const Report& report);
 
 }  // namespace canhil::accept

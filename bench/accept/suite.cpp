@@ -20,7 +20,7 @@ using scenario::Setting;
 
 constexpr std::int64_t most_rows = 1000;
 
-/// Whether "Message.signal" is in the DBC.
+/// Whether `name` has the form "Message.signal" and names a signal of the DBC.
 bool names_one(std::string_view name) {
   const std::size_t dot = std::min(name.find('.'), name.size());
   const auto message = std::ranges::find(messages::all_messages, name.substr(0, dot), &MessageInfo::name);

@@ -1,5 +1,5 @@
-// The requirements for accepting a target as an estimator: a folder with suite.toml, the scenarios and
-// campaigns that it names, and reference answers (docs/accept.md).
+// The requirements that a target must meet to be accepted as an estimator. A suite is a folder: it contains
+// suite.toml, the scenarios and campaigns that suite.toml names, and reference answers (docs/accept.md).
 #pragma once
 
 #include <filesystem>
@@ -18,24 +18,25 @@ namespace canhil::accept {
 struct Requirement {
   std::string id;
   std::string family;  ///< one of `families`
-  std::string text;    ///< a sentence
+  std::string text;    ///< one sentence that states the requirement
 };
 inline const std::vector<std::string> families{"errors",           "honesty",  "algorithms", "parameters",
                                                "flags and states", "protocol", "timing"};
 
-/// Another flight of the suite that must have the same answers.
+/// Refers to another flight of the suite. The answers of that flight must be the same as those of this
+/// flight.
 struct SameAs {
   std::string flight;
   std::string requirement;
-  double steps = 0;     ///< tolerance in steps of each signal
-  double relative = 0;  ///< tolerance relative to the value
+  double steps = 0;     ///< tolerance of a value, in steps of its signal
+  double relative = 0;  ///< tolerance of a value, relative to the value
 };
 
-/// A signal whose mean must be larger, or smaller, in this flight than in another one.
+/// A signal whose mean must be larger, or smaller, in this flight than in another flight.
 struct Move {
   std::string flight;  ///< the other flight
   std::string message, signal;
-  bool up = false;  ///< true: the magnitude of the mean must be larger in this flight
+  bool up = false;  ///< true: the magnitude of the mean must be larger in this flight; false: smaller
   std::string requirement;
 };
 
@@ -43,14 +44,14 @@ struct Move {
 struct Flight {
   std::string name;
   scenario::Scenario scenario{};
-  std::string requirement{};  ///< requirement of the checks that name none of the suite
+  std::string requirement{};  ///< id: applies to checks that name no requirement of the suite
   std::optional<std::string>
-      reference{};       ///< requirement: the answers match the reference; none: not compared
+      reference{};       ///< id of the requirement that the answers match the reference; none: not compared
   std::size_t rows = 0;  ///< number of instants kept in the reference
   std::optional<SameAs> same_as{};
   std::optional<Move> moves{};
   bool real_time = false;
-  bool faults = false;  ///< the target must report a fault
+  bool faults = false;  ///< true: the target must report a fault
 };
 
 using conformance::Parameter;
@@ -62,19 +63,21 @@ struct Suite {
   std::vector<Requirement> requirements;
   std::vector<Flight> flights;
   std::vector<Parameter> parameters;
-  std::vector<std::string> campaigns;  ///< files in the folder
+  std::vector<std::string> campaigns;  ///< names of campaign files in the folder
   std::optional<std::pair<std::string, double>>
-      apply;                                   ///< a parameter that takes effect in flight; none: not tested
-  std::optional<scenario::Scenario> dialogue;  ///< selects the estimator for the dialogue; none: no dialogue
+      apply;  ///< name and value of a parameter that takes effect in flight; none: not tested
+  std::optional<scenario::Scenario> dialogue;  ///< scenario with the dialogue's estimator; none: no dialogue
 
   [[nodiscard]] const Requirement* find(std::string_view id) const;
   [[nodiscard]] std::filesystem::path reference_of(const Flight& flight) const;
 };
 
-/// Reads folder/suite.toml and the files that it names, except references and campaigns. Error: one line.
+/// Reads folder/suite.toml and the scenarios that it names; references and campaigns are not read. An Error
+/// has one line.
 Result<Suite> read_suite(const std::filesystem::path& folder);
 
-/// The folders of suites within a folder, sorted by name. Error: one line; the folder contains no suite.
+/// The folders within `folder` that contain a suite, sorted by name. Returns an Error of one line if there is
+/// none.
 Result<std::vector<std::filesystem::path>> suites_in(const std::filesystem::path& folder);
 
 }  // namespace canhil::accept

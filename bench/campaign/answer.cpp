@@ -16,7 +16,8 @@ std::string with_unit(double value, const quantities::Unit& unit) {
   return fmt::format("{:.4g}{}{}", value / unit.factor, unit.name.empty() ? "" : " ", unit.name);
 }
 
-/// Converts a value to its unit and names it: the name is the stem and the unit's ending.
+/// Converts a value from SI to `unit` and names the value: the name is `stem` followed by the ending of the
+/// unit.
 std::pair<std::string, std::optional<double>> figure(std::string_view stem, double value,
                                                      const quantities::Unit& unit) {
   return {fmt::format("{}{}", stem, unit.ending), value / unit.factor};
@@ -24,8 +25,7 @@ std::pair<std::string, std::optional<double>> figure(std::string_view stem, doub
 
 std::string time_or_never(std::optional<double> t_s) { return t_s ? fmt::format("{:g} s", *t_s) : "never"; }
 
-/// A note such as " (3 values missing)", because no limit is met if values are missing.
-/// Empty: no value is missing.
+/// A note such as " (3 values missing)", which explains why no limit is met; empty if no value is missing.
 std::string missing_note(std::size_t missing) {
   return missing == 0 ? "" : fmt::format(" ({} values missing)", missing);
 }
@@ -231,7 +231,7 @@ void answer(const RmsRatio& rule, const Runs& runs, const Runs& other, Answer& o
   Bars(out, missing == 0).at_most(ratio, rule.at_most, times);
 }
 
-// paired_fraction() counts a run without a value as the worst one, so no run is missing.
+// paired_fraction() counts a run without a value as the worst run, so no run is missing here.
 void answer(const Paired& rule, const Runs& runs, const Runs& other, Answer& out) {
   const PairedFraction paired = paired_fraction(runs, other, *rule.quantity, rule.at_us, rule.confidence);
   out.measured =

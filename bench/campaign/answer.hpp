@@ -20,17 +20,17 @@ struct Answer {
   std::string kind;
   std::string requirement;
   std::string variant;
-  std::string measured{};        ///< with its unit
-  std::string expected{};        ///< the limits as text; empty: none
+  std::string measured{};        ///< the result as text, with its unit
+  std::string expected{};        ///< the limits as text; empty: no limit
   std::optional<bool> passed{};  ///< none: the metric has no limit
   std::vector<std::pair<std::string, std::optional<double>>>
-      figures{};                    ///< values by name with unit; no value: the time was never reached
+      figures{};                    ///< results by name and unit; no value: the time was never reached
   std::vector<CurvePoint> curve{};  ///< for rms_curve, otherwise empty
   const Quantity* quantity = nullptr;
 };
 
-/// Evaluates a metric for the runs of a variant. `other`: the runs of the variant that the metric compares
-/// with, if any.
+/// Evaluates a metric for the runs of a variant. `other`: the runs of the variant with which the metric
+/// compares; empty if the metric compares with none.
 void answer(const Metric& metric, const Runs& runs, const Runs& other, Answer& out);
 
 }  // namespace canhil::campaign

@@ -27,7 +27,7 @@ struct Given {
   int line = 0;
 };
 
-/// One value for each key of the sweep.
+/// A point of the sweep: one value for each key.
 struct Point {
   std::string name;
   std::vector<Setting> settings;
@@ -44,7 +44,7 @@ Given read_given(Section& section) {
               .settings = {},
               .line = section.line()};
   if (auto set = section.optional_table(
-          {"set", "Keys of the scenario and the values that replace those of its file."})) {
+          {"set", "Keys of the scenario, with values that replace the values in the scenario file."})) {
     given.settings = set->settings();
     refuse_seed(*set, given.settings);
   }
@@ -76,9 +76,9 @@ std::vector<Point> expand(const std::vector<Setting>& sweep) {
 }
 
 std::vector<Setting> read_sweep(Section& root, const std::vector<Given>& given) {
-  auto section = root.optional_table(
-      {"sweep",
-       "Keys of the scenario, each with an array of values: every variant flies with every combination."});
+  auto section = root.optional_table({"sweep",
+                                      "Keys of the scenario, each with an array of values. Every variant is "
+                                      "run with every combination of these values."});
   if (!section) return {};
   std::vector<Setting> sweep = section->settings();
   if (sweep.empty()) root.reject("sweep", "is empty", "keys of the scenario, each with an array of values");
@@ -115,8 +115,8 @@ std::uint64_t hash_of(const Sources& sources) {
   return world::fnv1a_64(all);
 }
 
-/// Adds the recordings of the scenarios to the hash. The recordings change the results, but are not among
-/// the sources.
+/// Adds the recordings of the scenarios to the hash. The recordings change the results, but are not part of
+/// `Sources`.
 std::uint64_t with_recordings(std::uint64_t hash, const std::vector<Variant>& variants) {
   for (const Variant& variant : variants) {
     const std::uint64_t own = variant.scenario.recordings_hash;
@@ -144,7 +144,7 @@ Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, cons
                       .scenario = {}};
       std::vector<Setting> settings = one.settings;
       settings.insert(settings.end(), point.settings.begin(), point.settings.end());
-      // The path is relative to the campaign's folder; paths within the scenario are relative to the
+      // `one.scenario` is relative to the campaign's folder; paths within the scenario are relative to the
       // scenario.
       const fs::path path = fs::path(sources.file).parent_path() / one.scenario;
       auto read = drive::parse_scenario(sources.scenarios.at(one.scenario), one.scenario, settings,
@@ -223,7 +223,10 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
   campaign.sources = {.file = std::string(file), .text = std::string(text), .scenarios = {}};
   campaign.title = root.text({"title", "One line, shown in every report."});
   campaign.runs = static_cast<std::uint64_t>(root.integer(
-      {"runs", fmt::format("Runs of each variant, at most {}. `--runs` overrides it.", most_runs)}, 1));
+      {"runs",
+       fmt::format("Number of runs of each variant, at most {}. The option `--runs` overrides this key.",
+                   most_runs)},
+      1));
   if (campaign.runs > most_runs)
     root.reject("runs", fmt::format("{} is out of range", campaign.runs),
                 fmt::format("at most {}", most_runs));

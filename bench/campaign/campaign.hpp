@@ -21,36 +21,39 @@ namespace canhil::campaign {
 /// A scenario with its settings at one point of the sweep.
 struct Variant {
   std::string name;   ///< unique: the name in the file; with a sweep, followed by the point
-  std::string given;  ///< name in the file
-  std::string point;  ///< "master_ins.period_ms=50 ..."; empty without a sweep
+  std::string given;  ///< name in the campaign file
+  std::string point;  ///< for example "master_ins.period_ms=50 ..."; empty without a sweep
   scenario::Scenario scenario;
 };
 
-/// The texts from which a campaign was read; with them, stored results can be evaluated without the files.
+/// The texts from which a campaign was read. With these texts, stored results can be evaluated without the
+/// files.
 struct Sources {
   std::string file;  ///< file name as given by the user
   std::string text;
-  /// Text by file name as given in the campaign; includes the mappings and DBCs of the scenarios.
+  /// The text of each file, by the file name that the campaign contains; includes the mappings and DBCs of
+  /// the scenarios.
   std::map<std::string, std::string> scenarios;
 };
 
-/// Limit of the runs in a campaign, because their list is kept in memory.
+/// The largest number of runs in a campaign. The limit exists because the list of runs is kept in memory.
 inline constexpr std::uint64_t most_runs = 10'000'000;
-/// Limit of the variants in a campaign, because the scenario of each is read before the first run.
+/// The largest number of variants in a campaign. The limit exists because the scenarios of all variants are
+/// read before the first run.
 inline constexpr std::uint64_t most_variants = 10'000;
 
 struct Campaign {
   Sources sources;
-  std::uint64_t hash = 0;  ///< of all texts and recordings: results with equal hashes belong together
+  std::uint64_t hash = 0;  ///< hash of all texts and recordings, equal for results of the same campaign
   std::string title;
   std::uint64_t runs = 0;
   std::uint64_t seed = 0;
-  std::vector<Variant> variants;  ///< in the order of the file, then of the sweep
+  std::vector<Variant> variants;  ///< ordered as in the file; for each, ordered as in the sweep
   std::vector<Metric> metrics;
   Rounding rounding = Rounding::as_on_the_bus;  ///< set by the command line, not by the file
 };
 
-/// Reads a campaign file and its scenarios. The error is one line.
+/// Reads a campaign file and its scenarios. An Error has one line.
 Result<Campaign> read_campaign(const std::filesystem::path& path);
 
 /// Returns the text of a scenario by its name in the campaign.

@@ -10,11 +10,12 @@
 namespace canhil::campaign {
 namespace {
 
-// Returns the errno of the failed system call; 0: unknown. Some of SQLite's messages do not contain it.
+// Returns the errno of the failed system call; 0 if it is unknown. Some messages of SQLite do not contain the
+// errno.
 int reason_of(int code, const std::string& file, sqlite3* database) {
   int reason = 0;
   if (code == SQLITE_IOERR) sqlite3_file_control(database, "main", SQLITE_FCNTL_LAST_ERRNO, &reason);
-  if (code == SQLITE_CANTOPEN) {  // SQLite retries read-only, so its errno is that of the retry
+  if (code == SQLITE_CANTOPEN) {  // SQLite then retries read-only, and its errno is of this retry
     const std::filesystem::path path = std::filesystem::absolute(file);
     const bool there = std::filesystem::exists(std::filesystem::symlink_status(path));
     if (access((there ? path : path.parent_path()).c_str(), W_OK) != 0) reason = errno;
@@ -38,7 +39,7 @@ Result<SQLite::Database> open_database(const std::filesystem::path& path, int fl
   std::error_code unknown;
   const auto status = std::filesystem::status(path, unknown);
   if (std::filesystem::is_fifo(status) ||
-      std::filesystem::is_directory(status)) {  // opening a pipe would block
+      std::filesystem::is_directory(status)) {  // opening a pipe would block the program
     return failure(fmt::format("{}: is a {}, expected results of a campaign", path.string(),
                                std::filesystem::is_fifo(status) ? "pipe" : "folder"));
   }

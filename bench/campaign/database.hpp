@@ -1,4 +1,4 @@
-// Opens SQLite files named by a user and describes defects of such a file in one line.
+// Opens SQLite files that a user names, and describes a defect of such a file in one line.
 #pragma once
 
 #include <SQLiteCpp/Database.h>
@@ -11,18 +11,19 @@
 
 namespace canhil::campaign {
 
-/// A defect of a file that SQLite does not detect: the reason, without the file's name.
+/// Reports a defect of a file in which SQLite detects no error. The text is the reason, without the name of
+/// the file.
 struct Unfit : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// `flags`: those of SQLite::Database.
+/// `flags`: the flags of the constructor of SQLite::Database.
 Result<SQLite::Database> open_database(const std::filesystem::path& path, int flags);
 
 /// Throws Unfit if the file is shorter or longer than its header states.
 void check_size(const SQLite::Database& database);
 
-/// SQLite's error as text; `database`: null if it could not be opened.
+/// Returns SQLite's error as text. `database`: null if the file could not be opened.
 Error in_words(const SQLite::Exception& error, const std::string& file, sqlite3* database);
 
 /// Runs `work` on an open file and turns the exceptions of `work` into an Error.

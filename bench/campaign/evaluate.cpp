@@ -63,7 +63,7 @@ std::string Evaluation::not_judged() const {
   };
   if (!judged(nullptr)) return "nothing was judged: no [[metric]] has a limit";
   // In comparisons, a variant without completed runs counts as the worst one, so the other variants may pass.
-  // A metric with a limit must therefore judge the variant without completed runs itself.
+  // Therefore at least one metric with a limit must judge the variant that has no completed runs.
   for (const Endings& one : endings) {
     if (one.completed == 0 && !judged(&one.variant))
       return fmt::format(

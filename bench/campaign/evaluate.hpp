@@ -1,4 +1,4 @@
-// Evaluates all metrics of a campaign, and the verdict.
+// Evaluates all metrics of a campaign and determines the verdict.
 #pragma once
 
 #include <functional>
@@ -17,22 +17,22 @@ struct Endings {
   std::string variant;
   std::size_t runs = 0;
   std::size_t completed = 0;
-  std::size_t not_finite = 0;  ///< completed, but with values that are not finite
-  std::string first_fault;     ///< "run 17: ..."; empty: none
+  std::size_t not_finite = 0;  ///< completed runs with values that are not finite
+  std::string first_fault;     ///< for example "run 17: ..."; empty: all runs were completed
 };
 
 struct Evaluation {
-  std::string target{};  ///< see Identity
+  std::string target{};  ///< see Identity::target
   std::vector<Endings> endings;
   std::vector<Answer> answers;
-  /// The reason why a campaign without failures did not pass; empty: it failed or passed.
+  /// The reason why the verdict is neither pass nor fail; empty if it is pass or fail.
   [[nodiscard]] std::string not_judged() const;
   [[nodiscard]] checks::Outcome outcome() const;
 };
 
-/// Loads the runs of a variant.
+/// Loads the runs of the variant with this index.
 using Load = std::function<Result<std::vector<RunSeries>>(std::size_t)>;
-/// Error: results cannot be read, or runs are missing.
+/// Returns an Error if results cannot be read or if runs are missing.
 Result<Evaluation> evaluate(const Campaign& campaign, const Load& load);
 Result<Evaluation> evaluate(const Campaign& campaign, const Store& store);
 

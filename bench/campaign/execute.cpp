@@ -37,7 +37,7 @@ class Finishing {
     if (--workers_ == 0) ended_.notify_one();
   }
   /// Waits for a commit interval, or until the workers end. Returns the runs that have finished since the
-  /// last call. None: the workers have ended and all runs were returned.
+  /// last call. Returns nullopt if the workers have ended and all runs were returned.
   std::optional<std::vector<Finished>> take() {
     std::unique_lock lock(mutex_);
     const bool ended = ended_.wait_for(lock, commit_interval, [&] { return workers_ == 0; });
@@ -61,7 +61,7 @@ class Finishing {
 struct Work {
   const Campaign& campaign;
   const std::string& target;                               ///< see Options
-  std::vector<std::optional<world::FlightRecord>> truths;  ///< for the variants to be flown
+  std::vector<std::optional<world::FlightRecord>> truths;  ///< truth of each variant to be flown
   std::vector<Key> tasks;
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> halt = false;
@@ -92,8 +92,8 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
   finishing.worker_ends();
 }
 
-/// All runs of the shard that are not stored yet, ordered by run number, so that pairs of runs are complete
-/// early.
+/// All runs of the shard that are not stored yet. They are ordered by run number, so that the runs with the
+/// same number in all variants, which are compared in pairs, are done at nearly the same time.
 std::vector<Key> open_tasks(const Campaign& campaign, const Shard& shard, std::vector<Key> stored) {
   std::ranges::sort(stored);
   std::vector<Key> tasks;

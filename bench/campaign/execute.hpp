@@ -14,7 +14,7 @@
 
 namespace canhil::campaign {
 
-/// The runs with run % count == index.
+/// A shard contains the runs with run % count == index.
 struct Shard {
   std::uint64_t index = 0;
   std::uint64_t count = 1;
@@ -36,22 +36,24 @@ struct Progress {
 struct Options {
   std::filesystem::path file;  ///< the results file
   Shard shard;
-  unsigned threads = 0;  ///< 0: one per core
+  unsigned threads = 0;  ///< number of threads; 0: one per core
   bool resume = false;   ///< continue an existing file
   std::string
       target{};  ///< a program to fly against, over a bus in lockstep; empty: a Device in this process
-  /// `committed` is called with the runs just committed, then `progress`, always from the same thread.
+  /// After each commit, `committed` is called with the runs of this commit, and then `progress` is called.
+  /// Both are always called from the same thread.
   std::function<void(std::span<const Finished>)> committed = [](std::span<const Finished>) {};
   std::function<void(const Progress&)> progress = [](const Progress&) {};
-  /// Called if a run cannot be flown, for example because the target does not answer, before execute()
-  /// returns that error. Any other error is one of the campaign or of its results file.
+  /// If a run cannot be flown, for example because the target does not answer, this function is called before
+  /// execute() returns the error. It is not called for errors of the campaign or of its results file.
   std::function<void(const Error&)> not_flown = [](const Error&) {};
 };
 
 enum class Execution : std::uint8_t { complete, interrupted };
 
-/// Flies the runs that the file lacks; every finished run is committed within half a second. `stop` ends
-/// the execution early and cleanly. Error: one line; runs committed before are kept.
+/// Flies the runs that the file does not contain yet; every finished run is committed within half a second.
+/// If `stop` is set, the execution ends early and cleanly. An Error has one line; runs that were committed
+/// before the error are kept.
 Result<Execution> execute(const Campaign& campaign, const Options& options, const std::atomic<bool>& stop);
 
 }  // namespace canhil::campaign

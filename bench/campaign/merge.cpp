@@ -15,11 +15,11 @@ namespace {
 struct Shards {
   std::vector<Store> stores;
   std::vector<std::string> names;
-  std::map<Key, std::vector<std::size_t>> holders;  ///< for each run: indices in `stores`
+  std::map<Key, std::vector<std::size_t>> holders;  ///< for each run: indices of stores that contain it
 };
 
-/// Error: a file is given twice, possibly under different names; another file has then probably been
-/// forgotten.
+/// Returns an Error if a file is given twice, possibly under two names, because another file has then
+/// probably been forgotten.
 Result<void> check_distinct(std::span<const std::filesystem::path> files) {
   std::error_code ignored;  // a missing file is reported when it is opened
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -51,7 +51,7 @@ Result<Shards> open_all(std::span<const std::filesystem::path> files) {
   return shards;
 }
 
-/// Error: some runs are missing.
+/// Returns an Error if some runs are missing.
 Result<void> check_complete(const Shards& shards, const Campaign& campaign) {
   const std::uint64_t runs = shards.stores[0].identity().runs;
   const std::size_t total = campaign.variants.size() * runs;
@@ -88,7 +88,7 @@ Result<Finished> take(const Shards& shards, const Key& key) {
   return Finished{.variant = key.variant, .series = std::move(*first)};
 }
 
-/// Uses exactly one transaction for each variant, because the bytes of the file depend on the transactions.
+/// Writes each variant in exactly one transaction, because the bytes of the file depend on the transactions.
 Result<void> write(const std::filesystem::path& file, const Shards& shards, const Campaign& campaign) {
   const Identity& identity = shards.stores[0].identity();
   auto merged = Store::create(file, identity, shards.stores[0].sources());
@@ -106,7 +106,8 @@ Result<void> write(const std::filesystem::path& file, const Shards& shards, cons
   return {};
 }
 
-/// Error: the file holds something other than results of this campaign and must not be overwritten.
+/// Returns an Error if the file `out` exists and must not be overwritten, because it contains something other
+/// than results of this campaign.
 Result<void> check_replaceable(const std::filesystem::path& out, const Identity& identity) {
   if (!std::filesystem::exists(out)) return {};
   const auto old = Store::open(out);

@@ -8,10 +8,10 @@
 
 namespace canhil::campaign {
 
-/// Writes all runs of the shards `files`, ordered by variant and run, to a new file and renames it to `out`.
-/// Error: one line, and `out` is unchanged. The reasons: the identities of the shards differ; a shard is
-/// given twice; runs are missing or differ between shards; or `out` holds something other than results of
-/// this campaign.
+/// Writes all runs of the shards `files`, ordered by variant and run, to a new file, and renames this file to
+/// `out`. In case of an Error, `out` is unchanged. Possible errors: the identities of the shards differ; a
+/// shard is given twice; runs are missing or differ between shards; `out` contains something other than
+/// results of this campaign.
 Result<void> merge(const std::filesystem::path& out, std::span<const std::filesystem::path> files);
 
 }  // namespace canhil::campaign

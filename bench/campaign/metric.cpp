@@ -16,7 +16,7 @@ namespace {
 using scenario::Limits;
 using scenario::Section;
 
-/// Facts about the campaign that the readers of all kinds need.
+/// Properties of the campaign that the read() functions of all kinds of metrics need.
 struct Context {
   const std::vector<std::string>& variants;
   std::int64_t duration_us;
@@ -43,7 +43,7 @@ std::span<const Quantity* const> every_quantity() {
   return all;
 }
 
-/// Reads the key `quantity`: a quantity that campaigns store and that `Wanted` accepts.
+/// Reads the key `quantity`: it must be a quantity that campaigns store and that `wanted` accepts.
 template <class Wanted>
 const Quantity* read_quantity(Section& section, Wanted&& wanted) {
   return checks::read_quantity(section, every_quantity(), [&](const Quantity& one) -> std::string {
@@ -56,7 +56,15 @@ const Quantity* read_error(Section& section) {
   return read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom == 0; });
 }
 
-/// Rejects the limits STEM_at_least and STEM_at_most, with their suffix `ending`, if no value can meet both.
+/// Reads the key `stem` with the unit's ending: a limit that is at least 0 and may be absent.
+std::optional<double> read_limit(Section& section, const quantities::Unit& unit, std::string_view stem,
+                                 std::string_view meaning) {
+  return section.optional_number({checks::key_of(stem, unit), meaning, fmt::format("{}_UNIT", stem)},
+                                 Limits::at_least(0));
+}
+
+/// Rejects the pair of limits STEM_at_least and STEM_at_most (with the suffix `ending`) if no value can meet
+/// both limits.
 template <class Value>
 void expect_bars_ordered(Section& section, std::string_view stem, std::string_view ending,
                          const std::optional<Value>& at_least, const std::optional<Value>& at_most) {
@@ -74,17 +82,18 @@ TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
   rule.within = section.number(
       {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS must stay.", "within_UNIT"},
       Limits::above(0));
-  rule.at_most_us = section.optional_time_us({"at_most_s", "Limit: the time is at most this. 'Never' fails."},
-                                             Limits::at_least(0));
+  rule.at_most_us = section.optional_time_us(
+      {"at_most_s", "Limit: the time is at most this value. The result 'never' does not meet the limit."},
+      Limits::at_least(0));
   rule.never_before_us = section.optional_time_us(
-      {"never_before_s", "Limit: the time is at least this. 'Never' passes."}, Limits::at_least(0));
+      {"never_before_s", "Limit: the time is at least this value. The result 'never' meets the limit."},
+      Limits::at_least(0));
   scenario::expect_ordered(section, "never_before_s", rule.never_before_us, "at_most_s", rule.at_most_us);
   return rule;
 }
 
 std::int64_t read_at(Section& section, const Context& context) {
-  return scenario::read_time(section,
-                             {"at_s", "Time up to which updates count; the last of these updates is used."},
+  return scenario::read_time(section, {"at_s", "The last update up to this time is used."},
                              Limits::at_least(0), context.duration_us);
 }
 
@@ -99,19 +108,17 @@ Lead read(Section& section, const Context& context, Lead rule) {
       {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS must stay.", "within_UNIT"},
       Limits::above(0));
   rule.other = read_other(section, context);
-  rule.at_least_us = section.optional_time_us({"at_least_s", "Limit: the lead is at least this."}, Limits{});
+  rule.at_least_us =
+      section.optional_time_us({"at_least_s", "Limit: the lead is at least this value."}, Limits{});
   return rule;
 }
 
 ValueAt read(Section& section, const Context& context, ValueAt rule) {
   rule.quantity = read_error(section);
   rule.at_us = read_at(section, context);
-  rule.at_most = section.optional_number(
-      {checks::key_of("at_most", rule.quantity->unit), "Limit: the RMS is at most this.", "at_most_UNIT"},
-      Limits::at_least(0));
-  rule.at_least = section.optional_number(
-      {checks::key_of("at_least", rule.quantity->unit), "Limit: the RMS is at least this.", "at_least_UNIT"},
-      Limits::at_least(0));
+  rule.at_most = read_limit(section, rule.quantity->unit, "at_most", "Limit: the RMS is at most this value.");
+  rule.at_least =
+      read_limit(section, rule.quantity->unit, "at_least", "Limit: the RMS is at least this value.");
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   return rule;
 }
@@ -129,22 +136,23 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
   rule.quantity = read_error(section);
   rule.unit = read_unit(section, *rule.quantity);
   rule.at_us = read_at(section, context);
-  const auto bar = [&](std::string_view stem, std::string_view meaning) {
-    return section.optional_number(
-        {fmt::format("{}{}", stem, rule.unit.ending), meaning, fmt::format("{}_UNIT", stem)},
-        Limits::at_least(0));
-  };
-  rule.below = bar("below", "Runs whose absolute value is below this count for the fraction.");
-  rule.rms_at_most = bar("rms_at_most", "Limit: the RMS is at most this.");
-  rule.rms_at_least = bar("rms_at_least", "Limit: the RMS is at least this.");
-  rule.median_at_most = bar("median_at_most", "Limit: the median is at most this.");
-  rule.median_at_least = bar("median_at_least", "Limit: the median is at least this.");
-  rule.p90_at_most = bar("p90_at_most", "Limit: the p90 is at most this.");
+  rule.below =
+      read_limit(section, rule.unit, "below",
+                 "Bound for the fraction of runs: the fraction is the share of runs whose absolute value "
+                 "is below this bound.");
+  rule.rms_at_most = read_limit(section, rule.unit, "rms_at_most", "Limit: the RMS is at most this value.");
+  rule.rms_at_least =
+      read_limit(section, rule.unit, "rms_at_least", "Limit: the RMS is at least this value.");
+  rule.median_at_most =
+      read_limit(section, rule.unit, "median_at_most", "Limit: the median is at most this value.");
+  rule.median_at_least =
+      read_limit(section, rule.unit, "median_at_least", "Limit: the median is at least this value.");
+  rule.p90_at_most = read_limit(section, rule.unit, "p90_at_most", "Limit: the p90 is at most this value.");
   rule.fraction_at_least = section.optional_number(
-      {"fraction_at_least", "Limit: the fraction of runs is at least this. Needs `below_UNIT`."},
+      {"fraction_at_least", "Limit: the fraction of runs is at least this value. Needs `below_UNIT`."},
       Limits::between(0, 1));
   rule.fraction_at_most = section.optional_number(
-      {"fraction_at_most", "Limit: the fraction of runs is at most this. Needs `below_UNIT`."},
+      {"fraction_at_most", "Limit: the fraction of runs is at most this value. Needs `below_UNIT`."},
       Limits::between(0, 1));
   expect_bars_ordered(section, "rms_", rule.unit.ending, rule.rms_at_least, rule.rms_at_most);
   expect_bars_ordered(section, "median_", rule.unit.ending, rule.median_at_least, rule.median_at_most);
@@ -155,11 +163,11 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
   }
   rule.batch =
       section
-          .optional_integer(
-              {"batch",
-               "Number of runs for the 5 % to 95 % range: it is the range of the RMS of this many runs (of "
-               "all runs, if there are fewer), drawn with replacement (bootstrap). Default: 100."},
-              2)
+          .optional_integer({"batch",
+                             "Number of runs in each bootstrap sample (or the number of all runs, if that is "
+                             "smaller). The runs of a sample are drawn with replacement. The 5 % to 95 % "
+                             "range is the range of the RMS over these samples. Default: 100."},
+                            2)
           .value_or(rule.batch);
   return rule;
 }
@@ -169,14 +177,10 @@ WindowMoments read(Section& section, const Context& context, WindowMoments rule)
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.mean_at_most =
-      section.optional_number({checks::key_of("mean_at_most", rule.quantity->unit),
-                               "Limit: the magnitude of the mean is at most this.", "mean_at_most_UNIT"},
-                              Limits::at_least(0));
-  rule.standard_deviation_at_most = section.optional_number(
-      {checks::key_of("standard_deviation_at_most", rule.quantity->unit),
-       "Limit: the standard deviation is at most this.", "standard_deviation_at_most_UNIT"},
-      Limits::at_least(0));
+  rule.mean_at_most = read_limit(section, rule.quantity->unit, "mean_at_most",
+                                 "Limit: the magnitude of the mean is at most this value.");
+  rule.standard_deviation_at_most = read_limit(section, rule.quantity->unit, "standard_deviation_at_most",
+                                               "Limit: the standard deviation is at most this value.");
   return rule;
 }
 
@@ -186,10 +190,10 @@ Paired read(Section& section, const Context& context, Paired rule) {
   rule.at_us = read_at(section, context);
   rule.confidence = section.number({"confidence", "Confidence level of the interval of the fraction."},
                                    Limits::between(0.5, 0.999999), rule.confidence);
-  rule.at_most =
-      section.optional_number({"at_most", "Limit: the fraction is at most this."}, Limits::between(0, 1));
-  rule.at_least =
-      section.optional_number({"at_least", "Limit: the fraction is at least this."}, Limits::between(0, 1));
+  rule.at_most = section.optional_number({"at_most", "Limit: the fraction is at most this value."},
+                                         Limits::between(0, 1));
+  rule.at_least = section.optional_number({"at_least", "Limit: the fraction is at least this value."},
+                                          Limits::between(0, 1));
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }
@@ -204,26 +208,27 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
   rule.probability = section.number({"probability", "Probability of the central chi-square interval."},
                                     Limits::between(0.5, 0.999999), rule.probability);
   if (section.has("mean_between"))
-    rule.mean_between =
-        section.interval({"mean_between", "Limit: the mean lies between these."}, Limits::at_least(0));
+    rule.mean_between = section.interval({"mean_between", "Limit: the mean lies between these two values."},
+                                         Limits::at_least(0));
   section.optional("mean_between");
   rule.inside_at_least = section.optional_number(
-      {"inside_at_least", "Limit: the fraction of updates inside the interval is at least this."},
+      {"inside_at_least", "Limit: the fraction of updates inside the interval is at least this value."},
       Limits::between(0, 1));
   return rule;
 }
 
 Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
   rule.quantity = read_error(section);
-  rule.beyond = section.number(
-      {checks::key_of("beyond", rule.quantity->unit), "An error beyond this is a divergence.", "beyond_UNIT"},
-      Limits::above(0));
-  rule.from_us = section.optional_time_us(
-      {"from_s",
-       "Time from which on all errors count. Without the key, only the error at the end of each run counts."},
-      Limits{});  // samples by time to go have negative times
-  rule.at_most = section.optional_integer({"at_most", "Limit: the number of runs is at most this."}, 0);
-  rule.at_least = section.optional_integer({"at_least", "Limit: the number of runs is at least this."}, 0);
+  rule.beyond = section.number({checks::key_of("beyond", rule.quantity->unit),
+                                "An error beyond this value is a divergence.", "beyond_UNIT"},
+                               Limits::above(0));
+  rule.from_us = section.optional_time_us({"from_s",
+                                           "All errors from this time on are judged. Without this key, only "
+                                           "the error at the end of each run is judged."},
+                                          Limits{});  // samples by time to go have negative times
+  rule.at_most = section.optional_integer({"at_most", "Limit: the number of runs is at most this value."}, 0);
+  rule.at_least =
+      section.optional_integer({"at_least", "Limit: the number of runs is at least this value."}, 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }
@@ -233,20 +238,18 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.at_most = section.optional_number({checks::key_of("at_most", rule.quantity->unit),
-                                          "Limit: the mean over runs is at most this.", "at_most_UNIT"},
-                                         Limits::at_least(0));
-  rule.at_least = section.optional_number({checks::key_of("at_least", rule.quantity->unit),
-                                           "Limit: the mean over runs is at least this.", "at_least_UNIT"},
-                                          Limits::at_least(0));
+  rule.at_most =
+      read_limit(section, rule.quantity->unit, "at_most", "Limit: the mean over runs is at most this value.");
+  rule.at_least = read_limit(section, rule.quantity->unit, "at_least",
+                             "Limit: the mean over runs is at least this value.");
   rule.other = read_other(section, context, "");
   rule.ratio_at_most = section.optional_number(
       {"ratio_at_most",
-       "Limit: the mean over runs, divided by that of `other`, is at most this. Needs `other`."},
+       "Limit: the mean over runs, divided by that of `other`, is at most this value. Needs `other`."},
       Limits::above(0));
   rule.ratio_at_least = section.optional_number(
       {"ratio_at_least",
-       "Limit: the mean over runs, divided by that of `other`, is at least this. Needs `other`."},
+       "Limit: the mean over runs, divided by that of `other`, is at least this value. Needs `other`."},
       Limits::above(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
@@ -267,19 +270,20 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   std::tie(rule.least, rule.most) =
       section.interval({"time_to_go_s", "Window of the time to go."}, Limits::at_least(0));
   rule.other = read_other(section, context, "");
-  rule.rms_at_most = section.optional_number({checks::key_of("rms_at_most", rule.quantity->unit),
-                                              "Limit: the RMS is at most this.", "rms_at_most_UNIT"},
-                                             Limits::at_least(0));
+  rule.rms_at_most =
+      read_limit(section, rule.quantity->unit, "rms_at_most", "Limit: the RMS is at most this value.");
   const std::string mean_between = checks::key_of("mean_between", rule.quantity->unit);
   if (section.has(mean_between))
     rule.mean_between = section.interval(
-        {mean_between, "Limit: the mean lies between these.", "mean_between_UNIT"}, Limits::at_least(0));
+        {mean_between, "Limit: the mean lies between these two values.", "mean_between_UNIT"},
+        Limits::at_least(0));
   section.optional(mean_between);
   rule.ratio_at_most = section.optional_number(
-      {"ratio_at_most", "Limit: the RMS, divided by that of `other`, is at most this. Needs `other`."},
+      {"ratio_at_most", "Limit: the RMS, divided by that of `other`, is at most this value. Needs `other`."},
       Limits::at_least(0));
   rule.ratio_at_least = section.optional_number(
-      {"ratio_at_least", "Limit: the RMS, divided by that of `other`, is at least this. Needs `other`."},
+      {"ratio_at_least",
+       "Limit: the RMS, divided by that of `other`, is at least this value. Needs `other`."},
       Limits::at_least(0));
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if (rule.other.empty() && (rule.ratio_at_most || rule.ratio_at_least)) {
@@ -293,7 +297,7 @@ RmsRatio read(Section& section, const Context& context, RmsRatio rule) {
   rule.quantity = read_error(section);
   rule.other = read_other(section, context);
   rule.at_most =
-      section.optional_number({"at_most", "Limit: the ratio is at most this."}, Limits::at_least(0));
+      section.optional_number({"at_most", "Limit: the ratio is at most this value."}, Limits::at_least(0));
   return rule;
 }
 
@@ -330,7 +334,8 @@ std::string subject(const ToGo& rule) {
 }
 std::string subject(const RmsRatio& rule) { return " against " + rule.other; }
 
-/// Rejects a metric that compares a variant with itself, because its result says nothing about the variant.
+/// Rejects a metric that compares a variant with itself, because the result would say nothing about the
+/// variant.
 void expect_another(Section& section, const Metric& metric, const std::vector<std::string>& variants) {
   const std::string other = other_of(metric);
   if (other.empty()) return;
@@ -378,10 +383,10 @@ Metric read_metric(Section& section, const std::vector<std::string>& variants, s
   const std::string by_default = std::visit(
       [](const auto& rule) { return fmt::format("{} {}{}", rule.kind, rule.quantity->name, subject(rule)); },
       metric.rule);
-  metric.name = section.text(
-      {"name",
-       "Unique name; by default kind, quantity and what distinguishes the metric (time, window, `other`)."},
-      "");
+  metric.name = section.text({"name",
+                              "Unique name; by default the kind, the quantity and the values that "
+                              "distinguish the metric (time, window, `other`)."},
+                             "");
   if (metric.name.empty())
     metric.name = metric.variants.empty()
                       ? by_default

@@ -1,5 +1,5 @@
-// [[metric]]: what a campaign evaluates, and the limits that turn the answers into a verdict. A new kind
-// needs a struct here, a reader in metric.cpp and an evaluation in answer.cpp.
+// The [[metric]] tables of a campaign: what is evaluated, and the limits that turn the results into a
+// verdict. A new kind of metric needs a struct here, a reader in metric.cpp and an evaluation in answer.cpp.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ class Section;
 
 namespace canhil::campaign {
 
-/// RMS over runs against time: for reports only, without a limit.
+/// RMS over runs as a function of time; only for reports, without a limit.
 struct RmsCurve {
   static constexpr std::string_view kind = "rms_curve";
-  static constexpr std::string_view meaning = "RMS over runs against time. It has no limits.";
+  static constexpr std::string_view meaning = "RMS over runs as a function of time. This kind has no limits.";
   const Quantity* quantity = &quantities::attitude_heading;
 };
 
@@ -29,19 +29,20 @@ struct RmsCurve {
 struct TimeWithin {
   static constexpr std::string_view kind = "time_within";
   static constexpr std::string_view meaning =
-      "The first update from which the RMS over runs stays within `within_UNIT` until the end, or 'never'.";
+      "Time of the first update from which the RMS over runs stays within `within_UNIT` until the end; "
+      "'never' if there is no such update.";
   const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;                            ///< [SI]
-  std::optional<std::int64_t> at_most_us;       ///< a time that is never reached fails
-  std::optional<std::int64_t> never_before_us;  ///< a time that is never reached passes
+  std::optional<std::int64_t> at_most_us;       ///< limit; a time that is never reached does not meet it
+  std::optional<std::int64_t> never_before_us;  ///< limit; a time that is never reached meets it
 };
 
-/// How much earlier than `other` the RMS of a variant stays within a limit.
+/// How much earlier the RMS of a variant stays within a limit than the RMS of the variant `other`.
 struct Lead {
   static constexpr std::string_view kind = "lead";
   static constexpr std::string_view meaning =
-      "How much earlier than in variant `other` the RMS over runs comes within `within_UNIT` and stays there "
-      "until the end.";
+      "Lead over the variant `other`: how much earlier the RMS over runs comes within `within_UNIT` and "
+      "stays there until the end.";
   const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;  ///< [SI]
   std::string other;
@@ -61,8 +62,9 @@ struct ValueAt {
 struct Distribution {
   static constexpr std::string_view kind = "distribution";
   static constexpr std::string_view meaning =
-      "Statistics over runs of the absolute value at each run's last update up to `at_s`: RMS with its 5 % "
-      "to 95 % range, median, p90, mean, and the fraction of runs below `below_UNIT`.";
+      "For each run, the absolute value at the last update up to `at_s` is taken. The results are statistics "
+      "of these values over runs: RMS with its 5 % to 95 % range, median, p90, mean, and the fraction of "
+      "runs below `below_UNIT`.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   quantities::Unit unit;        ///< mrad or deg for angles
@@ -75,19 +77,21 @@ struct Distribution {
 /// Mean and standard deviation over all runs and updates in a time window.
 struct WindowMoments {
   static constexpr std::string_view kind = "window";
-  static constexpr std::string_view meaning = "Mean and standard deviation over runs and a time window.";
+  static constexpr std::string_view meaning =
+      "Mean and standard deviation over all runs and all updates in a time window.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
-  std::optional<double> mean_at_most;  ///< of |mean| [SI]
+  std::optional<double> mean_at_most;  ///< limit of |mean| [SI]
   std::optional<double> standard_deviation_at_most;
 };
 
-/// The mean of |quantity| over a time window of each run; mean and standard deviation of these means.
+/// For each run, the mean of |quantity| over a time window. The results are the mean and the standard
+/// deviation of these means over runs.
 struct RunMean {
   static constexpr std::string_view kind = "run_mean";
   static constexpr std::string_view meaning =
-      "For each run, the mean of the absolute value over a window. Then the mean and standard deviation of "
-      "these means over runs.";
+      "For each run, the mean of the absolute value over a window is computed. The results are the mean and "
+      "the standard deviation of these means over runs.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> at_most, at_least;              ///< limits of the mean over runs [SI]
@@ -98,30 +102,33 @@ struct RunMean {
 /// RMS and mean over runs in a window of the time to go, and the RMS divided by the RMS of another variant.
 struct ToGo {
   static constexpr std::string_view kind = "to_go";
-  static constexpr std::string_view meaning = "RMS and mean over runs and a window of the time to go.";
+  static constexpr std::string_view meaning =
+      "RMS and mean over all runs and over a window of the time to go.";
   const Quantity* quantity = nullptr;  ///< a quantity of an estimator with samples by time to go
   double least = 0, most = 0;          ///< [s]
-  std::string other;                   ///< may be empty
+  std::string other;                   ///< empty: no comparison
   std::optional<double> rms_at_most;   ///< [SI]
   std::optional<std::pair<double, double>> mean_between;
   std::optional<double> ratio_at_most, ratio_at_least;  ///< limits of the RMS divided by the RMS of `other`
 };
 
-/// RMS over runs at their ends, divided by the RMS of `other`.
+/// RMS over runs of the value at the end of each run, divided by the same RMS of the variant `other`.
 struct RmsRatio {
   static constexpr std::string_view kind = "rms_ratio";
-  static constexpr std::string_view meaning = "RMS over runs at their ends, divided by the RMS of `other`.";
+  static constexpr std::string_view meaning =
+      "RMS over runs of the value at the end of each run, divided by the same RMS of the variant `other`.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::string other;
   std::optional<double> at_most;
 };
 
-/// Fraction of runs in which |quantity| is smaller than in the run of `other` with the same random numbers.
+/// Fraction of runs in which |quantity| is smaller than in the run of the variant `other` that has the same
+/// random numbers.
 struct Paired {
   static constexpr std::string_view kind = "paired";
   static constexpr std::string_view meaning =
-      "Fraction of runs in which the absolute error is smaller than that of `other`, with its "
-      "Clopper-Pearson interval.";
+      "Fraction of runs in which the absolute error is smaller than in the same run of the variant `other`, "
+      "with the Clopper-Pearson interval of this fraction.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::string other;
   std::int64_t at_us = 0;
@@ -133,8 +140,8 @@ struct Paired {
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
   static constexpr std::string_view meaning =
-      "Mean NEES or NIS, and the fraction of updates whose mean over runs lies in the central chi-square "
-      "interval.";
+      "Mean NEES or NIS, and the fraction of updates at which the mean over runs lies in the central "
+      "chi-square interval.";
   const Quantity* quantity = &quantities::innovation_nis;
   std::int64_t from_us = 0, to_us = 0;
   double probability = 0.95;
@@ -144,19 +151,19 @@ struct Consistency {
 };
 
 /// Number of diverged runs. A run has diverged if it ended early or if its error is beyond a limit at the end
-/// (with from_us: at any time from from_us on).
+/// of the run. With from_us, an error beyond the limit at any time after from_us is enough.
 struct Diverged {
   static constexpr std::string_view kind = "divergence";
   static constexpr std::string_view meaning =
-      "Number of runs that ended early, or whose error is beyond `beyond_UNIT` or not a number.";
+      "Number of runs that ended early, or whose error is beyond `beyond_UNIT` or is not a number.";
   const Quantity* quantity = &quantities::attitude_heading;
   double beyond = 0;                              ///< [SI]
-  std::optional<std::int64_t> from_us;            ///< none: only the end counts
+  std::optional<std::int64_t> from_us;            ///< none: only the end of a run is judged
   std::optional<std::int64_t> at_most, at_least;  ///< limits of the number of runs
 };
 
 struct Metric {
-  std::string name;                   ///< unique; by default kind, quantity and subject
+  std::string name;                   ///< unique; default: kind, quantity and subject()
   std::string requirement;            ///< id for the reports; may be empty
   std::vector<std::string> variants;  ///< names as in the file, before the sweep; empty: all
   std::variant<RmsCurve, TimeWithin, Lead, ValueAt, Distribution, WindowMoments, Paired, Consistency,

@@ -40,7 +40,7 @@ ordered_json json_of(const Answer& answer) {
     json["expected"] = answer.expected;
     json["outcome"] = *answer.passed ? "pass" : "fail";
   }
-  // JSON has no infinity or NaN: the library writes null.
+  // JSON has no infinity or NaN: the library writes null for them.
   for (const auto& [figure, value] : answer.figures) json[figure] = value.value_or(std::nan(""));
   if (answer.curve.empty()) return json;
   const quantities::Unit unit = answer.quantity->unit;
@@ -97,7 +97,7 @@ std::string json(const Campaign& campaign, const Evaluation& evaluation) {
   if (!evaluation.target.empty()) json["target"] = evaluation.target;
   for (const Endings& endings : evaluation.endings) json["variants"].push_back(json_of(endings));
   for (const Answer& answer : evaluation.answers) json["answers"].push_back(json_of(answer));
-  // File names and the ending of a run need not be UTF-8.
+  // File names and the text of an ending may contain bytes that are not UTF-8; such bytes are replaced.
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

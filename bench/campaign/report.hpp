@@ -7,10 +7,10 @@
 
 namespace canhil::campaign {
 
-/// A text report: how runs ended, then every answer with its limit.
+/// A text report: how the runs ended, then every answer with its limit.
 std::string text(const Campaign& campaign, const Evaluation& evaluation);
 
-/// One JSON object with the curves; the key of a value with a unit ends in the unit.
+/// One JSON object, which also contains the curves. The key of a value with a unit ends in the unit.
 std::string json(const Campaign& campaign, const Evaluation& evaluation);
 
 }  // namespace canhil::campaign

@@ -1,4 +1,4 @@
-// A run as a row of the results file: writing, and validated reading.
+// Writes a run as a row of the results file, and reads and validates such a row.
 #pragma once
 
 #include <compare>
@@ -19,13 +19,14 @@ namespace canhil::campaign {
 struct Key {
   std::size_t variant = 0;
   std::uint64_t run = 0;
-  friend auto operator<=>(const Key&, const Key&) = default;  // NOLINT(modernize-use-nullptr): false
+  friend auto operator<=>(const Key&, const Key&) = default;  // NOLINT(modernize-use-nullptr): false positive
 };
 struct Finished {
   std::size_t variant = 0;
   RunSeries series;
 };
-/// The id of a run's row if each variant has `runs` runs. It does not depend on the shard that flew the run.
+/// The id of a run's row if each variant has `runs` runs. The id does not depend on the shard that flew the
+/// run.
 std::int64_t row_id(const Key& key, std::uint64_t runs);
 
 /// FNV-1a over a sequence of integers and texts; the length of each text precedes it.
@@ -40,8 +41,8 @@ class Digest {
   std::string bytes_;
 };
 
-/// The columns of the table of runs: row_schema for `create table`, row_columns for `select`. The column
-/// `columns` lists the quantities of the samples, in their order.
+/// The columns of the table of runs: row_schema is for `create table`, row_columns for `select`. The column
+/// named `columns` lists the quantities of the samples, in their order.
 inline constexpr std::string_view row_schema =
     "id integer primary key, variant integer, run integer, ending integer, end_us integer, detail text, "
     "columns text, samples blob, hash integer";
@@ -53,7 +54,7 @@ inline constexpr std::string_view key_columns = "id, variant, run";
 /// Binds the columns of a row.
 void bind_row(SQLite::Statement& statement, std::uint64_t runs, const Finished& finished);
 /// The key of the row that a statement for key_columns or row_columns has reached. Throws Unfit if the row is
-/// not valid: the file was damaged.
+/// not valid, because the file was then damaged.
 Key key_of(const SQLite::Statement& row, std::uint64_t runs);
 /// The run in the row that a statement for row_columns has reached. Throws Unfit if the row was changed since
 /// it was written.

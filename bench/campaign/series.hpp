@@ -1,5 +1,5 @@
-// Computes the series of one run of a campaign: the samples of the quantities that the estimator reports. It
-// uses nothing but the decoded frames and the truth.
+// Computes the series of one run of a campaign: the samples of the quantities that the estimator reports. The
+// computation uses only the decoded frames and the truth.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ using quantities::Quantity;
 /// One run of one variant.
 struct RunSeries {
   std::uint64_t run = 0;
-  drive::Ending ending;  ///< a run that did not complete keeps its samples
+  drive::Ending ending;  ///< a run that was not completed keeps its samples
   quantities::Samples samples{};
   quantities::Freshness freshness{};
 };
 
 /// The series of a finished run. `truth` is the truth of the run's variant, `estimator` the estimator of its
-/// scenario. Without a truth there are no samples.
+/// scenario. If the truth is unknown, the series has no samples.
 RunSeries series_of(std::uint64_t run_index, const drive::Collected& finished,
                     const world::FlightRecord& truth, const estimators::Estimator& estimator);
 

@@ -148,7 +148,7 @@ RunMeans run_means(std::span<const RunSeries> runs, const Quantity& quantity, st
     double sum = 0;
     for (auto i = from; i < to; ++i)
       sum += std::abs(run.samples.value(static_cast<std::size_t>(i), quantity));
-    const double mean = sum / static_cast<double>(to - from);  // NaN if empty
+    const double mean = sum / static_cast<double>(to - from);  // NaN if the window has no sample
     const bool completed = run.ending.kind == drive::Ending::Kind::completed;
     if (completed && std::isfinite(mean) && answers_throughout(run, from_us, to_us)) means.push_back(mean);
   }
@@ -220,7 +220,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
                                   std::int64_t from_us, std::int64_t to_us, double probability) {
   ConsistencyStatistics statistics;
   if (runs.empty()) return {.mean = nan};
-  // Central intervals of the mean, by number of runs.
+  // Central chi-square intervals of the mean, by number of runs.
   std::map<std::size_t, std::pair<double, double>> intervals;
   const auto interval_of = [&](std::size_t some) {
     const auto [place, is_new] = intervals.try_emplace(some);
@@ -267,7 +267,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
 
 namespace {
 
-// The largest |quantity| of the samples from a time on; NaN: a value is NaN, or there is no sample.
+// The largest |quantity| of the samples from `from_us` on. NaN if a value is NaN or if there is no sample.
 double largest_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t from_us) {
   const auto times = run.samples.times();
   const auto from = static_cast<std::size_t>(std::ranges::lower_bound(times, from_us) - times.begin());

@@ -33,7 +33,8 @@ std::string with_hash(std::string_view name, const std::string& program) {
   return fmt::format("{}+{}", name, file ? file->sha256.substr(0, 16) : "unknown");
 }
 
-// The target's command, in which each file's name and hash replace its path, so that folders do not matter.
+// The target's command, in which the name and the hash of each file replace the path of the file, so that
+// folders do not matter.
 std::string with_hashes(const std::string& target) {
   std::string text;
   const auto words = drive::target_words(target);
@@ -206,7 +207,8 @@ Result<Store> Store::resume(const std::filesystem::path& path, const Identity& i
   if (!database) return tl::unexpected(database.error());
   Store store(std::move(*database));
   return attempt(store.database_, [&] {
-    // A committed transaction is on the disk. The lock is held until close(): one writer per file.
+    // A committed transaction is on the disk. The lock is held until close(), so only one process can write
+    // to a file.
     store.database_.exec(
         "pragma page_size = 4096; pragma auto_vacuum = none; pragma synchronous = normal;"
         "pragma locking_mode = exclusive; begin immediate; commit");

@@ -1,5 +1,5 @@
-// Results of a campaign in one SQLite file: one row for each run and variant, committed as runs finish.
-// Shards and merged files have the same format and contain the texts of the campaign.
+// Results of a campaign in one SQLite file: one row for each run of each variant, committed as runs finish.
+// Shards and merged files have the same format. Every file contains the texts of the campaign.
 #pragma once
 
 #include <SQLiteCpp/Database.h>
@@ -28,22 +28,23 @@ struct Identity {
   std::uint64_t runs = 0;
   friend bool operator==(const Identity&, const Identity&) = default;
 };
-/// The identity of results that this program would compute for a campaign. `target`: see Options.
+/// The identity of the results that this program would compute for a campaign. `target`: see Options::target.
 Identity identity_of(const Campaign& campaign, const std::string& target = {});
 
-/// One line that states how the identity of a store differs from the expected one; empty: both are equal.
+/// One line that states how the identity of a store differs from the expected identity; empty if both are
+/// equal.
 std::string difference(const Identity& found, const Identity& expected);
 
 class Store {
  public:
-  /// Creates a file. Error: it exists or cannot be written.
+  /// Creates a file. Returns an Error if the file exists or cannot be written.
   static Result<Store> create(const std::filesystem::path& path, const Identity& identity,
                               const Sources& sources);
-  /// Opens a file to add runs, or creates it. Error: the identity of the file differs, or the file is
-  /// damaged, in use or not writable.
+  /// Opens a file to add runs, or creates the file. Returns an Error if the identity of the file differs, or
+  /// if the file is damaged, in use or not writable.
   static Result<Store> resume(const std::filesystem::path& path, const Identity& identity,
                               const Sources& sources);
-  /// Opens a file for reading only. Error: it is not readable, or damaged.
+  /// Opens a file for reading only. Returns an Error if the file is not readable or is damaged.
   static Result<Store> open(const std::filesystem::path& path);
 
   [[nodiscard]] const Identity& identity() const { return identity_; }
@@ -55,7 +56,7 @@ class Store {
   [[nodiscard]] Result<std::vector<RunSeries>> load(std::size_t variant) const;
   [[nodiscard]] Result<RunSeries> load(const Key& key) const;
 
-  /// Commits all of these runs, or none.
+  /// Commits either all of these runs or, in case of an Error, none.
   Result<void> add(std::span<const Finished> runs);
   /// Writes everything to the disk and closes the file.
   void close();

@@ -17,7 +17,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 std::int64_t end_of(const RunSeries& run) {
   if (run.samples.empty()) return run.freshness.end_us;
   const std::size_t last = run.samples.size() - 1;
-  // If the final event (such as the passage) is missing, the end is unknown: the last sample then counts.
+  // If the final event (such as the passage) is missing, the end is unknown, and the last sample is used.
   const Quantity* known_by = run.samples.layout().end_known_by;
   const bool open = known_by != nullptr && std::isnan(run.samples.value(last, *known_by));
   return open ? run.samples.times()[last] : run.freshness.end_us;
@@ -27,7 +27,8 @@ bool had_ended(const RunSeries& run, std::int64_t t_us) {
   return run.ending.kind != drive::Ending::Kind::completed && run.ending.t_us < t_us;
 }
 
-// Adds the times at which updates become stale because no update follows, up to the end.
+// Adds, up to `end_us`, the times at which an update becomes stale because no other update follows soon
+// enough.
 std::vector<std::int64_t> with_stale(const std::vector<std::int64_t>& times, std::int64_t end_us,
                                      std::int64_t age_limit_us) {
   std::vector<std::int64_t> all;

@@ -10,25 +10,29 @@
 
 namespace canhil::campaign {
 
-/// All update times [us] of any run, ascending, plus the times from which on all runs are stale.
+/// All update times [us] of any run, ascending. In gaps that are so long that the updates of all runs become
+/// stale, the times at which they become stale are added.
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, const Quantity& quantity);
-/// The same within a window. Before the first update, the age of an update counts from the window's begin.
+/// The same times, but only within a window. Before the first update in the window, the age of an update is
+/// measured from the beginning of the window.
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int64_t from_us,
                                        std::int64_t to_us);
 
-/// The quantity in a run's update at exactly that time; NaN: no update, or no finite value.
+/// The value of the quantity in a run's update at exactly `t_us`. NaN: there is no update, or no finite
+/// value.
 double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
-/// Whether a missing value at that time is correct. There are two cases. The run has no update there, but its
-/// last update (or the beginning of the window, `from_us`, if later) is not yet stale. Or the update lacks
-/// the quantity, as an unused fix has no NIS.
+/// Whether the value at `t_us` may be missing. It may be missing in two cases. The first: the run has no
+/// update at `t_us`, but its last update (or, if later, `from_us`, the beginning of the window) is not yet
+/// stale. The second: the update does not contain the quantity, for example the NIS of a fix that was not
+/// used.
 bool may_be_missing(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us);
-/// The quantity in a run's last update at or before a time. NaN: no update, stale, not finite, or the run had
-/// ended.
+/// The value of the quantity in a run's last update at or before `t_us`. NaN: there is no update, the update
+/// is stale or not finite, or the run had ended.
 double last_value(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
 /// The magnitude of last_value().
 double last_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
 
-/// Whether a run is nowhere silent in a window for longer than the age limit of its updates.
+/// Whether a run has no silence within a window that is longer than the age limit of its updates.
 bool answers_throughout(const RunSeries& run, std::int64_t from_us, std::int64_t to_us);
 /// The expected number of samples between the times to go `most` and `least` [s], as far as the flight covers
 /// this window; 0: unknown.

@@ -35,7 +35,7 @@ std::string wrong_causes(const AnswerTiming& timing) {
   return line;
 }
 
-// Why no whole group was formed.
+// Explains why the messages of a group never formed a whole group.
 std::string to_blame(const Observations& seen, const std::vector<std::size_t>& group) {
   std::string line;
   for (const std::size_t index : group) {

@@ -8,17 +8,17 @@
 
 namespace canhil::checks {
 
-/// The implied check that fails when answers name causes that the bench did not send.
+/// The implied check (judge.hpp) that fails when answers name causes that the bench did not send.
 inline constexpr std::string_view causes_kind = "causes";
-/// The implied check that fails when the messages of an answer group never form a whole group.
+/// The implied check (judge.hpp) that fails when the messages of an answer group never form a whole group.
 inline constexpr std::string_view groups_kind = "answer_groups";
 
 /// Reports, in one line, the groups with wrong causes: the time of the cause matches no stimulus, or counter
-/// and time belong to different stimuli. Empty: none.
+/// and time belong to different stimuli. Empty: there is no such group.
 std::string wrong_causes(const Observations& seen);
 
-/// Reports, in one line, the groups whose messages arrived but never formed a whole group, and the message
-/// that prevented it. Empty: none.
+/// Reports, in one line, the groups whose messages arrived but never formed a whole group, and for each group
+/// the messages that were missing or defective. Empty: there is no such group.
 std::string broken_groups(const Observations& seen);
 
 }  // namespace canhil::checks

@@ -31,9 +31,9 @@ struct BusRecord {
   std::uint64_t downs = 0;             ///< how often the interface went down or was removed
   std::uint64_t late_in_queue =
       0;  ///< frames of the bench that waited for room in the queue beyond their deadline
-  std::map<std::string_view, std::uint64_t>
-      intruded;                    ///< frames that other nodes sent with the id of a bench message
-  std::uint64_t foreign = 0;       ///< frames in the format (classic or FD) that the bus's DBC does not use
+  std::map<std::string_view, std::uint64_t> intruded;  ///< by message of the bench: the number of frames that
+                                                       ///< other nodes sent with the id of this message
+  std::uint64_t foreign = 0;  ///< frames in the format (classic or FD) that the DBC of the bus does not use
   std::vector<std::string> notes;  ///< other disturbances of the bus: sender and effect, one line each
 };
 

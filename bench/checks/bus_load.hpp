@@ -15,14 +15,16 @@ struct Load {
   double busiest = 0;  ///< load in the busiest second
 };
 
-/// The load over time: one value for each second; in a long run, the busiest second of each stretch.
+/// The load over time: one value for each second; in a long run, one value for each stretch of several
+/// seconds, namely the load in the busiest second of the stretch.
 struct LoadLine {
-  std::size_t stretch_s = 0;  ///< 0: no frames
+  std::size_t stretch_s = 0;  ///< length of a stretch; 0: there were no frames
   std::vector<double> busiest{};
 };
 LoadLine load_line(std::span<const wire::BitLength> seconds, wire::BitRates rates);
 
-/// Bits on the bus in each second. The last second is incomplete, so it is omitted if there are others.
+/// Bits on the bus in each second. The last second is incomplete, so it is omitted unless it is the only
+/// second.
 std::span<const wire::BitLength> whole_seconds(std::span<const wire::BitLength> seconds);
 std::span<const wire::BitLength> whole_seconds(const Observations& seen);
 

@@ -14,7 +14,7 @@ std::string_view error_in(const SignalInfo& signal) {
   return signal.name.starts_with(error) ? signal.name.substr(error.size()) : std::string_view();
 }
 
-// Visits every signal of a message, with its value now and before.
+// Visits every signal of a message, with the values of the signal in `now` and in `before`.
 template <class Message, class Visit>
 void compare(const Message& now, const Message& before, Visit visit) {
   std::vector<double> then;

@@ -26,12 +26,12 @@ class Complaints {
   /// To be called at the end of the run: records a silence up to `now_us`, if there is one.
   void end(std::int64_t now_us);
 
-  /// Error bits, each when it rises; the target keeps them set to the end. `degraded`: each heartbeat in
-  /// which it is set.
+  /// An entry for each error bit at the time when the bit becomes 1; the target then keeps the bit set to the
+  /// end. For `degraded`: an entry for each heartbeat in which this flag is set.
   [[nodiscard]] const std::vector<Said>& of_heartbeats() const { return of_heartbeats_; }
-  /// Counters when they increase.
+  /// An entry for each increase of a counter.
   [[nodiscard]] const std::vector<Said>& of_counters() const { return of_counters_; }
-  /// Stretches without a heartbeat longer than the limit (silence.hpp).
+  /// Stretches without a heartbeat, if they are longer than the limit (silence.hpp).
   [[nodiscard]] const std::vector<scenario::Window>& silences() const { return silences_; }
 
   /// All possible values of Said::what.

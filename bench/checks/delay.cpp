@@ -27,7 +27,8 @@ class Curve {
   struct At {
     double value = 0, slope = 0;
   };
-  /// `after`: an index that the caller keeps, 0 at first. It makes queries in ascending order of time cheap.
+  /// `after`: an index that the caller keeps between calls, 0 at first. With this index, queries in ascending
+  /// order of time are cheap.
   [[nodiscard]] At at(double t, std::ptrdiff_t& after) const {
     while (after < std::ssize(t_) && time(after) <= t) ++after;
     const auto first = std::clamp<std::ptrdiff_t>(after - 2, 0, std::ssize(t_) - 4);
@@ -59,7 +60,7 @@ struct Point {
 struct Fit {
   double squares = 0;      // sum of the squared residuals
   double step = 0;         // Gauss-Newton step towards a better delay
-  double excitation = 0;   // sum of the squared rates about their mean
+  double excitation = 0;   // sum of the squares of (rate of the truth minus mean rate)
   double correlation = 0;  // correlation of successive residuals
 };
 

@@ -15,9 +15,9 @@ struct Delay {
 };
 
 /// The delay d, with an offset b, for which estimate(t) = truth(t - d) + b fits best within a window, by
-/// least squares. The variance of d is the variance of the residuals, divided by the sum of the squared rates
-/// of the truth about their mean, times (1 + r)/(1 - r). Here r is the correlation of successive residuals.
-/// None: fewer than 20 answers, or the truth moves too little to determine the delay within
+/// least squares. The variance of d is the variance of the residuals, divided by the sum of the squares of
+/// (rate of the truth minus mean rate), times (1 + r)/(1 - r). Here r is the correlation of successive
+/// residuals. None: fewer than 20 answers, or the truth moves too little to determine the delay within
 /// `coarsest_delay_s`.
 std::optional<Delay> delay_of(const quantities::Track& track, const scenario::Window& window);
 inline constexpr double coarsest_delay_s = 0.05;

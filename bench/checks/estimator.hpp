@@ -30,8 +30,8 @@ namespace canhil::estimators {
 struct Truth {
   const world::FlightRecord& flight;
   std::int64_t duration_us = 0;                         ///< duration of the run
-  const world::EngagementRecord* engagement = nullptr;  ///< null: not flown
-  const world::GlideRecord* glide = nullptr;            ///< null: not flown
+  const world::EngagementRecord* engagement = nullptr;  ///< null: the run has no engagement
+  const world::GlideRecord* glide = nullptr;            ///< null: the run has no glide
 };
 
 /// Answers that report the same outcome or flag.
@@ -51,29 +51,30 @@ struct Estimator {
   scenario::EstimatorFacts facts;                        ///< facts that a scenario needs
   const quantities::Layout& layout;                      ///< layout of its campaign samples
   std::span<const quantities::Quantity* const> of_runs;  ///< quantities of its tracks in a run
-  /// Assembles its answers during a run.
+  /// Creates the object that assembles the estimator's answers during a run.
   std::unique_ptr<Reception> (*reception)() = nullptr;
   /// The samples that a run contributes to a campaign; empty without truth.
   quantities::Samples (*samples)(const checks::Observations& seen, const Truth& truth) = nullptr;
-  /// Calls the sink with each track of the run for which truth exists.
+  /// Passes to `give` each track of the run for which the bench has a truth.
   void (*tracks)(const checks::Observations& seen, const Truth& truth,
                  const quantities::TrackSink& give) = nullptr;
-  /// All its marks; a mark that never occurred has no times. The first, "answers", counts all answers.
+  /// All marks of the estimator; a mark that never occurred has no times. The first mark, "answers", counts
+  /// all answers.
   std::vector<Mark> (*marks)(const checks::Observations& seen) = nullptr;
   /// Marks that report normal events, such as an update or the start of the estimator. "answers" is not
   /// listed.
   std::span<const std::string_view> plain_marks{};
-  /// Result lines of a run for people. `algorithm`: the algorithm that the target runs.
+  /// The results of a run, as lines for people. `algorithm`: the algorithm that the target runs.
   std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
                                      std::string_view algorithm) = nullptr;
-  std::span<const std::string_view> closing;  ///< the last message of each group of its answers
-  /// The answer group that the target sends at a minimum interval (output_interval_ms) if the stimuli come
-  /// faster; empty: none.
+  std::span<const std::string_view> closing;  ///< the last message of each answer group of the estimator
+  /// The answer group for which the target keeps a minimum interval (output_interval_ms) if the stimuli come
+  /// faster; empty: there is no such group.
   std::string_view of_own_interval{};
   std::span<const scenario::CheckKind> check_kinds{};  ///< checks that exist for this estimator only
   std::span<const scenario::FormerCheckKind>
       former_check_kinds{};  ///< former checks that existed for this estimator only
-  /// How long its answers stay valid in runs of a scenario, by the rule that the checks use
+  /// How long the estimator's answers stay valid in runs of a scenario, by the rule that the checks use
   /// (bench/checks/silence.hpp).
   quantities::Freshness (*freshness)(const scenario::Scenario& scenario) = nullptr;
 };

@@ -18,19 +18,20 @@ struct Evidence {
   std::string ended_early{};   ///< why the run ended early; empty: it was completed
   std::string timing_unfit{};  ///< why timing cannot be judged; empty: it can be judged
   std::vector<estimators::OwnTrack>
-      tracks{};  ///< tracks of the quantities that the rules use; judge() adds them
+      tracks{};  ///< tracks of the quantities that the rules use; judge() adds these tracks
 };
 
 /// An estimator's tracks of a quantity or, if the quantity has parts, of each part. Empty: there is no truth
-/// to compare with.
+/// to compare the quantity with.
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
                                                 const quantities::Quantity& quantity);
 
 /// Why timing cannot be compared with a limit [s] at a quantile; empty: it can. The bench can judge the
 /// target's deadlines only if the bench keeps its own deadlines.
 std::string unfit(const Evidence& evidence, double quantile, double bar_s);
-/// The largest permitted lateness of the bench, as a fraction of the check's limit and at its quantile. If
-/// the bench was later, the host may have delayed the target by the same amount.
+/// The largest permitted lateness of the bench, as a fraction of the check's limit; the lateness is taken at
+/// the quantile of the check. If the lateness was larger, the host may have delayed the target by the same
+/// amount.
 inline constexpr double lateness_share = 0.5;
 
 /// "max", "99 % quantile".

@@ -6,11 +6,11 @@
 namespace canhil::checks {
 namespace {
 
-// The bench sends a few hundred frames a second. If it waits for a CPU for more than this fraction of the
-// run, the machine has no room for the bench, and none for a target on the same machine.
+// The bench sends a few hundred frames a second. If the bench waits for a CPU for more than this fraction of
+// the run, the machine has no room for the bench, and none for a target on the same machine.
 constexpr double most_waited = 0.05;
-// If the hypervisor gives this fraction of the machine's time to other guests, the machine's own programs
-// cannot see when this happens.
+// The largest permitted fraction of the machine's CPU time that the hypervisor gives to other guests. The
+// programs on the machine cannot see at which moments the hypervisor does so.
 constexpr double most_stolen = 0.05;
 
 }  // namespace

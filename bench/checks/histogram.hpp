@@ -1,4 +1,4 @@
-// Distributions of times and their course over the run, in bounded memory.
+// Distributions of durations, and their largest values over the course of the run, in bounded memory.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,9 @@
 
 namespace canhil::checks {
 
-/// Counts of times: buckets of 1 us below 10 ms, of 10 us below 100 ms, of 100 us below 1 s, of 1 ms below 10
-/// s, and one bucket for all times above. At most 37 001 buckets (296 kB); only those up to the largest time
-/// are allocated. Minimum, maximum and count are exact.
+/// Counts how often each duration occurs, in buckets: buckets of 1 us below 10 ms, of 10 us below 100 ms, of
+/// 100 us below 1 s, of 1 ms below 10 s, and one bucket for all longer durations. At most 37 001 buckets (296
+/// kB); only the buckets up to the longest duration are allocated. Minimum, maximum and count are exact.
 class Histogram {
  public:
   /// A bucket that is not empty.
@@ -18,7 +18,8 @@ class Histogram {
     friend bool operator==(const Bucket&, const Bucket&) = default;
   };
 
-  /// Counts a time `times` times. A time before 0 (a clock that was set) counts in the first bucket.
+  /// Counts a duration `times` times. A negative duration (because a clock was set) counts in the first
+  /// bucket.
   void add(std::int64_t t_ns, std::uint64_t times = 1);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
@@ -51,7 +52,7 @@ class TimeLine {
   void add(std::int64_t t_ns, std::int64_t value_ns);
 
   [[nodiscard]] std::int64_t stretch_ns() const { return stretch_ns_; }
-  /// The largest value of each stretch of time from 0 on; -1 for a stretch without a value.
+  /// The largest value of each stretch of time, beginning at time 0; -1 for a stretch without a value.
   [[nodiscard]] const std::vector<std::int64_t>& largest_ns() const { return largest_ns_; }
 
  private:

@@ -6,13 +6,13 @@
 namespace canhil::checks {
 
 struct HostRecord {
-  std::int64_t clock_step_ns =
-      0;                        ///< largest step of the clock that stamps frames; 0: none, or it cannot step
-  double wall_s = 0;            ///< duration of the counts below
-  double cpu_run_s = 0;         ///< time in which the bench ran
+  std::int64_t clock_step_ns = 0;  ///< largest step of the clock that stamps frames; 0: no step, or a clock
+                                   ///< that cannot step
+  double wall_s = 0;               ///< length of the interval that the values below cover
+  double cpu_run_s = 0;            ///< time in which the bench ran
   double cpu_wait_s = 0;        ///< time in which the bench was ready to run but other programs held the CPU
   double stolen_share = 0;      ///< fraction of the CPUs' time that the hypervisor gave to other guests
-  std::uint64_t preempted = 0;  ///< how often the bench lost the CPU before it was done
+  std::uint64_t preempted = 0;  ///< how often the bench lost the CPU although it had more to do
 };
 
 }  // namespace canhil::checks

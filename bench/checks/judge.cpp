@@ -26,7 +26,7 @@ std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, con
                          .rule = std::make_shared<RuleOf<BusErrorLimits>>(rule)};
 }
 
-// Only the tracks that the checks use: a run has many more, and each may be long.
+// Returns only the tracks that the checks use: a run has many more tracks, and each may be long.
 std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>& checks,
                                              const Evidence& evidence) {
   std::vector<Subject> wanted;

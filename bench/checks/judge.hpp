@@ -15,8 +15,8 @@ namespace canhil::checks {
 /// Judges every check of the scenario. A run that ended early fails, regardless of its checks.
 Verdict judge(const scenario::Scenario& scenario, Evidence evidence);
 
-/// Whether judge() adds a check of this kind that the scenario does not contain. The check is in the verdict
-/// only if it does not pass.
+/// Whether a check of this kind is implied: judge() adds the check although the scenario does not contain it.
+/// The verdict lists an implied check only if the check does not pass.
 bool is_implied(std::string_view kind);
 
 /// The windows, without duplicates, for which checks need the timing of a message. They contain no times yet;

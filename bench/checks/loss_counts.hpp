@@ -1,4 +1,5 @@
-// Limits of the losses that a receiver of the bench's frames must count (TargetCounters, docs/report.md).
+// Limits between which the loss counters of a receiver of the bench's frames must lie (TargetCounters,
+// docs/report.md).
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,9 @@ struct LossCounts {
 /// A limit that is larger than any count of a target.
 inline constexpr std::uint32_t any_count = 1'000'000;
 
-/// Limits for the counts that the target sent last. Lower and upper limit differ for two reasons: the bench
-/// cannot see which frames the target had read when it sent the counts, and the protocol lets the estimator
-/// decide whether to use a group.
+/// Limits for the last counts that the target sent. Lower and upper limit differ for two reasons: the bench
+/// cannot see which frames the target had read when the target sent the counts, and the protocol lets the
+/// estimator decide whether to use a group.
 struct ExpectedCounts {
   LossCounts least{}, most{};
 };

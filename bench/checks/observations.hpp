@@ -42,7 +42,8 @@ struct Observations {
   explicit Observations(std::span<const MessageInfo> on_bus)
       : answers(on_bus.size()), from_target(on_bus.size()), timing(on_bus) {}
 
-  /// The answers of an estimator, in the type that its folder defines; created empty at first use.
+  /// The answers of an estimator, as the type that the estimator's folder defines; created empty at first
+  /// use.
   template <class Answers>
   [[nodiscard]] Answers& of() {
     std::any& own = answered[typeid(Answers)];
@@ -62,20 +63,20 @@ struct Observations {
   std::vector<Sighting> from_target;                  ///< by index in timing.messages
   /// The minimum interval [s] of answer groups that the target sends less often than their stimuli come.
   std::map<std::string_view, double> own_interval_s{};
-  std::int64_t first_ns = 0;            ///< stamp of the bench's first transmission
-  std::int64_t last_ns = 0;             ///< stamp of the bench's last transmission
-  wire::BitRates bit_rates{};           ///< bit rates of the bus; nominal 0: unknown, or none
-  TimingRecord timing;                  ///< empty where no times are measured
-  bool transmit_stamps_echoed = false;  ///< stamps of stimuli come from the bus, not from the bench
+  std::int64_t first_ns = 0;   ///< stamp of the bench's first transmission
+  std::int64_t last_ns = 0;    ///< stamp of the bench's last transmission
+  wire::BitRates bit_rates{};  ///< bit rates of the bus; nominal 0: the rate is unknown, or the bus has none
+  TimingRecord timing;         ///< empty where no times are measured
+  bool transmit_stamps_echoed = false;  ///< stamps of stimuli come from the echo on the bus, not the bench
 
-  std::optional<messages::TargetCounters> counters;  ///< the last one
+  std::optional<messages::TargetCounters> counters;  ///< the last counters that the target sent
   std::string target_version{};                      ///< "0.2", from the target's first heartbeat; empty: no
                                                      ///< heartbeat came
-  Complaints complaints;                             ///< reported by the target besides its answers
-  ExpectedCounts expected_counts{};                  ///< limits for `counters`
-  std::vector<wire::BitLength> length_by_second{};   ///< lengths of all frames on the bus; see
-                                                     ///< observe::LoadMeter
-  std::uint32_t target_frames_lost = 0;              ///< lost frames of the target, by its E2E counters
+  Complaints complaints;             ///< errors that the target reported in addition to its answers
+  ExpectedCounts expected_counts{};  ///< limits for `counters`
+  std::vector<wire::BitLength> length_by_second{};  ///< lengths of all frames on the bus; see
+                                                    ///< observe::LoadMeter
+  std::uint32_t target_frames_lost = 0;             ///< lost frames of the target, by their E2E counters
   std::uint32_t target_bad_crc = 0;
   std::uint32_t receive_overflows = 0;  ///< frames that the bench's own port lost
   std::uint16_t queue_max_us = 0;       ///< largest queueing time in TargetTiming; saturates at 8191

@@ -8,11 +8,12 @@
 
 namespace canhil::checks {
 
-/// The implied check that is not measured if other nodes sent messages of the bench or of the target.
+/// The implied check (judge.hpp) whose outcome is 'not measured' if other nodes sent messages of the bench or
+/// of the target.
 inline constexpr std::string_view senders_kind = "senders";
 
-/// Reports, in one line, other nodes that sent frames of the bench or repeated answers of the target; empty:
-/// none. With such a node, the measurements may not describe the target.
+/// Reports, in one line, frames of the bench that another node sent, and answers of the target that came more
+/// than once; empty: there are none. If there are such frames, the measurements may not describe the target.
 std::string other_senders(const Observations& seen);
 
 }  // namespace canhil::checks

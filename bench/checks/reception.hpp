@@ -1,4 +1,5 @@
-// Turns frames into answers: each estimator's folder assembles the groups of its answers.
+// Turns frames into answers: the code in each estimator's folder assembles the answer groups of this
+// estimator.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct Whole {
   std::span<const std::size_t> messages;  ///< indices in TimingRecord::messages
   std::int64_t cause_us = 0;              ///< time of validity of the cause
   std::string_view cause_group;
-  std::optional<std::uint8_t> cause_counter{};  ///< counter of the cause; none: the group does not carry it
+  std::optional<std::uint8_t> cause_counter{};  ///< counter of the cause; none: not in the group
 };
 
 /// The reception of one run.
@@ -33,7 +34,7 @@ class Reception {
   /// Adds a completed answer to `seen` and returns its group; none: the group is not complete yet.
   virtual std::optional<Whole> take(const Frame& frame, std::size_t message, std::int64_t now_us,
                                     checks::Observations& seen) = 0;
-  /// The bench sent the last frame of a sample group that some estimator answers.
+  /// Called when the bench has sent the last frame of a sample group that some estimator answers.
   virtual void sent(std::string_view /*group*/, std::int64_t /*valid_us*/, checks::Observations& /*seen*/) {}
 };
 

@@ -5,12 +5,13 @@
 //   Finding judge(const Evidence&) const         an absent answer is a failure of the target, never a pass
 // and, where they apply,
 //   std::string subject() const                  distinguishes the checks of one kind
-//   std::vector<Subject> subjects() const        the quantities that it uses
+//   std::vector<Subject> subjects() const        the quantities that the rule uses
 //   std::vector<std::string> held_against_truth() const
-//                                                the estimators whose truth it needs; without this function:
-//                                                the estimators of its subjects, except for innovations
-//   std::optional<Bar> bar() const               its limits, for pictures
-//   std::vector<Timed> timed() const             the messages whose times it needs, and when
+//                                                the estimators whose truth the rule needs; without this
+//                                                function: the estimators of its subjects, except for
+//                                                innovations
+//   std::optional<Bar> bar() const               the limits of the rule, for pictures
+//   std::vector<Timed> timed() const             the messages whose times the rule needs, with windows
 #pragma once
 
 #include <memory>

@@ -13,12 +13,11 @@ struct Sighting {
   std::uint64_t right = 0;
   std::uint64_t wrong_size = 0;
   std::uint64_t wrong_crc = 0;
-  std::uint64_t wrong_counter =
-      0;                       ///< CRC valid, but a counter value that end-to-end protection does not use
-  std::uint64_t repeated = 0;  ///< frames with the counter of the previous one; mapped targets only
-  std::uint64_t lost = 0;      ///< gaps in the counters; mapped targets only
-  std::uint8_t size = 0;       ///< size of the last frame of a wrong size
-  std::uint8_t counter = 0;    ///< counter of the last frame with a wrong counter
+  std::uint64_t wrong_counter = 0;  ///< CRC valid, but a counter value that the E2E protection never uses
+  std::uint64_t repeated = 0;       ///< frames with the counter of the previous one; mapped targets only
+  std::uint64_t lost = 0;           ///< gaps in the counters; mapped targets only
+  std::uint8_t size = 0;            ///< size of the last frame of a wrong size
+  std::uint8_t counter = 0;         ///< counter of the last frame with a wrong counter
 };
 
 /// "50 with a wrong CRC, 3 of 7 bytes, expected 8"; empty: no defects.

@@ -1,5 +1,5 @@
-// Signs of trouble that a target reports: marked answers, error bits of its heartbeat, its counters. Checks
-// of the response to a fault look for these signs.
+// Signs of trouble that a target reports: marked answers, error bits of its heartbeat, its counters. The
+// checks that judge the response to a fault look for these signs.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,8 @@ struct Sign {
 std::vector<Sign> signs_in(const Observations& seen,
                            std::span<const estimators::Estimator* const> estimators);
 
-/// The names of all possible signs: marks of these estimators except the plain ones, error bits, counters.
+/// The names of all possible signs: the marks of these estimators except Estimator::plain_marks, the error
+/// bits, the counters.
 std::vector<std::string> sign_names(std::span<const estimators::Estimator* const> estimators);
 
 /// A sign that appears within this time before a fault is not attributed to the fault.

@@ -15,16 +15,16 @@ inline constexpr int tolerated_fixes = 2;
 /// Seeker samples may be lost on purpose, but at least this fraction must be answered.
 inline constexpr double least_answered = 0.5;
 
-/// Answers further apart than this time [us] count as silence: `periods` periods of the answers, but at least
-/// one period plus one second.
+/// A gap between answers that is longer than this time [us] counts as silence. The time is `periods` periods
+/// of the answers, but at least one period plus one second.
 constexpr double longest_wait_us(double period_us, double periods = 2) {
   constexpr double second_us = 1e6;
   return std::max(second_us + period_us, periods * period_us);
 }
 
-/// The first stretch of a window that is longer than `longest_us` and contains no answer; none: there is no
-/// such stretch. `times`: times of the answers in the window, ascending [us]; `end_us`: after this time of
-/// the run no answers are expected.
+/// The first stretch, within a window, that is longer than `longest_us` and contains no answer; none: there
+/// is no such stretch. `times`: times of the answers in the window, ascending [us]; `end_us`: after this time
+/// of the run no answers are expected.
 template <class Times>
 std::optional<scenario::Window> silent_stretch(const Times& times, const scenario::Window& window,
                                                std::int64_t end_us, double longest_us) {

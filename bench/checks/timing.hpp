@@ -9,7 +9,7 @@
 
 namespace canhil::checks {
 
-/// Order statistics of a sample. If empty: count 0.
+/// Order statistics of a sample. If the sample is empty, `count` is 0.
 struct Distribution {
   std::size_t count = 0;
   double min = 0;
@@ -35,13 +35,13 @@ const TimedWindow* find_window(const TimingRecord& timing, std::string_view mess
 /// True if the controller stamped every answer and every stimulus.
 bool stamped_by_hardware(const TimingRecord& timing);
 
-/// The number of missing answers of a message. One answer is due for each stimulus of its groups, or one in
-/// each period if the message keeps its own period.
+/// The number of missing answers of a message. One answer is due for each stimulus of the groups that the
+/// message answers, or one answer in each period if the message keeps its own period.
 std::size_t unanswered(const Observations& seen, std::string_view message);
 
 /// The quantile of |period - nominal| [s], and the number of nominal periods. A gap of n nominal periods
 /// counts n times; otherwise a quantile would ignore a long gap. `end_s`: the time from the last message to
-/// the end; it counts if it exceeds the period.
+/// the end; this time counts as a period if it exceeds the nominal period.
 struct PeriodDeviation {
   double off_s = 0;
   std::uint64_t count = 0;
@@ -51,14 +51,14 @@ PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, dou
 /// The longest time [s] without a message, including the beginning and the end of the run.
 double longest_silence_s(const Observations& seen, std::string_view message);
 
-/// The period [s] that a message should have. For an answer: the period of its stimulus as sent, or the
-/// minimum interval of its group if that is longer; 0 if it answers groups of different rates. For other
-/// messages, and with fewer than two stimuli: the cycle time in the DBC.
+/// The period [s] that a message should have. For an answer: the period at which its stimuli were sent, or
+/// the minimum interval of its answer group if this interval is longer; 0 if the answer has stimuli of more
+/// than one group. For other messages, and with fewer than two stimuli: the cycle time in the DBC.
 double nominal_period_s(const Observations& seen, std::string_view message);
 
-/// The time [s] from a message's last arrival in the window to the last stimulus in the window; for a message
-/// that answers nothing, to the bench's last transmission. 0 or less if the message continued to the end.
-/// Requires at least one arrival of the message.
+/// The time [s] from a message's last arrival in the window to the last stimulus in the window. For a message
+/// that answers nothing: the time from the last arrival to the bench's last transmission. 0 or less if the
+/// message continued to the end. Requires at least one arrival of the message.
 double ended_before_s(const Observations& seen, const TimedWindow& window);
 
 }  // namespace canhil::checks

@@ -28,7 +28,7 @@ struct Stimulus {
   std::int64_t t_ns = 0;         ///< transmit stamp: the stamp of the echo if the bus echoes frames,
                                  ///< otherwise the bench's own
   std::int64_t hardware_ns = 0;  ///< the controller's own stamp of the echo; 0: none
-  std::int64_t due_ns = 0;       ///< its deadline, on the clock of t_ns
+  std::int64_t due_ns = 0;       ///< deadline of the frame, on the clock of t_ns
 };
 
 /// Time [ns] from one stamp to a later one, on the controller's clock if the controller stamped both events.
@@ -48,8 +48,8 @@ struct AnswerTiming {
   std::uint64_t count = 0;                   ///< arrivals
   std::uint64_t unpaired = 0;                ///< answers to stimuli that the bench did not send
   std::uint64_t repeated = 0;                ///< answers to stimuli that were answered before
-  std::optional<std::int64_t> nearest_us{};  ///< for `unpaired`: the smallest difference between the time of
-                                             ///< a cause and the time of validity of a stimulus
+  std::optional<std::int64_t> nearest_us{};  ///< for `unpaired`: the smallest difference between the time
+                                             ///< that an answer names and the time of validity of a stimulus
   std::uint64_t wrong_counter = 0;  ///< answers that name the time of one cause and the counter of another
   std::uint8_t counter_reported = 0, counter_sent = 0;  ///< in the first answer with a wrong counter
   std::int64_t reply_wire_ns = 0;  ///< sum over the answers in `latency`: time that the answer's frames, up
@@ -64,10 +64,10 @@ struct TransmitTiming {
   Histogram echoed;       ///< lateness at the end of the frame on the bus; empty if the bus has no echo
 };
 
-/// Time of a frame from being queued to its end on the bus. For a frame of the bench: from hand-over to echo.
-/// A container is handed over with its last message; if that message is missing, the time is unknown. For a
-/// frame of the target the value is a lower bound, from the beginning of the first frame of its answer,
-/// because the bench cannot see when the target queued the frame.
+/// The time from the queueing of a frame to the end of the frame on the bus. For a frame of the bench: from
+/// hand-over to echo. A container is handed over with its last message; if that message is missing, the time
+/// is unknown. For a frame of the target, the time counts from the beginning of the first frame of the same
+/// answer. This is a lower bound, because the bench cannot see when the target queued the frame.
 struct WireResponse {
   std::uint64_t count = 0;
   std::int64_t max_ns = 0;
@@ -82,9 +82,10 @@ struct TimedWindow {
   Histogram period{};  ///< from one arrival to the next
   /// The time from the deadline of each stimulus until it was on the bus: the delay that the host causes.
   Histogram lateness{};
-  /// The bench's own deviation from the period of the stimuli that the message answers: for each stimulus,
-  /// the time between two stimuli on the bus minus the time between their deadlines. If the bench sends
-  /// one stimulus in place of n due stimuli, it counts n times.
+  /// The bench's own deviation from the period of the stimuli that the message answers: for each two
+  /// successive stimuli, the absolute difference between their distance in time on the bus and the distance
+  /// of their deadlines. If the bench sends one stimulus in place of n due stimuli, this deviation counts n
+  /// times.
   Histogram stimulus_deviation{};
   std::optional<Arrival> last_arrival{};
   std::optional<std::int64_t> last_stimulus_ns{};  ///< stamp of the last stimulus whose time of validity is
@@ -97,17 +98,17 @@ inline constexpr std::uint16_t most_reported_us = 8191;
 /// The parts of the time from the hand-over of a stimulus's last frame to the last frame that answers this
 /// stimulus. Each value is a sum over the answered stimuli.
 struct LatencyBreakdown {
-  std::uint64_t stimuli = 0;           ///< answered stimuli
-  std::uint64_t echoed = 0;            ///< answered stimuli whose echo was seen
-  std::int64_t to_echo_ns = 0;         ///< from the hand-over to the end of the stimulus on the bus
-  std::int64_t stimulus_wire_ns = 0;   ///< part of to_echo_ns: the stimulus's own time on the wire
-  std::int64_t latency_ns = 0;         ///< from the end of the stimulus to the end of its answer's last frame
-  std::int64_t reply_wire_ns = 0;      ///< part of latency_ns: the answer's own time on the wire
-  std::uint64_t accounted = 0;         ///< stimuli before the last TargetTiming, whose times the target
-                                       ///< reported
+  std::uint64_t stimuli = 0;          ///< answered stimuli
+  std::uint64_t echoed = 0;           ///< answered stimuli whose echo was seen
+  std::int64_t to_echo_ns = 0;        ///< from the hand-over to the end of the stimulus on the bus
+  std::int64_t stimulus_wire_ns = 0;  ///< part of to_echo_ns: the stimulus's own time on the wire
+  std::int64_t latency_ns = 0;        ///< from the end of the stimulus to the end of its answer's last frame
+  std::int64_t reply_wire_ns = 0;     ///< part of latency_ns: the answer's own time on the wire
+  std::uint64_t accounted = 0;  ///< stimuli before the last TargetTiming: the target reported its times for
+                                ///< these stimuli
   std::int64_t target_queue_ns = 0;    ///< for `accounted`: from the target's stamp to the start of its work
   std::int64_t target_compute_ns = 0;  ///< for `accounted`: the target's computing time
-  bool queue_clipped = false;  ///< some reported means were at most_reported_us: the true time is longer
+  bool queue_clipped = false;  ///< some reported mean equals most_reported_us, so the true time is longer
   bool compute_clipped = false;
 };
 
@@ -145,9 +146,9 @@ struct TimingRecord {
   std::vector<TimedWindow> windows{};     ///< as the checks require
   LatencyBreakdown breakdown{};
   std::vector<GroupBreakdown> breakdown_by_group{};  ///< in the order of their first answers
-  SlowestAnswer slowest{};                           ///< among the answers that the target accounted for
+  SlowestAnswer slowest{};                           ///< among the answers before the last TargetTiming
   std::uint64_t stimuli_with_hardware_stamp = 0;
-  std::uint64_t without_hardware_stamp = 0;  ///< count of stimuli and of frames of the target
+  std::uint64_t without_hardware_stamp = 0;  ///< stimuli and frames of the target without hardware stamp
 };
 
 }  // namespace canhil::checks

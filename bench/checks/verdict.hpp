@@ -24,8 +24,8 @@ constexpr std::string_view name(Outcome outcome) {
   return "?";
 }
 
-/// Combines outcomes: fail if any failed; otherwise not measured if any was not measured or there are none;
-/// otherwise pass.
+/// Combines outcomes: fail if any failed; otherwise not measured if any was not measured or if there are no
+/// outcomes; otherwise pass.
 template <class Parts, class Projection>
 constexpr Outcome outcome_of(const Parts& parts, Projection projection) {
   Outcome all = std::begin(parts) == std::end(parts) ? Outcome::not_measured : Outcome::pass;
@@ -41,9 +41,9 @@ constexpr Outcome outcome_of(const Parts& parts, Projection projection) {
 struct CheckResult {
   std::string name;
   std::string kind;
-  std::string requirement;  ///< id of the requirement that it verifies; may be empty
+  std::string requirement;  ///< id of the requirement that the check verifies; may be empty
   Outcome outcome = Outcome::not_measured;
-  std::string measured;  ///< with its unit, or why it was not measured
+  std::string measured;  ///< the measured value with its unit, or why the check was not measured
   std::string expected;
 };
 
@@ -55,7 +55,8 @@ struct Verdict {
   std::vector<CheckResult> checks;
 };
 
-/// Sets outcome and reason from the checks; `ended_early`: why the run ended early, empty: it did not.
+/// Sets outcome and reason from the checks; `ended_early`: why the run ended early; empty: the run was
+/// completed.
 void conclude(Verdict& verdict, const std::string& ended_early);
 
 }  // namespace canhil::checks

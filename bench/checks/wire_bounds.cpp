@@ -62,7 +62,7 @@ Stream stream_of(const Observations& seen, const wire::Carrier& carrier) {
 }
 
 // The analysis counts the response time from the release of a frame, and the jitter is the time from release
-// to queueing. The difference of both is the time from queueing.
+// to queueing. Response time minus jitter is therefore the time from queueing.
 std::optional<std::int64_t> from_queued(const Stream& stream, const schedulability::Response& response) {
   if (!response.response_ns) return std::nullopt;
   return *response.response_ns - stream.jitter_ns;

@@ -67,7 +67,7 @@ struct ReplayArguments {
   std::string log;
 };
 
-// "[===   ] 300 / 1200 runs · 812.1/s · 1 s left"
+// A text such as "[===   ] 300 / 1200 runs · 812.1/s · 1 s left".
 std::string progress_text(const campaign::Progress& progress, double elapsed_s) {
   const auto done = static_cast<double>(progress.done), total = static_cast<double>(progress.total);
   std::string text =
@@ -79,7 +79,7 @@ std::string progress_text(const campaign::Progress& progress, double elapsed_s) 
   return text;
 }
 
-// --out names the file (*.sqlite), or the folder of the file. In a folder, the file is named after the
+// --out names the results file (*.sqlite) or a folder for it. In a folder, the file is named after the
 // campaign and the shard.
 Result<fs::path> results_file(const Arguments& arguments, const campaign::Shard& shard) {
   const fs::path out = arguments.out;
@@ -98,7 +98,7 @@ Result<void> make_folder(const Arguments& arguments) {
   return {};
 }
 
-// Input files must not be overwritten.
+// Checks that no output file is also an input file, because input files must not be overwritten.
 Result<void> check_distinct(const campaign::Campaign& campaign, std::vector<std::string> outputs) {
   outputs.push_back(campaign.sources.file);
   const fs::path folder = fs::path(campaign.sources.file).parent_path();
@@ -205,7 +205,7 @@ ExitCode merge(const MergeArguments& arguments) {
   return merged ? ExitCode::pass : complain(merged.error());
 }
 
-// The campaign to which these results belong.
+// The campaign to which the stored results belong.
 Result<campaign::Campaign> campaign_of(const campaign::Store& store) {
   auto campaign = campaign::parse_campaign(store.sources());
   if (!campaign) return campaign;
@@ -308,7 +308,7 @@ void add_replay(command_line::Command campaign, int& code) {
   command.on_given([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
 }
 
-// Reproducing a paper is a separate program.
+// Replaces this process by hil-bench-paper, the program that reproduces a paper.
 int reproduce(const PaperArguments& paper, const Arguments& arguments) {
   std::vector<std::string> words{paper.paper};
   if (!arguments.out.empty()) words.insert(words.end(), {"--out", arguments.out});

@@ -1,4 +1,4 @@
-// The subcommands that are separate programs, with their summaries in hil-bench's help.
+// The subcommands of the separate program hil-bench-campaign, with their summaries for the help of hil-bench.
 #pragma once
 
 #include <string_view>
@@ -20,19 +20,19 @@ inline constexpr std::string_view reference_name = "reference";
 inline constexpr std::string_view reference_summary =
     "every key of scenario and campaign files: unit, range, default, meaning";
 
-/// `hil-bench reference`: the page docs/scenario-reference.md.
+/// `hil-bench reference`: prints the page docs/scenario-reference.md.
 void add_reference(command_line::Command app, int& code);
 
-/// `hil-bench faults` and its subcommand merge: one flight for each fault, and the target's response. Exit
-/// code 1 if the target violates a requirement that holds in spite of the faults.
+/// `hil-bench faults` and its subcommand merge: flies each fault of a matrix and classifies the target's
+/// response. Exit code 1 if the target violates a requirement that it must meet in spite of the faults.
 void add_faults(command_line::Command app, int& code);
 
-/// `hil-bench accept`: the suites of bench/acceptance against a target. Exit code 1 if a requirement is not
-/// met.
+/// `hil-bench accept`: tests a target with the suites of bench/acceptance. Exit code 1 if a requirement is
+/// not met.
 void add_accept(command_line::Command app, int& code);
 
-/// `hil-bench campaign FILE` and its subcommands merge, report, export, replay: many runs, in process or
-/// against a program in lockstep, and their statistics.
+/// `hil-bench campaign FILE` and its subcommands merge, report, export, replay: flies many runs, in this
+/// process or against a program in lockstep, and computes their statistics.
 void add_campaign(command_line::Command app, int& code);
 
 }  // namespace canhil::commands

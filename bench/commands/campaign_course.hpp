@@ -1,4 +1,4 @@
-// The progress of a campaign's runs for the live view.
+// Passes the progress of a campaign's runs to the live view.
 #pragma once
 
 #include <fmt/format.h>

@@ -28,9 +28,9 @@ namespace fs = std::filesystem;
 // The arguments as given on the command line.
 struct Arguments {
   std::string target = drive::quoted_word(own_folder() + "/hil-target");
-  std::string estimator;  // empty: the estimator in the target's heartbeat, or else the first that the target
-                          // accepts
-  std::string scenario;   // empty: the estimator's short flight
+  std::string estimator;  // empty: the estimator that the target's heartbeat names; if it names none, the
+                          // first estimator that the target accepts
+  std::string scenario;   // empty: the project's short flight of the estimator
   std::string json, junit;
 };
 

@@ -76,7 +76,7 @@ ExitCode lint(const LintArguments& arguments) {
   return std::ranges::any_of(files, is_refused) ? ExitCode::fail : ExitCode::pass;
 }
 
-// Prints the number of warnings, because this command does not list them.
+// Prints the number of warnings, because this command does not list the warnings themselves.
 void say_warnings(const dbc::Inspection& inspection, const std::string& file) {
   const auto warnings =
       std::ranges::count(inspection.findings, dbc::Severity::warning,

@@ -29,7 +29,7 @@ using doctor::Grade;
 using doctor::Line;
 
 constexpr std::int64_t ns_per_s = 1'000'000'000;
-constexpr std::int64_t listen_ns = ns_per_s;  // ten heartbeats
+constexpr std::int64_t listen_ns = ns_per_s;  // the time of ten heartbeats
 
 // The arguments as given on the command line.
 struct Arguments {
@@ -70,8 +70,8 @@ Result<void> check_name(const std::string& option, const std::string& bus) {
   return {};
 }
 
-// The kernel's data about the bus interface; none: the kernel does not know the bus, for example an embedded
-// one.
+// The kernel's data about the interface of a bus; nullopt if the kernel does not know the bus, for example
+// because it is an embedded bus.
 std::optional<doctor::Interface> interface_of(const std::string& bus) {
   return is_local(bus) ? std::nullopt : doctor::find_interface(bus);
 }
@@ -96,7 +96,7 @@ std::vector<Line> pair_lines(const std::string& bus, const std::string& loop) {
   return lines;
 }
 
-// Enters real time if permitted, so that the measurements apply to runs with --realtime.
+// Enters real-time scheduling if that is permitted, so that the measurements apply to runs with --realtime.
 std::vector<Line> machine_lines(const Arguments& arguments) {
   const std::vector<int> cpus = realtime::cpus();
   const auto entered = realtime::enter({.cpu = arguments.cpu});
@@ -181,7 +181,7 @@ std::string json(const Arguments& arguments, const Examination& found) {
 }
 
 ExitCode execute(Arguments arguments) {
-  // local: and local:?bitrate=500000 stand for a private bus of this process, as with hil-bench run.
+  // `local:` and `local:?bitrate=500000` name a private bus of this process, as for hil-bench run.
   for (std::string* bus : {&arguments.bus, &arguments.loop})
     *bus = named_local(*bus, fmt::format("canhil-{}", getpid()));
   if (auto fine = check_name("--bus", arguments.bus); !fine) return complain(fine.error());

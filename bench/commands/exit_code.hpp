@@ -17,7 +17,7 @@ constexpr ExitCode exit_code(checks::Outcome outcome) {
                                             : ExitCode::not_measured;
 }
 
-/// The outcome for an exit code. After a usage error it is not_measured, because nothing ran.
+/// The outcome for an exit code. After a usage error the outcome is not_measured, because nothing ran.
 constexpr checks::Outcome outcome_of(ExitCode code) {
   return code == ExitCode::pass   ? checks::Outcome::pass
          : code == ExitCode::fail ? checks::Outcome::fail

@@ -54,7 +54,7 @@ void add_shown(command_line::Command command, Shown& shown) {
 Result<void> check_outputs(const Shown& shown, std::vector<std::string> files, const fs::path& out) {
   files.insert(files.end(), {shown.json, shown.html});
   if (auto distinct = report::check_distinct(files); !distinct) return distinct;
-  std::error_code error;  // created first, because the output files may be in this folder
+  std::error_code error;  // creates `out` first, because the output files may be in it
   if (!out.empty()) fs::create_directories(out, error);
   if (error) return failure(fmt::format("{}: cannot be a folder: {}", out.string(), error.message()));
   for (const std::string& path : {shown.json, shown.html}) {
@@ -116,7 +116,7 @@ ExitCode execute(const Arguments& arguments) {
                     .failed_means = "violations"};
   auto view = OpenView::open(arguments.live, {.batch = batch});
   if (!view) return complain(view.error());
-  catch_interrupts();  // from here on a file is written
+  catch_interrupts();  // from here on, the results file is being written
   const auto identity = fault_matrix::identity_of(*plan, arguments.target);
   auto opened = fault_matrix::Writer::open(file, identity, arguments.resume);
   if (!opened) return complain(opened.error());

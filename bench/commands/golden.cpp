@@ -41,7 +41,7 @@ Golden golden(const fs::path& folder, const fs::path& scenario) {
   return {.scenario = folder / (name + ".toml"), .log = folder / (name + ".log")};
 }
 
-// Flies in lockstep on a private bus. Error, one line: the flight was not completed.
+// Flies in lockstep on a private bus. Returns an Error of one line if the flight was not completed.
 Result<void> fly(const scenario::Scenario& scenario, const Arguments& arguments, const fs::path& log) {
   drive::Options options = drive::in_lockstep_against(arguments.target);
   options.log_path = log.string();
@@ -95,7 +95,7 @@ ExitCode record(const Arguments& arguments) {
   return ExitCode::pass;
 }
 
-// The first difference between the answers and the stored answers; empty: there is none.
+// The first difference between the new answers and the stored answers; empty if there is none.
 std::string difference(const observe::Comparison& comparison) {
   if (!comparison.first) return {};
   const observe::Divergence& first = *comparison.first;
@@ -121,7 +121,7 @@ ExitCode check(const Arguments& arguments) {
   std::vector<scenario::Scenario> scenarios;
   for (const fs::path& file : files) {
     auto read = drive::read_scenario(file);
-    if (!read) return complain(read.error());  // the input is wrong, not the target
+    if (!read) return complain(read.error());  // the input file is wrong, not the target
     scenarios.push_back(std::move(*read));
   }
   auto results = nlohmann::ordered_json::array();
@@ -154,7 +154,7 @@ ExitCode check(const Arguments& arguments) {
                what.empty() ? fmt::format("{} frames as recorded", frames) : what);
   }
   if (!arguments.json.empty()) {
-    // File names need not be UTF-8.
+    // File names may contain bytes that are not UTF-8; such bytes are replaced.
     const std::string text =
         results.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     if (auto written = report::write(arguments.json, text); !written) return complain(written.error());

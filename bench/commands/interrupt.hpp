@@ -6,7 +6,7 @@
 
 namespace canhil::commands {
 
-/// Set by SIGINT, SIGTERM and SIGHUP once catch_interrupts() was called.
+/// Set to true by SIGINT, SIGTERM and SIGHUP after catch_interrupts() has been called.
 inline std::atomic<bool> interrupted = false;
 
 inline void catch_interrupts() {

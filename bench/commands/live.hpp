@@ -1,4 +1,4 @@
-// The live view as options of a command.
+// Options with which a command shows the live view.
 #pragma once
 
 #include <functional>
@@ -20,26 +20,27 @@ struct Live {
   [[nodiscard]] bool wanted() const { return port.has_value(); }
 };
 
-/// Adds --live, --live-address, --live-hold. `live` must outlive parsing. Returns --live.
+/// Adds the options --live, --live-address and --live-hold. `live` must outlive parsing. Returns the option
+/// --live.
 command_line::Option add_live(command_line::Command command, Live& live);
 
-/// An open live view, or none; without a view its functions do nothing.
+/// An open live view, or no view. Without a view, the functions of this class do nothing.
 class OpenView {
  public:
-  /// Opens the page, prints its URL on stderr, and shows `begun` on the page and on `others`. Error: one
-  /// line.
+  /// Opens the page, prints its URL on stderr, and shows `begun` on the page and on `others`. An Error has
+  /// one line.
   static Result<OpenView> open(const Live& live, live::Snapshot begun,
                                std::vector<std::unique_ptr<live::Display>> others = {});
 
-  /// Null: no view is open.
+  /// The view; null if no view is open.
   [[nodiscard]] live::View* get() const { return view_.get(); }
-  /// To be called after the page has shown the end of the runs. With --live-hold, waits until the command is
-  /// interrupted, so that the page stays.
+  /// Must be called after the page has shown the end of the runs. With --live-hold, waits until the command
+  /// is interrupted, so that the page stays available.
   void hold();
 
  private:
   std::unique_ptr<live::View> view_;
-  std::string held_;  // the page's URL; empty: the page is not held
+  std::string held_;  // the page's URL; empty: hold() does not wait
 };
 
 }  // namespace canhil::commands

@@ -76,7 +76,7 @@ ExitCode decode(const DecodeArguments& arguments) {
   Result<recordings::LeftOut> decoded = recordings::LeftOut{};
   Result<void> written;
   if (to_stdout) {
-    std::signal(SIGPIPE, SIG_DFL);  // `| head` then ends the program silently
+    std::signal(SIGPIPE, SIG_DFL);  // a closed pipe, as with `| head`, ends the program silently
     std::string some;
     decoded = recordings::decode(arguments.log, *database, options, [&](std::string_view part) {
       constexpr std::size_t enough = 1 << 16;

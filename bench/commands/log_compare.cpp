@@ -1,4 +1,4 @@
-// hil-bench log compare: two recordings of one bus, stamp by stamp.
+// hil-bench log compare: compares the time stamps of two recordings of one bus.
 #include <fmt/format.h>
 
 #include <memory>

@@ -30,8 +30,8 @@ std::filesystem::path own_file() {
   return std::filesystem::read_symlink("/proc/self/exe", unknown);
 }
 
-/// The error message for an unknown subcommand; empty: `word` is an option or a known subcommand. This
-/// message replaces that of CLI11, which lists neither the choices nor the likely intent.
+/// The error message for an unknown subcommand; empty if `word` is an option or a known subcommand. This
+/// message replaces the message of CLI11, which lists neither the choices nor the likely intent.
 std::string unknown_subcommand(const Command& program, std::string_view word) {
   std::vector<std::string> names;
   for (const Command& command : program.subcommands()) names.push_back(command.name());
@@ -40,7 +40,7 @@ std::string unknown_subcommand(const Command& program, std::string_view word) {
                      scenario::expected_instead(word, names));
 }
 
-/// The error message for an unknown option of the command; empty: all options are known.
+/// The error message for an unknown option of the command; empty if all options are known.
 std::string unknown_option(const Command& command, std::span<const std::string> words) {
   const std::vector<std::string> names = command.long_options();
   for (const std::string& word : words) {
@@ -52,7 +52,7 @@ std::string unknown_option(const Command& command, std::span<const std::string> 
   return {};
 }
 
-/// The error message, with a hint where to find help.
+/// The error message, with a hint where the user finds help.
 std::string complaint(const Program& program, std::span<const std::string> words, std::string_view error) {
   std::string path = "hil-bench";
   Command command = program;
@@ -91,7 +91,8 @@ int run(int argc, char** argv, std::span<const AddCommand> add_commands) {
 }  // namespace
 
 int guarded(const std::function<int()>& run) {
-  // A full disk or a closed pipe is reported as an error, and other reports are still written.
+  // With these signals ignored, a file at its size limit or a closed pipe is reported as an error of write(),
+  // and other reports are still written.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   try {

@@ -1,4 +1,4 @@
-// A progress line on stderr, on a terminal only.
+// A progress line on stderr, shown only if stderr is a terminal.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ class ProgressLine {
   bool shown_;
 };
 
-/// "[=====     ]" for done / total from 0 to 1.
+/// A bar such as "[=====     ]". `fraction` is done / total, from 0 to 1.
 inline std::string progress_bar(double fraction) {
   constexpr int width = 30;
   const int done = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * width);

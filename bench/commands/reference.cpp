@@ -1,4 +1,4 @@
-// hil-bench reference: every key of scenario and campaign files.
+// hil-bench reference: prints every key of scenario and campaign files.
 #include "bench/reference/report.hpp"
 
 #include <memory>

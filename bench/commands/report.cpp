@@ -16,13 +16,13 @@
 namespace canhil::commands {
 namespace {
 
-// The page of a report is written beside the report.
+// The path of the HTML page of a report: the page is written beside the report.
 std::string page_path(const std::string& report) {
   return std::filesystem::path(report).replace_extension(".html").string();
 }
 
 // Checks that the page can be written beside the report. Rejects a report that is a pipe or a device, because
-// its page would be written beside it, for example in /dev.
+// the page would be written into the same folder, for example /dev.
 Result<void> has_room_for_a_page(const std::string& path) {
   std::error_code unknown;
   const auto status = std::filesystem::status(path, unknown);
@@ -78,7 +78,7 @@ ExitCode compare_sides(Sides sides) {
     sides.before = {sides.a};
     sides.after = {sides.b};
   }
-  // A run that is given twice would make the scatter between runs look smaller.
+  // Rejects a run that is given twice, because it would make the scatter between runs look smaller.
   for (const auto* side : {&sides.before, &sides.after}) {
     if (auto distinct = report::check_distinct(*side); !distinct) return complain(distinct.error());
   }

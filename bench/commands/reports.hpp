@@ -16,15 +16,15 @@ struct Reports {
 /// Adds the options --json, --junit, --html, --csv. `reports` must outlive parsing.
 void add_reports(command_line::Command command, Reports& reports);
 
-/// Checks that the report files can be written and that none of them is in `others`. Error: one line.
+/// Checks that the report files can be written and that none of them is in `others`. An Error has one line.
 Result<void> check_outputs(const Reports& reports, std::vector<std::string> others);
 
 /// Removes reports of an earlier run, so that none can be mistaken for a report of this run, however this run
 /// ends.
 void remove_earlier(const Reports& reports);
 
-/// Writes the reports, and the text report to stdout unless another report goes there. If a report cannot be
-/// written, the other reports are still written. Error: the first error.
+/// Writes the reports. Writes the text report to stdout, unless another report is written to stdout. If a
+/// report cannot be written, the other reports are still written, and the first error is returned.
 Result<void> write_reports(const Reports& reports, const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::commands

@@ -36,11 +36,11 @@ constexpr std::size_t heap_bytes = 64 << 20;  // enough for a recording of sever
 // The arguments as given on the command line.
 struct Arguments {
   std::string scenario;
-  std::string bus{local_prefix};    // a private one
-  std::vector<std::string> bus_of;  // NODE=BUS
+  std::string bus{local_prefix};    // a private bus
+  std::vector<std::string> bus_of;  // each as NODE=BUS
   std::string target;               // empty: the hil-target beside this program
-  std::string dbc;                  // empty: the scenario's
-  std::string faults;               // empty: only the scenario's
+  std::string dbc;                  // empty: the DBC of the scenario
+  std::string faults;               // file of additional faults; empty: none
   bool lockstep = false;
   std::optional<std::uint64_t> seed;
   realtime::Options realtime;
@@ -53,15 +53,16 @@ struct Arguments {
   bool terminal = false;
 };
 
-// gps, GPS and Gps name the same node, and so do master_ins and MasterIns.
+// The name of a node without underscores, in lower case: gps, GPS and Gps name the same node; master_ins and
+// MasterIns, too, name the same node.
 std::string plain(std::string name) {
   std::erase(name, '_');
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return name;
 }
 
-// Parses NODE=BUS; the node gets its name in the DBC. Frames of the bench itself and of the target stay on
-// --bus.
+// Parses NODE=BUS, and replaces NODE by the name of the node in the DBC. The frames of the bench itself and
+// of the target always use --bus.
 Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text) {
   std::vector<std::string_view> nodes;
   for (const MessageInfo& info : messages::all_messages) {
@@ -81,7 +82,7 @@ Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text
   return std::pair(std::string(*node), bus);
 }
 
-// The kernel's facts about an interface's controller.
+// The bit rates of an interface's controller, as the kernel reports them; empty if the kernel reports none.
 WireFacts controller_of(const std::string& bus) {
   const auto interface = doctor::find_interface(bus);
   if (!interface || !interface->controller) return {};
@@ -94,8 +95,8 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
   options.format = format;
   const bool external = arguments.target == "none";
   options.bus = std::move(bus);
-  // The name of a private bus contains the process id, so two benches on one machine do not meet. With
-  // --target none, the name is fixed.
+  // The name of a private bus contains the process id, so two benches on one machine do not share a bus. With
+  // --target none, the name is fixed, so that an external target can use this name.
   options.bus.text = named_local(options.bus.text, external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external)
     options.target =
@@ -106,7 +107,8 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
   options.realtime = arguments.realtime.request();
   if (options.realtime) {
     options.realtime->heap_bytes = heap_bytes;
-    // Every target inherits policy and priority. hil-target gets options too, so that it locks its memory.
+    // Every target inherits the scheduling policy and the priority. hil-target, in addition, gets these
+    // options, so that it also locks its memory.
     if (arguments.target.empty())
       options.target_arguments = {"--realtime", "--priority", std::to_string(options.realtime->priority)};
   }
@@ -121,7 +123,7 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
   return options;
 }
 
-// "[===   ] 7.3 / 20 s"
+// A text such as "[===   ] 7.3 / 20 s".
 std::string progress_text(std::int64_t t_us, std::int64_t duration_us) {
   const double t_s = 1e-6 * static_cast<double>(t_us), duration_s = 1e-6 * static_cast<double>(duration_us);
   return fmt::format("{} {:.1f} / {:g} s", progress_bar(t_s / duration_s), t_s, duration_s);
@@ -134,7 +136,7 @@ void remove_earlier(const Arguments& arguments) {
 }
 
 Result<void> check_outputs(const Arguments& arguments) {
-  // Input files must not be overwritten; --dbc and --target may name files too.
+  // Input files must not be overwritten; --dbc and --target, too, may name input files.
   std::vector<std::string> files = drive::files_of_target(arguments.target);
   files.insert(files.end(), {arguments.scenario, arguments.faults, arguments.dbc, arguments.log});
   if (auto fine = check_outputs(arguments.reports, std::move(files)); !fine) return fine;
@@ -202,8 +204,8 @@ Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario
   return named;
 }
 
-// If bit rates differ or no other node is present, the state of the controller explains why nothing is
-// received.
+// Appends the state of the controller to an error: if the bit rates of the nodes differ, or if no other node
+// is present, this state explains why nothing is received.
 Error with_controller(Error error, const std::string& bus) {
   const auto interface = doctor::find_interface(bus);
   if (!interface) return error;
@@ -214,7 +216,7 @@ Error with_controller(Error error, const std::string& bus) {
   return error;
 }
 
-// A node that --bus-of names must be in the scenario.
+// Checks that each node that --bus-of names is in the scenario.
 Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& scenario) {
   for (const std::string& text : arguments.bus_of) {
     const std::string name = node_and_bus(text)->first;
@@ -227,7 +229,7 @@ Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& s
   return {};
 }
 
-// The name must fit one line of the text report, and XML.
+// Checks that the name fits into one line of the text report and into XML.
 Result<void> check_operator(const std::string& name) {
   const bool plain =
       std::ranges::none_of(name, [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; });

@@ -1,4 +1,5 @@
-// The subcommands of hil-bench: each is added to the program and stores its exit code in `code`.
+// The subcommands of hil-bench. Each function adds one subcommand to the program; the subcommand stores its
+// exit code in `code`.
 #pragma once
 
 #include "dbc/command_line/command_line.hpp"
@@ -14,8 +15,8 @@ void add_report(command_line::Command app, int& code);
 /// `hil-bench bus local:NAME`: hosts an embedded bus for other programs until interrupted.
 void add_bus(command_line::Command app, int& code);
 
-/// `hil-bench diverge A B`: the first frame of the target that differs between two recorded runs. Exit code 1
-/// if a frame differs.
+/// `hil-bench diverge A B`: finds the first frame of the target that differs between two recorded runs. Exit
+/// code 1 if a frame differs.
 void add_diverge(command_line::Command app, int& code);
 
 /// `hil-bench golden record|check`: stores a target's answers in some flights, and later reports the first
@@ -25,17 +26,17 @@ void add_golden(command_line::Command app, int& code);
 /// `hil-bench conformance`: tests the protocol rules one by one. Exit code 1 if the target breaks a rule.
 void add_conformance(command_line::Command app, int& code);
 
-/// `hil-bench doctor --bus BUS`: reports what this machine and its interface can do, with remedies. Exit code
-/// 1 if a finding is bad.
+/// `hil-bench doctor --bus BUS`: reports what this machine and its interface can do, and remedies for
+/// problems. Exit code 1 if a finding is bad.
 void add_doctor(command_line::Command app, int& code);
 
-/// `hil-bench schedulability FILE.dbc`: worst-case response times of all messages. Exit code 1 if a message
-/// can miss its deadline.
+/// `hil-bench schedulability FILE.dbc`: computes the worst-case response times of all messages. Exit code 1
+/// if a message can miss its deadline.
 void add_schedulability(command_line::Command app, int& code);
 
 /// `hil-bench log|decode|replay|check`: commands for recorded frames.
 void add_log(command_line::Command app, int& code);
-/// `hil-bench log compare A B`: the differences between the stamps of two recordings of one bus.
+/// `hil-bench log compare A B`: reports the differences between the time stamps of two recordings of one bus.
 void add_log_compare(command_line::Command log, int& code);
 
 /// `hil-bench dbc lint|show|check|extract|rules`: commands for DBC files of any project and for mappings.

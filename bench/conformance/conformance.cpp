@@ -10,8 +10,9 @@ namespace {
 
 using namespace messages;
 
-// An algorithm with which the target accepts the scenario's estimator: the scenario's algorithm if the target
-// accepts it, otherwise the first accepted one of the DBC. None: the target does not have this estimator.
+// Returns an algorithm with which the target accepts the estimator of the scenario. First tries the
+// scenario's own algorithm, then all algorithms of the DBC. Returns nullopt if the target does not have this
+// estimator.
 std::optional<Algorithm> algorithm_of(Talk& talk) {
   TargetCommand reset = talk.command(Command::reset);
   std::vector<Algorithm> candidates{reset.algorithm};

@@ -1,4 +1,4 @@
-// Flights in which one sample is damaged.
+// Rules about damaged, repeated and missing frames.
 #include <fmt/format.h>
 
 #include "bench/conformance/groups.hpp"
@@ -9,26 +9,28 @@ namespace {
 
 using namespace messages;
 
-constexpr double most_counted = 8191;  // TargetCounters saturate at this value
+constexpr double most_counted = 8191;  // the counters in TargetCounters saturate at this value
 
-/// Appends to `instead` the frames that are sent in place of `frame`, the k-th of n messages of the sample.
+/// A function that appends to `instead` the frames that are sent in place of `frame`. `frame` is message k
+/// (counted from 0) of the n messages of the sample.
 using Spoil = void (*)(const Frame& frame, std::size_t k, std::size_t n, std::vector<Frame>& instead);
 
 struct Seen {
   int answers = 0;  ///< number of answers to the damaged sample
   std::size_t messages = 0;
-  TargetCounters counted;  ///< increase of the counters caused by the fault
+  TargetCounters counted;  ///< by how much each counter increased during the flight
   TargetHeartbeat beat;
 };
 
-// Flies with one damaged sample in mid-flight: a sample that the target answers in the undisturbed flight.
+// Flies, and applies `spoil` to one sample in mid-flight. The target answers this sample in the undisturbed
+// flight.
 Result<Seen> flown_with(Subject& subject, Spoil spoil) {
   const auto known = undisturbed(subject);
   if (!known) return tl::unexpected(known.error());
   const Undisturbed& other = **known;
   const auto ids = ids_of(other.sample);
   if (auto wrong = made_to_run(subject); !wrong.empty()) return failure(wrong);
-  std::size_t begun = 0;  // samples of this group so far
+  std::size_t begun = 0;  // number of samples of this group that have begun so far
   subject.talk.fly(flight_us, [&](const Frame& frame, std::vector<Frame>& instead) {
     const auto place = std::ranges::find(ids, frame.id);
     if (place == ids.end() || frame.extended) return instead.push_back(frame);
@@ -63,8 +65,9 @@ std::string unless(bool right, const Seen& seen, const char* expected) {
       described(seen.beat), expected);
 }
 
-// Damages the last message: a receiver may consider a group complete when its last message arrives, so only
-// without this message the sample is incomplete for every implementation.
+// Damages the last message of the sample. A receiver may consider a group complete when the last message of
+// the group arrives. If only another message were damaged, such a receiver might consider the sample
+// complete.
 std::string drops_a_wrong_crc(Subject& subject) {
   const auto seen = flown_with(subject, [](const Frame& frame, std::size_t k, std::size_t n, auto& instead) {
     instead.push_back(frame);

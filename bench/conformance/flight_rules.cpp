@@ -1,4 +1,4 @@
-// Flights without faults: the frames of the target and their times.
+// Rules that are tested in flights without faults: which frames the target sends, and when.
 #include <fmt/format.h>
 
 #include <set>
@@ -97,7 +97,8 @@ std::string sends_whole_groups(Subject& subject) {
 
 enum class Cause { time, time_and_counter };
 
-// Checks the causes of all answers in the last flight.
+// Checks that every answer of the last flight names a sample of that flight as its cause, and that no sample
+// is answered twice.
 std::string causes(const Talk& talk, Cause asked) {
   const auto samples = groups_in(talk.flown());
   std::set<std::tuple<std::string_view, double, double>> answered;
@@ -148,7 +149,8 @@ std::string repeats_bit_for_bit(Subject& subject) {
   return "";
 }
 
-// All times except the time in Sync have 32 bits of microseconds and wrap after 71.6 minutes.
+// Every time on the bus, except the time in Sync, is a 32-bit number of microseconds. Such a number wraps
+// after 71.6 minutes.
 std::string bears_the_wrap_of_time(Subject& subject) {
   const auto flown = undisturbed(subject);
   if (!flown) return flown.error().message;

@@ -19,8 +19,8 @@ bool closes_step(const Frame& frame) {
   return frame.id == messages::Sync::info.id || frame.id == messages::StepDone::info.id;
 }
 
-// Adds to a signal's raw value, modulo its range. Assumes little-endian signals, as all time signals of
-// canhil's DBC are.
+// Adds `steps` to the raw value of a signal, modulo the range of the signal. Assumes that the signal is
+// little-endian: all time signals of canhil's DBC are.
 void add_raw(Frame& frame, const SignalInfo& signal, std::int64_t steps) {
   const auto old = wire::load_le<0, 8>(frame.data.data());
   const std::uint64_t field = wire::mask(signal.length) << signal.start_bit;
@@ -42,7 +42,7 @@ std::optional<double> Group::value(std::string_view signal) const {
 
 std::vector<std::uint32_t> ids_of(std::string_view group) {
   std::vector<std::uint32_t> ids;
-  for (const MessageInfo& info : messages::all_messages) {  // ascending by id
+  for (const MessageInfo& info : messages::all_messages) {  // all_messages is sorted by ascending id
     if (info.sample_group == group) ids.push_back(info.id);
   }
   return ids;

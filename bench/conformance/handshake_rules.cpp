@@ -1,4 +1,4 @@
-// Rules about states and commands.
+// Rules about the states of the target and the commands to the target.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 
 using namespace messages;
 
-// This rule must be the first one: it requires that no command has been sent to the target.
+// This rule must be tested first, while no command has been sent to the target yet.
 std::string beats(Subject& subject) {
   constexpr std::int64_t period_ns = TargetHeartbeat::info.cycle_time_us * 1000;
   constexpr int attempts = 3;  // a busy host may delay the heartbeat
@@ -49,7 +49,7 @@ std::string refuses_another_contract(Subject& subject) {
 
 std::string refuses_another_estimator(Subject& subject) {
   TargetCommand reset = subject.talk.command(Command::reset);
-  reset.estimator = Estimator{0b111};  // the largest value of the signal, which is no estimator
+  reset.estimator = Estimator{0b111};  // the largest value of the signal; no estimator has this number
   subject.talk.send(reset);
   const auto beat =
       subject.talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_command != 0; });
@@ -134,7 +134,7 @@ std::string takes_no_state_while_it_runs(Subject& subject) {
              : "an initial state in flight: " + described(beat);
 }
 
-// A reset must clear errors and counts.
+// A reset must clear the errors and the counters of the target.
 std::string forgets(Subject& subject) {
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
   subject.talk.send_damaged(10);

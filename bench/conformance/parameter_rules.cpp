@@ -1,4 +1,4 @@
-// Rules about parameters: ranges, read-back, and when they may be set.
+// Rules about parameters: their ranges, their read-back, and the times at which parameters may be set.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,14 +19,15 @@ messages::Parameter named(const Parameter& parameter) {
   return from_name<messages::Parameter>(parameter.name).value_or(messages::Parameter{});
 }
 
-// The current value of a parameter; none: the target does not have the parameter.
+// Returns the current value of a parameter; nullopt: the target does not have the parameter. The function
+// tries to set NaN: the target refuses this and acknowledges with the current value.
 std::optional<double> in_force(Talk& talk, messages::Parameter parameter) {
   const auto ack = talk.set(parameter, nothing);
   if (!ack || ack->status == ParameterStatus::unknown) return std::nullopt;
   return static_cast<double>(ack->value);
 }
 
-// A nearby value that is different also after rounding to float.
+// Returns a value close to `value` that still differs from `value` when both are rounded to float.
 double beside(double value) { return value == 0 ? 1 : value * 1.25; }
 
 std::string read_back(Talk& talk, messages::Parameter parameter) {
@@ -86,7 +87,8 @@ std::string a_reset_brings_them_back(Subject& subject) {
   return "";
 }
 
-// Before the start, a parameter must accept all values of its range and reject others.
+// Before the start, the target must accept every value in the range of a parameter and reject values outside
+// the range.
 std::string takes_its_range(Talk& talk, const Parameter& parameter) {
   const auto expect = [&](double value, ParameterStatus status, double in_force_then) -> std::string {
     const auto ack = talk.set(named(parameter), value);
@@ -101,7 +103,8 @@ std::string takes_its_range(Talk& talk, const Parameter& parameter) {
   const double inside =
       parameter.whole ? std::floor(parameter.least + width / 2) : parameter.least + 0.3 * width;
   const double beyond = parameter.whole ? 1 : std::max(0.01 * width, 1e-3 * std::abs(parameter.most));
-  // The limits are rounded to float on the bus, so values slightly inside them are used.
+  // On the bus, the limits of the range are rounded to float. Therefore the test uses values slightly inside
+  // the limits.
   const double low = parameter.whole ? parameter.least : parameter.least + 1e-6 * width;
   const double high = parameter.whole ? parameter.most : parameter.most - 1e-6 * width;
   for (const double value : {low, high, inside}) {
@@ -151,7 +154,7 @@ std::string parameters_hold_in_flight(Subject& subject) {
   return "";
 }
 
-// Flies the same flight twice, the second time with a parameter changed in flight.
+// Flies the same flight twice. In the second flight, the test changes a parameter.
 std::string parameters_take_effect_in_flight(Subject& subject) {
   std::vector<Frame> without;
   const auto parameter = from_name<messages::Parameter>(subject.apply->first);

@@ -37,7 +37,7 @@ std::string json(const Report& report) {
                                    {"wall_s", report.wall_s},
                                    {"outcome", checks::name(report.outcome())},
                                    {"rules", std::move(rules)}};
-  // A command need not be UTF-8.
+  // The command of the target may contain bytes that are not valid UTF-8; dump() replaces them.
   return all.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

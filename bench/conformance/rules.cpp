@@ -47,7 +47,7 @@ Result<const Undisturbed*> undisturbed(Subject& subject) {
   subject.talk.fly(flight_us);
   Undisturbed flown{.heard = subject.talk.heard(), .sample = {}};
   const auto samples = groups_in(subject.talk.flown());
-  std::map<std::string_view, std::set<double>> times_of;  // times of the answered samples, by group
+  std::map<std::string_view, std::set<double>> times_of;  // for each group, the times of its answered samples
   for (const Group& answer : groups_in(flown.heard)) {
     const auto cause = answer.value("cause_time_us");
     for (const Group& sample : samples) {

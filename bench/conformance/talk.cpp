@@ -82,7 +82,9 @@ void Talk::send_time() {
 void Talk::send_damaged(int frames) {
   Frame frame = to_frame(ParamSet{}, 0);
   frame.data[0] ^= 0xFFU;
-  constexpr int at_once = 128;  // a bus drops a node that blocks it, so the target must be able to catch up
+  // After so many frames, waits until the target has read them: the embedded bus drops a node that blocks the
+  // bus.
+  constexpr int at_once = 128;
   for (int i = 0; i < frames; ++i) {
     static_cast<void>(link_.send(frame, patience_ns));
     if (i % at_once != at_once - 1) continue;
@@ -137,7 +139,7 @@ void Talk::begin_flight() {
   closed_ = true;
 }
 
-// Waits until the target closes the step.
+// Waits until the target has completed the step (StepDone); false: it did not do so within `step_ns`.
 bool Talk::closes(std::uint16_t step) {
   const std::int64_t deadline_ns = link_.now_ns() + step_ns;
   const auto closed = [&] {

@@ -1,4 +1,4 @@
-// A dialogue, command by command, with a target that is alone on its bus.
+// A dialogue with a target, command by command. The target is the only other node on the bus.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,11 +23,11 @@ namespace canhil::conformance {
 class Talk {
  public:
   /// Starts the target and waits for its first heartbeat. `scenario` defines the estimator and the inputs of
-  /// the target; it must outlive the talk. `target`: the command that starts the target. Error: the target
-  /// does not start or sends no heartbeat, or the scenario cannot be flown.
+  /// the target, and must outlive the Talk. `target` is the command that starts the target. Returns an error
+  /// if the target does not start or sends no heartbeat, or if the scenario cannot be flown.
   static Result<std::unique_ptr<Talk>> open(const scenario::Scenario& scenario, const std::string& target);
 
-  /// A command for the scenario's estimator and algorithm.
+  /// Makes the command `what`, with the scenario's estimator and algorithm.
   [[nodiscard]] messages::TargetCommand command(messages::Command what) const;
 
   template <class Message>
@@ -37,25 +37,25 @@ class Talk {
     out_.send(message);
     send();
   }
-  /// Sends a command with the same counter as the last command before it.
+  /// Sends a command whose counter equals the counter of the previous command.
   template <class Message>
   void repeat(const Message& message) {
     listener_.frames.clear();
     const Frame frame = to_frame(message, last_counter_);
     static_cast<void>(link_.send(frame, patience_ns));
   }
-  /// Sends those frames of the scenario's initial state for which `sent` holds.
+  /// Sends those frames of the scenario's initial state for which `sent` returns true.
   void send_state(const std::function<bool(const Frame&)>& sent = [](const Frame&) { return true; });
   /// Sends parameter frames with a wrong CRC.
   void send_damaged(int frames);
-  /// Shifts every time (time base or time of validity) in the frames that are sent from now on.
+  /// In all frames that are sent later, adds `shift_us` to the time (time base or time of validity).
   void shift_time(std::int64_t shift_us) { shift_us_ = shift_us; }
-  /// Sends the time base before a flight, so that the target resolves a 32-bit time of validity to the
-  /// nearest time.
+  /// Sends the time base before a flight. With it, the target can extend a 32-bit time of validity to the
+  /// full time that is nearest to the time base.
   void send_time();
 
-  /// Waits for a message that arrives after the last transmission and satisfies a condition; none: no such
-  /// message arrived within `answer_ns`.
+  /// Waits for a message that arrives after the last transmission and satisfies `condition`. Returns nullopt
+  /// if no such message arrives within `answer_ns`.
   template <class Message, class Condition>
   std::optional<Message> hear(Condition condition) {
     const std::int64_t deadline_ns = link_.now_ns() + answer_ns;
@@ -70,7 +70,7 @@ class Talk {
     }
   }
   bool waits_for(messages::TargetState state);
-  /// Listens for `duration_ns` and returns the received messages of type Message, with their stamps.
+  /// Listens for `duration_ns`. Returns the received messages of type Message, each with its time stamp.
   template <class Message>
   std::vector<std::pair<std::int64_t, Message>> hear_all(std::int64_t duration_ns) {
     listener_.frames.clear();
@@ -87,24 +87,24 @@ class Talk {
     }
     return all;
   }
-  /// Sets a parameter and returns its acknowledgement.
+  /// Sets a parameter. Returns the target's acknowledgement; nullopt: none arrived.
   std::optional<messages::ParamAck> set(messages::Parameter parameter, double value);
 
-  // reset(), make_ready() and start() return the violation; empty: none.
+  // reset(), make_ready() and start() return a description of the violation; an empty string: none.
   std::string reset();
-  std::string make_ready();  ///< a reset, then the initial state
+  std::string make_ready();  ///< sends a reset, then the initial state
   std::string start();
 
-  /// Appends to `instead` the frames that are sent in place of `frame`: none, the same frame, another one, or
-  /// several.
+  /// A function that appends to `instead` the frames that are sent in place of `frame`: none, `frame` itself,
+  /// another frame, or several frames.
   using Tamper = std::function<void(const Frame& frame, std::vector<Frame>& instead)>;
 
-  /// Continues the flight for `duration_us`, in lockstep; returns the number of answers to samples. A step
-  /// that the target does not close ends the flight.
+  /// Continues the flight for `duration_us`, in lockstep. Returns the number of the target's frames that are
+  /// answers. The flight ends early if the target does not complete a step with StepDone.
   int fly(std::int64_t duration_us, const Tamper& tamper = {});
-  /// Data of the last flight. flown(): the frames of the nodes, before Tamper replaces any. heard(): the
-  /// target's frames up to the last StepDone; later frames are not awaited, so they are left out. closed():
-  /// whether the target closed each step.
+  /// Data of the last flight. flown(): the frames of the bench's nodes, before Tamper replaced any of them.
+  /// heard(): the target's frames up to the last StepDone; later frames are omitted, because fly() does not
+  /// wait for them. closed(): whether the target completed each step.
   [[nodiscard]] const std::vector<Frame>& flown() const { return flown_; }
   [[nodiscard]] std::vector<Frame> heard() const;
   [[nodiscard]] bool closed() const { return closed_; }

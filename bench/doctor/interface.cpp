@@ -21,7 +21,7 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-// A value in the kernel's representation; missing bytes are zero.
+// Copies a value of type T from the bytes of a kernel message; bytes that are missing are taken as zero.
 template <class T>
 T value_of(Bytes payload) {
   T value{};
@@ -34,7 +34,7 @@ std::string text_of(Bytes payload) {
   return text.substr(0, text.find('\0'));
 }
 
-// Calls visit(type, payload) for each attribute.
+// Calls visit(type, payload) for each netlink attribute in `bytes`.
 template <class Visit>
 void attributes(Bytes bytes, Visit&& visit) {
   while (bytes.size() >= sizeof(rtattr)) {
@@ -106,7 +106,7 @@ void read_link_info(Bytes info, Interface& interface) {
   read_statistics(statistics, *interface.controller);
 }
 
-// One ethtool request; false: the driver does not support it.
+// Sends an ethtool request to the kernel. False: the driver does not support the request.
 template <class Request>
 bool ethtool(const std::string& name, Request& request) {
   const Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));

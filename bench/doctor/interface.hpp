@@ -1,4 +1,5 @@
-// The properties of a CAN interface according to the kernel (rtnetlink and ethtool), and how to judge them.
+// The properties of a CAN interface as the kernel reports them (rtnetlink and ethtool), and functions that
+// judge these properties.
 #pragma once
 
 #include <array>
@@ -14,22 +15,23 @@
 
 namespace canhil::doctor {
 
-/// Bit timing of one phase.
+/// The bit timing of one phase of a frame: the nominal phase (arbitration) or the data phase.
 struct BitTiming {
   std::uint32_t bitrate = 0;                ///< bit/s; 0: not set
   std::uint32_t sample_point_permille = 0;  ///< sample point as a fraction of the bit time
 };
 
-/// A CAN controller with its bit timing (kind "can"); vcan has none.
+/// A CAN controller and its bit timing. An interface of kind "can" has a controller, an interface of kind
+/// "vcan" has none.
 struct Controller {
   BitTiming nominal{}, data{};
-  std::uint32_t state = 0;                                ///< CAN_STATE_*
-  std::uint32_t mode = 0;                                 ///< CAN_CTRLMODE_*
-  std::uint32_t restart_ms = 0;                           ///< after bus-off; 0: never automatically
+  std::uint32_t state = 0;       ///< CAN_STATE_*
+  std::uint32_t mode = 0;        ///< CAN_CTRLMODE_*
+  std::uint32_t restart_ms = 0;  ///< delay of the automatic restart after bus-off; 0: no automatic restart
   std::uint16_t transmit_errors = 0, receive_errors = 0;  ///< error counters of the controller
-  std::optional<std::uint16_t> termination_ohm{};         ///< none: the driver cannot switch it
+  std::optional<std::uint16_t> termination_ohm{};  ///< nullopt: the driver cannot switch the termination
   std::uint32_t bus_errors = 0, warnings = 0, passives = 0, bus_offs = 0,
-                restarts = 0;  ///< since the interface was created
+                restarts = 0;  ///< number of events since the interface was created
 };
 
 /// A network interface.
@@ -45,22 +47,24 @@ struct Interface {
   std::optional<std::uint32_t> stamping{};  ///< SOF_TIMESTAMPING_*; none: not reported
 };
 
-/// Parses the payload of an RTM_NEWLINK message (from its ifinfomsg on). If the message is damaged, uses its
-/// readable part.
+/// Parses the payload of an RTM_NEWLINK message; the payload begins with the ifinfomsg. If the message is
+/// damaged, parses the part that is readable.
 Interface read_link(std::span<const std::byte> message);
 
-/// Queries the kernel. None: there is no interface of this name.
+/// Queries the kernel about an interface. Returns nullopt if there is no interface of this name.
 std::optional<Interface> find_interface(const std::string& name);
 
-/// Judges a CAN interface for use with this bench: one line each for interface, frames, queue and stamps. A
-/// controller adds lines for state, mode, bit rate, sample point, restart, errors and, if known, termination.
-/// Only the line `interface` if it is not a CAN interface or is down.
+/// Judges whether a CAN interface is suitable for this bench. Returns one line each for the interface, the
+/// frames, the queue and the time stamps. If the interface has a controller, there are also lines for state,
+/// mode, bit rate, sample point, restart, errors and, if known, termination. If the interface is down or is
+/// not a CAN interface, returns only the line `interface`.
 std::vector<Line> interface_lines(const Interface& interface);
 
-/// Compares two interfaces on the same bus: one line if their bit rates differ.
+/// Compares two interfaces that are on the same bus. Returns one line if their bit rates differ, otherwise no
+/// line.
 std::vector<Line> mismatch_lines(const Interface& one, const Interface& other);
 
-/// The line for a name for which there is no interface.
+/// The line which reports that there is no interface with this name.
 Line no_interface(const std::string& name);
 
 }  // namespace canhil::doctor

@@ -13,12 +13,13 @@
 namespace canhil::doctor {
 namespace {
 
-constexpr std::uint32_t least_bitrate = 500'000;  // transfer alignment alone: bus load below 50 %
-// Range of sample points without a warning. The kernel's default, as recommended by CiA, is 75 % above 800
-// kbit/s and 87.5 % at 500 kbit/s and below.
+constexpr std::uint32_t least_bitrate =
+    500'000;  // at this rate, transfer alignment alone loads the bus by less than 50 %
+// Sample points in this range cause no warning. By default, the kernel follows the recommendation of CiA: for
+// bit rates above 800 kbit/s the sample point is at 75 %, for bit rates up to 500 kbit/s at 87.5 %.
 constexpr std::uint32_t earliest_sample_permille = 750, latest_sample_permille = 900;
-// Lengths of the queue without a warning. It must hold the largest group of the DBC, but a frame at the end
-// of a long queue waits for all frames before it.
+// Queue lengths in this range cause no warning. The queue must have room for the largest group of the DBC.
+// But it must not be too long, because a frame at its end waits for all frames before it.
 constexpr std::uint32_t shortest_queue = 10, longest_queue = 1000;
 
 Line state_line(const std::string& name, const Controller& controller) {
@@ -118,7 +119,8 @@ Line stamps_line(const Interface& interface) {
   const auto has = [&](std::uint32_t flags) { return (interface.stamping.value_or(0) & flags) == flags; };
   if (has(SOF_TIMESTAMPING_RX_HARDWARE | SOF_TIMESTAMPING_RAW_HARDWARE))
     return {Grade::good, "time stamps", "by the controller, and by the kernel"};
-  // The kernel stamps every frame that a driver delivers, even if the driver does not report stamping.
+  // The kernel gives a time stamp to every frame that a driver delivers, even if the driver does not report
+  // that it supports time stamps.
   if (!interface.controller) return {Grade::good, "time stamps", "by the kernel; there is no controller"};
   const bool usb = interface.driver.find("usb") != std::string::npos;
   if (!usb) return {Grade::good, "time stamps", "by the kernel, when the driver hands a frame over"};

@@ -24,10 +24,10 @@ std::vector<double> measure_jitter(std::int64_t duration_ns, const std::function
   while (due_ns < end_ns && !stop()) {
     const timespec due{.tv_sec = due_ns / ns_per_s, .tv_nsec = due_ns % ns_per_s};
     if (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) != 0)
-      continue;  // interrupted by a signal
+      continue;  // a signal interrupted the sleep
     const std::int64_t late_ns = clock_ns(CLOCK_MONOTONIC) - due_ns;
     late_s.push_back(static_cast<double>(late_ns) * 1e-9);
-    // Skip periods missed meanwhile; otherwise one delay would count several times.
+    // Skips the periods that passed during a late wake-up; otherwise one delay would count several times.
     due_ns += jitter_period_ns * (1 + late_ns / jitter_period_ns);
   }
   return late_s;

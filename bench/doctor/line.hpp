@@ -1,4 +1,4 @@
-// The findings of the doctor: one line for each subject.
+// The findings of `hil-bench doctor`: one line for each examined subject.
 #pragma once
 
 #include <algorithm>
@@ -17,15 +17,15 @@ constexpr std::string_view name(Grade grade) {
   return names.at(static_cast<std::size_t>(grade));
 }
 
-/// The finding on one subject.
+/// The finding about one subject.
 struct Line {
   Grade grade = Grade::good;
   std::string subject;
   std::string found;
-  std::string remedy{};  ///< empty if the grade is good
+  std::string remedy{};  ///< what to do; empty if the grade is good
 };
 
-/// The worst grade of the lines.
+/// The worst grade among the lines; good if there are no lines.
 inline Grade worst(const std::vector<Line>& lines) {
   const auto found = std::ranges::max_element(lines, {}, &Line::grade);
   return found == lines.end() ? Grade::good : found->grade;

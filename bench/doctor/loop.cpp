@@ -12,15 +12,16 @@
 namespace canhil::doctor {
 namespace {
 
-constexpr std::int64_t patience_ns = 100'000'000;  // about a thousand frame times at 1 Mbit/s
+constexpr std::int64_t patience_ns = 100'000'000;  // the duration of about a thousand frames at 1 Mbit/s
 constexpr std::uint8_t classic_size = 8;
-constexpr int settling_looks = 10;  // the host of an embedded bus accepts nodes only while it polls
-constexpr int hopeless = 10;        // this many lost in a row: there is no connection
+// If the near port hosts an embedded bus, other nodes can join only while the near port receives.
+constexpr int settling_looks = 10;
+constexpr int hopeless = 10;  // so many lost frames in a row mean that there is no connection
 constexpr std::uint32_t least_urgent_id = 0x7EF;  // CAN 2.0 A did not allow higher ids
-constexpr double good_p99_s = 1e-3;               // two frames at 500 kbit/s take 0.5 ms
-constexpr double weak_p99_s = 10e-3;              // USB: a few milliseconds each way
+constexpr double good_p99_s = 1e-3;               // for comparison: two frames at 500 kbit/s take 0.5 ms
+constexpr double weak_p99_s = 10e-3;              // USB adapters add a few milliseconds each way
 
-// The `nth` unused id, counted from the end.
+// The `nth` id that the DBC does not use, counted downwards from least_urgent_id. nth = 0 is the first.
 std::uint32_t free_id(int nth) {
   std::uint32_t id = least_urgent_id + 1;
   do {
@@ -39,7 +40,7 @@ bool send(Port& port, const Frame& frame, std::int64_t deadline_ns) {
   }
 }
 
-// Waits until exactly this frame arrives.
+// Waits until a frame with the same id and data as `frame` arrives; nullopt: the deadline passed first.
 std::optional<Received> await(Port& port, const Frame& frame, std::int64_t deadline_ns) {
   while (clock_ns(CLOCK_MONOTONIC) < deadline_ns && !port.closed()) {
     const auto received = port.receive();

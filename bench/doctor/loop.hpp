@@ -13,17 +13,17 @@ namespace canhil::doctor {
 /// Results of the measurement.
 struct LoopResult {
   int sent = 0;
-  int lost = 0;                               ///< frames without an answer in time
-  std::vector<double> round_trip_s;           ///< of the answered frames
-  StampSource source = StampSource::process;  ///< source of the stamps on the answers
+  int lost = 0;                               ///< number of frames that were not answered in time
+  std::vector<double> round_trip_s;           ///< round-trip time of each answered frame
+  StampSource source = StampSource::process;  ///< source of the answers' time stamps
 };
 
-/// Sends eight-byte frames one after the other from `near` to `far`, which answers each of them: `frames`
-/// frames, or fewer if stop() returns true or many in a row are lost. The frames and their
-/// answers have the two ids of lowest priority, up to 0x7EF, that the DBC does not use.
+/// Sends eight-byte frames from `near` to `far`, one after the other; `far` answers each frame. Sends
+/// `frames` frames, or fewer if stop() returns true or if many frames in a row are lost. The frames have one
+/// id and the answers another: the two largest ids up to 0x7EF (lowest priority) that the DBC does not use.
 LoopResult measure_loop(Port& near, Port& far, int frames, const std::function<bool()>& stop);
 
-/// The finding for this result.
+/// The finding about the result of measure_loop().
 Line loop_line(const LoopResult& result, const std::string& near, const std::string& far);
 
 }  // namespace canhil::doctor

@@ -1,4 +1,4 @@
-// Properties of the machine, apart from the bus.
+// Properties of the machine on which the bench runs; the bus is not part of them.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,17 @@ namespace canhil::doctor {
 
 /// Properties that affect real-time behaviour.
 struct Machine {
-  std::string preemption;              ///< preemption model of the kernel
-  std::string refusal;                 ///< why --realtime is not possible here; empty: it is possible
+  std::string preemption;  ///< preemption model of the kernel
+  std::string refusal;     ///< why --realtime is not possible on this machine; empty: --realtime is possible
   std::vector<std::string> governors;  ///< frequency governors of the CPUs
   std::vector<int> cpus;               ///< CPUs available to this process
-  std::string isolated;                ///< list of the CPUs isolated from the scheduler
+  std::string isolated;                ///< list of the CPUs that are isolated from the scheduler
 };
 
-/// Lines for kernel, real-time rights, frequency and CPUs.
+/// One line each for the kernel, the rights for real time, the CPU frequency and the CPUs.
 std::vector<Line> machine_lines(const Machine& machine);
 
-/// The list of CPUs isolated from the scheduler, as the kernel reports it in sysfs.
+/// The list of the CPUs that are isolated from the scheduler, in the format in which sysfs has this list.
 std::string isolated_cpus();
 
 }  // namespace canhil::doctor

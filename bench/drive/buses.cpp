@@ -12,7 +12,7 @@ namespace {
 
 static_assert(std::ranges::all_of(messages::all_messages, &MessageInfo::can_travel_unrounded));
 
-// `format` matters only for a simulated wire: without one, frames are not packed in containers.
+// `format` matters only for a simulated wire: without a simulated wire, frames are not packed in containers.
 Result<std::unique_ptr<Port>> open_in_process(const BusName& bus, BusFormat format) {
   const bool wireless = bus.rounding == Rounding::none || (bus.wire && bus.wire->rates.nominal == 0);
   if (wireless) return std::make_unique<InProcessPort>(bus.rounding);

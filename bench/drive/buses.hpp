@@ -37,7 +37,7 @@ using BusOf = std::vector<std::pair<std::string, std::string>>;
 
 struct OpenBuses {
   std::shared_ptr<std::vector<std::string>>
-      notes;                   ///< one line for each peer that the bench, as host of the bus, rejected
+      notes;                   ///< one line for each program that the bench, as host of a local bus, rejected
   std::unique_ptr<Port> port;  ///< combines all buses
 };
 

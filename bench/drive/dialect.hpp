@@ -1,4 +1,4 @@
-// The dialect in which a session and its target communicate. Either the messages of canhil's own DBC, with
+// The dialect in which a session and its target communicate: either the messages of canhil's own DBC, with
 // handshake and time base, or the target's own messages, to which a mapping assigns quantities.
 #pragma once
 
@@ -20,10 +20,10 @@
 
 namespace canhil::drive {
 
-/// How long the bench looks for a target on the bus: it may still be starting.
+/// How long the bench looks for a target on the bus: the target may still be starting.
 constexpr std::int64_t find_limit_ns = 5'000'000'000;
 
-/// The properties of a run before it begins.
+/// The properties of a run that are known before the run begins.
 struct Setting {
   const scenario::Scenario& scenario;
   const world::FlightRecord& truth;
@@ -52,19 +52,20 @@ class Dialect {
   [[nodiscard]] virtual bool watches_frames_alone() const = 0;
   /// `alone`: no other node can be on the bus.
   virtual std::unique_ptr<observe::TargetWatch> target_watch(bool alone) = 0;
-  /// Configures the target. `gone`: returns why waiting is pointless, if it is. Error: one line.
+  /// Configures the target. `gone`: if waiting for the target is pointless, returns the reason. Error: one
+  /// line.
   virtual Result<void> configure(Link& link, nodes::Transmission& out,
                                  const std::function<std::optional<std::string>()>& gone) = 0;
   /// Stops the target after the run.
   virtual void stop(Link& link, nodes::Transmission& out) = 0;
-  /// Remarks on the run besides its observations, one line each.
+  /// Remarks on the run in addition to the observations, one line each.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
-  /// In real time, a target that is silent for longer than this counts as gone.
+  /// In real time, a target that is silent for longer than this time counts as gone.
   [[nodiscard]] virtual std::int64_t silence_limit_ns() const = 0;
 };
 
-/// The dialect of the scenario. Everything that the setting refers to must outlive it. Error, one line: the
-/// scenario does not fit its mapping.
+/// The dialect of the scenario. Everything that the setting refers to must outlive the dialect. Error, one
+/// line: the scenario does not fit its mapping.
 Result<std::unique_ptr<Dialect>> make_dialect(const Setting& setting);
 std::unique_ptr<Dialect> contract_dialect(const Setting& setting);
 Result<std::unique_ptr<Dialect>> mapped_dialect(const Setting& setting);

@@ -60,7 +60,7 @@ Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, std::
   return own;
 }
 
-/// The period of the node that samples every epoch, whether or not it is on the bus.
+/// The period of the node that samples every epoch, whether or not this node is on the bus.
 std::int64_t epoch_interval_us(const scenario::Scenario& scenario) {
   const nodes::Kind& kind = **std::ranges::find_if(nodes::all(), &nodes::Kind::at_every_epoch);
   const scenario::NodeSettings* node = scenario.node(kind.table.key);

@@ -32,7 +32,7 @@ struct PerRunTruth {
 estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth& own,
                            std::int64_t duration_us);
 
-/// The random draws for a run, made before it begins.
+/// The parts of a run that are drawn at random before the run begins.
 struct Flight {
   PerRunTruth per_run_truth;
   /// The initial state for each estimator of the target: the truth with the errors drawn for this run. All
@@ -51,8 +51,8 @@ std::vector<InitialState> initial_states(const scenario::Scenario& scenario, con
                                          std::int64_t t_us);
 
 /// The schedule of run `run_index`, with its nodes in order of precedence. The referenced objects must
-/// outlive the schedule. `faults`: faults of the run; null: only those faults of the scenario that act on
-/// frames.
+/// outlive the schedule. `faults`: faults of the run; null: the schedule contains only those faults of the
+/// scenario that act on frames.
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                        PerRunTruth& per_run_truth, std::uint64_t run_index, bool lockstep,
                        Rounding rounding = Rounding::as_on_the_bus,

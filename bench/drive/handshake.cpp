@@ -78,7 +78,8 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
     return failure(fmt::format("{}: {:g} was sent and refused by the target: {}", wanted.where,
                                static_cast<double>(value), refusal(ack, estimator)));
   }
-  // The value read back must equal the one sent, except for rounding by a unit conversion in the target.
+  // The value that the target reads back must equal the value that was sent, except for rounding by a unit
+  // conversion in the target.
   if (std::abs(ack.value - value) > 1e-6F * std::abs(value)) {
     return failure(fmt::format("{}: {:g} was sent, the target reads back {:g}", wanted.where,
                                static_cast<double>(value), static_cast<double>(ack.value)));
@@ -113,8 +114,8 @@ Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) 
   return {};
 }
 
-// Selects an estimator and configures it. `selection`: a reset, which removes all other estimators, or an
-// addition to them.
+// Selects an estimator and configures it. `selection`: the command `reset`, which removes all other
+// estimators, or the command `add`, which keeps them.
 Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selection,
                      const scenario::TargetSetup& setup, const InitialState& initial) {
   const auto estimator = from_name<Estimator>(setup.estimator);

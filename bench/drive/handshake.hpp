@@ -18,8 +18,8 @@ namespace canhil::drive {
 /// Waits for the target's heartbeat and checks its DBC hash; selects each estimator, sets and reads back its
 /// parameters, sends its initial state with sigmas; then starts all estimators. Each step is repeated until
 /// it is acknowledged. Reports a target that answers in a format other than `format`. `initial` is in the
-/// order of `estimators`. `gone`: returns why waiting is pointless, if it is ("target: exited with 1").
-/// Error: one line.
+/// order of `estimators`. `gone`: if waiting for the target is pointless, returns the reason ("target: exited
+/// with 1"). Error: one line.
 Result<void> configure(Link& link, nodes::Transmission& out,
                        std::span<const scenario::TargetSetup> estimators,
                        std::span<const InitialState> initial,

@@ -35,7 +35,7 @@ class InProcessPort final : public Port {
     ++counters_.received;
     return Received{.frame = answers_[next_++], .t_ns = now_ns_, .source = StampSource::virtual_time};
   }
-  /// All frames to receive arrived during send().
+  /// Every frame that can be received has already arrived during send().
   bool wait_for_frame(std::int64_t /*deadline_ns*/) override { return true; }
   [[nodiscard]] int descriptor() const override { return -1; }
   [[nodiscard]] RoomWait room_wait() const override { return {}; }

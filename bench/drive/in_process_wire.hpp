@@ -14,8 +14,8 @@ namespace canhil::drive {
 
 /// The bench's port on the simulated wire. Time begins at 0 and advances only while the bench waits, from one
 /// event on the wire to the next. Therefore the same frames give the same bits and stamps, whatever the host
-/// does. A stamp is the end of the frame on the wire, also for the bench's own frames; the device sends an
-/// answer at the end of the stimulus.
+/// does. A stamp is the time at which the frame ends on the wire, also for the bench's own frames; the device
+/// sends an answer when the stimulus ends on the wire.
 class InProcessWire final : public Port {
  public:
   /// `format` selects the DBC, which defines the layout of the frames on the wire.

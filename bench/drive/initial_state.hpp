@@ -32,9 +32,9 @@ InitialAir initial_air(const world::Vector3& rates, const world::Vector3& air_ve
 /// Appends the messages in the order that makes the target ready.
 void send(const InitialState& state, nodes::Transmission& out);
 
-/// Checks that every value lies within its signal's range. Also checks that no nonzero value of a signal
-/// without negative values is below the resolution of the signal. Without these checks, values would be
-/// saturated or rounded to zero unnoticed. Error: one line.
+/// Checks that every value lies within its signal's range. Also checks, for each signal that cannot be
+/// negative, that the value is either 0 or at least the resolution of the signal. Without these checks,
+/// values would be saturated or rounded to zero unnoticed. Error: one line.
 Result<void> check_fits(const InitialState& state);
 
 }  // namespace canhil::drive

@@ -7,8 +7,8 @@ namespace canhil::drive {
 
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario) {
-  // An estimator may reject a group because of a changed value. A changed order may make a group late. A
-  // wrong time of validity in the future makes all groups up to that time late.
+  // An estimator may reject a group because of a changed value. A changed order may make a group late. If a
+  // fault moves a time of validity into the future, all groups up to that time are late.
   const faults::Tally tally = faults.tally();
   seen.expected_counts.most.bad_group += tally.changed * scenario.targets.size();
   seen.expected_counts.most.late += tally.overtaken * scenario.targets.size();

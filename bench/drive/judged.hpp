@@ -6,8 +6,8 @@
 
 namespace canhil::drive {
 
-/// The observations, with the target's expected counts (bad groups, late groups ...) raised by what the
-/// faults of the run may cause.
+/// The observations. The upper limits of the target's counts (bad groups, late groups ...) are raised by the
+/// numbers that the faults of the run may cause.
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario);
 

@@ -12,7 +12,8 @@ constexpr std::int64_t late_in_queue_ns = messages::Sync::info.cycle_time_us * 1
 LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional<std::int64_t> due_ns) {
   std::int64_t deadline_ns = 0;  // computed on demand: most frames are accepted at once
   for (;;) {
-    // The stamp is taken first: the answer of a fast target must not precede it.
+    // The stamp is taken before the frame is sent: the answer of a fast target must not have an earlier
+    // stamp.
     const std::int64_t t_ns = port_.now_ns();
     const std::int64_t late_ns = due_ns ? port_.monotonic_ns() - *due_ns : 0;
     const SendOutcome outcome = port_.send(frame);
@@ -36,7 +37,7 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
       while_waiting_.reset();
       return may_return ? LinkState::down : LinkState::congested;
     }
-    // The queue may be full because a target waits for the bench to read its answers.
+    // The queue may be full because a target waits until the bench reads the target's answers.
     if (drain() == LinkState::down) return LinkState::down;
     if (!backlog_.more()) wait(port_, WaitFor::room, deadline_ns);
   }

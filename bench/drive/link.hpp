@@ -23,20 +23,22 @@ class Link {
   void attach(observe::Observer& observer) { observers_.push_back(&observer); }
   void detach(observe::Observer& observer) { std::erase(observers_, &observer); }
 
-  /// Sends a frame. While the bus is full or its interface is down, it receives frames for up to
-  /// `patience_ns`; then it returns `congested` or `down`. `due_ns`: the frame's deadline, if any; waiting
-  /// for room makes the frame late.
+  /// Sends a frame. While the bus is full or its interface is down, send() receives frames for up to
+  /// `patience_ns`; then send() returns `congested` or `down`. `due_ns`: the frame's deadline, if any;
+  /// waiting for room makes the frame late.
   LinkState send(const Frame& frame, std::int64_t patience_ns,
                  std::optional<std::int64_t> due_ns = std::nullopt);
 
-  /// Passes waiting frames to the observers without blocking; `down` once the bus is gone. A bus may deliver
-  /// frames without end, so one call takes at most `most_at_once`: before the next call the caller must check
-  /// its deadline and whether to stop. A wait returns at once while more frames are waiting.
+  /// Passes waiting frames to the observers without blocking; returns `down` if the bus is gone. A bus may
+  /// deliver frames without end, so one call takes at most `most_at_once`: before the next call the caller
+  /// must check its deadline and whether to stop. While more frames are waiting, wait_until() returns at
+  /// once.
   LinkState drain();
-  static constexpr int most_at_once = 256;  ///< several groups of the target; less than a millisecond of work
+  static constexpr int most_at_once = 256;  ///< enough for several groups of the target; takes less than a
+                                            ///< millisecond
 
-  /// After send() gave up waiting: the frames that arrived while it waited, as observe::Shares::to_text();
-  /// empty: no frames.
+  /// After send() gave up waiting: the frames that arrived during the wait, in the form of
+  /// observe::Shares::to_text(); empty: no frames arrived.
   [[nodiscard]] const std::string& crowd() const { return crowd_; }
 
   /// The longest interval in which frames came faster than they could be processed; none: there was no such

@@ -1,5 +1,6 @@
-// A mapped target has no handshake. It runs independently: the bench waits until it has settled, and until
-// one of its messages shows that it is present.
+// A mapped target has no handshake. The target runs independently of the bench. The bench waits for the
+// settling time of the target, and until a message of the target shows that the target is present (unless the
+// target sends only answers).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/wait.h>
@@ -79,7 +80,7 @@ class MappedWatch final : public observe::TargetWatch {
   bool heard_ = false;
   std::size_t awaited_play_ = 0;
   std::int64_t awaited_us_ = 0;
-  std::set<std::size_t> waits_for_;  // indices of messages that must still echo the play
+  std::set<std::size_t> waits_for_;  // indices of the messages that must still answer the played sample
 };
 
 // Collects the ids of frames that are not in the mapping. The error message that reports a missing target

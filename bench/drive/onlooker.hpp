@@ -23,8 +23,8 @@ struct Departure {
   BusFormat format = BusFormat::classic;
   WireFacts wire{};
   observe::LoadBy load_by = observe::LoadBy::stamps;
-  /// Makes another watcher of the flight's frames, with or without times. An empty function: there
-  /// can be no other watcher, because the flight's own one depends on more than frames, on data that the
+  /// Makes another watcher of the flight's frames, with or without times. An empty function: there can be no
+  /// other watcher, because the flight's own watcher depends not only on frames but also on data that the
   /// flight's thread changes.
   std::function<std::unique_ptr<observe::Watcher>(bool with_times)> watcher{};
 };

@@ -10,13 +10,13 @@ namespace canhil::drive {
 namespace {
 
 constexpr std::int64_t ns_per_us = 1000;
-constexpr std::int64_t lead_ns = 20'000'000;           // before the first deadline
+constexpr std::int64_t lead_ns = 20'000'000;           // time between the call and the first deadline
 constexpr std::int64_t last_answers_ns = 150'000'000;  // longer than a heartbeat period
 constexpr std::int64_t outage_limit_ns =
     5'000'000'000;  // for an interface that goes down and up, or a restart after bus-off
 constexpr std::int64_t progress_period_us = 100'000;
 
-// A bus that was busy all the time is full; the message then names the frames that fill it.
+// A bus that was busy all the time is full; the message then names the frames that fill the bus.
 std::string took_none(const Link& link, std::int64_t due_us) {
   return fmt::format("the bus took no frame since t={:.3f} s{}{}", static_cast<double>(due_us) * 1e-6,
                      link.crowd().empty() ? "" : " and carried ", link.crowd());
@@ -50,7 +50,7 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
                   fmt::format("{} since t={:.3f} s", bus.outage() ? bus.outage()->what : "target silent",
                               static_cast<double>(since_us) * 1e-6)};
   };
-  // Receives until `deadline_ns`; returns why the run is over, if it is.
+  // Receives frames until `deadline_ns`; if the run is over, returns the reason.
   const auto receive_until = [&](std::int64_t deadline_ns) -> std::optional<Ending> {
     for (;;) {
       const LinkState state = link.drain();

@@ -175,8 +175,8 @@ class Recording {
                   fmt::format("the recording ends at t={:.3f} s", static_cast<double>(t_us) / 1e6)};
   }
 
-  // Passes the recorded frames up to the bench's next frame to the observers. Skips the frames of the
-  // handshake, because they are not part of the flight.
+  // Passes to the observers all recorded frames that come before the bench's next frame. Skips the frames of
+  // the handshake, because they are not part of the flight.
   Result<void> hear() {
     for (; frames_.next();) {
       const LogEntry& entry = *frames_.next();

@@ -73,7 +73,7 @@ void RunRigControl::report_error(const Frame& error) {
   if (errors_ < 0) {
     errors_ = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW);
     if (errors_ < 0) return;
-    setsockopt(errors_, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);  // it receives nothing
+    setsockopt(errors_, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);  // this socket receives nothing
     sockaddr_can address{};
     address.can_family = AF_CAN;
     address.can_ifindex = static_cast<int>(if_nametoindex(bus_.c_str()));
@@ -89,7 +89,7 @@ void RunRigControl::report_error(const Frame& error) {
   static_cast<void>(!write(errors_, &raw, sizeof raw));
 }
 
-// The loop that drives the run waits for the interface, so another thread must set it up.
+// The loop that drives the run waits for the interface, so another thread must set the interface up again.
 void RunRigControl::interface_down(std::int64_t for_us) {
   interface_up();
   if (!set_flag(bus_, false)) return;

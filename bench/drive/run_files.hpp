@@ -22,8 +22,8 @@ struct RunFile {
   FileIdentity identity{};
 };
 
-/// The files as they are on disk now; unreadable files are left out. canhil's own DBC is compiled in, so it
-/// has neither size nor date. `in_process`: no target program is started.
+/// The files as they are on disk now; unreadable files are left out. canhil's own DBC is compiled in, so its
+/// entry has neither size nor date. `in_process`: no target program is started.
 std::vector<RunFile> files_of(const scenario::Scenario& scenario, const Options& options, bool in_process);
 
 }  // namespace canhil::drive

@@ -18,8 +18,9 @@ namespace canhil::drive {
 /// same time.
 class Schedule final : public observe::Observer {
  public:
-  /// `keeper`: the node whose frame closes a step. It transmits last among nodes due at the same time, and
-  /// the schedule ends with it. `faults`: faults of the run; null: none.
+  /// `keeper`: the node whose frame closes a step. The keeper transmits last among the nodes that are due at
+  /// the same time, and the schedule ends with the keeper's last transmission. `faults`: faults of the run;
+  /// null: none.
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
            Rounding rounding = Rounding::as_on_the_bus, std::unique_ptr<faults::Faults> faults = nullptr)
       : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)) {
@@ -37,10 +38,10 @@ class Schedule final : public observe::Observer {
     return due_us_.back() == nodes::never_us ? nodes::never_us : std::min(due_us_[next_], injected_us_);
   }
 
-  /// Makes the next transmission; its frames are valid until the next call.
+  /// Makes the next transmission; the returned frames are valid until the next call.
   std::span<const Frame> take() {
     const std::int64_t t_us = due_us();
-    std::size_t injected = 0;  // faults that have acted at this time
+    std::size_t injected = 0;  // index of the first injector whose apply() is called below
     if (injected_us_ == t_us) {
       frames_.clear();
       injected = static_cast<std::size_t>(first_injector() - injectors_.begin());
@@ -65,9 +66,9 @@ class Schedule final : public observe::Observer {
     return until_us;
   }
 
-  /// Whether any node listens to others.
+  /// Whether any node listens to frames of other senders.
   [[nodiscard]] bool listens() const { return !listeners_.empty(); }
-  /// Passes frames of others to the nodes that listen.
+  /// Passes frames of other senders to the nodes that listen.
   void received(const Received& received) override {
     if (received.own || received.frame.error) return;
     for (nodes::Node* node : listeners_) node->hear(received.frame);
@@ -88,8 +89,8 @@ class Schedule final : public observe::Observer {
     return std::ranges::min_element(injectors_, {}, [](const auto& one) { return one->due_us(); });
   }
   void find_next() {
-    next_ =
-        static_cast<std::size_t>(std::ranges::min_element(due_us_) - due_us_.begin());  // the first of equals
+    next_ = static_cast<std::size_t>(std::ranges::min_element(due_us_) -
+                                     due_us_.begin());  // of equal times, the first
     if (!injectors_.empty()) injected_us_ = (*first_injector())->due_us();
   }
 
@@ -101,7 +102,7 @@ class Schedule final : public observe::Observer {
   std::vector<Frame> frames_;
   std::unique_ptr<faults::Faults> faults_;
   std::span<const std::unique_ptr<faults::Injector>> injectors_;
-  std::int64_t injected_us_ = nodes::never_us;  // time of the first injector
+  std::int64_t injected_us_ = nodes::never_us;  // when the next injector acts
 };
 
 }  // namespace canhil::drive

@@ -43,8 +43,8 @@ observe::LoadBy load_by(const Capabilities& bus, ClockKind clock, bool time_base
 // One run, stage by stage: open, configure, drive, collect.
 class Session {
  public:
-  // Enters real time, opens bus and log, and starts the target, according to the options. All arguments
-  // except `flight` must outlive the session.
+  // Enters real-time operation, opens bus and log, and starts the target, according to the options. All
+  // arguments except `flight` must outlive the session.
   static Result<std::unique_ptr<Session>> open(const scenario::Scenario& scenario,
                                                const world::FlightRecord& truth, Flight flight,
                                                const Options& options) {
@@ -125,7 +125,7 @@ class Session {
     std::optional<Attached> listening;
     if (schedule_->listens()) listening.emplace(link_, *schedule_);
     if (options_.realtime && target_)
-      static_cast<void>(realtime::own_memory_again());  // it was permitted at the start
+      static_cast<void>(realtime::own_memory_again());  // locking memory was permitted at the start
     const auto target = dialect_->target_watch(bus_.in_process);
     ending_ = clock_ == ClockKind::lockstep
                   ? run_lockstep(link_, *schedule_, *target, step_limit_ns, stop, progress)
@@ -153,7 +153,7 @@ class Session {
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
   // The error message with its possible cause: the frames that flooded the bus or, if there was no flood, a
-  // peer that was rejected.
+  // program that the bench rejected on its local bus.
   [[nodiscard]] std::string explained(const std::string& what) const {
     if (link_.flood()) return fmt::format("{}; {}", what, to_text(*link_.flood()));
     return notes_->empty() ? what : fmt::format("{}; {}", what, notes_->front());
@@ -174,7 +174,7 @@ class Session {
         });
   }
 
-  // Why waiting for the target is pointless.
+  // Why waiting for the target is pointless; none: the bench can wait.
   std::optional<std::string> gone(bool stop) {
     if (stop) return "interrupted";
     const auto why = target_ ? target_->ended() : std::nullopt;
@@ -224,7 +224,7 @@ class Session {
     if (!options_.target || bus_.in_process) return {};
     target_cpus_ = cpus;
     std::vector<std::string> arguments = options_.target_arguments;
-    // Every target gets this option, so that it uses the same DBC.
+    // Every target gets this option, so that the target uses the same DBC as the bench.
     if (options_.format == BusFormat::fd)
       arguments.insert(arguments.end(), {"--dbc", std::string(name_of(options_.format))});
     return TargetProcess::start(*options_.target, options_.bus.text, arguments, cpus)
@@ -326,7 +326,7 @@ ClockKind clock_of(BusTime time, bool lockstep) {
 }
 
 Options in_lockstep_against(std::string command) {
-  static std::atomic<std::uint64_t> buses = 0;  // numbers the buses: one per flight
+  static std::atomic<std::uint64_t> buses = 0;  // the number of the next bus: each flight has its own
   Options options;
   options.bus =
       BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));

@@ -24,15 +24,15 @@ namespace canhil::drive {
 
 /// simulated_wire: virtual time with simulated frame times.
 enum class ClockKind : std::uint8_t { real_time, lockstep, simulated_wire };
-/// The clock of a run on a bus; `lockstep`: as requested.
+/// The clock of a run on a bus; `lockstep`: whether lockstep was requested.
 ClockKind clock_of(BusTime time, bool lockstep);
 
 /// The options of a run, from the command line or from a campaign.
 struct Options {
   BusName bus{};
   BusOf bus_of{};
-  std::optional<std::string>
-      target;  ///< command to start (target_words()); none: the target already runs on the bus
+  std::optional<std::string> target;  ///< the target's command (target_words()); none: the target already
+                                      ///< runs
   BusFormat format = BusFormat::classic;
   WireFacts controller{};  ///< properties of the interface's controller, if the kernel reports them
   bool lockstep = false;   ///< instead of real time
@@ -42,7 +42,7 @@ struct Options {
   std::optional<int> target_cpu;              ///< none: the CPUs that the bench had before it was pinned
   std::string operator_name{};                ///< the operator's name for the report; empty: not given
   std::int64_t spin_ns = 0;      ///< time before each deadline in which the bench polls instead of sleeping
-  std::uint64_t run_index = 0;   ///< in a campaign: selects the random numbers together with the seed
+  std::uint64_t run_index = 0;   ///< in a campaign: together with the seed, selects the random numbers
   Onlooker* onlooker = nullptr;  ///< also receives every frame of the flight; null: none
   bool for_verdict = true;       ///< false: observes only the target's frames, not times, load, bus and host
 };
@@ -84,8 +84,8 @@ struct Run {
   std::optional<Error> log_error{};  ///< see Collected
 };
 
-/// Runs a scenario. Error: the run was not possible (usage or configuration); a failing target is a verdict,
-/// not an error.
+/// Runs a scenario. Error: the run was not possible (usage or configuration); if the target fails, the result
+/// is a verdict, not an error.
 Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
                 const Progress& progress);
 

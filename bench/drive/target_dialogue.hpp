@@ -47,13 +47,13 @@ class Mailbox final : public observe::Observer {
 /// Sends requests and waits for their effects.
 class Dialogue {
  public:
-  /// Returns why waiting is pointless, if it is.
+  /// If waiting for the target is pointless, returns the reason.
   using Gone = std::function<std::optional<std::string>()>;
   using Request = std::function<void(nodes::Transmission&)>;
   using Condition = std::function<bool(const Mailbox&)>;
 
-  /// One step of the dialogue. `doing`: what happens to the target, "being reset". `awaited`: its expected
-  /// state, "idle".
+  /// One step of the dialogue. `doing`: what happens to the target, "being reset". `awaited`: the expected
+  /// state of the target, "idle".
   struct Step {
     std::string doing;
     std::string awaited;
@@ -68,8 +68,8 @@ class Dialogue {
         second_attached_(link, second_),
         sightings_attached_(link, sightings_) {}
 
-  /// Sends `request` at once and then repeats it every `repeat_ns`, until `condition` holds. Error: one line
-  /// with what was received instead.
+  /// Sends `request` at once and then every `repeat_ns`, until `condition` is true. Error: one line with what
+  /// was received instead.
   Result<void> until(const Step& step, const Request& request, const Condition& condition);
 
   /// Receives frames for `duration_ns`.

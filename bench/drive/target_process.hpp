@@ -11,7 +11,7 @@
 namespace canhil::drive {
 
 /// A started target. The destructor of this object terminates the target; if the bench dies, the kernel
-/// terminates it.
+/// terminates the target.
 class TargetProcess {
  public:
   /// Starts `COMMAND --bus BUS` with further arguments on the given CPUs (empty: the bench's CPUs). The
@@ -25,7 +25,7 @@ class TargetProcess {
   TargetProcess& operator=(const TargetProcess&) = delete;
   ~TargetProcess();
 
-  /// How the process ended, as a phrase for people; none: it is running.
+  /// How the process ended, as a phrase for people; none: the process is running.
   std::optional<std::string> ended();
   /// True while the process is stopped by a signal such as SIGSTOP.
   [[nodiscard]] bool stopped() const;

@@ -57,7 +57,8 @@ struct Alignment {
 template <class Answers>
 void give_alignment(const Alignment& of, const Answers& filter, const quantities::TrackSink& give) {
   using namespace quantities;
-  // Each error gets the sigma of the last filter answer before it, or none if that answer is stale.
+  // Each error gets the sigma of the last filter answer at or before its time; it gets none if that answer is
+  // stale.
   const auto fill = [&](Track track, auto error, auto sigma) {
     auto next = filter.begin();
     AnswerTo answer(of.navigation);
@@ -81,7 +82,7 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
     return track;
   };
 
-  // Heading and its truth, unwrapped where they pass south.
+  // The estimated and the true heading, unwrapped where they pass south (180 deg).
   Track heading = judged(angle(attitude_heading, "heading error"));
   heading.estimate_title = "heading";
   heading.estimate_unit = degrees;

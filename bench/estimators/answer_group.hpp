@@ -63,7 +63,7 @@ class AnswerGroup {
 };
 
 /// Receives the groups of one estimator and adds their answers to one `Answers`. Each of `Groups` is an
-/// AnswerGroup with `add(cause_us, answers)`. An object serves one run: `seen` must be the same in every
+/// AnswerGroup with `add(cause_us, answers)`. Each run has its own object: `seen` must be the same in every
 /// call.
 template <class Answers, class... Groups>
 class ReceptionOf : public Reception {

@@ -10,7 +10,8 @@ namespace canhil::estimators {
 double period_us(const scenario::NodeSettings& node);
 
 /// The longest time between answers to fixes that does not count as silence [us]. It allows for the random
-/// losses of the scenario (loss_percent, invalid_percent), but not for the silences that the scenario sets.
+/// losses of the scenario (loss_percent, invalid_percent), but not for an interval without fixes that the
+/// scenario sets (silence_s).
 double longest_wait_of_fixes_us(const scenario::NodeSettings& aid);
 
 }  // namespace canhil::estimators

@@ -58,8 +58,9 @@ Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
                                          const world::FlightRecord& truth);
 
 /// The error of the first navigation answer that includes a filter update with the cause `cause_us`.
-/// `navigation_us` is the cause of the last navigation answer before the update. It excludes the answers
-/// between the time of validity of a late fix and its arrival. Null: no navigation answer follows the update.
+/// `navigation_us` is the time of the cause of the last navigation answer before the update; it excludes the
+/// navigation answers between the time of validity of a late fix and the arrival of the fix. Null: no
+/// navigation answer follows the update.
 const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
                                    std::int64_t navigation_us);
 

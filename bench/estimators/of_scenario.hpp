@@ -18,7 +18,8 @@ namespace canhil::estimators {
 std::optional<double> output_interval_us(const scenario::TargetSetup& setup);
 
 /// The answer intervals [s] of the groups that the target sends at a minimum interval if the stimuli come
-/// faster (Estimator::of_own_interval): from the scenario, or else the cycle time in the DBC.
+/// faster (Estimator::of_own_interval): the interval that the scenario sets; if it sets none, the cycle time
+/// in the DBC.
 std::map<std::string_view, double> own_intervals_s(const scenario::Scenario& scenario);
 
 /// For each sample group of the bench: how many of the scenario's estimators answer it.

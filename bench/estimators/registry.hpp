@@ -12,7 +12,8 @@ struct MessageInfo;
 
 namespace canhil::estimators {
 
-/// All estimators. If a scenario runs several, a campaign keeps the samples of the last in this order.
+/// All estimators. If a scenario runs several, a campaign keeps the samples of the last of them in this
+/// order.
 std::span<const Estimator* const> all();
 /// The estimators that may run in a scenario: all, or, with a mapping, only the mapped target.
 std::span<const Estimator* const> in(const scenario::Scenario& scenario);

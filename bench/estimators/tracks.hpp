@@ -14,7 +14,7 @@
 
 namespace canhil::estimators {
 
-/// The longest time between two of these messages that does not count as silence [us].
+/// The longest time between two messages of a kind that does not count as silence [us].
 inline double longest_wait_us(const checks::Observations& seen, std::string_view message) {
   return checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, message));
 }

@@ -1,4 +1,4 @@
-// Delta debugging: the smallest input that still shows a property.
+// Delta debugging: finds a smallest input that still has a given property.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 namespace canhil::fault_matrix {
 
-/// A minimal subset of the items that still shows the property: removing any single item loses it. All
-/// `items` together must show it. Algorithm ddmin of Zeller and Hildebrandt, Simplifying and Isolating
-/// Failure-Inducing Input, IEEE TSE 28(2), 2002.
+/// A minimal subset of the items that still has the property: if any single item is removed, the property is
+/// lost. All `items` together must have the property. Algorithm ddmin of Zeller and Hildebrandt, Simplifying
+/// and Isolating Failure-Inducing Input, IEEE TSE 28(2), 2002.
 template <class Item>
 std::vector<Item> least_of(std::vector<Item> items,
                            const std::function<bool(const std::vector<Item>&)>& shows) {
@@ -30,7 +30,7 @@ std::vector<Item> least_of(std::vector<Item> items,
         items = std::move(subset);
         parts = 2;
         smaller = true;
-      } else if (parts > 2 && shows(complement)) {  // with two parts the complement is the other part
+      } else if (parts > 2 && shows(complement)) {  // with two parts, the complement of one is the other
         items = std::move(complement);
         parts = std::max<std::size_t>(parts - 1, 2);
         smaller = true;
@@ -43,8 +43,8 @@ std::vector<Item> least_of(std::vector<Item> items,
   return items;
 }
 
-/// A stretch within [from, to] that shows the property and cannot be shortened by a step at either end.
-/// Bisects in whole steps, the end first. The whole stretch must show the property.
+/// A part of [from, to] that still has the property and cannot be shortened by a step at either end. The
+/// search bisects in whole steps and tries the end first. The whole of [from, to] must have the property.
 inline std::pair<std::int64_t, std::int64_t> least_stretch(
     std::int64_t from, std::int64_t to, std::int64_t step,
     const std::function<bool(std::int64_t from, std::int64_t to)>& shows) {

@@ -43,14 +43,14 @@ class Draw {
 
 enum class Affects : std::uint8_t {
   frames,  // all messages of a node
-  value,   // one signal of its messages
-  pair,    // two quantities of the node
+  value,   // one signal of a node's messages
+  pair,    // two quantities of a node
   node,
   bus
 };
 enum class Times : std::uint8_t { each, seldom, stretch, begins };
 
-// The distribution of the value of a fault's additional key (Kind::key).
+// How the value of a fault's additional key (Kind::key) is distributed.
 enum class Size : std::uint8_t {
   none,
   within,    // anywhere in the signal's range
@@ -138,7 +138,7 @@ const SignalInfo* draw_signal(const Kind& kind, const MessageInfo& message, Draw
   return signals.empty() ? nullptr : draw.one_of(signals);
 }
 
-// Draws two quantities of the same unit; false: the node has no such pair.
+// Draws two quantities of the same unit. Returns false if the node has no such pair.
 bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   std::vector<std::pair<std::string, std::string>> pairs;
   for (const mapping::Stimulus& one : mapping::stimuli()) {
@@ -155,8 +155,9 @@ bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   return true;
 }
 
-// Draws the times of a fault. The fault begins late enough for a comparison with the flight before it, ends
-// early enough for a recovery, and lasts at least two periods of the node.
+// Draws the times of a fault. The fault begins late enough that the flight before the fault can be compared
+// with the flight during the fault. It ends early enough for a recovery, and lasts at least two periods of
+// the node.
 void draw_times(FaultText& fault, Times times, double duration_s, double period_s, Draw& draw) {
   constexpr std::array often{1, 2, 5, 10}, seldom{5, 10, 20, 50};
   const double from_s = duration_s * draw.between(0.3, 0.6);
@@ -195,7 +196,7 @@ std::optional<FaultText> draw_fault(const Drawn& row, const Column& column, Draw
   }
   const double size = drawn_size(kind, signal, draw);
   if (kind.size == Size::number)
-    fault.set(kind.key, fmt::format("{:.3f}", size));  // milliseconds with whole microseconds
+    fault.set(kind.key, fmt::format("{:.3f}", size));  // a time in ms is a whole number of us
   else if (kind.size != Size::none)
     fault.set(kind.key, fmt::format("{:.6g}", size));
   const double period_s = node == nullptr ? 0 : 1e-6 * static_cast<double>(node->period_us());

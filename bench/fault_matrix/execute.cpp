@@ -34,7 +34,7 @@ class Flights {
 
   Result<void> fly(const std::set<std::size_t>& cells) {
     std::vector<std::size_t> order(cells.begin(), cells.end());
-    std::vector<std::pair<std::size_t, std::uint64_t>> needed;  // columns and runs to fly without faults
+    std::vector<std::pair<std::size_t, std::uint64_t>> needed;  // (column, run) pairs to fly without faults
     for (const std::size_t cell : order) needed.emplace_back(plan_.cells[cell].column, plan_.cells[cell].run);
     std::ranges::sort(needed);
     needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
@@ -52,7 +52,7 @@ class Flights {
   }
 
  private:
-  // Calls fly_one for each index, on all cores. Error: the first error that occurred.
+  // Calls fly_one for each index, on all cores. Returns the first error that occurred.
   Result<void> each(std::size_t count, const std::function<Result<void>(std::size_t)>& fly_one) {
     std::atomic<std::size_t> next = 0;
     std::optional<Error> error;
@@ -112,7 +112,7 @@ class Flights {
     return options_.finished(std::move(finished));
   }
 
-  // Saves the minimal scenario that shows the same violation, and its log.
+  // Saves the minimal scenario that shows the same violation, and the log of its flight.
   Result<void> keep(const Cell& cell, const Undisturbed& before, const drive::Run& run,
                     Finished& finished) const {
     const Column& column = plan_.columns[cell.column];
@@ -121,7 +121,7 @@ class Flights {
     const auto shows = [&](const std::vector<FaultText>& faults, std::int64_t duration_us) {
       const auto flown = fly(column, cell.run, faults, duration_us);
       if (!flown || stop_) return false;
-      // In a run that ends early, the check is not judged, so it is not violated.
+      // In a run that ends early, a check is not judged, so the check is not violated.
       if (by_a_check && flown->run.ending.kind != drive::Ending::Kind::completed) return false;
       const Response response =
           response_of(flown->scenario, flown->run, cell.faults.empty() ? nullptr : &before);
@@ -131,8 +131,9 @@ class Flights {
     const fs::path file = options_.folder / fmt::format("violation-{}.toml", finished.cell);
     fs::path log = file;
     log.replace_extension(".log");
-    // A scenario needs at least one check: the violated one if it is in judged_by, otherwise `answering`.
-    // Other violations end the run or belong to an implied check.
+    // A scenario needs at least one check: the saved scenario has the violated check if it is in judged_by,
+    // otherwise `answering`. Other violations end the run or belong to an implied check, which is made in
+    // every run.
     const std::string text =
         text_of(column, cell.run, least.faults, least.duration_us,
                 std::ranges::find(judged_by, check) == judged_by.end() ? "answering" : check,

@@ -15,16 +15,17 @@
 namespace canhil::fault_matrix {
 
 struct Options {
-  std::string target{};          ///< a target program, flown in lockstep; empty: a Device in this process
-  std::filesystem::path folder;  ///< for the scenarios of violations
-  unsigned threads = 0;          ///< 0: one per core
+  std::string target{};          ///< a target program, run in lockstep; empty: a Device in this process
+  std::filesystem::path folder;  ///< folder in which the scenarios of violations are saved
+  unsigned threads = 0;          ///< number of threads; 0: one per core
   std::function<Result<void>(Finished)> finished;  ///< receives each finished cell; calls do not overlap
 };
 
-/// The command that repeats a saved violation: "hil-bench run FILE --bus in-process".
+/// The command that repeats a saved violation, for example "hil-bench run FILE --bus in-process".
 std::string replay_command(const std::string& file, const std::string& target);
 
-/// Flies these cells. Error: one line; a flight could not be flown. `stop` ends it early and cleanly.
+/// Flies these cells. If `stop` is set, the execution ends early and cleanly. Returns an Error of one line if
+/// a flight could not be flown.
 Result<void> execute(const Plan& plan, const std::set<std::size_t>& cells, const Options& options,
                      const std::atomic<bool>& stop);
 

@@ -33,7 +33,7 @@ Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, 
       const std::int64_t cut_us = whole_us - back_us;
       if (cut_us > 0 && shows(faults, cut_us)) least.duration_us = cut_us;
     }
-    if (least.duration_us == 0) return least;  // no complete flight shows it
+    if (least.duration_us == 0) return least;  // no completed flight shows the violation
   }
   least.faults = least_of<FaultText>(
       faults, [&](const std::vector<FaultText>& some) { return shows(some, least.duration_us); });
@@ -76,7 +76,7 @@ Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, 
       if (!shows(with(sparser), least.duration_us)) break;
       least.faults[index] = std::move(sparser);
     }
-    if (every >= most_sparse) least.faults[index] = dense;  // the first frame suffices: restore `every`
+    if (every >= most_sparse) least.faults[index] = dense;  // one frame suffices: restore `every`
   }
   return least;
 }

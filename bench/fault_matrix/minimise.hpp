@@ -18,8 +18,8 @@ struct Minimised {
   std::int64_t duration_us = 0;  ///< 0: as in the scenario file
 };
 
-/// Minimises first the number of faults, then the duration, then for each fault the window and the number of
-/// affected frames. `flown_us`: duration of the violating flight up to its end.
+/// Minimises first the number of faults, then the duration, then, for each fault, the window and the number
+/// of affected frames. `flown_us`: duration of the violating flight up to its end.
 Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, const Shows& shows);
 
 }  // namespace canhil::fault_matrix

@@ -22,7 +22,7 @@ using scenario::Setting;
 
 constexpr int at_once = 3;
 
-// The faults of a row in a cell; none: the row does not fit the scenario.
+// The faults of a row in a cell; nullopt if the row does not fit the scenario.
 using FaultsOf = std::function<std::optional<std::vector<FaultText>>(std::size_t row, std::size_t column,
                                                                      std::uint64_t run)>;
 
@@ -40,7 +40,7 @@ void add_cells(Plan& plan, const FaultsOf& faults_of) {
   }
 }
 
-// The reason why some faults of a set do not fit a scenario; none: all fit.
+// The reason why some faults of a set do not fit a scenario; nullopt if all fit.
 std::optional<Error> unfit(const Column& column, const std::string& set, const std::string& file,
                            const scenario::FaultPlaces& places) {
   scenario::Scenario scenario = column.scenario;

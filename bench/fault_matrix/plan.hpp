@@ -1,5 +1,5 @@
-// The plan of `hil-bench faults`: scenarios as columns, faults as rows, a cell for each pair that fits, and
-// several runs per cell.
+// The plan of `hil-bench faults`: a matrix with a column for each scenario and a row for each fault. Each
+// scenario is flown with each fault that fits it, in one or several runs.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,30 @@
 
 namespace canhil::fault_matrix {
 
-/// A [[fault]] as text: its keys, each with its TOML value.
+/// A [[fault]] table as text: its keys, each with its TOML value.
 struct FaultText {
   std::vector<scenario::Setting> keys{};
 
-  /// The value of a key; null: the key is absent.
+  /// The value of a key; null if the key is absent.
   [[nodiscard]] const scenario::Setting* find(std::string_view key) const;
   void set(std::string_view key, std::string value);
-  /// "{ kind = "lost", ... }".
+  /// The fault as an inline table, for example "{ kind = "lost", ... }".
   [[nodiscard]] std::string in_line() const;
 };
 bool operator==(const FaultText& a, const FaultText& b);
 
-/// A scenario. Its own faults and checks are ignored.
+/// A scenario of the matrix. The faults and checks in its file are ignored.
 struct Column {
   std::string file;
-  std::string text;             ///< of the file
-  scenario::Scenario scenario;  ///< as read, with its own faults and checks
+  std::string text;             ///< text of the file
+  scenario::Scenario scenario;  ///< as read, with the faults and checks of the file
 };
 Result<Column> read_column(const std::string& file);
 
 /// A fault that is flown in each scenario to which it applies.
 struct Row {
   std::string fault;   ///< a kind of fault, or the name of a fault in a set
-  std::string node{};  ///< the affected node; empty: the bus, or as the set states
+  std::string node{};  ///< the affected node; empty: the bus, or what the fault in the set states
 
   [[nodiscard]] std::string name() const { return node.empty() ? fault : fault + " " + node; }
 };
@@ -53,29 +53,31 @@ struct Plan {
   std::uint64_t runs = 1;
   std::uint64_t set_hash = 0;  ///< hash of the set's text; 0: the generated set
   std::vector<Column> columns{};
-  std::vector<Row> rows{};    ///< the first is "no fault"
-  std::vector<Cell> cells{};  ///< row by row, then column by column, then run by run
+  std::vector<Row> rows{};    ///< the first row is "no fault"
+  std::vector<Cell> cells{};  ///< ordered by row, then by column, then by run
 };
 
-/// The generated set: each kind of fault (drawn.hpp) on each node of the bus, with parameters drawn from the
-/// seed; and sets of three faults at once.
+/// The generated set of faults: a row for each kind of fault (drawn.hpp) on each node of the bus, with
+/// parameters drawn from the seed, and a row in which each flight has three faults at once.
 Plan made_plan(std::vector<Column> columns, std::uint64_t seed, std::uint64_t runs);
 
-/// The set of faults in a file: each [[fault]] is a row; those with the same `together` share a row. Error:
-/// one line; a row fits no scenario.
+/// The set of faults in a file: each [[fault]] table is a row; the faults with the same `together` share a
+/// row. Returns an Error of one line if a row fits no scenario.
 Result<Plan> plan_of(std::vector<Column> columns, const std::string& set_file, std::uint64_t seed,
                      std::uint64_t runs);
 
-/// The scenario of a flight, with the checks of the matrix (response.hpp). `duration_us` 0: as in the
-/// scenario file. Error: one line; the faults do not fit.
+/// The scenario of a flight, with the checks of the matrix (response.hpp). `duration_us` 0: the duration in
+/// the scenario file. Returns an Error of one line if the faults do not fit.
 Result<scenario::Scenario> scenario_of(const Column& column, std::uint64_t run,
                                        const std::vector<FaultText>& faults, std::int64_t duration_us = 0);
 
-/// The text of this scenario as a self-contained file, which may be in any folder, with a single check.
+/// The same scenario as the text of a self-contained file that may be in any folder. The scenario in the text
+/// has only one check.
 std::string text_of(const Column& column, std::uint64_t run, const std::vector<FaultText>& faults,
                     std::int64_t duration_us, const std::string& check, const std::string& comment);
 
-/// A TOML text without these arrays of tables, and without their comments.
+/// Returns a TOML text without the arrays of tables that `names` lists, and without the comments of these
+/// tables.
 std::string without_tables(const std::string& text, const std::vector<std::string>& names);
 
 }  // namespace canhil::fault_matrix

@@ -18,7 +18,8 @@ using checks::Outcome;
 using report::escaped;
 using Kind = Response::Kind;
 
-// One line for each cell whose response is of a kind; for a violation also its faults and its replay.
+// One line for each cell whose response is of a kind. For a violation, the line also contains the faults and
+// the command that repeats the violation.
 std::vector<std::string> lines_of(const Results& results, Kind kind, const std::string& folder) {
   std::vector<std::string> lines;
   for (const auto& [index, cell] : results.cells) {

@@ -1,4 +1,4 @@
-// Reports of a fault matrix for people and programs, derived from the results alone.
+// Formats the report of a fault matrix for people and programs, from the results alone.
 #pragma once
 
 #include <string>
@@ -8,13 +8,14 @@
 
 namespace canhil::fault_matrix {
 
-/// The outcome: fail if anything is violated; not measured if cells are missing or could not be judged.
+/// The outcome is fail if anything is violated; otherwise not measured if cells are missing or could not be
+/// judged; otherwise pass.
 checks::Outcome outcome_of(const Results& results);
 
-/// The matrix, followed by the cells that were not measured, and by the violations, each with the command
-/// that repeats it. `folder`: the folder of the saved scenarios.
+/// The matrix, followed by the cells that were not measured and by the violations, each with the command that
+/// repeats the violation. `folder`: the folder of the saved scenarios.
 std::string text(const Results& results, const std::string& folder);
-/// The matrix as tables of Markdown.
+/// The matrix as Markdown tables.
 std::string markdown(const Results& results);
 std::string json(const Results& results);
 std::string html(const Results& results, const std::string& folder);

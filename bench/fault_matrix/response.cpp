@@ -21,8 +21,8 @@ constexpr std::array<std::string_view, 5> names{"tolerated", "detected", "ended"
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
-// The verdict on the flight up to its end, as if this end had been planned, because a target that ended its
-// estimation must have met the checks until then.
+// The verdict on the flight up to its end, as if the flight had been planned to end there: a target that
+// ended its estimation must have met the checks until then.
 checks::Verdict verdict_to_its_end(const scenario::Scenario& scenario, const drive::Run& run) {
   if (run.ending.kind == Ending::Kind::completed) return run.verdict;
   return checks::judge(scenario, {.seen = run.seen,
@@ -31,7 +31,8 @@ checks::Verdict verdict_to_its_end(const scenario::Scenario& scenario, const dri
                                   .timing_unfit = run.timing_unfit});
 }
 
-// Whether each estimator has answers to compare with the truth; an estimator may end before its first answer.
+// Whether each estimator has answers that can be compared with the truth. An estimator may end before its
+// first answer.
 bool has_samples(const scenario::Scenario& scenario, const drive::Run& run) {
   return std::ranges::all_of(estimators::in(scenario), [&](const estimators::Estimator* one) {
     return !one->samples(run.seen, drive::truth_of(run.truth, run.per_run_truth, run.ending.t_us)).empty();
@@ -144,7 +145,7 @@ Response response_of(const scenario::Scenario& scenario, const drive::Run& run, 
                     .detected_s = seconds(std::max<std::int64_t>(first->t_us - onset_us, 0)),
                     .by = first->text};
   const auto last = checks::last_after(signs, end_us);
-  constexpr std::int64_t quiet_us = 1'000'000;  // no sign for this long: recovered
+  constexpr std::int64_t quiet_us = 1'000'000;  // if no sign follows for this long, the target has recovered
   if (!last)
     response.recovered_s = 0;
   else if (last->t_us + quiet_us <= scenario.duration_us)

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view format = "canhil fault matrix 2";
 constexpr std::size_t most_bytes = std::size_t{1} << 28U;
 
-// File names need not be UTF-8.
+// File names may contain bytes that are not UTF-8; such bytes are replaced.
 std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 Json json_of(const Finished& finished) {

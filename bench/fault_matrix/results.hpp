@@ -1,5 +1,6 @@
-// The results of a fault matrix: a file of JSON lines. The first line identifies the matrix; each other
-// line is a finished cell. An interrupted run resumes with its file; files of shards can be merged.
+// The results of a fault matrix: a file of JSON lines. The first line identifies the matrix; each of the
+// other lines is a finished cell. An interrupted run can be resumed with its file; the files of shards can be
+// merged.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace canhil::fault_matrix {
 
-/// The identity of a matrix, one line of JSON. Results can be merged only if their identities are equal.
+/// The identity of a matrix, as one line of JSON. Results can be merged only if their identities are equal.
 struct Identity {
   std::string line;
   std::uint64_t seed = 0, runs = 1;
@@ -34,10 +35,10 @@ struct Finished {
   std::size_t cell = 0;  ///< index in Plan::cells
   std::size_t row = 0, column = 0;
   std::uint64_t run = 0;
-  std::vector<std::string> faults{};  ///< one line each
+  std::vector<std::string> faults{};  ///< one line for each fault
   Response response{};
   std::string replay{};              ///< for a violation: file of the minimal scenario that shows it
-  std::vector<std::string> least{};  ///< the faults of that scenario
+  std::vector<std::string> least{};  ///< the faults of the minimal scenario
 };
 
 struct Results {
@@ -45,21 +46,23 @@ struct Results {
   std::map<std::size_t, Finished> cells{};  ///< by Finished::cell
 };
 
-/// Reads one file. Error: one line; the file is not readable or holds other data. A truncated last line is
-/// ignored.
+/// Reads one file. Returns an Error of one line if the file is not readable or contains other data. A
+/// truncated last line is ignored.
 Result<Results> read_results(const std::filesystem::path& file);
 
-/// Merges files. Error: one line; the files belong to different matrices, or cells are missing.
+/// Merges files. Returns an Error of one line if the files belong to different matrices or if cells are
+/// missing.
 Result<Results> merged(std::span<const std::filesystem::path> files);
 
 /// A file to which finished cells are appended.
 class Writer {
  public:
-  /// Creates a file; with `resume` also opens an existing one and returns its cells. Error: one line; the
-  /// file exists (without `resume`), belongs to another matrix, or cannot be written.
+  /// Creates a file. With `resume`, it also opens an existing file and returns the cells of this file.
+  /// Returns an Error of one line if the file exists (without `resume`), belongs to another matrix, or cannot
+  /// be written.
   static Result<std::pair<Writer, Results>> open(const std::filesystem::path& file, const Identity& identity,
                                                  bool resume);
-  /// Error: one line.
+  /// Appends a cell to the file. An Error has one line.
   Result<void> add(const Finished& finished);
 
  private:

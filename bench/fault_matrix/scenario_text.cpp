@@ -1,4 +1,4 @@
-// The scenario of a flight of the matrix, in memory and as a self-contained file.
+// Makes the scenario of a flight of the matrix, in memory or as a self-contained file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using scenario::Setting;
 
 std::string seconds_of(std::int64_t t_us) { return fmt::format("{}", static_cast<double>(t_us) / 1e6); }
 
-// The change of bracket nesting within a line, ignoring strings and comments.
+// By how much a line changes the nesting of brackets; strings and comments are ignored.
 int deeper_by(const std::string& line) {
   int depth = 0;
   char quote = 0;
@@ -40,7 +40,7 @@ int deeper_by(const std::string& line) {
   return depth;
 }
 
-// The line with its path made absolute.
+// The line, in which the path has been made absolute.
 std::string with_whole_path(const std::string& line, const std::filesystem::path& folder) {
   static const std::regex names(R"(^(\s*(?:recorded|file|mapping)\s*=\s*")([^"/][^"]*)(".*)$)");
   std::smatch match;
@@ -98,7 +98,7 @@ Result<scenario::Scenario> scenario_of(const Column& column, std::uint64_t run,
     settings.push_back({.key = "duration_s", .value = seconds_of(duration_us), .elements = {}});
   if (!faults.empty())
     settings.push_back({.key = "fault", .value = fmt::format("[{}]", all), .elements = {}});
-  // Remove [[fault]] from the text, because a setting can only replace a key, not remove it.
+  // Removes the [[fault]] tables from the text, because a setting can only replace a key, not remove it.
   const std::string text = faults.empty() ? without_tables(column.text, {"fault"}) : column.text;
   return drive::parse_scenario(text, column.file, settings);
 }

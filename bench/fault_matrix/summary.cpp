@@ -11,7 +11,7 @@ namespace {
 
 using Kind = Response::Kind;
 
-// "0.020", "0.020 to 0.500".
+// A value or a range, for example "0.020" or "0.020 to 0.500".
 std::string range(const std::vector<double>& values) {
   const auto [least, most] = std::ranges::minmax(values);
   return least == most ? fmt::format("{:.3f}", least) : fmt::format("{:.3f} to {:.3f}", least, most);

@@ -1,4 +1,4 @@
-// A node with a fault of its sensor or of the node itself.
+// A node with a fault of its sensor or of the node as a whole.
 #pragma once
 
 #include <map>
@@ -10,7 +10,8 @@
 
 namespace canhil::faults {
 
-/// Wraps a node. If several nodes share a log, frames of the other nodes pass unchanged.
+/// Wraps a Node object. An object that replays a log sends the frames of all nodes in the log; the frames of
+/// the other nodes pass unchanged.
 class FaultyNode : public nodes::Node {
  public:
   FaultyNode(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run)
@@ -26,13 +27,13 @@ class FaultyNode : public nodes::Node {
   void hear(const Frame& frame) final { node_->hear(frame); }
 
  protected:
-  /// Changes the frames of the node's transmission, at its time.
+  /// Changes the frames of a transmission of the node that was due at `t_us`.
   virtual void apply(std::vector<Frame>& frames, std::int64_t t_us) = 0;
-  /// Lets the node transmit and appends the frames after the fault has changed them.
+  /// Lets the node transmit, changes the frames with apply(), and puts the changed frames into `out`.
   void sample(nodes::Transmission& out);
   /// Whether a frame belongs to the node's sample group.
   [[nodiscard]] bool is_own(const Frame& frame) const { return message_of(frame) != nullptr; }
-  /// The message of a frame; null: the frame is of another node.
+  /// The message of a frame; null if the frame is not of the sample group of this node.
   [[nodiscard]] const MessageInfo* message_of(const Frame& frame) const;
   [[nodiscard]] std::int64_t node_due_us() const { return node_->due_us(); }
   Tally& tally() { return tally_; }
@@ -49,15 +50,15 @@ class FaultyNode : public nodes::Node {
 /// counters. Frames that were sent and then lost do leave a gap.
 class Recount {
  public:
-  /// Records a frame that the node did not send, so it must not be counted.
+  /// Records that the node did not send this frame, so that the counter does not count the frame.
   void skip(const Frame& frame);
-  /// The next frame of each message has counter 0.
+  /// From now on, the counter of each message starts again at 0.
   void begin_at_zero() { at_zero_ = true, offsets_.clear(); }
   void write(Frame& frame, const MessageInfo& message);
 
  private:
   bool at_zero_ = false;
-  std::map<std::uint32_t, int> offsets_;  // by id: offsets to the counters, modulo their period
+  std::map<std::uint32_t, int> offsets_;  // by id: offset of the counter, modulo the period of counters
 };
 
 }  // namespace canhil::faults

@@ -23,7 +23,7 @@ Faults::Faults(const scenario::Scenario& scenario, std::uint64_t run_index,
       rig_(hands),
       tallies_(scenario.faults.size()) {
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
-    if (!scenario.faults[i].rule->cannot(place_).empty()) continue;  // check() has rejected such a run
+    if (!scenario.faults[i].rule->cannot(place_).empty()) continue;  // check() rejects such a run
     if (auto injector = scenario.faults[i].rule->injector(in_run(i)))
       injectors_.push_back(std::move(injector));
   }

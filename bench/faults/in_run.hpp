@@ -14,26 +14,28 @@
 
 namespace canhil::faults {
 
-/// The report of a fault.
+/// What the report of a run contains about a fault.
 struct FaultReport {
   std::string name, kind;
   Stage stage = Stage::bus;
   std::int64_t from_us = 0, to_us = 0;
-  std::uint64_t count = 0;  ///< see Tally
+  std::uint64_t count = 0;  ///< see Tally::count
 };
 
-/// Checks that each fault works with the bus and the target of `place`. Error: one line; a fault does not.
+/// Checks that each fault works with the bus and the target of `place`. Returns an Error of one line if a
+/// fault does not.
 Result<void> check(std::span<const scenario::Fault> faults, const Place& place);
 
 class Faults final : public nodes::NodeFaults {
  public:
-  /// `scenario`, `messages` (of the bus) and `hands` must outlive it.
+  /// `scenario`, `messages` (all messages of the bus) and `hands` must outlive this object.
   Faults(const scenario::Scenario& scenario, std::uint64_t run_index, std::span<const MessageInfo> messages,
          Place place = {}, RigControl* hands = nullptr);
 
   std::unique_ptr<nodes::Node> with_faults(std::unique_ptr<nodes::Node> node,
                                            const scenario::NodeSettings& settings) override;
-  /// The faults between nodes and bus, in the order of the scenario.
+  /// The injectors of the faults that act between nodes and bus or on the target, in the order of the
+  /// scenario.
   [[nodiscard]] std::span<const std::unique_ptr<Injector>> injectors() const { return injectors_; }
 
   [[nodiscard]] std::vector<FaultReport> reports() const;

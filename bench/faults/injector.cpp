@@ -10,7 +10,7 @@ world::Stream InRun::stream(std::string_view part) const {
 
 Switched::Switched(const When& when, const InRun& run)
     : rig_(run.hands), when_(when), tally_(run.tally), due_us_(when.from_us) {
-  when_.to_us = std::min(when.to_us, run.end_us - 1);  // no stretch begins at the end of the run
+  when_.to_us = std::min(when.to_us, run.end_us - 1);  // so no stretch begins at the end of the run
 }
 
 void Switched::transmit(std::vector<Frame>& /*out*/) {

@@ -1,5 +1,5 @@
-// Faults between nodes and bus, or of the target. They change frames on their way to the bus, and may also
-// act at times of their own: they send frames or use RigControl.
+// Faults between nodes and bus, or of the target. An injector changes frames on their way to the bus. It may
+// also act at times of its own: it then sends frames or uses RigControl.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@
 
 namespace canhil::faults {
 
-/// Actions on the target's process and the interface. Not called in runs for which Place excludes the action.
+/// Actions on the process of the target and on the CAN interface. Faults do not call an action in runs for
+/// which Place excludes it.
 class RigControl {
  public:
   RigControl() = default;
@@ -26,11 +27,12 @@ class RigControl {
   virtual ~RigControl() = default;
   virtual void pause_target() = 0;
   virtual void resume_target() = 0;
-  /// Kills the target, starts it again and configures it with the state at `t_us`, a time of the run.
+  /// Kills the target, starts it again, and configures it with the initial state for `t_us`, a time of the
+  /// run.
   virtual void restart_target(std::int64_t t_us) = 0;
-  /// Reports an error frame as the interface's driver would.
+  /// Reports an error frame, as the driver of the interface would report it.
   virtual void report_error(const Frame& error) = 0;
-  /// Sets the interface down, and up again after `for_us`, even while the bench waits for the interface.
+  /// Sets the interface down and, after `for_us`, up again, even while the bench waits for the interface.
   virtual void interface_down(std::int64_t for_us) = 0;
   /// Waits until the interface is up again.
   virtual void interface_up() = 0;
@@ -38,20 +40,21 @@ class RigControl {
 
 /// The effect of a fault in a run.
 struct Tally {
-  std::uint64_t count = 0;  ///< frames or samples affected, or the number of activations
-  /// Number of frames with a changed value but valid protection; number of those whose time was changed.
+  std::uint64_t count = 0;  ///< number of affected frames or samples, or of activations
+  /// `changed`: number of frames with a changed value but a valid counter and CRC. `changed_times`: number of
+  /// those frames in which a time was changed.
   std::uint64_t changed = 0, changed_times = 0;
-  /// Number of frames sent after a newer frame of the same message. If a sample has a single message, the
-  /// target sees by the sample's time of validity that the sample is late.
+  /// Number of frames that were sent after a newer frame of the same message. If a sample has a single
+  /// message, the target recognises by the time of validity that the sample is late.
   std::uint64_t overtaken = 0;
 };
 
-/// A fault in a run. Everything that it refers to must outlive the injectors made from it.
+/// A fault in a run. Everything to which this object refers must outlive the injectors that are made from it.
 struct InRun {
   const scenario::Fault& fault;
   std::uint64_t seed = 0, run_index = 0;
   std::int64_t end_us = 0;
-  std::span<const MessageInfo> messages;  ///< of the bus
+  std::span<const MessageInfo> messages;  ///< all messages of the bus
   const Place& place;
   RigControl* hands = nullptr;  ///< null: not available
   Tally& tally;
@@ -69,20 +72,21 @@ class Injector {
 
   /// Changes the frames of a transmission that is due at `t_us`.
   virtual void apply(std::vector<Frame>& /*frames*/, std::int64_t /*t_us*/) {}
-  /// When the injector next acts on its own, in transmit(); nodes::never_us: never.
+  /// The time at which the injector next acts on its own, in transmit(); nodes::never_us if it does not.
   [[nodiscard]] virtual std::int64_t due_us() const { return nodes::never_us; }
-  /// Acts at due_us() and appends the frames to be sent.
+  /// Acts on its own at due_us(), and appends the frames that are to be sent.
   virtual void transmit(std::vector<Frame>& /*out*/) {}
   /// Called at the end of the run, however the run ends: releases the frames or resources that the fault
   /// holds.
   virtual void end() {}
-  /// End of the time during which this fault explains a silent target.
+  /// The end of the time during which this fault explains why the target is silent.
   [[nodiscard]] virtual std::int64_t silent_until_us() const {
     return std::numeric_limits<std::int64_t>::min();
   }
 };
 
-/// A fault that is on from the start to the end of each stretch, an uninterrupted part of its active time.
+/// A fault that is switched on at the start and off at the end of each stretch. A stretch is an uninterrupted
+/// part of the active time of the fault.
 class Switched : public Injector {
  public:
   Switched(const When& when, const InRun& run);
@@ -107,7 +111,7 @@ class Switched : public Injector {
   Tally& tally_;
   bool on_ = false;
   std::int64_t due_us_;
-  std::int64_t ended_us_ = std::numeric_limits<std::int64_t>::min();  // of the last stretch that began
+  std::int64_t ended_us_ = std::numeric_limits<std::int64_t>::min();  // end of the latest stretch
 };
 
 /// A fault that acts periodically while it is active.

@@ -1,4 +1,4 @@
-// All kinds of faults, stage by stage.
+// All kinds of faults, ordered by stage.
 #include "bench/faults/kinds.hpp"
 
 #include <array>

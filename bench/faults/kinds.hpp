@@ -8,10 +8,10 @@
 
 namespace canhil::faults {
 
-/// All kinds, stage by stage.
+/// All kinds, ordered by stage.
 std::span<const Listed> listed_kinds();
 
-/// The kinds for scenario::DbcVocabulary.
+/// All kinds, in the form that scenario::DbcVocabulary needs.
 std::vector<scenario::FaultKind> kinds();
 
 }  // namespace canhil::faults

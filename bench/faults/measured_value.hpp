@@ -12,7 +12,8 @@ namespace canhil::faults {
 /// Whether a node sends a message.
 bool sends(const scenario::NodeTable& node, const MessageInfo& message);
 
-/// The interval of the sample in these frames [s]: from the frames, or else the node's period.
+/// The interval of the sample in these frames [s]: the interval that a frame contains; if no frame contains
+/// it, the period of the node.
 double interval_of(const std::vector<Frame>& frames, std::int64_t period_us);
 
 class MeasuredValue {
@@ -20,18 +21,18 @@ class MeasuredValue {
   explicit MeasuredValue(const Measured& of) : of_(of) {}
 
   [[nodiscard]] const Measured& of() const { return of_; }
-  /// The frame that carries the value; null: no frame does.
+  /// The frame that carries the value; null if no frame carries it.
   [[nodiscard]] Frame* in(std::vector<Frame>& frames) const;
   [[nodiscard]] double get(const Frame& frame, double interval_s) const;
-  /// Writes the value. For an increment it first adds the rounding remainder of the previous one: value' =
-  /// value + remainder.
+  /// Writes the value. If the value is an increment, the rounding remainder of the previous increment is
+  /// added first: value' = value + remainder.
   void put(Frame& frame, double value, double interval_s);
-  /// Writes the value without a remainder.
+  /// Writes the value without adding a remainder.
   void put_exactly(Frame& frame, double value, double interval_s) const;
 
  private:
   Measured of_;
-  double remainder_ = 0;  // in the signal's unit
+  double remainder_ = 0;  // rounding remainder of the last increment, in the signal's unit
 };
 
 }  // namespace canhil::faults

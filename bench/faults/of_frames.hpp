@@ -1,4 +1,4 @@
-// Faults of frames on their way to the bus, message by message.
+// The base class of faults that change frames on their way to the bus. Each message has its own state.
 #pragma once
 
 #include <optional>
@@ -20,13 +20,13 @@ class OfFrames : public Injector {
   struct Own {
     const MessageInfo* message = nullptr;
     Occasions occasions;
-    std::optional<std::uint8_t> counter{};  // for kinds that keep a counter
+    std::optional<std::uint8_t> counter{};  // for kinds that remember a counter
     std::optional<Frame> held{};            // for kinds that hold a frame back
-    bool before = false;                    // the previous frame was affected
+    bool before = false;                    // the previous frame of the message was affected
   };
-  /// Appends the result for an affected frame.
+  /// Appends to `left` the frames that are sent in place of an affected frame.
   virtual void put(Own& own, const Frame& frame, std::int64_t t_us, std::vector<Frame>& left) = 0;
-  /// Appends the result for an unaffected frame.
+  /// Appends to `left` the frames that are sent in place of an unaffected frame.
   virtual void pass(Own& /*own*/, const Frame& frame, std::vector<Frame>& left) { left.push_back(frame); }
   Tally& tally() { return tally_; }
 
@@ -36,7 +36,7 @@ class OfFrames : public Injector {
   Tally& tally_;
 };
 
-/// The effect of a fault on a single frame, independent of earlier frames: appends the result.
+/// Appends to `left` the frames that are sent in place of `frame`; does not depend on earlier frames.
 using Change = void (*)(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 
 /// A fault that applies `change` to each affected frame.

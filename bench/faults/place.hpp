@@ -11,7 +11,7 @@ namespace canhil::faults {
 struct Place {
   enum class Interface : std::uint8_t { none, virtual_can, controller };
   std::string bus{};                      ///< value of --bus
-  Interface interface = Interface::none;  ///< kind of kernel interface; none: not a kernel interface
+  Interface interface = Interface::none;  ///< kind of kernel interface; none: another bus
   bool may_set_interface = false;         ///< the bench may set the interface up and down
   bool virtual_time = false;              ///< time advances when the target completes a step
   bool in_process = false;                ///< the target is a Device in the bench's process

@@ -17,7 +17,7 @@ namespace {
 using scenario::FaultContext;
 using scenario::Section;
 
-// Suffixes of the keys for a quantity, by its SI unit.
+// The suffixes that a key for a quantity may have, by the SI unit of the quantity.
 constexpr std::array<std::pair<std::string_view, std::array<std::string_view, 3>>, 6> endings{
     {{"rad/s", {"degps", "mradps", "degph"}},
      {"rad", {"deg", "mrad", ""}},
@@ -79,8 +79,8 @@ const scenario::NodeTable* read_node(Section& section, const FaultContext& conte
   std::vector<std::string> names;
   for (const scenario::NodeSettings& node : context.nodes) names.emplace_back(node.table().key);
   const std::string name = section.one_of({"node",
-                                           "Node that the fault affects. For faults on the bus: all messages "
-                                           "of the node, in place of `messages`."},
+                                           "Node that the fault affects. For faults on the bus, this key "
+                                           "stands for all messages of the node and replaces `messages`."},
                                           names);
   const auto found = std::ranges::find(context.nodes, name,
                                        [](const scenario::NodeSettings& node) { return node.table().key; });
@@ -134,8 +134,8 @@ OfValues read_values(Section& section, const FaultContext& context) {
     const mapping::Stimulus* stimulus =
         read_quantity(section, context,
                       {"quantity",
-                       "Quantity, measured by a node, that the fault changes (faults.md); or `messages` and "
-                       "`signal` in its place."});
+                       "Measured quantity that the fault changes (faults.md). In place of this key, "
+                       "`messages` and `signal` may be given."});
     if (stimulus == nullptr) return of;
     of.all.push_back(measured(*stimulus));
     of.text = stimulus->name;
@@ -144,8 +144,9 @@ OfValues read_values(Section& section, const FaultContext& context) {
   section.optional("quantity");
   const auto messages = messages_by_name(section, context);
   if (messages.empty()) section.missing("quantity", "a quantity, or messages and signal");
-  const std::string name = section.text(
-      {"signal", "Signal that the fault changes, in the given `messages`; in place of `quantity`."});
+  const std::string name = section.text({"signal",
+                                         "Signal of the `messages` that the fault changes. Use `messages` "
+                                         "and `signal` together, in place of `quantity`."});
   of.text = words_of(messages);
   for (const MessageInfo* message : messages) {
     if (context.contract.foreign != nullptr) {
@@ -178,12 +179,12 @@ double read_size(Section& section, std::string_view stem, std::string_view meani
   if (given.empty()) {
     section.missing(keys.front(),
                     keys.size() == 1 ? "a number" : fmt::format("one of: {}", fmt::join(keys, ", ")));
-    given = keys.front();  // for the reference
+    given = keys.front();  // for `hil-bench reference`
   }
   const std::string shown = fmt::format("{}_UNIT", stem);
   const std::string whole_meaning = fmt::format(
-      "{0} UNIT is the ending of the quantity's unit, as in `{1}_degps`; with `signal` the key is `{1}`, in "
-      "the signal's unit.",
+      "{0} UNIT stands for the unit of the quantity, as in `{1}_degps`. With `signal`, the key is `{1}` "
+      "alone, and its value is in the signal's unit.",
       meaning, stem);
   const scenario::Key key{given, whole_meaning, shown};
   return si.empty() ? section.plain_number(key, limits) : section.number(key, limits);

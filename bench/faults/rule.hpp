@@ -1,16 +1,16 @@
 // The interface of a kind of fault to the rest of the bench.
 //
-// A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), a constant `stage`,
-// its fields, among them `When when`, and
+// A kind is a struct with the constants `kind`, `meaning` (for `hil-bench reference`) and `stage`, with
+// fields, among them `When when`, and with these functions:
 //   static Kind read(scenario::Section&, const scenario::FaultContext&)
-//   std::string subject() const                  what the fault affects: distinguishes faults of one kind
+//   std::string subject() const                  what the fault affects, to distinguish faults of one kind
 // for faults of a sensor or a node
 //   std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node>, const scenario::NodeSettings&,
 //   const InRun&) const                          the wrapped node, or the same node if it is not affected
 // for faults of the bus or the target
 //   std::unique_ptr<Injector> injector(const InRun&) const
-// and, where it does not work in every run,
-//   std::string cannot(const Place&) const       why it does not work, to follow "KIND "; empty: it works
+// and, if the kind does not work in every run,
+//   std::string cannot(const Place&) const       why it does not work, as text after "KIND "; empty: it works
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ class Rule {
 
   [[nodiscard]] virtual Stage stage() const = 0;
   [[nodiscard]] virtual std::string cannot(const Place& place) const = 0;
-  /// Null: the fault acts within the nodes.
+  /// The injector of the fault; null if the fault acts within the nodes.
   [[nodiscard]] virtual std::unique_ptr<Injector> injector(const InRun& run) const = 0;
   [[nodiscard]] virtual std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
                                                                 const scenario::NodeSettings& settings,
@@ -87,7 +87,7 @@ scenario::FaultRead read_rule(scenario::Section& section, const scenario::FaultC
           .subject = std::move(subject)};
 }
 
-/// The entry of a registry.
+/// The entry of a kind in the list of all kinds.
 struct Listed {
   scenario::FaultKind kind;
   Stage stage;

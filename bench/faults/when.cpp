@@ -13,12 +13,13 @@ constexpr std::int64_t longest_us = 86'400'000'000;
 
 void read_periods(scenario::Section& section, When& when) {
   const auto for_us = section.optional_time_us(
-      {"for_s", "Duration of the fault, in place of `to_s`; with `each_s` the duration of each repetition."},
+      {"for_s", "Duration of the fault, in place of `to_s`. With `each_s`: duration of each repetition."},
       Limits::above(0));
-  const auto each_us = section.optional_time_us({"each_s",
-                                                 "Time from one repetition of the fault to the next; without "
-                                                 "the key it does not repeat. Only beside `for_s`."},
-                                                Limits::above(0));
+  const auto each_us = section.optional_time_us(
+      {"each_s",
+       "Time from the start of one repetition of the fault to the start of the next. Without this key the "
+       "fault does not repeat. Only together with `for_s`."},
+      Limits::above(0));
   if (each_us && !for_us) section.reject("each_s", "is given alone", "for_s beside it");
   if (!for_us) return;
   if (each_us) {
@@ -48,10 +49,11 @@ When read_when(scenario::Section& section, const scenario::FaultContext& context
   read_periods(section, when);
   if (repeats == Repeats::stretch) return when;
   when.every = section
-                   .optional_integer({"every",
-                                      "N: the fault affects only the first of every N frames of a message, "
-                                      "or of every N samples. Default: 1, all of them."},
-                                     1)
+                   .optional_integer(
+                       {"every",
+                        "A number N: the fault affects only the first of every N frames of a message, or the "
+                        "first of every N samples. Default: 1, so the fault affects every frame or sample."},
+                       1)
                    .value_or(1);
   when.share =
       0.01 *

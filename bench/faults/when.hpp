@@ -1,4 +1,4 @@
-// When a fault is active, and which frames or samples it then affects.
+// At which times a fault is active, and which frames or samples it affects at these times.
 #pragma once
 
 #include <cstdint>
@@ -9,31 +9,32 @@
 
 namespace canhil::faults {
 
-/// The active time within a run: all of [from, to], or in it the first `for_us` of each period `each_us`.
+/// The active time within a run: all of [from, to] or, within [from, to], the first `for_us` of each period
+/// `each_us`.
 struct When {
   static constexpr std::int64_t always_us = std::numeric_limits<std::int64_t>::max();
   std::int64_t from_us = 0, to_us = always_us;  ///< ends included
   std::int64_t for_us = 0, each_us = 0;         ///< 0: no periods
-  std::int64_t every = 1;                       ///< affects the first of each `every` frames or samples ...
-  double share = 1;                             ///< ... and a random fraction of those
+  std::int64_t every = 1;                       ///< affects only the first of every `every` frames or samples
+  double share = 1;                             ///< affects only a random fraction of those frames or samples
 
   [[nodiscard]] bool holds(std::int64_t t_us) const {
     return t_us >= from_us && t_us <= to_us && (each_us == 0 || (t_us - from_us) % each_us < for_us);
   }
-  /// The number of the period at a time.
+  /// The index of the period that contains `t_us`.
   [[nodiscard]] std::int64_t period(std::int64_t t_us) const {
     return each_us == 0 ? 0 : (t_us - from_us) / each_us;
   }
 };
 
-/// What a fault affects: individual frames or samples (each), or the whole of its active time (stretch).
+/// What a fault affects: individual frames or samples (each), or everything during its active time (stretch).
 enum class Repeats : std::uint8_t { each, stretch };
 
-/// The keys from_s, to_s, for_s, each_s and, for `each`, every and percent.
+/// Reads the keys from_s, to_s, for_s and each_s. With Repeats::each, also reads the keys every and percent.
 When read_when(scenario::Section& section, const scenario::FaultContext& context, Repeats repeats);
 
-/// The same keys for faults that must end before the run ends: for_s is required, and the run must continue
-/// afterwards.
+/// Reads these keys for a fault that must end before the run ends: for_s is required, and the run must
+/// continue after the fault.
 When read_stretches(scenario::Section& section, const scenario::FaultContext& context);
 
 /// Decides for each frame or sample whether it is affected.
@@ -51,7 +52,7 @@ class Occasions {
  private:
   When when_;
   world::Stream stream_;
-  std::int64_t seen_ = 0;  // frames or samples seen during the active time
+  std::int64_t seen_ = 0;  // number of frames or samples during the active time
 };
 
 }  // namespace canhil::faults

@@ -1,4 +1,4 @@
-// Decides which requests the page's server answers. Contains no sockets.
+// Decides which requests the server of the page answers. This code uses no sockets.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@ class Display {
   virtual ~Display() = default;
 
   virtual void show(const Snapshot& snapshot) = 0;
-  /// Serves the viewers for about this time: exchanges data with browsers, reads keys.
+  /// Serves the viewers for about `time`: exchanges data with browsers, or reads keys.
   virtual void run_for(std::chrono::milliseconds time) = 0;
   /// Whether all output has reached the viewers.
   [[nodiscard]] virtual bool settled() const { return true; }

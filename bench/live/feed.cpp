@@ -12,8 +12,8 @@ void Feed::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_
 std::uint64_t Feed::drain(observe::Observer& to, world::EngagementRecord* engagement) {
   std::uint64_t count = 0;
   Event event;
-  // Reads at most the events that are queued at the start; with a fast producer the loop would otherwise
-  // never end.
+  // Reads only the events that are queued when the loop starts; otherwise the loop would not end while new
+  // events arrive fast.
   for (std::size_t left = events_.read_available(); left > 0 && events_.pop(event); --left, ++count) {
     switch (event.kind) {
       case Event::Kind::transmitted:

@@ -10,7 +10,7 @@
 
 namespace canhil::live {
 
-/// One call of an observer, stored as a value.
+/// One call of a function of an observer, stored as a value.
 struct Event {
   enum class Kind : std::uint8_t { transmitted, received, foreign, time_set, interface_changed };
   Kind kind = Kind::transmitted;
@@ -28,7 +28,7 @@ class Feed final : public observe::Observer {
 
   explicit Feed(std::size_t room = frames) : events_(room), epochs_(epochs) {}
 
-  /// Sets the record to which the flight adds epochs; the feed copies them. Null: the flight has no
+  /// Sets the record to which the flight adds epochs; the feed copies these epochs. Null: the flight has no
   /// engagement. Must be called before the first frame.
   void follow(const world::EngagementRecord* engagement) {
     engagement_ = engagement;
@@ -47,8 +47,9 @@ class Feed final : public observe::Observer {
     put({.kind = Event::Kind::interface_changed, .up = up, .t_ns = t_ns});
   }
 
-  /// Removes the events that are queued now and passes them on in order, then copies the engagement's epochs.
-  /// An epoch is queued before its frames, so no epoch is missing. Returns the number of events.
+  /// Removes the events that are now in the queue, passes them to `to` in order, and then copies the epochs
+  /// of the engagement. An epoch is queued before its frames, so no epoch is missing. Returns the number of
+  /// events.
   std::uint64_t drain(observe::Observer& to, world::EngagementRecord* engagement);
 
   [[nodiscard]] std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }

@@ -16,13 +16,13 @@ namespace canhil::live {
 namespace {
 
 constexpr std::int64_t window_us = 10'000'000;
-// The age at which values are final: all answers, even to a late fix, have arrived.
+// The age at which values are final: by then all answers, even to a late fix, have arrived.
 constexpr std::int64_t settled_us = 1'500'000;
 
 double us(double ns) { return ns * 1e-3; }
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
-// Whether the view shows a series. It shows statistics and errors; if the truth is unknown, it shows
+// Whether the view shows a series. The view shows statistics and errors; if the truth is unknown, it shows
 // estimates in place of errors.
 bool is_shown(report::Series::Kind kind, bool known) {
   using enum report::Series::Kind;
@@ -81,8 +81,8 @@ void add_load(Flight& flight, std::span<const wire::BitLength> lengths, wire::Bi
   flight.load_now = whole.empty() ? 0 : wire::bus_load(whole.back(), 1.0, rates);
 }
 
-// The end of the window in which a check judges values. None: the check can only be judged after the run,
-// because it compares no values with a limit, judges by time to go, or judges timing.
+// The end of the window in which a check judges values. Nullopt if the check can only be judged after the
+// run: it compares no values with a limit, or its window is in time to go, or it judges timing.
 std::optional<std::int64_t> over_at_us(const scenario::Check& check) {
   const auto bar = check.rule->bar();
   if (!bar || bar->stretch.to_go_s || !check.rule->timed().empty()) return std::nullopt;
@@ -165,8 +165,8 @@ void FlightInProgress::interface_changed(bool up, std::int64_t t_ns) {
   each_watcher([&](observe::Observer& to) { to.interface_changed(up, t_ns); });
 }
 
-// Replaces the older watcher by the newer one. The newer one has also received all frames since the last
-// update, so the tracks lose no value.
+// Replaces the older watcher by the newer one and starts another one. The newer watcher has also received all
+// frames since the last update, so the tracks lose no value.
 void FlightInProgress::move_window() {
   window_since_us_ = now_us();
   if (!recent_) return;

@@ -1,4 +1,4 @@
-// A flight as the view shows it: from the frames so far and, after the end, from the finished run.
+// A flight as the view shows it: computed from the frames so far and, after the end, from the finished run.
 #pragma once
 
 #include <memory>
@@ -13,14 +13,14 @@
 
 namespace canhil::live {
 
-/// The facts about a flight that are known before it begins.
+/// What is known about a flight before it begins.
 Flight flight_of(const scenario::Scenario& scenario, const drive::Options& options);
 
 /// The finished flight, with the numbers of its report.
 Flight flight_of(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// Observes the frames of a flight in progress, with the watchers, tracks and checks that judge the flight at
-/// its end. Neither the memory nor the work for one update grows with the flight.
+/// Observes the frames of a flight in progress. Uses the same watchers, tracks and checks that judge the
+/// flight at its end. Neither the memory nor the work for one update grows with the length of the flight.
 class FlightInProgress final : public observe::Observer {
  public:
   /// The objects that the departure refers to must outlive this object.
@@ -36,9 +36,9 @@ class FlightInProgress final : public observe::Observer {
   /// The record that receives epochs of the engagement; null: the flight has no engagement.
   [[nodiscard]] world::EngagementRecord* engagement() { return engagement_ ? &*engagement_ : nullptr; }
 
-  /// Updates a flight to the current time. `all_seen`: the view missed no frame, so checks may be judged.
-  /// Series end 1.5 s before now, because the sigma of a late fix arrives late. `landed`: the run is over, so
-  /// series end now.
+  /// Updates `flight` to the current time. `all_seen`: the view missed no frame, so checks may be judged. A
+  /// series ends 1.5 s before now, because the sigma of a late fix arrives late. `landed`: the run is over,
+  /// so a series ends now.
   void update(Flight& flight, bool all_seen, bool landed = false);
 
  private:
@@ -62,12 +62,12 @@ class FlightInProgress final : public observe::Observer {
   std::optional<world::EngagementRecord> engagement_{};  // a copy of the record that the flight extends
   observe::LoadMeter load_;
   std::unique_ptr<observe::Watcher> whole_;  // for the whole flight: times and checks
-  // Two watchers for tracks: the older one has received the last one to two window_us. After each window_us
-  // the newer one replaces it, and another one starts.
+  // Two watchers for tracks. The older one has received the frames of the last one to two window_us. After
+  // each window_us, the newer watcher replaces the older one, and another watcher starts.
   std::unique_ptr<observe::Watcher> recent_, next_recent_;
   std::int64_t window_since_us_ = 0;
   std::vector<Known> known_{};
-  std::vector<std::int64_t> judged_at_us_;  // for each check of the scenario
+  std::vector<std::int64_t> judged_at_us_;  // for each check of the scenario; negative: not judged yet
   std::optional<std::int64_t> first_ns_{};
   std::int64_t last_ns_ = 0;
   std::optional<std::int64_t> virtual_ns_{};

@@ -23,7 +23,8 @@ Json outcome(const std::optional<checks::Outcome>& outcome) {
 
 std::string key_of(const report::Series& series) { return series.estimator + '/' + series.quantity; }
 
-// The points from index `from` on. The last point that was sent may have changed since.
+// A series with its points from index `from` on. These include the last point that was sent, because it may
+// have changed since.
 Json object(const report::Series& series, std::size_t from) {
   constexpr std::array<std::string_view, 4> kinds{"estimate", "error", "innovation", "statistic"};
   Json json{{"key", key_of(series)},
@@ -133,7 +134,7 @@ std::string message(const Snapshot& snapshot, FromOf from_of) {
             {"dropped", snapshot.dropped}};
   if (snapshot.flight) json["flight"] = object(*snapshot.flight, from_of);
   if (snapshot.batch) json["batch"] = object(*snapshot.batch);
-  // File and bus names need not be UTF-8.
+  // Names of files and buses may contain bytes that are not UTF-8; such bytes are replaced.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -1,4 +1,4 @@
-// Snapshots as messages for the page: JSON, docs/live.md describes it.
+// Converts snapshots to JSON messages for the page; docs/live.md describes the format.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace canhil::live {
 
-/// The number of points of each series that were already sent. The next message contains newer points, and
-/// the last sent point again, because it may have changed.
+/// The number of points of each series that were already sent. The next message contains the newer points and
+/// also the last sent point, because this point may have changed.
 using Sent = std::map<std::string, std::size_t>;
 
-/// The complete snapshot.
+/// A message with the complete snapshot.
 std::string whole_message(const Snapshot& snapshot);
-/// The changes since the messages that `sent` counts; updates `sent`. At the end of a flight the message
-/// contains everything.
+/// A message with the changes since the messages that `sent` records; updates `sent`. At the end of a flight
+/// the message contains everything.
 std::string next_message(const Snapshot& snapshot, Sent& sent);
 
 }  // namespace canhil::live

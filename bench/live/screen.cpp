@@ -18,7 +18,7 @@ Look look_of(const std::optional<checks::Outcome>& outcome) {
                                              : Look::open;
 }
 
-// Formats any value so that it fits its column.
+// Formats any value so that it fits into its column.
 std::string number(std::optional<double> value) {
   return !value || !std::isfinite(*value) ? "-"
          : std::abs(*value) >= 1e6        ? fmt::format("{:.2e}", *value)
@@ -53,14 +53,14 @@ class Screen {
   }
 
  private:
-  // Names may be UTF-8: never splits a character. Control characters, which would control the terminal,
-  // become '?'.
+  // Shortens a text to the width of the screen. Never splits a UTF-8 character. Replaces control characters
+  // by '?', because they would control the terminal.
   [[nodiscard]] std::string shortened(std::string text) const {
     std::size_t shown = 0, end = 0;
     for (; end < text.size(); ++end) {
       auto& byte = reinterpret_cast<unsigned char&>(text[end]);
       if (byte < 0x20 || byte == 0x7f) byte = '?';
-      const bool begins = static_cast<signed char>(byte) >= -64;  // otherwise a continuation byte
+      const bool begins = static_cast<signed char>(byte) >= -64;  // otherwise `byte` continues a character
       if (begins && shown++ == columns_) break;
     }
     text.resize(end);
@@ -138,7 +138,7 @@ std::vector<ScreenLine> screen_of(const Snapshot& snapshot, std::size_t rows, st
   }
   if (!snapshot.ended.empty()) screen.add(snapshot.ended, Look::bad);
   std::vector<ScreenLine> lines = std::move(screen).first(rows > 4 ? rows - 1 : rows);
-  if (rows > 4) {  // keys at the bottom
+  if (rows > 4) {  // the last line lists the keys
     lines.resize(rows - 1);
     lines.push_back({std::string("space: pause   Ctrl-C: end the run").substr(0, columns), Look::plain});
   }

@@ -14,7 +14,7 @@ struct ScreenLine {
   Look look = Look::plain;
 };
 
-/// The most important lines first: at most `rows` lines, none longer than `columns`.
+/// The lines, most important first: at most `rows` lines, none longer than `columns`.
 std::vector<ScreenLine> screen_of(const Snapshot& snapshot, std::size_t rows, std::size_t columns,
                                   bool paused);
 

@@ -1,10 +1,10 @@
-// The page of the live view: receives messages from the bench, keeps the newest, shows it unless paused.
+// The page of the live view: receives messages from the bench, keeps the newest message, and shows it unless the page is paused.
 "use strict";
 
 const by_id = id => document.getElementById(id);
 const model = {series: new Map(), message: null};
 let paused = false, last_fifth = false, connected = false;
-const charts = new Map(); // by key
+const charts = new Map(); // by the key of the series
 
 const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -31,7 +31,7 @@ function element(tag, style, text) {
 }
 function set_text(node, text) { if (node.textContent !== text) node.textContent = text; }
 
-// rows: arrays of [text, style]; only cells that differ are changed.
+// rows: each row is an array of [text, style]; only cells that differ are changed.
 function fill(table, rows) {
   const body = table.tBodies[0], labels = [...table.tHead.rows[0].cells].map(cell => cell.textContent);
   while (body.rows.length > rows.length) body.deleteRow(-1);
@@ -75,7 +75,7 @@ function line(points, border, more) {
     fill: false, tension: 0, parsing: false, normalized: true}, more);
 }
 
-// The chart of a key inside `parent`; created at first use.
+// The chart of a series key inside `parent`; it is created at first use.
 function chart_of(parent, key) {
   let one = charts.get(key);
   if (one) return one;
@@ -310,7 +310,7 @@ function change_range() {
 for (const [id, action] of [["pause", pause], ["range", change_range]])
   by_id(id).onclick = event => {
     action();
-    if (event.detail > 0) event.target.blur(); // a mouse click: return the keyboard to the page
+    if (event.detail > 0) event.target.blur(); // after a mouse click, key presses go to the page again
   };
 document.addEventListener("keydown", event => {
   if (event.ctrlKey || event.altKey || event.metaKey || event.repeat || event.target instanceof HTMLButtonElement) return;

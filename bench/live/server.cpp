@@ -52,7 +52,7 @@ std::string_view text_of(const report::EmbeddedFiles& files, std::string_view na
   return std::ranges::find(files, name, &report::EmbeddedFile::name)->text;
 }
 
-// The page, with the token inserted into the addresses that it refers to.
+// The page, with the token inserted into each address to which the page refers.
 std::string page_with(const std::string& query) {
   constexpr std::string_view mark = "$QUERY";
   std::string page(text_of(page_texts, "page"));
@@ -83,7 +83,8 @@ class Place {
   Site* site_;
 };
 
-// A connected browser. The server sends one message at a time; after each message, the newest one follows.
+// A connected browser. The server sends one message at a time; a browser misses the snapshots that come in
+// the meantime.
 class Spectator : public std::enable_shared_from_this<Spectator> {
  public:
   Spectator(tcp::socket socket, Place place) : place_(std::move(place)), stream_(std::move(socket)) {}
@@ -104,7 +105,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
 
   [[nodiscard]] bool open() const { return open_; }
   [[nodiscard]] bool busy() const { return message_ != nullptr; }
-  [[nodiscard]] bool follows() const { return follows_; }  // no message was skipped since the last one sent
+  [[nodiscard]] bool follows() const { return follows_; }  // no snapshot was skipped since the last message
 
   void send(Text message) {
     message_ = std::move(message);
@@ -123,7 +124,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
   }
 
  private:
-  // The page never sends data on the WebSocket; a client that does is not our page and is disconnected.
+  // The page never sends data on the WebSocket. A client that sends data is not our page and is disconnected.
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
       static_cast<void>(error);
@@ -250,7 +251,8 @@ class BeastServer final : public Server {
   void show(const Snapshot& snapshot) override {
     if (!accepting_) accept();
     std::erase_if(spectators_, [](const auto& one) { return !one->open(); });
-    // No message is written without spectators; a spectator that connects later receives the whole snapshot.
+    // Without spectators, no message is composed. A spectator that connects later receives the whole
+    // snapshot.
     last_ = std::nullopt;
     whole_ = nullptr;
     if (spectators_.empty()) sent_.clear();
@@ -291,7 +293,8 @@ class BeastServer final : public Server {
     });
   }
 
-  // The handlers in io_ own the connections, which count themselves in site_. So site_ must outlive io_.
+  // The handlers in io_ own the connections, and each connection decrements a count in site_ when it is
+  // destroyed. So site_ must outlive io_.
   Site site_;
   Text whole_;
   std::optional<Snapshot> last_;

@@ -19,16 +19,16 @@ struct CheckLine {
   std::string measured{}, expected{};
 };
 
-/// A message of the target. Times [us].
+/// The times of one message of the target [us].
 struct TimingLine {
   std::string message;
   std::uint64_t count = 0;  ///< answers with a latency
   double p50_us = 0, p99_us = 0, max_us = 0;
   std::uint64_t jitter_count = 0;
   double jitter_p99_us = 0, jitter_max_us = 0;
-  double stretch_s = 0;  ///< length of a stretch of time
-  /// The largest latency in each stretch; NaN: no answer in it. Empty unless the message is the last of its
-  /// answer.
+  double stretch_s = 0;  ///< length of each stretch in `slowest_us`
+  /// The largest latency in each stretch of the flight; NaN: no answer in the stretch. Empty unless the
+  /// message is the last message of its answer.
   std::vector<double> slowest_us{};
 };
 
@@ -41,31 +41,31 @@ struct FaultLine {
 struct Flight {
   std::string title{}, scenario{}, bus{}, clock{};
   double t_s = 0, duration_s = 0;
-  std::optional<checks::Outcome> outcome{};  ///< none: still running
+  std::optional<checks::Outcome> outcome{};  ///< none: the flight is still running
   std::string reason{};
   std::vector<CheckLine> checks{};
   std::vector<report::Series> series{};
   std::string no_timing{};  ///< why no times are shown; empty: times are shown
   std::vector<TimingLine> timing{};
   std::string bit_rate{};
-  double load_now = 0;  ///< fraction of the bus capacity in the last whole second
+  double load_now = 0;  ///< bus load in the last full second, from 0 to 1
   checks::Load load{};
   checks::LoadLine load_line{};
   std::vector<FaultLine> faults{};
   std::string no_tracks{};  ///< why quantities and times are not shown before the end; empty: they are shown
 };
 
-/// The state so far of a campaign or a matrix of faults.
+/// The state of a campaign or a fault matrix so far.
 struct Batch {
   struct Line {
     std::string name, result;
     bool failed = false;
   };
-  std::string title, of;  ///< `of`: "runs", "flights"
+  std::string title, of;  ///< `of`: what is counted, "runs" or "flights"
   std::uint64_t done = 0, total = 0, failed = 0;
-  std::string failed_means{};  ///< meaning of `failed`: "ended early", "violations"
+  std::string failed_means{};  ///< meaning of `failed`: "ended early" or "violations"
   double rate_per_s = 0;
-  std::optional<checks::Outcome> outcome{};  ///< none: still running
+  std::optional<checks::Outcome> outcome{};  ///< none: the batch is still running
   std::string reason{};
   std::deque<Line> latest{};  ///< newest first
   static constexpr std::size_t most_latest = 40;

@@ -15,7 +15,7 @@
 namespace canhil::live {
 namespace {
 
-// Keeps standard error in a file; the text would otherwise be written across the screen.
+// Redirects standard error to a file; otherwise the text would be written across the screen.
 class HeldErrors {
  public:
   HeldErrors() : before_(dup(STDERR_FILENO)), file_(std::tmpfile()) {

@@ -8,8 +8,9 @@
 
 namespace canhil::live {
 
-/// Takes over the terminal of standard output until the display is destroyed. Text written to standard error
-/// meanwhile is printed afterwards. Error, one line: standard output is not a terminal.
+/// Takes over the terminal of standard output until the display is destroyed. Text that is written to
+/// standard error in the meantime is printed afterwards. Returns an Error of one line if standard output is
+/// not a terminal.
 Result<std::unique_ptr<Display>> open_terminal();
 
 }  // namespace canhil::live

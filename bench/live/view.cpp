@@ -18,15 +18,15 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// Intervals between reads of the queue, which must not fill up, and shortest interval between updates of the
-// displays. In real time the frames arrive at the speed of the bus, and the view must work for clearly less
-// than 1 % of the time: otherwise p99 of the lateness of the flight's frames is that of the disturbed ones.
+// `look`: interval between reads of the queue, which must not fill up. `show`: shortest interval between
+// updates of the displays. In real time, the view must work for clearly less than 1 % of the time; otherwise
+// it would disturb more than 1 % of the flight's frames, and the p99 of their lateness would be wrong.
 struct Pace {
   std::chrono::milliseconds look, show;
 };
 constexpr Pace usual{.look = 25ms, .show = 250ms}, real_time{.look = 100ms, .show = 500ms};
-constexpr int rest = 9;  // ratio of pause to work: the view works for at most a tenth of the time
-constexpr auto longest_farewell = 1s;  // longest wait until viewers have received the end
+constexpr int rest = 9;  // ratio of pause to work: the displays work for at most a tenth of the time
+constexpr auto longest_farewell = 1s;  // longest wait for viewers to receive the last snapshot
 constexpr int low_nice = 10;
 
 void run_below_others() {
@@ -42,7 +42,7 @@ void run_when_idle() {
 
 View::View(std::vector<std::unique_ptr<Display>> displays, Snapshot begun)
     : displays_(std::move(displays)), snapshot_(std::move(begun)) {
-  // The view's thread blocks all signals, so they go to the thread that flies, which handles them at once.
+  // The view's thread blocks all signals. So signals go to the thread that flies, which handles them at once.
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);

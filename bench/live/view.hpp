@@ -19,19 +19,21 @@ namespace canhil::live {
 
 class View {
  public:
-  /// Begins to show `begun`. During a flight in real time, the view's thread runs only when a CPU is idle, so
-  /// the flight has priority on every CPU.
+  /// Begins to show the snapshot `begun`. During a flight in real time, the thread of the view runs only when
+  /// a CPU is idle, so the flight has priority on every CPU.
   View(std::vector<std::unique_ptr<Display>> displays, Snapshot begun);
   ~View();
 
-  /// Pass this to Options::onlooker. It follows one flight after another, and must not outlive the view.
+  /// The onlooker for Options::onlooker. The onlooker can follow one flight after another, and must not be
+  /// used after the view is destroyed.
   [[nodiscard]] drive::Onlooker& onlooker() { return onlooker_; }
-  /// Replaces the displayed batch, or a finished flight. Any thread may call.
+  /// Replaces the displayed batch or flight. Any thread may call these functions.
   void show(Batch batch);
   void show(Flight flight);
-  /// Shows that nothing was flown, and why.
+  /// Shows that nothing was flown, and the reason.
   void show_ended(std::string why);
-  /// Shows the end to the viewers for at most a second, and stops. The destructor calls this too.
+  /// Shows the last snapshot, waits at most a second until the viewers have received it, and stops. The
+  /// destructor also calls this function.
   void close();
 
  private:

@@ -36,7 +36,8 @@ class Remarks {
     return of.message->name + "." + signal.name;
   }
 
-  // Whether a signal overlaps the counter, the checksum or a constant byte of the message's protection.
+  // Whether a signal occupies exactly the bits of the counter, of the checksum or of a constant of the
+  // message's protection.
   static bool is_protection(const Mapped& of, const dbc::Signal& signal) {
     if (!of.protection) return false;
     const protection::Settings& settings = of.protection->settings();
@@ -53,7 +54,8 @@ class Remarks {
     for (const PlayedMessage& one : play.messages) {
       for (const dbc::Signal& signal : one.of.message->signals) {
         const bool played = std::ranges::find(one.sources, &signal, &Source::signal) != one.sources.end();
-        // A multiplexed signal needs no value: pages that the play does not select are never sent.
+        // A multiplexed signal needs no value: it is only sent if the play sends the value of the multiplexor
+        // that selects it.
         if (!played && signal.multiplexed_by.empty() && !is_protection(one.of, signal))
           add(Grade::warning, "unmapped", name(one.of, signal),
               "no value is mapped to it: it is encoded from 0");

@@ -19,10 +19,11 @@ struct Remark {
   std::string what;     ///< one line
 };
 
-/// Remarks in the order of plays and hears, about:
+/// Remarks in the order of the plays (messages to the target) and then the hears (messages of the target),
+/// about:
 /// - signals without a mapped value, or with a value that is not used;
-/// - ranges that do not hold the node's values, and steps that are coarse for the noise of its sensor (limits
-///   and SensorSigma of canhil's DBC);
+/// - signals whose range does not include all values of the node, and signals whose steps are coarse compared
+///   with the noise of the node's sensor (limits and SensorSigma of canhil's DBC);
 /// - periods that differ from the DBC's cycle times;
 /// - messages of the target that are not mapped;
 /// - messages without protection, and answers that do not name their cause.

@@ -15,7 +15,7 @@
 
 namespace canhil::mapping {
 
-/// One transmission of a play.
+/// One transmission of a play (a group of messages that the bench sends together).
 struct Sent {
   std::int64_t valid_us = 0;
   std::int64_t due_us = 0;
@@ -61,8 +61,8 @@ class Passing {
   std::vector<Passed> passed_;  // the newest transmission of each play
 };
 
-/// The cause of a target's frame: the stimulus that it echoes, or else the latest one; null: no stored
-/// stimulus matches.
+/// The stimulus that is the cause of a frame of the target. If the target echoes a signal, it is the stored
+/// stimulus with the echoed value; otherwise it is the latest stimulus. Null: no stored stimulus matches.
 const Sent* cause_of(const Conversation& conversation, const Hear& hear, const Frame& frame);
 
 }  // namespace canhil::mapping

@@ -64,7 +64,7 @@ class Group {
   const Play& play_;
   std::vector<protection::Receiver> receivers_;
   std::vector<std::vector<double>> values_;  // for each message
-  std::vector<bool> here_;                   // for each message, since the last row
+  std::vector<bool> here_;                   // for each message: received since the last row
 };
 
 }  // namespace

@@ -13,9 +13,9 @@ struct Extracted {
   std::size_t incomplete = 0;  ///< groups left out: a message is missing or its protection fails
 };
 
-/// Extracts the transmissions of a play from a candump log: one row for each transmission; t_s is the stamp
-/// of its last frame. `play`: the name of the play's last message. Error: one line; the mapping has no such
-/// play, or the log does not contain it.
+/// Extracts the transmissions of a play from a candump log: one row for each transmission; t_s is the time
+/// stamp of the transmission's last frame. `play`: the name of the play's last message. Error: one line; the
+/// mapping has no such play, or the log does not contain it.
 Result<Extracted> extract(const Mapping& mapping, std::string_view play, const std::string& log);
 
 }  // namespace canhil::mapping

@@ -38,7 +38,7 @@ class Listener final : public observe::Watcher {
   std::vector<double> values_;                                   // signal values of one message
   std::vector<protection::Receiver> receivers_;                  // for each hear
   bool virtual_time_ = false, sent_any_ = false;
-  std::int64_t due_us_ = 0, due_ns_ = 0;  // deadline of the last play: time base, clock of stamps
+  std::int64_t due_us_ = 0, due_ns_ = 0;  // deadline of the last play: by time base, by clock of stamps
 };
 
 }  // namespace canhil::mapping

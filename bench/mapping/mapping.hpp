@@ -86,7 +86,7 @@ struct Echo {
 struct Hear {
   Mapped of;
   std::vector<ReportedSignal> reported_signals;
-  std::optional<std::size_t> answers{};  ///< index of a play; none: sent independently of plays
+  std::optional<std::size_t> answers{};  ///< index of the answered play; none: sent independently of plays
   std::optional<Echo> echo{};            ///< none: the cause is the latest stimulus before the message
 };
 

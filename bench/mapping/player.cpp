@@ -96,7 +96,7 @@ void Player::sample(Played& played) {
   played.node->transmit(own);
   played.valid_us = due_us - played.latency_us;
   played.lost = own.frames().empty();
-  bool closed = played.lost;  // a replayed log gives one frame at a time
+  bool closed = played.lost;  // a node that replays a log sends one frame at a time
   for (const Frame& frame : own.frames()) {
     take(played, frame);
     closed = closed || frame.id == played.table->closes.id;

@@ -19,7 +19,7 @@ class Player final : public nodes::Node {
   /// period.
   static Result<void> check(const Mapping& mapping, const scenario::Scenario& scenario);
 
-  /// `conversation` and everything in `run` must outlive it; the scenario has passed check().
+  /// `conversation` and everything in `run` must outlive the player. The scenario must have passed check().
   Player(Conversation& conversation, const nodes::Run& run);
 
   [[nodiscard]] std::int64_t due_us() const override;
@@ -56,7 +56,7 @@ class Player final : public nodes::Node {
   std::int64_t end_us_;  // of the run
   std::vector<Played> nodes_;
   std::vector<std::map<const Stimulus*, Value>> values_;  // for each play
-  std::vector<std::int64_t> samples_;                     // for each play, sent and lost ones
+  std::vector<std::int64_t> samples_;                     // for each play: number of samples, sent or lost
   std::deque<Due> due_;                                   // ascending by time
   std::map<std::string, protection::Sender> shared_;
   std::map<const dbc::Message*, protection::Sender> own_;

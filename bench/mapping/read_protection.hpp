@@ -12,7 +12,8 @@ class Section;
 
 namespace canhil::mapping {
 
-/// The protection of one of the table's messages; none: invalid, with the error in the section.
+/// The protection of one of the table's messages. None: the table is invalid, and the section contains the
+/// error.
 std::optional<protection::Protection> read_protection(scenario::Section& section,
                                                       const dbc::Message& message);
 

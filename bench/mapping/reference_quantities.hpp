@@ -13,14 +13,14 @@ namespace canhil::mapping {
 struct ReferenceQuantity {
   const quantities::Quantity* quantity = nullptr;
   std::string_view si;  ///< SI unit
-  bool turns = false;   ///< an angle: equal modulo one turn
+  bool turns = false;   ///< an angle: values that differ by a full turn are equal
   /// The truth at a time [us] of the run, in SI; none: there is no truth.
   std::optional<double> (*truth)(const estimators::Truth& truth, std::int64_t t_us) = nullptr;
 };
 
 /// All quantities that a mapped target may report.
 std::span<const ReferenceQuantity> reference_quantities();
-/// Null if there is none.
+/// The quantity of this name; null if a mapped target may not report it.
 const ReferenceQuantity* find_reference_quantity(std::string_view quantity);
 
 }  // namespace canhil::mapping

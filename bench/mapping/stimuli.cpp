@@ -30,8 +30,8 @@ std::vector<Stimulus> all_stimuli() {
           std::ranges::any_of(signals, [](const auto* one) { return role_of(*one) == Role::validity; });
       for (const SignalInfo* signal : signals) {
         const auto unit = signal->unit.empty() ? std::nullopt : wire_unit(signal->unit);
-        // The time and the interval of a sample are no measurements, and a mapping has time signals of its
-        // own.
+        // The time and the interval of a sample are not measurements, and a mapping defines its own time
+        // signals.
         if (!unit || role_of(*signal) != Role::value) continue;
         Stimulus stimulus{.name = std::string(table.key) + "." + std::string(without_unit(signal->name)),
                           .si = unit->si,

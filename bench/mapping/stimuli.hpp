@@ -34,7 +34,7 @@ struct Stimulus {
 
 /// All stimuli, in the order of the nodes.
 std::span<const Stimulus> stimuli();
-/// Null if there is none.
+/// The stimulus of this name; null if there is none.
 const Stimulus* find_stimulus(std::string_view name);
 
 }  // namespace canhil::mapping

@@ -9,7 +9,7 @@ namespace canhil::nodes {
 /// The table [fins].
 struct FinsSettings {
   scenario::Schedule schedule{};
-  std::int64_t stamp_error_us = 0;  ///< a fault: the stamp minus the time of validity
+  std::int64_t stamp_error_us = 0;  ///< a fault: the sent minus the correct time of validity
   SampleLoss loss{};
 };
 

@@ -18,7 +18,7 @@ FixFaults read_fix_faults(scenario::Section& section) {
       .invalid_probability =
           section.number({"invalid_percent", "Share of the fixes that are sent as invalid."}, share, 0),
       .outlier_probability = section.number(
-          {"outlier_percent", "Share of the fixes that jump by `outlier_m`. Needs that key."}, share, 0),
+          {"outlier_percent", "Share of the fixes that jump by `outlier_m`. Needs `outlier_m`."}, share, 0),
       .outlier = section.number(
           {"outlier_m", "Size of a jump, in a random horizontal direction. Needs `outlier_percent`."},
           Limits::between(0, largest_outlier_m), 0),

@@ -30,7 +30,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
       section.number({"correlated_fraction", "Share of the noise's variance that is correlated in time."},
                      Limits::between(0, 1), 0);
   node.correlation_time = section.number(
-      {"correlation_time_s", "Correlation time of the share `correlated_fraction` of the noise."},
+      {"correlation_time_s", "Correlation time of the correlated part of the noise (`correlated_fraction`)."},
       Limits::above(0), node.correlation_time);
   node.loss = read_sample_loss(section);
   return {table, node};

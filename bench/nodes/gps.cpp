@@ -24,7 +24,8 @@ NodeSettings read(const NodeTable& table, Section& section) {
   node.bias = {
       .value = section.three({"bias_m", "Constant error of the position, [N, E, D]."}),
       .sigma = section.three(
-          {"bias_sigma_m", "1-sigma of a further constant error that is drawn for each run and added."},
+          {"bias_sigma_m",
+           "1-sigma of a further constant error. This error is drawn for each run and added to `bias_m`."},
           sigma)};
   node.noise = section.three({"noise_m", "White noise of the position, 1-sigma of a fix."}, sigma);
   if (section.has("lowest_height_m"))

@@ -28,7 +28,7 @@ class NodeFaults {
   virtual std::unique_ptr<Node> with_faults(std::unique_ptr<Node> node, const NodeSettings& settings) = 0;
 };
 
-/// The inputs of the nodes in a run; everything that it refers to must outlive the nodes.
+/// The inputs of the nodes in a run. Every object to which this struct refers must outlive the nodes.
 struct Run {
   const scenario::Scenario& scenario;
   std::uint64_t index = 0;

@@ -35,8 +35,8 @@ Result<void> read_csv(RecordedSettings& own, const NodeTable& table, Section& se
   const std::int64_t from_us = scenario::read_from_us(section);
   const std::int64_t gap_us = section
                                   .optional_time_us({"gap_s",
-                                                     "CSV only: longest time without a sample. Default: 0.2 "
-                                                     "s, or three periods if that is longer."},
+                                                     "CSV only: longest permitted time without a sample. "
+                                                     "Default: 0.2 s, or three periods if they are longer."},
                                                     Limits::above(0))
                                   .value_or(usual_gap_us(period_us));
   const auto text = section.read_beside({"recorded",

@@ -1,11 +1,11 @@
-// A node that sends recorded samples. It can replace a node of any kind. Columns are named after the signals
-// of its sample group in the DBC. No error model is applied.
+// A node that sends recorded samples. It can replace a node of any kind. The columns of the recording are
+// named after the signals of the node's sample group in the DBC. No error model is applied.
 //
 // In a CSV file (scenario/table.hpp) each row is a sample: its signals by name, its time of validity in t_s.
-// From a candump log with canhil's DBC, the frames of the group are sent unchanged, at their time in the time
-// base of the log's Sync. So a run recorded with --log can be flown again. Another format needs one more
-// reader beside these two, selected in read_recorded(); it returns a scenario::Table, which is sent like a
-// CSV file.
+// From a candump log with canhil's DBC, the frames of the group are sent unchanged, at the times that they
+// had in the time base of the recorded run (from the Sync frames of the log). So a run recorded with --log
+// can be flown again. To support another format, add a reader that returns a scenario::Table, and select this
+// reader in read_recorded(); the table is then sent like a CSV file.
 #pragma once
 
 #include <memory>

@@ -24,8 +24,9 @@ struct TimeMark {
   std::int64_t stamp_ns = 0;
 };
 
-/// Frames between two Syncs are due between the Syncs' times, interpolated by their stamps. They are due
-/// strictly after the earlier Sync: a frame that is due at the same time as the Sync would be sent before it.
+/// Frames between two Syncs are due between the times of the two Syncs, interpolated by time stamp. They are
+/// due strictly after the earlier Sync: a frame that is due at the same time as the Sync would be sent before
+/// it.
 std::int64_t due_us(const TimeMark& before, const TimeMark& after, std::int64_t stamp_ns) {
   const auto whole = static_cast<double>(after.stamp_ns - before.stamp_ns);
   const double share = whole > 0 ? static_cast<double>(stamp_ns - before.stamp_ns) / whole : 1;
@@ -119,8 +120,8 @@ class Reading {
   bool synchronised_ = false;
 };
 
-/// Sends the frames of one log. All recorded nodes of the log share this node, so their frames keep their
-/// order.
+/// Sends the frames of one log. All recorded nodes of the log share this node, so the frames keep the order
+/// of the log.
 class Frames final : public Node {
  public:
   Frames(const std::vector<const RecordedFrames*>& of_one_log, const Run& run)

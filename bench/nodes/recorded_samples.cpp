@@ -25,7 +25,7 @@ struct Source {
   SignalInfo signal;
   Role role = Role::value;
   std::optional<std::size_t> column{};  ///< index in the table's names; none: constant
-  std::optional<std::size_t> rate{};    ///< the same for a rate, which is multiplied by the interval
+  std::optional<std::size_t> rate{};    ///< index of a rate, which is multiplied by the interval
   double constant = 0;
 };
 
@@ -71,7 +71,8 @@ Result<std::vector<Source>> sources_of(const NodeTable& table, const Table& rows
   return sources;
 }
 
-/// The rows valid within the run, after its start; `last` is excluded. Error: a gap is too long.
+/// The rows whose times of validity are after the start of the run and not after its end; Rows::last is
+/// excluded. Error: a gap is too long.
 Result<scenario::Rows> within_run(const Table& table, const std::vector<std::int64_t>& t_us,
                                   std::int64_t gap_us, std::int64_t end_us) {
   scenario::Rows rows;
@@ -110,8 +111,8 @@ Result<double> value_of(const Source& source, const Table& table, std::size_t ro
 }
 
 /// The interval of a sample reaches back to the previous sample and is rounded to the steps of its signal
-/// without accumulating rounding errors. Where samples are missing it is one period, so the target sees the
-/// gap.
+/// without accumulating rounding errors. Where samples are missing, the interval is one period, so that the
+/// target can detect the gap.
 std::int64_t interval_of(const std::vector<std::int64_t>& t_us, std::size_t row, std::int64_t period_us,
                          double step_us) {
   if (row == 0 || 2 * (t_us[row] - t_us[row - 1]) > 3 * period_us) return period_us;

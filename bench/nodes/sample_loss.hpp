@@ -7,8 +7,8 @@
 namespace canhil::nodes {
 
 struct SampleLoss {
-  double probability = 0;            ///< for each sample independently
-  std::int64_t outage_us = 0;        ///< length of an outage, at the end of each period: its samples are lost
+  double probability = 0;      ///< for each sample independently
+  std::int64_t outage_us = 0;  ///< length of the outage at the end of each period; all samples in it are lost
   std::int64_t outage_every_us = 0;  ///< period of the outages; 0: no outages
 };
 

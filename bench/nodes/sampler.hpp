@@ -5,8 +5,9 @@
 
 namespace canhil::nodes {
 
-/// Sends sample k, valid at k * period, after the latency. No sample is sent after the end of the run,
-/// because an answer after the last Sync would not be observed. `Settings`: the settings of the node's table.
+/// Sends sample k, which is valid at k * period, one latency after this time. No sample is sent after the end
+/// of the run, because an answer after the last Sync would not be observed. `Settings`: the settings of the
+/// node's table.
 template <class Settings>
 class Sampler : public Node {
  public:
@@ -22,7 +23,7 @@ class Sampler : public Node {
     return due_us > run_.flight.end_us() ? never_us : due_us;
   }
   void transmit(Transmission& out) final {
-    if (!sample(valid_us_, out)) out.clear();  // the counter advances: the receiver sees the gap
+    if (!sample(valid_us_, out)) out.clear();  // the counter advances, so the receiver detects the gap
     valid_us_ += period_us_;
   }
 

@@ -36,30 +36,31 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
 // part that is drawn for each run.
 world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
                                  std::string_view of, double sigma) {
-  return {.value = section.number({key, fmt::format("Constant error of {}.", of)}, Limits{}, 0),
-          .sigma = section.number(
-              {sigma_key,
-               fmt::format("1-sigma of a constant error of {} that is drawn for each run and added.", of)},
-              Limits::at_least(0), sigma)};
+  return {
+      .value = section.number({key, fmt::format("Constant error of {}.", of)}, Limits{}, 0),
+      .sigma = section.number(
+          {sigma_key,
+           fmt::format(
+               "1-sigma of a further constant error of {}. This error is drawn for each run and added.", of)},
+          Limits::at_least(0), sigma)};
 }
 
 world::SeekerErrorModel read_errors(Section& section) {
   const Limits sigma = Limits::at_least(0);
   return {
       .thermal = section.number({"thermal_noise_radpm2",
-                                 "Thermal noise of an error angle. The 1-sigma of a sample is this "
+                                 "Thermal noise of an error angle. The 1-sigma of a sample is this value "
                                  "multiplied by the square of the range."},
                                 sigma, 1e-10),
       .glint = section.number(
           {"glint_noise_m",
-           "Glint noise of an error angle. The 1-sigma of a sample is this divided by the range."},
+           "Glint noise of an error angle. The 1-sigma of a sample is this value divided by the range."},
           sigma, 0.5),
       .glint_correlation = section.number(
-          {"glint_correlation_ms", "Correlation time of the glint noise; 0: it is white."}, sigma, 0),
-      .constant =
-          section.number({"constant_noise_mrad",
-                          "Noise of an error angle that does not depend on the range, 1-sigma of a sample."},
-                         sigma, 0),
+          {"glint_correlation_ms", "Correlation time of the glint noise; 0: the noise is white."}, sigma, 0),
+      .constant = section.number(
+          {"constant_noise_mrad", "Range-independent noise of an error angle, 1-sigma of a sample."}, sigma,
+          0),
       .gyro_noise =
           section.number({"gyro_noise_mradps", "Noise of the antenna rates, 1-sigma of a sample."}, sigma, 1),
       .gyro_bias =
@@ -80,7 +81,7 @@ world::SeekerErrorModel read_errors(Section& section) {
                                           "the closing speed", 5),
       .field_of_view = section.number(
           {"field_of_view_deg",
-           "Largest angle from the antenna's axis at which the seeker sees the flight target."},
+           "Largest angle from the antenna's axis at which the seeker detects the flight target."},
           Limits::above(0, 37), 8)};
 }
 
@@ -89,7 +90,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
   SeekerSettings node;
   node.schedule = read_schedule(section);
   node.jitter_us =
-      section.time_us({"jitter_ms", "Each sample is sent later by a random time between 0 and this."},
+      section.time_us({"jitter_ms", "Each sample is sent later by a random time between 0 and this value."},
                       Limits::between(0, 1000), 0);
   node.errors = read_errors(section);
   node.loss_probability =
@@ -99,7 +100,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
   node.invalid_range_probability =
       section.number({"invalid_range_percent", "Share of the samples whose range is invalid."}, share, 0);
   node.blackout_us = section.optional_interval_us(
-      {"blackout_s", "Time in which the seeker does not see the flight target."}, Limits::at_least(0));
+      {"blackout_s", "Interval in which the seeker does not detect the flight target."}, Limits::at_least(0));
   return {table, node};
 }
 
@@ -114,7 +115,7 @@ Result<void> fits(const NodeSettings& node, const scenario::Scenario& scenario,
   const double roll = std::abs(engagement.roll_rate) * 1e-6 * static_cast<double>(interval_us);
   const SignalInfo& signal = SeekerAntenna::signals()[0];
   if (roll > signal.maximum) return failure(misfit("roll increment", roll, SeekerAntenna::info, signal));
-  // In lockstep an answer reaches the bench one Sync cycle later.
+  // In lockstep the bench receives an answer one Sync cycle after it sent the sample.
   const std::int64_t least_us = Sync::info.cycle_time_us;
   if (engagement.guidance == world::Guidance::target && engagement.guidance_delay_us < least_us) {
     return failure(fmt::format(
@@ -220,7 +221,7 @@ void Seeker::send(Transmission& out, const world::SeekerMeasurement& measured) {
                          .antenna_increment_pitch_rad = antenna.y(),
                          .antenna_increment_yaw_rad = antenna.z(),
                          .antenna_validity = Validity::valid});
-  out.send(SeekerAngles{.error_pitch_rad = seen ? measured.error.pitch : 0,  // invalid: carries no angle
+  out.send(SeekerAngles{.error_pitch_rad = seen ? measured.error.pitch : 0,  // an invalid sample has no angle
                         .error_yaw_rad = seen ? measured.error.yaw : 0,
                         .interval_us = static_cast<double>(measured.interval_us),
                         .error_validity = validity(seen)});
@@ -232,7 +233,7 @@ void Seeker::send(Transmission& out, const world::SeekerMeasurement& measured) {
   out.send(SeekerRange{.range_m = range_invalid ? 0 : measured.range,
                        .time_of_validity_us = wrap_us(measured.t_us),
                        .range_validity = validity(!range_invalid)});
-  if (lost) out.clear();  // the counter advances: the receiver sees the gap
+  if (lost) out.clear();  // the counter advances, so the receiver detects the gap
 }
 
 void Seeker::hear(const Frame& frame) {

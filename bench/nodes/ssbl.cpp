@@ -21,14 +21,17 @@ NodeSettings read(const NodeTable& table, Section& section) {
   node.ship_velocity =
       section.three({"ship_velocity_mps", "Velocity of the ship, [N, E, D]."}, Limits::between(-50, 50));
   node.ship_error = {
-      .value = section.three({"ship_error_m", "Constant error of the position that the ship reports."}),
-      .sigma = section.three(
-          {"ship_error_sigma_m", "1-sigma of a further constant error that is drawn for each run and added."},
-          sigma)};
+      .value = section.three(
+          {"ship_error_m", "Constant error of the ship's own position, as the ship reports it."}),
+      .sigma = section.three({"ship_error_sigma_m",
+                              "1-sigma of a further constant error. This error is drawn for each run and "
+                              "added to `ship_error_m`."},
+                             sigma)};
   node.bias = {
       .value = section.three({"bias_m", "Constant error of the vehicle's position relative to the ship."}),
       .sigma = section.three(
-          {"bias_sigma_m", "1-sigma of a further constant error that is drawn for each run and added."},
+          {"bias_sigma_m",
+           "1-sigma of a further constant error. This error is drawn for each run and added to `bias_m`."},
           sigma)};
   node.noise = section.three(
       {"noise_m", "White noise of the vehicle's position relative to the ship, 1-sigma of a fix."}, sigma);

@@ -7,8 +7,8 @@
 namespace canhil::observe {
 namespace {
 
-// A backlog is a flood from this duration on. A bench that had no CPU for a while also finds a backlog, but
-// processes it in a fraction of this time.
+// A backlog that lasts at least this long is a flood. A bench that had no CPU for a while also finds a
+// backlog, but the bench processes such a backlog in a fraction of this time.
 constexpr std::int64_t flood_ns = 100'000'000;
 // The longest pause within a flood. The flooding program may share CPUs with the bench, so the backlog may be
 // empty for a moment.

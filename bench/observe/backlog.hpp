@@ -26,7 +26,7 @@ class Shares {
   static constexpr std::size_t most_ids = 4096;
   std::uint64_t frames_ = 0;
   std::uint64_t error_frames_ = 0;
-  std::map<std::pair<std::uint32_t, bool>, std::uint64_t> by_id_;  // the flag: an extended id
+  std::map<std::pair<std::uint32_t, bool>, std::uint64_t> by_id_;  // the flag is true for an extended id
 };
 
 /// An interval in which frames were waiting almost continuously.
@@ -54,7 +54,8 @@ class Backlog {
   /// frames are waiting any more.
   [[nodiscard]] bool stands() const { return since_ns_.has_value(); }
 
-  /// The longest flood so far. A backlog that the bench itself caused is shorter and does not count.
+  /// The longest flood so far. A backlog that the bench itself caused is shorter than a flood and does not
+  /// count.
   [[nodiscard]] const std::optional<Flood>& flood() const { return longest_; }
 
  private:

@@ -11,7 +11,7 @@ namespace canhil::observe {
 
 class BusWatch final : public Observer {
  public:
-  /// `port`: its clock measures deadlines.
+  /// `port`: the port whose clock measures deadlines.
   explicit BusWatch(const Port& port) : port_(port) {}
   void received(const Received& received) override;
   void interface_changed(bool up, std::int64_t t_ns) override;

@@ -1,5 +1,5 @@
-// Watches a target that uses canhil's own DBC: any of its messages shows that it is present, its heartbeat
-// shows a fault, StepDone shows the end of the step that Sync closed.
+// Watches a target that uses canhil's own DBC. Any message of the target shows that the target is present;
+// the heartbeat shows a fault; StepDone shows the end of the step that Sync closed.
 #pragma once
 
 #include <cstdint>

@@ -9,14 +9,15 @@
 
 namespace canhil::observe {
 
-/// The first difference of two runs: the n-th compared frame (from 0), as it is in each log.
+/// The first difference of two runs: the index n (from 0) of the compared frame, and this frame in each of
+/// the two logs.
 struct Divergence {
   std::size_t index = 0;
   std::optional<LogEntry> a;  ///< none: this run has no further frame
   std::optional<LogEntry> b;
   double t_s = 0;        ///< bench time of the last Sync before this frame
-  std::string signal{};  ///< "FixUpdate.nis is 3.21 in one, 3.18 in the other"; empty: different messages, no
-                         ///< further frame in one run, or no difference in a signal
+  std::string signal{};  ///< "FixUpdate.nis is 3.21 in one, 3.18 in the other"; empty: the messages differ,
+                         ///< one run has no further frame, or no signal differs
 };
 
 struct Comparison {

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::int64_t least_step_ns = 100'000;
 constexpr std::int64_t slewed_ppm = 500;
-// The two clocks are read one after the other. A pair of readings that took longer than this, because the
-// process lost the CPU, is ignored.
+// The two clocks are read one after the other. If the process lost the CPU, so that a pair of readings took
+// longer than this time, the pair is ignored.
 constexpr std::int64_t longest_reading_ns = 20'000;
 
 std::string content(const char* path) {

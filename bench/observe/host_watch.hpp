@@ -11,8 +11,9 @@
 
 namespace canhil::observe {
 
-/// Finds steps of one clock against another. A step is a change of their difference, between two readings, by
-/// more than 100 us plus 500 ppm of the elapsed time: an adjusted clock drifts by at most 500 ppm (adjtimex).
+/// Finds steps of one clock against another. A step is a change of the difference between the clocks, from
+/// one reading to the next, by more than 100 us plus 500 ppm of the elapsed time: an adjusted clock drifts by
+/// at most 500 ppm (adjtimex).
 class ClockSteps {
  public:
   /// Takes the readings of both clocks at one instant.
@@ -28,7 +29,8 @@ class ClockSteps {
   std::int64_t largest_ns_ = 0;
 };
 
-/// CPU times of the calling thread since its start and of the machine since its start, from the kernel.
+/// CPU times from the kernel: those of the calling thread since the start of the thread, and those of the
+/// machine since the start of the machine.
 struct CpuAccount {
   std::int64_t run_ns = 0;   ///< the thread was running
   std::int64_t wait_ns = 0;  ///< the thread was ready to run but had no CPU
@@ -39,7 +41,7 @@ struct CpuAccount {
 /// Parses /proc/thread-self/schedstat and /proc/stat; missing values are 0.
 CpuAccount cpu_account(std::string_view schedstat, std::string_view stat);
 
-/// Watches from its construction on.
+/// Watches from the construction of this object on.
 class HostWatch final : public Observer {
  public:
   /// `stamp_clock`: Port::stamp_clock().

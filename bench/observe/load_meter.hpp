@@ -15,11 +15,11 @@
 
 namespace canhil::observe {
 
-/// How a frame is assigned to a second, and which frames count.
+/// How a frame is assigned to a second, and which frames are counted.
 enum class LoadBy : std::uint8_t {
   time_base,        ///< by the time in the last Sync; gives the same load on every bus and in virtual time
-  time_base_alone,  ///< as time_base, without StepDone, which exists only in lockstep: the load that the run
-                    ///< would cause on a bus
+  time_base_alone,  ///< as time_base, but without StepDone, which exists only in lockstep: the load that the
+                    ///< run would cause in real time
   virtual_time,     ///< by the second of virtual time, if no node sends Sync
   stamps  ///< by the second of the frame's stamp, counted from the first stamp: a frame that is still queued
           ///< does not count

@@ -1,5 +1,5 @@
-// Turns frames into observations: decodes the target's frames, pairs them with their causes, keeps time
-// stamps.
+// Turns frames into observations: decodes the target's frames, pairs the answers with their causes, records
+// time stamps.
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@ struct Asked {
 /// Watches a run from the target's start on.
 class Monitor final : public Watcher {
  public:
-  /// Without `asked`, the monitor measures no times. A campaign saves this work in its thousands of runs: it
-  /// judges no times.
+  /// Without `asked`, the monitor measures no times. A campaign saves this work in its thousands of runs,
+  /// because a campaign judges no times.
   explicit Monitor(std::optional<Asked> asked = std::nullopt);
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
@@ -55,7 +55,7 @@ class Monitor final : public Watcher {
   std::vector<std::unique_ptr<estimators::Reception>> receptions_;
   std::array<estimators::Reception*, messages::all_messages.size()>
       reception_of_{};       // by index in all_messages
-  std::int64_t now_us_ = 0;  // last Sync
+  std::int64_t now_us_ = 0;  // time of the last Sync
 };
 
 }  // namespace canhil::observe

@@ -111,7 +111,7 @@ void ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int
 }
 
 // The time of validity that the groups with shorter periods have reached. An estimator's time follows its
-// fastest samples: while they are missing, later samples must wait.
+// fastest samples: while these are missing, samples of slower groups that are valid later must wait.
 std::int64_t ReceiverModel::faster_reached_us(const Group& group) const {
   std::int64_t least_us = std::numeric_limits<std::int64_t>::max();
   for (const auto& [name, other] : groups_) {

@@ -44,12 +44,12 @@ class ReceiverModel {
     std::int64_t each_us = 0;    // period in the DBC
     unsigned all = 0, seen = 0;  // one bit per message
     std::uint8_t counter = 0;
-    bool invalid = false;  // one of its flags is invalid
+    bool invalid = false;  // a validity flag of the group says invalid
     std::optional<std::int64_t> valid_us{}, last_valid_us{};
     std::int64_t reached_us = 0;  // time of validity of the last complete and valid group
   };
   struct Place {
-    Group* group = nullptr;  // null: a single message, or one that no estimator uses
+    Group* group = nullptr;  // null: a message without a group, or a message that no estimator uses
     unsigned bit = 0;
     std::uint64_t validity_bits = 0;  // in the payload: all 1 if the sensor declares the sample valid
   };
@@ -63,7 +63,7 @@ class ReceiverModel {
   checks::LossCounts counts_;
   // Complete groups that an estimator may refuse, and groups that it may count as late.
   std::uint64_t refusable_ = 0, may_be_late_ = 0;
-  std::deque<checks::LossCounts> at_sync_;  // at the last Syncs, the newest last
+  std::deque<checks::LossCounts> at_sync_;  // the counts at the last Syncs; the newest is last
   bool lockstep_ = false;
 };
 

@@ -12,7 +12,7 @@
 namespace canhil::observe {
 
 /// Records from the bench's first transmission on, so the log contains a complete session of the target; if
-/// the bench never transmitted, it records what arrived. Each frame is stored with its bus.
+/// the bench never transmitted, the log contains the frames that arrived. Each frame is stored with its bus.
 class Recorder final : public Observer {
  public:
   /// Writes to a temporary file beside `path` until close() renames it. `port` must outlive the recorder.
@@ -27,8 +27,9 @@ class Recorder final : public Observer {
   /// Finishes the file. Error: not everything could be written; then there is no file `path`, and
   /// `path`.incomplete contains the part that was written.
   Result<void> close();
-  /// Finishes the log of a run that did not begin: as `path` or, if that exists, as `path`.incomplete.
-  /// Returns the name of the log; empty: no frame passed, so there is no log. Error: as for close().
+  /// Finishes the log of a run that did not begin: as `path` or, if this file already exists, as
+  /// `path`.incomplete. Returns the name of the log; empty: no frame passed, so there is no log. Error: as
+  /// for close().
   Result<std::string> close_early();
 
  private:

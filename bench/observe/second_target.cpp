@@ -31,7 +31,7 @@ std::optional<std::size_t> kind_of(const Frame& frame) {
 
 }  // namespace
 
-// After a command the target may restart its counters.
+// After a command the target may restart its counters, so the earlier frames are forgotten.
 void SecondTarget::transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {
   if (frame.id != TargetCommand::info.id) return;
   for (History& history : histories_) history.clear();

@@ -11,10 +11,11 @@
 namespace canhil::observe {
 
 /// Watches messages in which a target reports its own state (heartbeats, acknowledgements, ends of steps,
-/// timing, counters). Each message carries a counter that increases by one. If a frame's counter continues an
-/// earlier frame instead of the last one, this frame and the last one have different senders. Several such
-/// frames within a short time mean a second target. Lost frames do not cause this: almost a whole period of
-/// the counter would have to be lost repeatedly, each time within a few heartbeats.
+/// timing, counters). Each message carries a counter that increases by one. If the counter of a frame
+/// continues the counter of an earlier frame instead of that of the last frame, this frame and the last frame
+/// have different senders. Several such frames within a short time mean a second target. Lost frames do not
+/// have this effect: almost a whole period of the counter would have to be lost repeatedly, each time within
+/// a few heartbeats.
 class SecondTarget final : public Observer {
  public:
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
@@ -36,7 +37,7 @@ class SecondTarget final : public Observer {
 
   std::array<History, 5> histories_;
   int strange_ = 0;  // frames from another sender
-  int plain_ = 0;    // frames since the last one that counted in strange_
+  int plain_ = 0;    // frames since the last frame that counted in strange_
   bool found_ = false;
 };
 

@@ -1,5 +1,5 @@
 // Counts the frames received while the bench waits for its target. The error message of a failed handshake
-// reports them.
+// reports these counts.
 #pragma once
 
 #include <array>

@@ -48,10 +48,11 @@ bool Stopwatch::answers(std::size_t index, std::string_view group) const {
   return std::ranges::find(groups, group) != groups.end();
 }
 
-/// The frame on the wire that ends with this message; none: the frame contains later messages.
+/// The frame on the wire that ends with this message; none: the frame on the wire (a container) also contains
+/// later messages.
 std::optional<Frame> Stopwatch::closed_by(const Frame& message, FdPacker& packer) const {
   if (!record_.wire.fd || record_.messages.data() != messages::all_messages.data()) return message;
-  if (packer.due_before(message)) packer.clear();  // sent without its last message
+  if (packer.due_before(message)) packer.clear();  // the container was sent without its last message
   return packer.put(message);
 }
 
@@ -171,7 +172,7 @@ void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view 
   const std::int64_t began_ns = newest_[first].t_ns - wire_ns_[carriers_[first].first];
   std::size_t before = carriers_.size();
   for (const std::size_t index : indices) {
-    // The messages of a container arrive together; the first of them represents it.
+    // The messages of a container arrive together; the first message represents the container.
     const std::size_t carrier = carriers_[index].first;
     const bool another = std::exchange(before, carrier) != carrier;
     if (again) ++record_.answers[index].repeated;
@@ -208,7 +209,7 @@ checks::LatencyBreakdown& Stopwatch::split_of(std::string_view group) {
              : all.emplace_back(checks::GroupBreakdown{.group = group, .breakdown = {}}).breakdown;
 }
 
-// A stimulus may have several answers. It is counted once, with the latency of the last answer.
+// A stimulus may have several answers. The stimulus is counted once, with the latency of the last answer.
 void Stopwatch::split(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
                       std::int64_t latency_ns) {
   sent.reply_wire_ns += wire_ns;

@@ -35,9 +35,10 @@ class Stopwatch {
 
   /// The bench handed over a frame at `t_ns`, `late_ns` after its deadline.
   void sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
-  /// The frame of the last sent() completed a sample group that the target answers.
+  /// The frame that was passed to the last call of sent() completed a sample group that the target answers.
   void stimulus(std::string_view group, const checks::Stimulus& stimulus);
-  /// The bus echoed a frame of the bench; `group`, `valid_us`: the sample group that it completes, if any.
+  /// The bus echoed a frame of the bench; `group`, `valid_us`: the sample group that this frame completes, if
+  /// any, and the time of validity of the group.
   void echoed(const Received& received, std::string_view group, std::int64_t valid_us);
   /// A message of the target arrived; `index`: its index in the record's messages.
   void arrived(std::size_t index, const Received& received);
@@ -45,7 +46,7 @@ class Stopwatch {
   /// if the answer carries it.
   void answered(std::span<const std::size_t> indices, std::string_view group, std::int64_t cause_us,
                 std::optional<std::uint8_t> counter = std::nullopt);
-  /// The target reported its times since its last report.
+  /// The target reported its times for the interval since its previous report.
   void on_target_timing(const messages::TargetTiming& timing);
   /// The run is over.
   void finish();
@@ -65,7 +66,7 @@ class Stopwatch {
     std::int64_t wire_ns = 0;
     bool answered = false;
     std::bitset<MessagePlaces::most> answered_by{};  // index of the last message of each answer
-    std::int64_t latency_ns = 0;                     // latency of the last answer so far
+    std::int64_t latency_ns = 0;                     // latency of the latest answer so far
     std::int64_t reply_wire_ns = 0;                  // sum over all answers so far
   };
   struct Group {

@@ -13,7 +13,7 @@ class TargetWatch : public Observer {
  public:
   /// Whether any frame of the target arrived since the last call.
   virtual bool heard() = 0;
-  /// Why the run is over; none: it goes on.
+  /// Why the run is over; none: the run goes on.
   [[nodiscard]] virtual std::optional<std::string> fault() const = 0;
   /// Whether a frame that is about to be sent closes a step; the watch then waits for the end of that step.
   virtual bool closes_step(const Frame& frame) = 0;

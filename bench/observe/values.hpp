@@ -12,16 +12,17 @@ namespace canhil::observe {
 
 struct Value {
   const SignalInfo* signal = nullptr;
-  double value = 0;             ///< in the signal's unit; for an enumeration its number
+  double value = 0;             ///< in the signal's unit; for an enumeration the number of the value
   std::string_view enumerator;  ///< for an enumeration the value's name; otherwise empty
 };
 
 /// The value as text for people: a number with 12 digits, or the enumerator.
 std::string to_text(const Value& value);
 
-/// The signals of a frame except counter and checksum, in the order of the DBC; empty: not a message.
+/// The signals of a frame except counter and checksum, in the order of the DBC; empty: the frame is not a
+/// message of the DBC.
 std::vector<Value> values_of(const Frame& frame);
-/// The name of the frame's message; empty: not a message.
+/// The name of the frame's message; empty: the frame is not a message of the DBC.
 std::string_view message_of(const Frame& frame);
 
 /// The signals of a message in the DBC, except counter and checksum.

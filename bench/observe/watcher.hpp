@@ -12,7 +12,7 @@ class Watcher : public Observer {
   virtual void target_restarted() {}
   /// The observations so far.
   [[nodiscard]] virtual const checks::Observations& observations() const = 0;
-  /// The run is over: all observations.
+  /// Must be called after the run. Returns all observations.
   virtual checks::Observations finish() = 0;
 };
 

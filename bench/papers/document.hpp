@@ -33,7 +33,8 @@ namespace canhil::papers {
 /// the function's arguments.
 using Curves = std::map<std::string, std::function<Curve(Words&)>, std::less<>>;
 
-/// Throws std::logic_error, one line with the place, if the text does not have this form.
+/// Throws std::logic_error if the text does not have the form above; the message is one line that names the
+/// place.
 Page page_of(std::string_view text, const Curves& curves);
 
 }  // namespace canhil::papers

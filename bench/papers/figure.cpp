@@ -37,8 +37,8 @@ double grid_step(double length, int steps) {
 Layout with_room_for_labels(Layout layout, const Figure& figure) {
   std::size_t longest = 0;
   for (const Curve& curve : figure.curves) longest = std::max(longest, curve.label.size());
-  // Width of a character divided by the font size. The reader's sans-serif font may be wide: 'combined' takes
-  // 0.62 per character in DejaVu Sans.
+  // Width of a character divided by the font size. The reader's sans-serif font may be wide: in DejaVu Sans,
+  // the characters of the word 'combined' have a mean width of 0.62.
   constexpr double character_width = 0.68;
   layout.right = 34 + static_cast<int>(character_width * layout.font * static_cast<double>(longest));
   return layout;
@@ -65,7 +65,7 @@ std::vector<double> spread(const std::vector<double>& wanted, double gap) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return wanted[i]; });
   std::vector<double> placed = wanted;
-  constexpr int rounds = 200;  // each moves overlapping neighbours apart by half of the overlap
+  constexpr int rounds = 200;  // in each round, overlapping neighbours move apart
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 1; i < order.size(); ++i) {
       double &below = placed[order[i - 1]], &above = placed[order[i]];

@@ -83,7 +83,7 @@ std::span<const campaign::CurvePoint> Results::curve(Words& words, const campaig
 void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit) {
   constexpr double of_95_percent = 1.96;  // standard deviations of a normal distribution
   const double rms = point.rms / unit;
-  // A range that is symmetric on a logarithmic axis, as used for RMS values, and never below zero.
+  // This range is symmetric on a logarithmic axis, which figures of RMS values have, and is never below zero.
   const double times = std::exp(of_95_percent * point.rms_error / point.rms);
   curve.points.emplace_back(x, rms);
   curve.ranges.push_back(std::isfinite(times) ? std::pair(rms / times, rms * times) : std::pair(rms, rms));

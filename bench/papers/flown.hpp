@@ -75,7 +75,7 @@ Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const cam
 /// The results file of a campaign in the folder.
 std::filesystem::path results_file(const FlyOptions& options, std::string_view campaign);
 
-/// Flies the runs that the results in the folder lack. None: stopped early. Error: one line.
+/// Flies the runs that are missing in the results in the folder. None: stopped early. Error: one line.
 Result<std::optional<Results>> fly(report::EmbeddedFiles campaigns, report::EmbeddedFiles scenarios,
                                    const FlyOptions& options, const std::atomic<bool>& stop);
 

@@ -25,8 +25,9 @@ struct PageContent {
 void add_shared_names(Names& names, const Results& results, std::uint64_t runs, std::uint64_t enough);
 
 // For each paper: the files built into the program (bench/monte_carlo/paper_NAME and its templates), and its
-// page content, which keeps references to the results. `exact`: file with results of the transfer paper's
-// campaign table2 without the bus's rounding; empty: none. Error, one line: stored results cannot be read.
+// page content, which keeps references to the results. `exact`: for the transfer paper, a file with the
+// results of its campaign table2 flown without rounding on the bus; empty: none. Error, one line: stored
+// results cannot be read.
 namespace transfer_alignment {
 extern const report::EmbeddedFiles campaigns, scenarios, templates;
 Result<PageContent> page_content(const Results& results, const FlyOptions& options,

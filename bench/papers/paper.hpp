@@ -15,9 +15,9 @@
 namespace canhil::papers {
 
 struct Request {
-  std::string paper;  ///< one of paper_names
-  std::filesystem::path
-      folder;  ///< created if missing; receives NAME.html and the campaigns' results, which are resumed
+  std::string paper;                  ///< one of paper_names
+  std::filesystem::path folder;       ///< for NAME.html and the campaigns' results; created if missing. The
+                                      ///< runs of earlier results in the folder are not flown again
   std::optional<std::uint64_t> runs;  ///< per variant; none: as in the campaigns
   Rounding rounding = Rounding::as_on_the_bus;
   std::filesystem::path exact;  ///< results without rounding for comparison; empty: none

@@ -51,8 +51,8 @@ class Context final : public mustache::basic_context<std::string> {
     if (name == names_.end()) throw std::logic_error("is unknown");
     Value value = name->second(words);
     if (!words.empty()) throw std::logic_error("has too many words");
-    // Mustache accepts a boolean where text is expected, and prints nothing. It accepts text where a boolean
-    // is expected, and takes any text as true.
+    // Mustache would accept a boolean where text is expected, and print nothing. Mustache would also accept
+    // text where a boolean is expected, and take any text as true. Here both are errors.
     if (std::holds_alternative<bool>(value)) {
       if (stands(tag, "")) throw std::logic_error("is yes or no, expected text");
     } else if (stands(tag, "#") || stands(tag, "^")) {

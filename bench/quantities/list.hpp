@@ -10,7 +10,8 @@ namespace canhil::quantities {
 inline constexpr Unit mrad{"mrad", "_mrad", world::units::mrad}, degrees{"deg", "_deg", world::units::deg},
     mradps{"mrad/s", "_mradps", world::units::mrad}, mps{"m/s", "_mps"}, metres{"m", "_m"}, plain{};
 
-/// Euler angles of the body in NED, and the rotation vector phi of C_estimated = exp(-[phi x]) C_true, NED.
+/// The attitude error of the body in two forms: as Euler angles (attitude.*), and as the rotation vector phi
+/// (misalignment.*) with C_estimated = exp(-[phi x]) C_true. Both refer to the axes north, east, down (NED).
 inline constexpr Quantity attitude_roll{
     .name = "attitude.roll", .meaning = "error of the roll angle", .unit = mrad, .once = "roll"};
 inline constexpr Quantity attitude_pitch{
@@ -30,7 +31,7 @@ inline constexpr Quantity misalignment_down{.name = "misalignment.down",
                                             .meaning = "rotation from true to estimated attitude, about down",
                                             .unit = mrad,
                                             .once = "phi_down"};
-/// The reported sigma of the heading, and the error divided by it.
+/// The sigma of the heading that the target reports, and the heading error divided by this sigma.
 inline constexpr Quantity heading_sigma{.name = "attitude.heading.sigma",
                                         .meaning = "sigma of the heading as the target reports it",
                                         .unit = mrad,
@@ -41,7 +42,8 @@ inline constexpr Quantity heading_over_sigma{
     .unit = plain,
     .once = "heading_over_sigma"};
 
-/// One value for each update, from the first navigation answer that includes the update.
+/// One value for each update of the filter. It is computed from the first navigation answer that includes the
+/// update.
 inline constexpr Quantity heading_nees{
     .name = "attitude.heading.nees",
     .meaning = "squared ratio of the heading error to the sigma that the target reports",
@@ -50,7 +52,7 @@ inline constexpr Quantity heading_nees{
     .nan_allowed = true,
     .once = "heading_nees"};
 
-/// Velocity of the body over the earth, NED.
+/// The error of the velocity of the body relative to the earth. Axes: north, east, down (NED).
 inline constexpr Quantity velocity_north{
     .name = "velocity.north", .meaning = "error of the velocity north", .unit = mps, .once = "v_north"};
 inline constexpr Quantity velocity_east{
@@ -58,7 +60,7 @@ inline constexpr Quantity velocity_east{
 inline constexpr Quantity velocity_down{
     .name = "velocity.down", .meaning = "error of the velocity down", .unit = mps, .once = "v_down"};
 
-/// Normalised innovation squared of a velocity or of a position, NED.
+/// Normalised innovation squared (NIS) of a measured velocity or a measured position. Axes: NED.
 inline constexpr Quantity innovation_nis{
     .name = "innovation.nis",
     .meaning = "normalised innovation squared of a velocity or a position",
@@ -68,11 +70,12 @@ inline constexpr Quantity innovation_nis{
     .nan_allowed = true,
     .once = "nis"};
 
-/// The magnitude of the three components of the velocity error.
+/// The magnitude of the vector of the velocity error.
 inline constexpr Quantity velocity_norm{
     .name = "velocity.norm", .meaning = "magnitude of the error of the velocity", .unit = mps};
 
-/// Shows whether a target reports small sigmas without `degraded` or `blind` although its error is large.
+/// With this quantity a check finds a target whose errors are large although the target reports small sigmas,
+/// and reports neither `degraded` nor `blind`.
 inline constexpr Quantity trusted_over_sigma{
     .name = "trusted.over_sigma",
     .meaning =
@@ -80,7 +83,8 @@ inline constexpr Quantity trusted_over_sigma{
         "degraded or blind",
     .unit = plain};
 
-/// Shows how often a target reports degraded, and so exposes a target that reports it with every answer.
+/// Shows how often a target reports `degraded`. So a check can find a target that reports `degraded` with
+/// every answer.
 inline constexpr Quantity degraded{.name = "degraded",
                                    .meaning =
                                        "1 where the answer reports degraded or blind, else 0; for a "

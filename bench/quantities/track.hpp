@@ -1,5 +1,5 @@
-// The track of a quantity: its course over a run as an estimator reported it. Pictures, tables and checks use
-// tracks.
+// The track of a quantity: its values over the time of a run, as an estimator reported them. Pictures, tables
+// and checks use tracks.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,13 @@
 
 namespace canhil::quantities {
 
-/// One answer, at the time of validity of its cause. SI.
+/// The values from one answer, in SI. t_us is the time of validity of the answer's cause.
 struct TrackPoint {
   std::int64_t t_us = 0;
-  double value = 0;  ///< the error (estimated - true); for a statistic or an innovation, the value itself
-  std::optional<double> sigma{};     ///< reported sigma of the error; none: not reported in time
-  std::optional<double> estimate{};  ///< as reported; angles unwrapped
+  /// The error (estimated - true); for a statistic or an innovation: the statistic or innovation itself.
+  double value = 0;
+  std::optional<double> sigma{};     ///< reported sigma of the error; nullopt: not reported in time
+  std::optional<double> estimate{};  ///< the reported estimate; angles are unwrapped
   std::optional<double> truth{};
 };
 
@@ -30,32 +31,33 @@ struct Track {
 
   const Quantity* quantity = nullptr;
   Kind kind = Kind::error;
-  Unit unit{};                   ///< for pictures
+  Unit unit{};                   ///< unit in pictures
   std::string title{};           ///< title of a picture of the values: "attitude error about north"
   std::string estimate_title{};  ///< title of a picture of estimate and truth; empty: no picture
-  Unit estimate_unit{};          ///< for the picture of estimate and truth
-  bool only_if_judged = false;   ///< drawn only if a check has a limit for it
+  Unit estimate_unit{};          ///< unit in the picture of estimate and truth
+  bool only_if_judged = false;   ///< drawn only if a check has a limit for this quantity
   Spool<TrackPoint> points{};    ///< in order of time
-  /// Describes where due answers are missing between two times, ends included [us]; empty: nowhere. If not
-  /// set, any wait longer than longest_wait_us is a gap.
+  /// Returns a description of where answers that were due are missing between two times, both included [us];
+  /// an empty string: nowhere. If this function is not set, any wait longer than longest_wait_us counts as a
+  /// gap.
   std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
   double longest_wait_us = 0;       ///< the longest time between answers that does not count as silence
   std::int64_t answers_end_us = 0;  ///< no answers are expected after this time
-  /// The time to go at each stimulus; empty: the flight has no closest approach.
+  /// The time to go at one stimulus. `to_go` is empty if the flight has no closest approach.
   struct ToGo {
     std::int64_t t_us = 0;
     double to_go_s = 0;
   };
   Spool<ToGo> to_go{};
-  /// Later values are not drawn.
+  /// Values after this time are not drawn.
   std::int64_t drawn_until_us = std::numeric_limits<std::int64_t>::max();
 };
 
-/// Takes tracks one at a time, so that memory holds only one.
+/// A function that receives one track after the other, so that only one track is in memory at a time.
 using TrackSink = std::function<void(Track track)>;
 
-/// The time from which |value_of(item)| of a time series (t_us) stays within a band to the end [us]; none: it
-/// is outside the band at the end.
+/// The time [us] from which |value_of(item)| of a time series stays at or below `within` until the end of the
+/// series; nullopt: the series is empty or ends above `within`. The items have a member t_us.
 template <class Series, class ValueOf>
 std::optional<std::int64_t> entered_for_good_us(const Series& series, double within, ValueOf value_of) {
   const auto outside = std::find_if(series.rbegin(), series.rend(), [&](const auto& item) {

@@ -17,14 +17,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t most_apart_ns = 5'000'000;
-constexpr std::int64_t drift_over = 64;  // length of the moving estimate of the clock difference, in frames
+constexpr std::int64_t drift_over =
+    64;  // memory of the moving average that tracks the clock difference, in frames
 
 struct Stamped {
   std::int64_t t_ns = 0;
   Frame frame;
 };
 
-// Id and content of a frame, for a hash table.
+// The id and the data of a frame as one string, which is the key of a hash table.
 std::string content_of(const Frame& frame) {
   std::string content = fmt::format("{:x}{}{}:", frame.id, frame.extended ? "x" : "", frame.fd ? "f" : "");
   for (const std::uint8_t byte : frame.payload()) content.push_back(static_cast<char>(byte));
@@ -54,8 +55,8 @@ TimesByContent times_of(const std::vector<Stamped>& frames) {
   return times;
 }
 
-// The clock of b minus the clock of a: the median over the frames that occur once in each log. If there are
-// none, the difference between the first frames of the logs.
+// The clock of log b minus the clock of log a: the median over the frames that occur once in each log. If
+// there are no such frames, the difference between the stamps of the two first frames.
 std::int64_t clocks_apart_ns(const std::vector<Stamped>& a, const std::vector<Stamped>& b) {
   const TimesByContent of_b = times_of(b);
   std::vector<std::int64_t> apart_ns;
@@ -70,7 +71,7 @@ std::int64_t clocks_apart_ns(const std::vector<Stamped>& a, const std::vector<St
   return *middle;
 }
 
-// Count, mean and sum of squared deviations, by Welford's recurrence.
+// Updates count, mean and the sum of squared deviations with each difference (Welford's algorithm).
 class Collected {
  public:
   void add(double difference_s) {
@@ -114,7 +115,8 @@ Result<StampsCompared> compare_stamps(const std::string& log_a, const std::strin
   const std::int64_t from_ns = std::max(a->front().t_ns + apart_ns, b->front().t_ns) - most_apart_ns;
   const std::int64_t to_ns = std::min(a->back().t_ns + apart_ns, b->back().t_ns) + most_apart_ns;
   TimesByContent waiting = times_of(*b);
-  std::unordered_map<std::string, std::deque<std::int64_t>> paired;  // stamps of b by content
+  std::unordered_map<std::string, std::deque<std::int64_t>>
+      paired;  // stamps in b of the frames that are also in a; key: content
   for (const Stamped& one : *a) {
     const std::string content = content_of(one.frame);
     std::deque<std::int64_t>& times = waiting[content];

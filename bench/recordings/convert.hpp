@@ -8,8 +8,8 @@
 
 namespace canhil::recordings {
 
-/// Writes the frames of one log into a new log, whose file name determines the format (dbc/logs/log.hpp).
-/// Returns the number of frames. Error: one line; the new file is removed.
+/// Writes the frames of the log `from` into a new log `to`. The file name of `to` determines the format
+/// (dbc/logs/log.hpp). Returns the number of frames. After an error (one line) there is no new file.
 Result<std::uint64_t> convert(const std::string& from, const std::string& to);
 
 }  // namespace canhil::recordings

@@ -18,7 +18,7 @@ using Values = std::vector<dbc::DecodedSignal>;
 
 std::string number(double value) { return fmt::format("{:.12g}", value); }
 
-// Writes the decoded frames in one format.
+// Base class: writes decoded frames in one output format.
 class Writer {
  public:
   Writer() = default;
@@ -47,7 +47,7 @@ class Text final : public Writer {
   }
 };
 
-// Quotes a cell that contains a separator (RFC 4180).
+// Puts a cell into quotes if it contains a separator (RFC 4180).
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -76,7 +76,7 @@ class Csv final : public Writer {
   }
 
  private:
-  std::map<const dbc::Signal*, std::size_t> places_;  // column of each signal
+  std::map<const dbc::Signal*, std::size_t> places_;  // the column number of each signal
   std::string head_;
 };
 
@@ -92,7 +92,7 @@ class JsonLines final : public Writer {
                     {"id", message.id},
                     {"message", message.name},
                     {"signals", std::move(signals)}};
-    // Copies the time as text from the log: a double cannot hold nanoseconds since 1970.
+    // The time is inserted as text: a double cannot represent nanoseconds since 1970 exactly.
     return fmt::format("{{\"t_s\":{},{}\n", t_s,
                        json.dump(-1, ' ', false, Json::error_handler_t::replace).substr(1));
   }
@@ -105,7 +105,7 @@ class Decoder {
       by_id_.emplace(std::pair(message.id, message.extended), &message);
   }
 
-  // Calls take(entry, message) for the frames of the selected messages.
+  // Calls take(entry, message) for each frame of a selected message.
   template <class Take>
   Result<void> each(const std::string& log, const Take& take) {
     auto reader = LogReader::open(log);
@@ -132,7 +132,8 @@ class Decoder {
   }
   [[nodiscard]] std::string time_of(const LogEntry& entry) const {
     const std::int64_t t_ns = options_.since_1970 ? entry.t_ns : entry.t_ns - first_ns_.value_or(0);
-    const std::int64_t size_ns = std::abs(t_ns);  // a stamp may be earlier than the first one
+    const std::int64_t size_ns =
+        std::abs(t_ns);  // t_ns is negative if a stamp is earlier than the first stamp
     constexpr std::int64_t ns_per_s = 1'000'000'000;
     std::string text = fmt::format("{}{}.{:09}", t_ns < 0 ? "-" : "", size_ns / ns_per_s, size_ns % ns_per_s);
     if (text.ends_with("000")) text.resize(text.size() - 3);
@@ -162,7 +163,7 @@ Result<LeftOut> decode(const std::string& log, const dbc::Database& database, co
     auto read =
         decoder.each(log, [&](const LogEntry&, const dbc::Message& message) { seen.insert(&message); });
     if (!read) return tl::unexpected(read.error());
-    std::vector<const dbc::Message*> messages;  // in the order of the DBC
+    std::vector<const dbc::Message*> messages;  // the messages that occur in the log, in the order of the DBC
     for (const dbc::Message& message : database.messages) {
       if (seen.contains(&message)) messages.push_back(&message);
     }

@@ -1,4 +1,4 @@
-// Decodes the frames of a log to values, with a DBC file.
+// Decodes the frames of a log to physical values. A DBC file describes the frames.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +15,28 @@ namespace canhil::recordings {
 
 enum class Format : std::uint8_t {
   text,        ///< one line per frame, for people
-  csv,         ///< one column per signal, one row per frame: PlotJuggler, pandas, spreadsheets
+  csv,         ///< a column per signal, a row per frame; for PlotJuggler, pandas, spreadsheets
   json_lines,  ///< one object per frame
 };
 
 struct DecodeOptions {
   Format format = Format::text;
-  std::vector<std::string> only{};  ///< names of messages; empty: all
-  bool since_1970 = false;          ///< times since 1970; otherwise since the first frame
+  std::vector<std::string> only{};  ///< names of the messages to decode; empty: all
+  bool since_1970 = false;          ///< true: times since 1970; false: times since the first frame
 };
 
 /// Frames that cannot be decoded with the DBC.
 struct LeftOut {
   std::uint64_t frames = 0;
-  std::set<std::string> ids{};        ///< ids of frames without a message in the DBC; "error frames"
-  std::uint64_t of_another_size = 0;  ///< frames of another size than their message
+  std::set<std::string> ids{};        ///< ids that the DBC does not have; "error frames"
+  std::uint64_t of_another_size = 0;  ///< number of frames whose size differs from that of their message
 };
 
 using Sink = std::function<void(std::string_view part)>;
 
-/// Decodes a log and passes the text on in parts. Numbers are in the signals' units, with twelve digits.
-/// Error: one line; the log cannot be read, or the DBC lacks a selected message.
+/// Decodes a log and passes the resulting text to `give`, part by part. Numbers are in the units of the
+/// signals, with twelve digits. Returns an error of one line if the log cannot be read or if the DBC lacks a
+/// selected message.
 Result<LeftOut> decode(const std::string& log, const dbc::Database& database, const DecodeOptions& options,
                        const Sink& give);
 

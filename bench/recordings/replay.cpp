@@ -11,7 +11,7 @@ namespace canhil::recordings {
 namespace {
 
 constexpr std::int64_t patience_ns = 1'000'000'000;
-constexpr std::int64_t look_ns = 100'000'000;  // interval at which a wait checks for a stop
+constexpr std::int64_t look_ns = 100'000'000;  // while waiting, `stop` is checked at this interval
 
 class Replay {
  public:
@@ -35,7 +35,7 @@ class Replay {
            (options_.only.empty() || std::ranges::find(options_.only, entry.frame.id) != options_.only.end());
   }
 
-  // Sends the log once from its beginning; the next repetition follows at once.
+  // Sends the whole log one time, from its beginning. The next repetition follows without a pause.
   Result<void> once() {
     auto reader = LogReader::open(log_);
     if (!reader) return tl::unexpected(reader.error());
@@ -54,7 +54,8 @@ class Replay {
     return {};
   }
 
-  // Reads and discards frames from the bus, because a node that does not read blocks the bus. False: stopped.
+  // Waits until `deadline_ns`; false: the replay was stopped. Meanwhile reads and discards frames from the
+  // bus, because a node that does not read blocks the bus.
   bool wait_until(std::int64_t deadline_ns) {
     for (;;) {
       while (port_.receive()) {

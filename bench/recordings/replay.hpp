@@ -1,4 +1,4 @@
-// Replays the frames of a log.
+// Sends the frames of a log to a bus again.
 #pragma once
 
 #include <atomic>
@@ -14,21 +14,23 @@
 namespace canhil::recordings {
 
 struct ReplayOptions {
-  double speed = 1;                   ///< factor relative to the recording
-  std::uint64_t loops = 1;            ///< 0: until stopped
-  std::vector<std::uint32_t> only{};  ///< ids; empty: all
-  std::optional<bool> transmitted{};  ///< true: only frames that the recorder sent; false: received
+  double speed = 1;                   ///< 2 means twice as fast as recorded
+  std::uint64_t loops = 1;            ///< number of repetitions; 0: repeats until stopped
+  std::vector<std::uint32_t> only{};  ///< ids of the frames to send; empty: all
+  /// true: sends only frames that the recorder had sent; false: only frames that it had received; none: both.
+  std::optional<bool> transmitted{};
 };
 
 struct Replayed {
   std::uint64_t frames = 0;
-  std::uint64_t loops = 0;       ///< repetitions begun
+  std::uint64_t loops = 0;       ///< number of repetitions that have begun
   checks::Histogram lateness{};  ///< transmission time minus deadline, for each frame
 };
 
-/// Sends each frame at its time after the first one, by absolute deadlines, so that lateness does not
-/// accumulate. Error frames are not sent. `progress` receives the number of frames so far. Error: one line;
-/// the log cannot be read or has no frame to send, or the bus rejects a frame or accepts none for a second.
+/// Sends each frame as long after the first frame as in the log. The deadlines are absolute, so that lateness
+/// does not accumulate. Error frames are not sent. `progress` receives the number of frames so far. Returns
+/// an error of one line if the log cannot be read or has no frame to send, if the bus rejects a frame, or if
+/// the bus accepts no frame for one second.
 Result<Replayed> replay(Port& port, const std::string& log, const ReplayOptions& options,
                         const std::atomic<bool>& stop, const std::function<void(std::uint64_t)>& progress);
 

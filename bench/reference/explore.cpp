@@ -13,10 +13,10 @@ namespace {
 using scenario::DescribedKey;
 using scenario::Description;
 
-using Settings = std::map<std::string, std::string>;  // key with its tables -> TOML value
+using Settings = std::map<std::string, std::string>;  // "table.key" -> TOML value
 
-/// The maximum number of settings in one text: a word, a key that depends on it, and a key that depends on
-/// both.
+/// The maximum number of settings in one text: a key with a word, a key that depends on this word, and a key
+/// that depends on both.
 constexpr std::size_t most_settings = 3;
 /// The value that is tried for a key if only its name is known.
 constexpr std::string_view any_value = "1";
@@ -35,7 +35,7 @@ std::string toml_of(const std::string& given, const Settings& settings) {
   return text;
 }
 
-/// A run of the reader: the settings in its text, and the keys that it requested.
+/// A run of the reader: the settings in its text, and the keys that the reader requested.
 struct Tried {
   Settings settings;
   std::set<std::size_t> asked;  // indices in found_
@@ -96,7 +96,8 @@ class Explorer {
     waiting_.push_back(std::move(settings));
   }
 
-  /// The index of this key in found_, after adding a new key; none: the key brings no new information.
+  /// The index of this key in found_, after adding the key if it is new; nullopt if the key brings no new
+  /// information.
   std::optional<std::size_t> place_of(const DescribedKey& key, bool is_there,
                                       const Description& description) {
     const auto same = [&](const DescribedKey& one) {
@@ -124,7 +125,7 @@ class Explorer {
     }
     if (key.meaning.empty() && any != found_.end()) return std::nullopt;
     found_.push_back(key);
-    if (is_there && description.looked_for.contains(path_of(key))) {  // requested only if it is present
+    if (is_there && description.looked_for.contains(path_of(key))) {  // requested only if present
       found_.back().required = false;
       found_.back().fallback.clear();
     }
@@ -143,8 +144,8 @@ class Explorer {
     return all;
   }
 
-  /// The key at `path`, if conditions name its permitted words: it has at least two words, but not a long
-  /// list of names. Null: any other key.
+  /// The key at `path`, if a condition may list its permitted words: there must be at least two and at most
+  /// most_words of them. Null for any other key.
   [[nodiscard]] const DescribedKey* word_key(const std::string& path) const {
     constexpr std::size_t most_words = 12;
     const auto found = std::ranges::find_if(found_, [&](const DescribedKey& key) {
@@ -163,7 +164,7 @@ class Explorer {
     return fmt::format("`{}`", text ? toml.substr(1, toml.size() - 2) : toml);
   }
 
-  /// "`trajectory` `weave` or `rest`" from the words of one key.
+  /// A text such as "`trajectory` `weave` or `rest`" for some words of one key.
   static std::string words_of(const std::string& path, const std::vector<std::string>& words) {
     std::vector<std::string> all;
     for (const std::string& word : words) all.push_back(quoted(word));

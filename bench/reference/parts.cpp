@@ -24,7 +24,7 @@ namespace {
 using scenario::Section;
 
 constexpr std::int64_t longest_run_us = 86'400'000'000;
-constexpr std::string_view file = "reference";  // file name in messages that are not shown
+constexpr std::string_view file = "reference";  // the file name in error messages, which are not shown
 
 /// The keys that a reader of one section requests.
 template <class ReadSection>
@@ -73,11 +73,11 @@ Part target_part(const scenario::DbcVocabulary& contract) {
           "There is one table `[target]`, or one table `[[target]]` for each estimator that the target runs.",
       .tables = {{.name = "[target]", .about = "", .keys = in_table(keys, "target")},
                  {.name = "[target.initial_sigma]",
-                  .about = "The uncertainty of the initial state that the target receives. `los_rate` does "
-                           "not need this table.",
+                  .about = "At the start, the bench sends an initial state to the target, with the 1-sigmas "
+                           "of this table. The estimator `los_rate` does not need the table.",
                   .keys = in_table(keys, "target.initial_sigma")},
                  {.name = "[target] with a mapping",
-                  .about = "A target that has a DBC of its own.",
+                  .about = "The keys for a target that has its own DBC (mapping.md).",
                   .keys = in_table(own, "target")}}};
   for (Table& table : part.tables)
     for (AskedKey& one : table.keys) one.only.clear();  // the conditions name values of another DBC
@@ -89,8 +89,9 @@ Part parameters_part() {
             .about =
                 "The bench sets each parameter of `[target.parameters]` over the bus and reads it back. The "
                 "ranges and defaults are those of hil-target; a target of your own may have others. A target "
-                "refuses a value that is out of its range. 'Set before the start': the target refuses a "
-                "change while the estimator runs.",
+                "refuses a value that is out of its range. 'Set before the start' means that the target "
+                "refuses a change of the parameter while the estimator runs. If a meaning begins with names "
+                "of algorithms and a colon, the parameter has an effect only with these algorithms.",
             .tables = {}};
   for (const drive::ParametersOf& of : drive::target_parameters()) {
     Table table{.name = std::string(of.estimator), .about = "", .keys = {}};
@@ -111,15 +112,18 @@ Part truth_part() {
   Part part{
       .title = "Truth and initial errors",
       .about = "",
-      .tables = {{.name = "[truth]",
-                  .about = "The flight of the carrier.",
-                  .keys = keys_of([](Section& section) { scenario::read_truth(section, longest_run_us); })},
-                 {.name = "[initial_error]",
-                  .about = "Errors of the initial state that the target receives.",
-                  .keys = keys_of([](Section& section) { scenario::read_initial_error(section); })},
-                 {.name = "[engagement]",
-                  .about = "A missile and its flight target. Random values are drawn for each run.",
-                  .keys = keys_of([](Section& section) { scenario::read_engagement(section); })}}};
+      .tables = {
+          {.name = "[truth]",
+           .about = "The flight of the carrier.",
+           .keys = keys_of([](Section& section) { scenario::read_truth(section, longest_run_us); })},
+          {.name = "[initial_error]",
+           .about =
+               "The initial state that the bench sends to the target is the true state plus these errors.",
+           .keys = keys_of([](Section& section) { scenario::read_initial_error(section); })},
+          {.name = "[engagement]",
+           .about = "A missile and its flight target, which is the object that the missile flies to. Random "
+                    "values are drawn for each run.",
+           .keys = keys_of([](Section& section) { scenario::read_engagement(section); })}}};
   const auto keys = keys_of([](Section& root) {
     Section section = root.table("glide");
     scenario::read_glide(root, section);
@@ -142,18 +146,19 @@ Part nodes_part(const scenario::DbcVocabulary& contract) {
         {.name = fmt::format("[{}]", node->key), .about = "", .keys = keys_of([&](Section& section) {
                                                                 std::ignore = node->read(*node, section);
                                                               })});
-  part.tables.push_back({.name = "Any node that sends recorded samples",
-                         .about = "These keys replace the keys of the node (recorded-data.md).",
-                         .keys = keys_of(
-                             [&](Section& section) {
-                               std::ignore =
-                                   contract.read_recorded(*contract.nodes.front(), section, longest_run_us);
-                             },
-                             "recorded = \"samples.csv\"\n")});
+  part.tables.push_back(
+      {.name = "Any node that sends recorded samples",
+       .about =
+           "A node that sends recorded samples has these keys in place of its usual keys (recorded-data.md).",
+       .keys = keys_of(
+           [&](Section& section) {
+             std::ignore = contract.read_recorded(*contract.nodes.front(), section, longest_run_us);
+           },
+           "recorded = \"samples.csv\"\n")});
   return part;
 }
 
-/// Every node, with all its defaults.
+/// The settings of every node, with the default of every key.
 std::vector<scenario::NodeSettings> every_node(const scenario::DbcVocabulary& contract) {
   std::vector<scenario::NodeSettings> nodes;
   for (const scenario::NodeTable* node : contract.nodes) {
@@ -174,7 +179,9 @@ Part faults_part(const scenario::DbcVocabulary& contract) {
       },
       "[[fault]]\n", Depth::as_it_is);
   Part part{.title = "Faults",
-            .about = "A scenario may have any number of `[[fault]]` tables (faults.md).",
+            .about =
+                "A scenario may have any number of `[[fault]]` tables (faults.md). If a key has two rows in "
+                "the next table, it is required for some kinds of faults and optional for others.",
             .tables = {}};
   part.tables.push_back({.name = "[[fault]]", .about = "", .keys = in_table(of_all, "fault[1]")});
   for (const scenario::FaultKind& kind : contract.fault_kinds)

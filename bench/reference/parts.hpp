@@ -1,4 +1,5 @@
-// The sections of scenario and campaign files with all keys that their readers request.
+// The parts of the reference: the sections of scenario and campaign files with all keys that their readers
+// request.
 #pragma once
 
 #include <string>
@@ -8,10 +9,10 @@
 
 namespace canhil::reference {
 
-/// One table of a file, or one kind of a check, a fault or a metric.
+/// One table of a file, or one kind of check, fault or metric.
 struct Table {
-  std::string name;   ///< "[seeker]", "error"
-  std::string about;  ///< sentences
+  std::string name;   ///< for example "[seeker]" or "error"
+  std::string about;  ///< explanation in sentences; may be empty
   std::vector<AskedKey> keys;
 };
 

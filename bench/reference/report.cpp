@@ -17,7 +17,7 @@ constexpr std::size_t least_sharing = 4;
 
 std::string unit_of(const scenario::DescribedKey& key) {
   if (key.shown.ends_with("_UNIT")) return "UNIT";
-  return std::string(scenario::unit_of("_" + key.name));  // a key may be a unit's name alone: `percent`
+  return std::string(scenario::unit_of("_" + key.name));  // a key may be the unit alone: `percent`
 }
 
 std::string in_code(const std::vector<std::string>& words) {
@@ -60,7 +60,7 @@ std::string rows(const std::vector<std::string>& all) {
                      fmt::join(all, ""));
 }
 
-/// The rows that occur in many tables of a part.
+/// The rows that at least least_sharing tables of a part have.
 std::vector<std::string> shared_rows(const Part& part) {
   std::vector<std::pair<std::string, std::size_t>> counts;
   for (const Table& table : part.tables) {
@@ -80,8 +80,8 @@ std::vector<std::string> shared_rows(const Part& part) {
   return shared;
 }
 
-/// The name of a shared key. If several shared rows have this name and the key is required, default_of()
-/// follows in brackets.
+/// The name of a key that is listed once for its part. If several shared rows have this name and the key is
+/// required, the text of default_of() follows in brackets.
 std::string reference_to(const AskedKey& one, const std::vector<std::string>& shared) {
   const std::string name = fmt::format("`{}`", one.key.shown), begin = fmt::format("| {} |", name);
   const auto rows = std::ranges::count_if(shared, [&](const auto& row) { return row.starts_with(begin); });
@@ -101,7 +101,7 @@ std::string text_of(const Table& table, const std::vector<std::string>& shared) 
   if (table.name.find(' ') != std::string::npos) text = fmt::format("### {}\n\n", table.name);
   if (!table.about.empty()) text += table.about + "\n\n";
   if (!names.empty()) text += fmt::format("Shared keys: {}.\n\n", fmt::join(names, ", "));
-  if (table.keys.empty()) text += "It has no keys of its own.\n\n";
+  if (table.keys.empty()) text += "This kind has no keys of its own.\n\n";
   return text + rows(own);
 }
 
@@ -109,14 +109,16 @@ std::string text_of(const Table& table, const std::vector<std::string>& shared) 
 
 std::string markdown(const std::vector<Part>& parts) {
   std::string text =
-      "# Scenario reference\n\n"
-      "This page lists every key of scenario and campaign files, with its unit, its possible values, its "
-      "default and its meaning. `hil-bench reference` prints this page from the code that reads the files; "
-      "[scenarios.md](scenarios.md) is the guide. A key without 'required' may be left out. In the meaning "
-      "of a key, 'this' without a noun stands for the value of the key. UNIT stands for the ending of a "
-      "quantity's unit ([quantities.md](quantities.md)). 'One number or three' means an array `[N, E, D]` or "
-      "`[x, y, z]`, or one number for all three. The keys of other files are described elsewhere: those of "
-      "an acceptance suite in [accept.md](accept.md#writing-a-suite), those of a mapping file in "
+      "# Scenario reference\n\nThis page lists every key of scenario and campaign files, with the unit, "
+      "possible values, default and meaning of the key. `hil-bench reference` prints this page from the code "
+      "that reads the files; [scenarios.md](scenarios.md) explains how to write a scenario. A key may be "
+      "left out unless its default is 'required'. 'required, or `x`' means that one of the two keys is "
+      "required: this key or the key `x`. 'Only with `trajectory` `weave`' means that the key is allowed (or "
+      "required) only if the key `trajectory` has the value `weave`. In the name of a key, UNIT stands for "
+      "the unit of the quantity ([quantities.md](quantities.md)), such as `degps` in `value_degps`. 'One "
+      "number or three' means either one number, which is used for all three components, or an array `[N, E, "
+      "D]` or `[x, y, z]`. The keys of other files are described elsewhere: those of an acceptance suite in "
+      "[accept.md](accept.md#writing-a-suite), those of a mapping file in "
       "[mapping.md](mapping.md#the-mapping) and [protection.md](protection.md).\n\n";
   for (const Part& part : parts) {
     const std::vector<std::string> shared = shared_rows(part);

@@ -24,7 +24,7 @@ constexpr double least_us = 2;      // increase of p50 or p99, larger than the r
 // Further conditions with one run per side, which does not show the scatter between runs:
 constexpr double least_effect = 0.64;  // a 'medium' effect of Vargha and Delaney (2000)
 constexpr double tail_times = 2;       // factor for the fraction beyond the 99 % quantile
-constexpr double least_share = 1;      // increase of p50 or p99, divided by its value before
+constexpr double least_share = 1;      // increase of p50 or p99, divided by the value on the first side
 
 Buckets buckets_of(const Json& distribution) {
   Buckets buckets;

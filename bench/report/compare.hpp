@@ -14,13 +14,13 @@ enum class Comparison : std::uint8_t { no_worse, worse, not_comparable };
 
 struct Compared {
   Comparison outcome = Comparison::no_worse;
-  std::string text;  ///< one line for each compared item, the last line is the outcome
+  std::string text;  ///< one line for each compared item; the last line is the outcome
 };
 
 using Reports = std::vector<nlohmann::ordered_json>;
 
-/// Compares reports made by document(), `after` with `before`, at least one on each side. Error: one line
-/// about what a report lacks, or about an unknown value in it.
+/// Compares the reports `after` with the reports `before`; each side has at least one report, made by
+/// document(). Error: one line about what a report lacks, or about an unknown value in a report.
 Result<Compared> compare(const Reports& before, const Reports& after);
 
 }  // namespace canhil::report

@@ -19,7 +19,8 @@ struct Worded {
   std::string_view path, words;
 };
 
-// The words for paths. A path without an entry is shown as it is, except that in_words() replaces folders.
+// The words for paths. A path without an entry is shown unchanged, except that in_words() replaces the first
+// part of some paths.
 constexpr std::array<Worded, 28> worded{
     {{"dbc_hash", "DBC"},
      {"latency_stamps", "latency stamps"},
@@ -50,8 +51,8 @@ constexpr std::array<Worded, 28> worded{
      {"bitrate_bitps", "bit rate of the wire"},
      {"data_bitrate_bitps", "data bit rate of the wire"}}};
 
-// Left out: values that must be equal for a comparison, are compared under another path, or differ in every
-// run. The kernel's preemption is already compared as `preemption`.
+// Paths that are not compared here: their values must be equal for a comparison, or are compared under
+// another path, or differ in every run. The kernel's preemption is already compared as `preemption`.
 constexpr std::array<std::string_view, 10> left_out_of_it{
     "scenario",       "scenario_hash", "contract",  "clock",        "date",
     "files.scenario", "files.DBC",     "files.log", "adapters.bus", "bench_process.preemption"};

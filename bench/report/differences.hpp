@@ -8,10 +8,10 @@
 
 namespace canhil::report {
 
-/// Compares provenance and wire of all reports of one side with those of the other side. One line for each
-/// difference, "differs  seed: 7 -> 8"; if the runs of a side differ among themselves, the line lists their
-/// values: "7 and 9 -> 8". Values that differ between any two runs are left out: dates, folders of files, the
-/// bus that a bench made for itself.
+/// Compares the provenance and the bit rates in all reports of one side with those of the other side. One
+/// line for each difference, "differs  seed: 7 -> 8"; if the runs of a side differ among themselves, the line
+/// lists their values: "7 and 9 -> 8". Values that always differ from run to run are left out: dates, folders
+/// of files, the bus that a bench made for itself.
 std::string differences(const std::vector<nlohmann::ordered_json>& before,
                         const std::vector<nlohmann::ordered_json>& after);
 

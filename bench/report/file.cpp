@@ -57,7 +57,7 @@ Result<void> check_writable(const std::string& path) {
   if (path == to_stdout) return failure("file '-': standard output cannot hold this, expected a file");
   std::error_code unknown;
   if (fs::is_directory(path, unknown)) return complaint(path, EISDIR);
-  // The finished file is renamed to this name, which would destroy a device, a pipe or a link.
+  // The finished file is renamed to this name. The renaming would destroy a device, a pipe or a link.
   const fs::file_status there = fs::symlink_status(path, unknown);
   if (fs::exists(there) && !fs::is_regular_file(there)) {
     return failure(fmt::format("file '{}': is not a regular file, expected one or a new name", path));

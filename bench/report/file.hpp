@@ -10,7 +10,7 @@
 
 namespace canhil::report {
 
-/// In place of a file's name, stands for standard output.
+/// A file name with this value means standard output.
 inline constexpr std::string_view to_stdout = "-";
 
 /// Writes to standard output immediately. Error: one line.
@@ -20,18 +20,19 @@ Result<void> write_stdout(std::string_view content);
 using Sink = std::function<void(std::string_view part)>;
 
 /// Writes a file under a temporary name and renames it. Error: one line; an existing file is then unchanged.
-/// `content` passes its parts one by one, so a large content is never held in memory as a whole.
+/// `content` passes the parts of the content to the sink one by one, so a large content is never in memory as
+/// a whole.
 Result<void> write_file(const std::string& path, const std::function<void(const Sink&)>& content);
 Result<void> write_file(const std::string& path, std::string_view content);
 
 /// Writes to standard output or a file, depending on `path`.
 Result<void> write(const std::string& path, std::string_view content);
 
-/// Checks whether a file can be written, before a long run: its folder is writable, and an existing file is a
-/// regular file. Error: one line, also for "-".
+/// Checks, before a long run, whether a file can be written: the folder of the file is writable, and an
+/// existing file is a regular file. Error: one line, also for "-".
 Result<void> check_writable(const std::string& path);
 
-/// Whether all non-empty paths name different files. Error: one line with the path given twice.
+/// Whether all non-empty paths name different files. Error: one line with the path that is given twice.
 Result<void> check_distinct(const std::vector<std::string>& paths);
 
 }  // namespace canhil::report

@@ -10,7 +10,7 @@ std::optional<double> mean_s(std::int64_t sum_ns, std::uint64_t count) {
   return static_cast<double>(sum_ns) / static_cast<double>(count) * 1e-9;
 }
 
-// The parts that both kinds of breakdown contain.
+// The parts that are in both kinds of breakdown: the breakdown over all stimuli, and that of one group.
 struct OnTheBus {
   BreakdownPart wait, stimulus, reply;
 };

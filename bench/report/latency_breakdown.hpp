@@ -18,7 +18,7 @@ struct BreakdownPart {
   std::string_view key{};          ///< key in the JSON report
   std::string_view what{};         ///< label for people
   std::optional<double> mean_s{};  ///< none: unknown on this bus, or not reported by the target
-  Bound bound = Bound::exact;      ///< a bound if the target's values saturate at checks::most_reported_us
+  Bound bound = Bound::exact;      ///< a bound if values of the target saturated at checks::most_reported_us
 };
 
 /// The parts in the order of time; the known parts add up to total_s().
@@ -27,7 +27,7 @@ std::vector<BreakdownPart> parts(const checks::TimingRecord& timing);
 /// part includes the time of the target.
 std::vector<BreakdownPart> group_parts(const checks::TimingRecord& timing,
                                        const checks::LatencyBreakdown& breakdown);
-/// The label of a part; the key itself if it has none.
+/// The label of a part; the key itself if the part has no label.
 std::string_view what_of(std::string_view key);
 double total_s(const checks::LatencyBreakdown& breakdown);
 

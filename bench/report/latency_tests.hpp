@@ -29,8 +29,8 @@ TailTest tail_test(const Buckets& a, const Buckets& b);
 /// with the scatter between runs.
 struct RunTest {
   double later_us = 0;  ///< mean of `b` minus mean of `a`
-  double p =
-      1;  ///< one-sided, null hypothesis: `b` is not later; 1 with one run per side, which shows no scatter
+  double p = 1;  ///< one-sided, null hypothesis: `b` is not later; p is 1 with one run per side, which shows
+                 ///< no scatter
 };
 RunTest run_test(std::span<const double> a_us, std::span<const double> b_us);
 

@@ -12,7 +12,7 @@
 namespace canhil::report {
 namespace {
 
-constexpr int most_depth = 32;  // of nested values; a report is 6 deep
+constexpr int most_depth = 32;  // limit for the depth of nested values; a report has depth 6
 
 // A plot needs one value for each time. Describes the first array that has another length; empty: none.
 std::string length_differs(const Json& report) {
@@ -100,7 +100,7 @@ Result<std::string> html(const Json& document) {
 Result<Json> read_document(const std::string& path) {
   const auto text = read_text_file(path, "a report as JSON", 64 * mebibyte);
   if (!text) return tl::unexpected(text.error());
-  // The page is made by recursion over nested values, so their depth is limited.
+  // The page is made by recursion over nested values, so the depth of nesting is limited.
   bool too_deep = false;
   const auto shallow = [&too_deep](int depth, Json::parse_event_t /*event*/, const Json& /*value*/) {
     too_deep = too_deep || depth > most_depth;

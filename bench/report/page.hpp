@@ -8,8 +8,8 @@
 
 namespace canhil::report {
 
-/// The page of a report made by document(), drawn from the report alone. Error: one line about what the
-/// report lacks.
+/// The page of a report that document() made. The page is drawn from the report alone. Error: one line about
+/// what the report lacks.
 Result<std::string> html(const nlohmann::ordered_json& document);
 
 /// Reads a JSON report of hil-bench. Error: one line with the file and what was expected.

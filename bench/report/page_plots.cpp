@@ -14,7 +14,7 @@ namespace {
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();  // null in the report
 
-// The numbers of an array, filled up with NaN to the number of times, `size`.
+// The numbers of an array, padded with NaN to the length `size`, the number of points in time.
 std::vector<double> numbers(const Json& array, std::size_t size) {
   std::vector<double> values;
   for (const Json& value : array) values.push_back(value.is_null() ? not_there : value.get<double>());
@@ -38,7 +38,8 @@ LinePlot cut(LinePlot plot, const Part& part) {
   return plot;
 }
 
-// A plotted course. If `around_zero` (for errors and innovations), its range includes zero.
+// A plotted course. If `around_zero` is set (for errors and innovations), the range of the plot includes
+// zero.
 struct Course {
   LinePlot plot;
   bool around_zero = false;
@@ -54,8 +55,8 @@ struct Course {
 constexpr double hidden = 0.1;  // a smaller fraction of the picture's height is not visible
 
 // The last part of a course, which gets a separate picture: the values near those of the last quarter. None:
-// the picture of the whole course shows them. A check's limit that the picture of the whole course would hide
-// counts as a value of the last quarter.
+// the picture of the whole course already shows these values well. A check's limit that the picture of the
+// whole course would hide counts as a value of the last quarter.
 std::optional<Part> late_course(const Course& course) {
   constexpr double shown_times = 2.5;  // range of the second picture relative to the late values
   const std::vector<double>& t_s = course.plot.t_s;
@@ -140,7 +141,7 @@ std::string lines(const Json& series, LinePlot& plot) {
     const bool any_sigma = std::ranges::any_of(plot.limit, [](double v) { return std::isfinite(v); });
     if (!any_sigma) {
       plot.limit.clear();
-      plot.from_zero = std::ranges::none_of(plot.low, [](double v) { return v < 0; });  // for example a norm
+      plot.from_zero = std::ranges::none_of(plot.low, [](double v) { return v < 0; });  // true for a norm
     }
     return any_sigma
                ? "solid: estimate less truth; dashed: plus and minus 3 sigma, as the target reports it, with "

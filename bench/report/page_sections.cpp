@@ -13,7 +13,7 @@
 namespace canhil::report {
 namespace {
 
-// The percentiles of a distribution, as cells after the first cell.
+// A row of a table: the cell `first`, then the count and the percentiles of a distribution.
 std::vector<std::string> percentiles(std::string first, const Json& distribution) {
   std::vector<std::string> cells{std::move(first), distribution.at("count").dump()};
   const bool none = distribution.at("count").get<std::uint64_t>() == 0;
@@ -39,7 +39,7 @@ void add_incidents(Rows& rows, const Json& object, std::string_view of) {
   }
 }
 
-// An object in a list is labelled by its role, or else by its bus.
+// An object in a list is labelled by its role or, if it has no role, by its bus.
 const char* item_key(const Json& item) { return item.contains("role") ? "role" : "bus"; }
 std::string item_name(const Json& item) { return item.value(item_key(item), "?"); }
 Json without_name(Json item) {
@@ -71,7 +71,7 @@ std::string ms_or_none(const Json& seconds) {
   return seconds.is_null() ? "not known" : fmt::format("{:.3f}", seconds.get<double>() * 1e3);
 }
 
-// "&ge; " or "&le; " if only a bound of the part is known.
+// Returns "&ge; " or "&le; " if only a bound of the part is known.
 const char* bound_of(const Json& breakdown, const std::string& part) {
   const auto listed = [&](const char* key) {
     return breakdown.contains(key) &&
@@ -221,7 +221,7 @@ std::string timing_section(const Json& report) {
   const Json none = Json::object();
   const Json& latencies = report.contains("latency_s") ? report.at("latency_s") : none;
   const Json& jitters = report.contains("jitter_s") ? report.at("jitter_s") : none;
-  // The last message of an answer group represents it; the others are collapsed.
+  // The last message of an answer group represents the group; the other messages are in a collapsed table.
   Rows rows, others;
   std::string figures;
   for (const auto& [message, latency] : latencies.items()) {

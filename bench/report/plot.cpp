@@ -48,7 +48,7 @@ std::string time_of(double us) {
   return fmt::format("{:g} s", us / 1e6);
 }
 
-// 1, 10, 100 ...; for less than about two decades also 2 and 5 times these values.
+// Returns 1, 10, 100 ...; if the range is less than about two decades, also 2 and 5 times these values.
 std::vector<double> decades(double from_log, double to_log) {
   std::vector<double> values;
   const bool fine = to_log - from_log < 2.2;
@@ -89,7 +89,7 @@ std::vector<Stretch> stretches(std::size_t size, There there) {
 }
 
 constexpr double limit_room = 2.5;  // limits up to this multiple of the largest value are shown
-constexpr double bar_room = 6;      // the same for the limits of checks, which matter most
+constexpr double bar_room = 6;      // the same factor for the limits of checks, which matter most
 
 std::string path_along(const LinePlot& plot, const std::vector<double>& values, double sign, const Axis& x,
                        const Axis& y) {

@@ -20,13 +20,13 @@ struct HistogramPlot {
     double at_us = 0;
   };
   std::string title;      ///< alternative text of the picture
-  std::vector<Bar> bars;  ///< finer than the picture, which combines them
+  std::vector<Bar> bars;  ///< finer than in the picture, which combines bars
   std::vector<Mark> marks;
 };
 /// An <svg> element; a line of text if there is nothing to show.
 std::string svg(const HistogramPlot& plot);
 
-/// The range of some values, ignoring values that are not finite.
+/// The range of some values; values that are not finite are ignored.
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();

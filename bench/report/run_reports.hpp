@@ -16,12 +16,12 @@ namespace canhil::report {
 /// The outcome as shown on a terminal: "PASS", "NOT MEASURED".
 std::string label(checks::Outcome outcome);
 
-/// For a terminal, a page of text: verdict, checks, convergence, latency, losses.
+/// The report for a terminal, a page of text: verdict, checks, convergence, latency, losses.
 std::string text(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// For CI servers, JUnit XML: one test case for each check. Not measured is 'skipped' with the reason;
-/// measured and expected values and requirement ids are properties. The time stamp of the suite is the start
-/// of the run (UTC).
+/// The report for CI servers, JUnit XML: one test case for each check. A check that was not measured is
+/// reported as 'skipped', with the reason. The properties of a test case contain the measured value, the
+/// expected value and the id of the requirement. The time stamp of the suite is the start of the run (UTC).
 std::string junit(const scenario::Scenario& scenario, const drive::Run& run);
 /// Properties of a whole suite: name and value.
 using Properties = std::vector<std::pair<std::string, std::string>>;
@@ -40,8 +40,8 @@ void csv(const scenario::Scenario& scenario, const drive::Run& run, const Sink& 
 /// The value of "schema" in a report.
 inline constexpr std::string_view schema = "canhil-report-1";
 
-/// For programs, a JSON object: verdict, checks, figures, provenance, and all data of the page. Times in s,
-/// angles in rad, unit in every key; docs/report.md describes it.
+/// The report for programs, a JSON object: verdict, checks, figures, provenance, and all data of the page.
+/// Times are in s, angles in rad; every key contains the unit. docs/report.md describes this object.
 nlohmann::ordered_json document(const scenario::Scenario& scenario, const drive::Run& run);
 
 /// The text of document(): one line for each key of an object, and one for each array of numbers.

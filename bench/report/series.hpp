@@ -19,7 +19,7 @@ struct Series {
   struct Point {
     double t_s = 0;
     double low = 0,
-           high = 0;  ///< range of the quantity until the next point; not finite: silence until then
+           high = 0;  ///< range of the quantity until the next point; not finite: no answers until then
     std::optional<double> sigma{};  ///< the largest reported sigma; none: not reported in time
     std::optional<double> truth{};  ///< for an estimate: the true value at t_s
   };
@@ -40,8 +40,8 @@ struct Series {
   std::vector<Bar> bars{};
 };
 
-/// A series that grows with its track. It has one point for each stretch of time, all of equal length, and a
-/// gap where no answer came for too long.
+/// A series that grows with its track. Each point represents a stretch of time; all stretches have equal
+/// length. The series has a gap where no answer came for too long.
 class GrowingSeries {
  public:
   /// `estimates`: show estimates and truth instead of the values. `scenario` must outlive this object.

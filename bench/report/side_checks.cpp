@@ -59,7 +59,7 @@ std::vector<Judged> judged_in(const Json& report) {
 // The results of one check in the runs of a side.
 struct Tally {
   std::array<std::size_t, said.size()> saying{};  // number of runs for each result, by Says
-  std::string measured;  // from the first run that failed it, otherwise from the last run
+  std::string measured;  // of the first run in which the check failed; if none, of the last run
   [[nodiscard]] std::size_t runs() const {
     return std::accumulate(saying.begin(), saying.end(), std::size_t{0});
   }
@@ -74,7 +74,7 @@ struct Tally {
 };
 
 Tally tally_of(const std::vector<std::vector<Judged>>& side, const Key& key) {
-  // Implied checks exist only in runs where they do not pass.
+  // The report of a run contains an implied check only if the check did not pass.
   const bool implied = key.name == key.kind && checks::is_implied(key.kind);
   Tally tally;
   for (const auto& run : side) {

@@ -95,7 +95,7 @@ std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   std::vector<std::string> lines;
   if (scenario.foreign != nullptr) return lines;  // the target's own DBC defines the rates
   for (const bool at_every_epoch :
-       {true, false}) {  // first the node whose period is the interval of the truth
+       {true, false}) {  // the first pass is for the node whose period is the interval of the truth
     for (const nodes::Kind* kind : nodes::all()) {
       const MessageInfo& closes = kind->table.closes;
       const scenario::NodeSettings* node = scenario.node(kind->table.key);

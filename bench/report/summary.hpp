@@ -1,4 +1,4 @@
-// The contents that every report of a run has in addition to its checks.
+// The contents that every report of a run has in addition to the results of the checks.
 #pragma once
 
 #include <string>
@@ -34,8 +34,8 @@ std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario
 /// Whether the running estimators must send a message.
 bool is_due(const scenario::Scenario& scenario, const MessageInfo& message);
 
-/// The bit rates at which reports show the bus load: the bit rate of the bus or, if the bus has none, 500
-/// kbit/s and 1 Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.
+/// The bit rates at which reports show the bus load: the bit rate of the bus. If the bus has no bit rate: 500
+/// kbit/s and 1 Mbit/s; on CAN FD, the data phase then has 2 Mbit/s and 5 Mbit/s, respectively.
 std::vector<wire::BitRates> load_rates(wire::BitRates known, BusFormat format);
 std::vector<wire::BitRates> load_rates(const drive::Run& run);
 

@@ -32,7 +32,8 @@ std::string to_text(const estimators::ResultLine& line) {
   return fmt::format("  {:<29} {}\n", line.what, text.empty() ? "none" : text);
 }
 
-// Counts of bus errors, then events: the time since the bench's first transmission, and the error counters.
+// The counts of bus errors, then one line for each event, with the time since the bench's first transmission
+// and the error counters.
 std::string to_text(const checks::BusRecord& bus, std::int64_t first_ns) {
   constexpr std::size_t shown = 20;
   std::string lines = fmt::format("  bus                           {} error frames", bus.errors.frames);

@@ -56,8 +56,8 @@ std::array<double, 5> half_widths_s(const StampConditions& conditions, double la
       conditions.hardware ? hardware_stamp_s : std::max(kernel_stamp_s, conditions.usb_poll_s);
   const double rate = conditions.hardware ? crystal_rate : kernel_clock_rate;
   // Each of the two stamps is late by between 0 and the bench's own lateness, so their difference has an
-  // error of at most this lateness in either direction. Controllers and simulated wires stamp without the
-  // host.
+  // error of at most this lateness in either direction. The stamps of controllers and of simulated wires do
+  // not depend on the host.
   const double host_s = conditions.hardware || computed ? 0 : lateness_s;
   return {resolution_s / 2, rate * latency_s, host_s, conditions.bit_s, bucket_s / 2};
 }

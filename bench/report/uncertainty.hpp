@@ -1,5 +1,6 @@
 // The measurement uncertainty of the latencies of a run, after the GUM (JCGM 100:2008): each influence is of
-// type B with a rectangular distribution of half-width a, so u = a / sqrt(3); several are added as squares.
+// type B with a rectangular distribution of half-width a, so u = a / sqrt(3). Several influences are combined
+// as the root of the sum of the squares of u.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ inline constexpr double coverage_factor = 2;
 /// The sources of uncertainty of a latency.
 enum class Influence : std::uint8_t {
   stamps,  ///< resolution of the two stamps
-  clock,   ///< rate of the clock of both stamps
+  clock,   ///< rate error of the clock that makes both stamps
   host,    ///< delay until the kernel or the bench stamps a frame
   wire,    ///< two nodes see the end of a frame up to one bit apart
   figure,  ///< width of the bucket that the quantile comes from
@@ -56,7 +57,8 @@ struct UncertainLatency {
   std::vector<UncertainFigure> figures;  ///< p50, p90, p99, p999, max
 };
 
-/// The uncertainties of the messages that close a group of answers. Empty unless the run was in real time.
+/// The uncertainties of the latencies of the messages that close a group of answers. Empty unless the run was
+/// in real time.
 std::vector<UncertainLatency> uncertainties(const scenario::Scenario& scenario, const drive::Run& run);
 
 /// Known influences that the budget does not include, one line each; empty: no such influence is known.

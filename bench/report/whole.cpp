@@ -66,7 +66,7 @@ std::uint64_t count(const At& at) {
   return at.value.get<std::uint64_t>();
 }
 
-// [[from us, count], ...]: ascending, with counts that add up to the given one.
+// Checks buckets, [[from us, count], ...]: they must ascend, and their counts must add up to `counted`.
 void buckets(const At& at, std::uint64_t counted) {
   constexpr std::uint64_t last_us = 10'000'000;  // the last bucket holds all larger values
   std::uint64_t next_us = 0, left = counted;

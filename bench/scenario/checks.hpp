@@ -18,7 +18,8 @@ namespace canhil::scenario {
 class Section;
 struct DbcVocabulary;
 
-/// A part of a run, ends included. An answer belongs to it by the time of validity of the answer's cause.
+/// A part of a run, ends included. An answer belongs to the window that contains the time of validity of the
+/// answer's cause.
 struct Window {
   std::int64_t from_us = 0;
   std::int64_t to_us = 0;
@@ -38,12 +39,12 @@ struct Check {
   std::shared_ptr<const checks::Rule> rule;
 };
 
-/// Facts about the scenario for the readers of all kinds.
+/// Facts about the scenario for the readers of all kinds of checks.
 struct CheckContext {
   std::int64_t duration_us = 0;
   const DbcVocabulary& contract;
   std::span<const std::string> estimators;  ///< the estimators that run
-  std::span<const FaultWindow> faults{};    ///< cut at the end of the run
+  std::span<const FaultWindow> faults{};    ///< the windows end with the run at the latest
   std::int64_t latency_us = 0;              ///< largest latency of a node, from validity to transmission
 };
 
@@ -59,7 +60,7 @@ struct CheckKind {
   RuleRead (*read)(Section& section, const CheckContext& context) = nullptr;
 };
 
-/// A kind that has been renamed.
+/// A kind of check that has been renamed.
 struct FormerCheckKind {
   std::string_view name;
   std::string_view now;  ///< its replacement

@@ -1,6 +1,6 @@
 // The names that a scenario may use because the DBC defines them, and the tables of the nodes that the bench
-// can emulate. The caller passes them in, from the generated header or from a DBC read at run time, so this
-// folder does not depend on a particular bus or its nodes.
+// can emulate. The caller provides both, from the generated header or from a DBC that is read at run time, so
+// this folder does not depend on a particular bus or its nodes.
 #pragma once
 
 #include <functional>
@@ -34,8 +34,8 @@ struct DbcVocabulary {
   std::vector<CheckKind> check_kinds{};
   std::span<const estimators::Estimator* const> known{};  ///< the estimators known to the bench
   std::vector<FormerCheckKind> former_check_kinds{};
-  /// By message: the only estimator that sends it. Without an entry, every target sends the message, or none
-  /// does.
+  /// For each message: the only estimator that sends this message. Without an entry, every target sends the
+  /// message, or no target does.
   std::map<std::string, std::string, std::less<>> sent_by{};
   std::map<std::string, EstimatorFacts, std::less<>> facts{};  ///< by estimator
   std::vector<const NodeTable*> nodes{};                       ///< in the order in which they are read

@@ -35,7 +35,7 @@ DescribedKey described_number(std::string_view type, const Limits& limits, std::
   return {.type = std::string(type),
           .range = range_of(limits),
           .fallback = fallback && holds(limits, *fallback) ? fmt::format("{}", *fallback)
-                                                           : "",  // default depends on another key
+                                                           : "",  // the default depends on another key
           .required = !fallback,
           .sample = fmt::format("{}", fallback.value_or(some_value(limits)))};
 }

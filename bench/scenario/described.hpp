@@ -34,7 +34,7 @@ struct DescribedKey {
   std::string shown{};  ///< the name in the reference
   std::string meaning{};
   std::string type{};   ///< "number", "text", "table" ...
-  std::string range{};  ///< in words, in the key's unit; empty: any
+  std::string range{};  ///< in words, in the key's unit; empty: any value
   std::string fallback{};
   bool required = false;
   std::vector<std::string> words{};  ///< the permitted words

@@ -17,7 +17,7 @@ Manoeuvre read_manoeuvre(Section& section) {
   Manoeuvre manoeuvre;
   manoeuvre.kind = read_enum<Manoeuvre::Kind>(
       section,
-      {"manoeuvre", "Manoeuvre of the flight target in each plane. The sign of its acceleration is random."},
+      {"manoeuvre", "Manoeuvre of the flight target in each plane. The sign of the acceleration is random."},
       kinds, Manoeuvre::Kind::step);
   if (manoeuvre.kind != Manoeuvre::Kind::weave)
     section.refuse("manoeuvre_period_s", "has no effect here", "manoeuvre = \"weave\"");
@@ -54,27 +54,29 @@ world::EngagementPlan read_engagement(Section& section) {
   const Limits sigma = Limits::at_least(0);
   world::EngagementPlan plan;
   plan.range = section.number(
-      {"range_m", "Distance between missile and flight target at the start. They fly head-on."},
+      {"range_m", "Distance between missile and flight target at the start. They fly towards each other."},
       Limits::between(100, 26'000), 5000);
   plan.missile_speed =
       section.number({"missile_speed_mps", "Speed of the missile, constant."}, Limits::above(0, 3000), 600);
   plan.target_speed = section.number({"target_speed_mps", "Speed of the flight target, constant."},
                                      Limits::above(0, 1000), 300);
   plan.heading_error = section.number({"heading_error_deg",
-                                       "Error of the missile's direction of flight at the start, in each of "
-                                       "`planes`. The sign of the error is random."},
+                                       "Error of the missile's direction of flight at the start, in each "
+                                       "plane that `planes` selects. The sign of the error is random."},
                                       Limits::between(-45, 45), 0);
   plan.heading_error_sigma = section.number(
-      {"heading_error_sigma_deg", "1-sigma of a heading error that is drawn for each run and added."},
+      {"heading_error_sigma_deg",
+       "1-sigma of a random heading error, drawn for each run and added to `heading_error_deg`."},
       Limits::between(0, 15), 3);
   plan.pointing_error_sigma =
       section.number({"pointing_error_sigma_mrad", "1-sigma of the antenna's pointing error at the start."},
                      Limits::between(0, 100), 5);
-  plan.planes = read_enum<world::ActivePlanes>(section,
-                                               {"planes",
-                                                "Planes in which the missile has a heading error and the "
-                                                "flight target manoeuvres. Pointing errors are in both."},
-                                               planes, world::ActivePlanes::both);
+  plan.planes = read_enum<world::ActivePlanes>(
+      section,
+      {"planes",
+       "Planes in which the missile has a heading error and in which the flight target makes its manoeuvre. "
+       "The antenna has a pointing error in both planes."},
+      planes, world::ActivePlanes::both);
   plan.manoeuvre = read_manoeuvre(section);
   plan.navigation_constant =
       section.number({"navigation_constant", "Navigation constant of the guidance law."}, sigma, 4);
@@ -89,20 +91,20 @@ world::EngagementPlan read_engagement(Section& section) {
   plan.guidance = read_enum<world::Guidance>(
       section,
       {"guidance",
-       "LOS rate that proportional navigation uses. `truth`: the true one; `target`: the one in the answers "
-       "of the target under test, so the miss distance depends on the bus."},
+       "LOS rate that proportional navigation uses. `truth`: the true LOS rate; `target`: the LOS rate in "
+       "the answers of the target under test, so the miss distance depends on the target and on the bus."},
       guidances);
   plan.guidance_delay_us = section.time_us(
       {"guidance_delay_ms",
        "Time from the transmission of a seeker sample to the guidance command that uses the answer to this "
-       "sample. With `guidance` `target` it is at least 10, the cycle time of Sync."},
+       "sample. With `guidance` `target` this time must be at least 10 ms, the cycle time of Sync."},
       Limits::between(0, 1000), 10);
   if (plan.guidance == world::Guidance::truth)
     section.refuse("guidance_predicts", "has no effect here", "guidance = \"target\"");
   plan.guidance_predicts =
       section.flag({"guidance_predicts",
-                    "The guidance command uses the LOS rate of the answer, extrapolated to the middle of the "
-                    "time for which the command is held. Only with `guidance` `target`."});
+                    "If true, the LOS rate of the answer is extrapolated to the middle of the time for which "
+                    "the guidance command is held. Only with `guidance` `target`."});
   section.finish();
   return plan;
 }

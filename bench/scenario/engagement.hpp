@@ -1,4 +1,5 @@
-// Reads [engagement]: missile, target and guidance, instead of the carrier of [truth] or in addition to it.
+// Reads [engagement]: missile, target and guidance. This table replaces the carrier of [truth] or is added to
+// it.
 #pragma once
 
 #include "bench/world/engagement/plan.hpp"
@@ -7,7 +8,7 @@ namespace canhil::scenario {
 
 class Section;
 
-/// Every key except `guidance` has a default: the engagement of world/engagement/plan.hpp.
+/// Every key except `guidance` has a default: the value in world/engagement/plan.hpp.
 world::EngagementPlan read_engagement(Section& section);
 
 }  // namespace canhil::scenario

@@ -13,17 +13,17 @@ namespace canhil::scenario {
 /// Which initial state the target receives.
 enum class Start : std::uint8_t {
   navigation,     ///< the carrier's state, with the errors of [initial_error]
-  per_run_truth,  ///< the state of the estimator's own truth, with its own errors
+  per_run_truth,  ///< the state of the estimator's own truth (a glide), with the errors of `start_errors`
   nothing         ///< the estimator uses no initial state
 };
 
 struct EstimatorFacts {
-  std::span<const std::string_view> parameters{};  ///< for suggestions when a name is misspelt; empty: any
-  std::span<const std::string_view> nodes{};       ///< required tables
+  std::span<const std::string_view> parameters{};  ///< used for suggestions if a name is misspelt; empty: any
+  std::span<const std::string_view> nodes{};       ///< tables of the nodes that must be present
   std::optional<TruthOf> truth{};                  ///< the table of this truth is required
   Start start = Start::navigation;
   std::string_view start_errors{};  ///< the table of initial errors for the estimator's own truth
-  std::string_view aided_by{};      ///< parameter that selects the source of its fixes; empty: no fixes
+  std::string_view aided_by{};      ///< parameter that selects the source of the fixes; empty: no fixes
 };
 
 }  // namespace canhil::scenario

@@ -1,5 +1,5 @@
 // The facts that a scenario needs about a target with its own DBC. The reader of this DBC and of the mapping
-// (bench/mapping) provides them.
+// (bench/mapping) provides these facts.
 #pragma once
 
 #include <cstdint>

@@ -20,9 +20,10 @@ glide::WindProfile read_profile(Section& section) {
         glide::season_names));
   }
   section.optional("season");
-  return glide::WindProfile(section.three(
-      {"steady_mps", "Constant wind [N, E, D], in place of `season`; one of the two is required."},
-      Limits::between(-150, 150)));
+  return glide::WindProfile(section.three({"steady_mps",
+                                           "Constant wind [N, E, D], in place of `season`. One of the keys "
+                                           "`season` and `steady_mps` is required."},
+                                          Limits::between(-150, 150)));
 }
 
 void read_wind(Section section, world::GlidePlan& plan) {
@@ -32,7 +33,7 @@ void read_wind(Section section, world::GlidePlan& plan) {
   if (!section.has("gust_sigma_mps"))
     section.refuse("gust_time_s", "has no effect alone", "gust_sigma_mps beside it");
   plan.gusts.time =
-      section.number({"gust_time_s", "Correlation time of the gusts. Only beside `gust_sigma_mps`."},
+      section.number({"gust_time_s", "Correlation time of the gusts. Only together with `gust_sigma_mps`."},
                      Limits::above(0), plan.gusts.time);
   section.finish();
 }
@@ -47,8 +48,8 @@ void read_airframe(Section section, world::GlidePlan& plan) {
   errors.kind = read_enum<ErrorKind>(
       section,
       {"coefficient_error",
-       "How the errors change with time. `white`: new at each step of the truth; `held`: new every "
-       "`hold_ms`; `markov`: correlated over `markov_time_s`; `constant`: drawn once for each run."},
+       "How the errors change with time. `white`: drawn again at each step of the truth; `held`: drawn again "
+       "every `hold_ms`; `markov`: correlated over `markov_time_s`; `constant`: drawn once for each run."},
       glide::error_kind_names, ErrorKind::held);
   const std::int64_t hold_us = section.time_us({"hold_ms", "Time for which `held` errors stay constant."},
                                                Limits::between(10, 1e6), 50);
@@ -67,10 +68,10 @@ void read_airframe(Section section, world::GlidePlan& plan) {
   const std::vector<std::string> reaches{"forces_and_moments", "forces"};
   errors.moments =
       section.one_of({"of", "Coefficients that have the errors."}, reaches, reaches[0]) == reaches[0];
-  plan.density_error = section.number(
-      {"density_error_percent",
-       "Deviation of the true air density from the standard one that the filter assumes; positive: denser."},
-      Limits::between(-50, 50), 0);
+  plan.density_error = section.number({"density_error_percent",
+                                       "Deviation of the true air density from the standard density that the "
+                                       "filter assumes; positive: the air is denser."},
+                                      Limits::between(-50, 50), 0);
   section.finish();
 }
 
@@ -78,16 +79,18 @@ ReleaseError read_release(Section section) {
   const ReleaseError error{
       .air_velocity =
           section.number({"air_velocity_sigma_mps",
-                          "1-sigma of the error of the initial air velocity that the target receives."},
+                          "The target receives an initial air velocity with a random error of this 1-sigma."},
                          Limits::between(0, 50), 0),
-      .velocity = section.number(
-          {"velocity_sigma_mps", "1-sigma of the error of the initial velocity that the target receives."},
-          Limits::between(0, 50), 0),
-      .attitude = section.number(
-          {"attitude_sigma_deg", "1-sigma of the error of the initial attitude that the target receives."},
-          Limits::between(0, 30), 0),
+      .velocity =
+          section.number({"velocity_sigma_mps",
+                          "The target receives an initial velocity with a random error of this 1-sigma."},
+                         Limits::between(0, 50), 0),
+      .attitude =
+          section.number({"attitude_sigma_deg",
+                          "The target receives an initial attitude with a random error of this 1-sigma."},
+                         Limits::between(0, 30), 0),
       .rate = section.number(
-          {"rate_sigma_degps", "1-sigma of the error of the initial body rates that the target receives."},
+          {"rate_sigma_degps", "The target receives initial body rates with random errors of this 1-sigma."},
           Limits::between(0, 30), 0)};
   section.finish();
   return error;

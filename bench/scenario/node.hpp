@@ -1,5 +1,5 @@
-// A node of the bench as scenarios see it: a table with a name. Only the node's own file in bench/nodes reads
-// the contents of the table.
+// A node of the bench as it appears in a scenario: a table with a name. Only the node's own file in
+// bench/nodes reads the contents of the table.
 #pragma once
 
 #include <any>
@@ -25,19 +25,19 @@ enum class TruthOf : std::uint8_t { navigation, glide, engagement };
 /// The properties of a node whose fixes an aided estimator uses.
 struct Aid {
   double aiding = 0;  ///< value of the parameter EstimatorFacts::aided_by that selects these fixes
-  /// The fraction of the fixes that the node loses at random, as its settings demand. The resulting longer
-  /// wait does not count as silence.
+  /// The fraction of the fixes that the node loses at random, according to its settings. The longer wait for
+  /// answers that results from these losses does not count as silence.
   double (*lost)(const NodeSettings& node) = nullptr;
 };
 
-/// A signal that a recording may lack, and the value sent instead.
+/// A signal that a recording may lack, and the value that is sent instead.
 struct Assumed {
   std::string_view signal;
   double value = 0;
 };
 
-/// An increment, summed over several samples when needed: "delta_theta_x_rad". A recording may contain it as
-/// a rate, "rate_x_radps", and a mapping may use that rate, "imu.rate.x".
+/// An increment, summed over several samples when needed: "delta_theta_x_rad". A recording may contain the
+/// increment as a rate, "rate_x_radps", and a mapping may use that rate, "imu.rate.x".
 struct Increment {
   std::string_view signal;
   std::string_view rate;
@@ -47,7 +47,8 @@ struct Increment {
 /// Facts about a kind of node for scenarios.
 struct NodeTable {
   std::string_view key;       ///< key of the node's table: "gps"
-  const MessageInfo& closes;  ///< the last message of its sample group, which comes at the DBC's cycle time
+  const MessageInfo& closes;  ///< the last message of the node's sample group; its cycle time is the default
+                              ///< period
   TruthOf samples;
   /// Reads the table; unknown keys are detected afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
@@ -57,7 +58,7 @@ struct NodeTable {
   std::span<const Increment> increments{};
 };
 
-/// The settings of a node on the bus. Immutable; copies of the scenario share it.
+/// The settings of a node on the bus. Immutable; copies of a scenario share the same settings.
 class NodeSettings {
  public:
   /// `own`: the settings, in the node's own type. This type has a member `schedule` and, for a recording, a
@@ -79,7 +80,7 @@ class NodeSettings {
     return schedule_->period_us.value_or(table_->closes.cycle_time_us);
   }
 
-  /// The settings, if their type is `Own`; null: they have another type.
+  /// The settings, if their type is `Own`; null: the settings have another type.
   template <class Own>
   [[nodiscard]] const Own* own() const {
     const auto* shared = std::any_cast<std::shared_ptr<const Own>>(&own_);

@@ -19,7 +19,8 @@ namespace {
 
 using world::units::deg;
 
-// No vehicle turns or accelerates faster than these limits. If a recording does, it has a wrong row.
+// No vehicle turns or accelerates faster than these limits. A recording that exceeds the limits has a wrong
+// row.
 constexpr double most_turn_rate = 1000 * deg;    // [rad/s]
 constexpr double most_acceleration = 1000;       // [m/s^2]
 constexpr double most_turn_of_a_row = 45 * deg;  // beyond this the direction of the turn is ambiguous
@@ -88,7 +89,7 @@ world::RecordedState state_of(const Table& table, std::size_t row, std::int64_t 
   return state;
 }
 
-/// Checks each step between rows against what a vehicle can do.
+/// Checks for each step between rows whether a vehicle can move so fast.
 Result<void> check_steps(const Table& table, const Rows& rows,
                          const std::vector<world::RecordedState>& states) {
   for (std::size_t i = 1; i < states.size(); ++i) {
@@ -162,45 +163,49 @@ constexpr std::array<std::string_view, 3> start_keys{"latitude_deg", "longitude_
 }  // namespace
 
 std::int64_t read_from_us(Section& section) {
-  return std::llround(1e6 * section.number({"from_s", "Time of the file at which the run begins."},
+  return std::llround(1e6 * section.number({"from_s", "Time in the file at which the run begins."},
                                            Limits::between(-1e11, 1e11), 0));
 }
 
 world::Position read_position(Section& section) {
   // NED axes have no north at a pole, hence 89 degrees.
   return {.latitude = section.number({"latitude_deg",
-                                      "Latitude of the start. With `recorded`: required for a file without "
-                                      "positions, refused for a file with them."},
+                                      "Latitude of the start. With `recorded`, this key is required if the "
+                                      "file has no positions, and refused if the file has positions."},
                                      Limits::between(-89, 89)),
           .longitude = section.number({"longitude_deg",
-                                       "Longitude of the start. With `recorded`: required for a file without "
-                                       "positions, refused for a file with them."},
+                                       "Longitude of the start. With `recorded`, this key is required if the "
+                                       "file has no positions, and refused if the file has positions."},
                                       Limits::between(-180, 180)),
-          .height = section.number({"height_m",
-                                    "Height of the start above the ellipsoid. With `recorded`: required for "
-                                    "a file without positions, refused for a file with them."},
-                                   Limits::between(-1000, 50'000))};
+          .height = section.number(
+              {"height_m",
+               "Height of the start above the ellipsoid. With `recorded`, this key is required if the file "
+               "has no positions, and refused if the file has positions."},
+              Limits::between(-1000, 50'000))};
 }
 
 world::Flight read_recorded_flight(Section& section, std::int64_t duration_us) {
   Wanted wanted{
       .from_us = read_from_us(section),
       .gap_us = section.time_us(
-          {"gap_s", "Longest time from a row of the file to the next; a file with a longer gap is refused."},
+          {"gap_s",
+           "Longest permitted time from a row of the file to the next. A file with a longer gap is refused."},
           Limits::above(0), usual_gap_s),
       .duration_us = duration_us,
       .agree_within = section.number(
           {"agree_within_m",
-           "Largest drift within 10 s between the positions of the file and the integral of its velocities, "
-           "and largest difference in any row after the bench corrected the velocities by this drift; a file "
-           "with larger values is refused."},
+           "Limit for the disagreement of velocities and positions in the file. The bench compares the "
+           "positions with the integral of the velocities: the two must not drift apart by more than this "
+           "value within 10 s. The bench then corrects the velocities by the drift; after that, the "
+           "difference must not exceed this value in any row."},
           Limits::above(0), usual_agreement_m)};
   std::vector<std::string> names;
   for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
   const auto text = section.read_beside({"file", "CSV file of the flight, relative to the scenario file."},
                                         "a CSV file", most_recorded_bytes);
   if (!text) {
-    read_position(section);  // describes the keys: without the file it is unknown whether they are needed
+    read_position(section);  // adds these keys to the reference: without the file it is unknown whether the
+                             // run needs them
     return {};
   }
   const auto table = read_table(
@@ -223,7 +228,7 @@ world::Flight read_unknown_flight(Section& section) {
   return {.start = read_position(section),
           .motion = world::Unknown{
               .v_eb_n = section.three(
-                  {"velocity_mps", "Velocity at the start that the target receives, [N, E, D]."},
+                  {"velocity_mps", "Initial velocity that the bench sends to the target, [N, E, D]."},
                   Limits::between(-10'000, 10'000)),
               .angles = {
                   .roll = section.number({"roll_deg", "Roll at the start that the target receives."},

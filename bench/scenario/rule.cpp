@@ -23,7 +23,9 @@ std::int64_t read_time(Section& section, const Key& key, Limits limits, std::int
 
 Window read_window(Section& section, std::int64_t duration_us) {
   const Window window{
-      .from_us = section.time_us({"from_s", "Begin of the window, as a time of validity of the cause."},
+      .from_us = section.time_us({"from_s",
+                                  "Start of the window. An answer belongs to the window if the time of "
+                                  "validity of its cause lies in the window."},
                                  Limits::at_least(0), 0),
       .to_us = section
                    .optional_time_us({"to_s", "End of the window; by default the end of the run."},

@@ -56,7 +56,7 @@ std::int64_t read_time(Section& section, const Key& key, Limits limits, std::int
 /// `from_s` and `to_s`; default: the whole run.
 Window read_window(Section& section, std::int64_t duration_us);
 
-/// Rejects a lower limit above the upper one.
+/// Rejects a lower limit that is above the upper limit.
 template <class Value>
 void expect_ordered(Section& section, std::string_view least_key, const std::optional<Value>& least,
                     std::string_view most_key, const std::optional<Value>& most) {

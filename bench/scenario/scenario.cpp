@@ -23,7 +23,7 @@ std::vector<std::string_view> keys_of(TruthOf truth, const DbcVocabulary& contra
   return keys;
 }
 
-/// Whether a condition holds for an estimator of the scenario.
+/// Whether a condition holds for at least one estimator of the scenario.
 template <class Holds>
 bool any_runs(const Scenario& scenario, const DbcVocabulary& contract, Holds holds) {
   return std::ranges::any_of(scenario.targets, [&](const TargetSetup& target) {
@@ -74,8 +74,8 @@ std::optional<bool> read_fd(Section& root) {
   if (!root.has("dbc")) return std::nullopt;
   static const std::vector<std::string> names{"canhil", "canhil-fd"};
   return root.one_of({"dbc",
-                      "DBC of the bus: classic CAN or CAN FD. If both this key and `--dbc` are given, they "
-                      "must agree. If neither is given, the DBC is `canhil`."},
+                      "DBC of the bus. `canhil`: classic CAN; `canhil-fd`: CAN FD. If both this key and the "
+                      "option `--dbc` are given, they must agree. If neither is given, the DBC is `canhil`."},
                      names) == "canhil-fd";
 }
 
@@ -111,8 +111,8 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Db
   return checks;
 }
 
-/// Reads the carrier's flight. It may be absent if there is an engagement or a glide; then no table that
-/// depends on the flight is allowed.
+/// Reads the carrier's flight. The table [truth] may be absent if there is an engagement or a glide; then no
+/// table that depends on [truth] is allowed.
 void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
   if (root.has("truth") || !(scenario.engagement || scenario.glide)) {
     Section truth = root.table("truth");
@@ -136,7 +136,8 @@ void refuse_errors_of_start(Section& root, const Scenario& scenario) {
                 "no 'initial_error'");
 }
 
-/// An aided estimator uses the fixes of one aid: the first, or the one that its parameter selects. It refuses
+/// An aided estimator uses the fixes of one aid (a node that sends fixes): the aid that a parameter of the
+/// estimator selects or, without this parameter, the first aid in the list of nodes. The estimator refuses
 /// fixes of other aids. An estimator that is not aided uses no fixes.
 void expect_aid(Section& root, const Scenario& scenario, const DbcVocabulary& contract) {
   const auto target = std::ranges::find_if(scenario.targets, [&](const TargetSetup& one) {
@@ -210,9 +211,11 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   scenario.title = root.text({"title", "One line, shown in every report."});
   scenario.duration_us = root.time_us({"duration_s", "Length of the run."}, Limits::above(0, 86'400));
   scenario.fd = read_fd(root);
-  scenario.seed = static_cast<std::uint64_t>(root.integer(
-      {"seed", "Seed of all random numbers: the same seed gives the same frames. `--seed` overrides it."},
-      0));
+  scenario.seed =
+      static_cast<std::uint64_t>(root.integer({"seed",
+                                               "Seed of all random numbers: the same seed gives the same "
+                                               "frames. The option `--seed` overrides this key."},
+                                              0));
   scenario.foreign = contract.foreign;
   scenario.targets = read_targets(root, contract);
   if (auto engagement = root.optional_table("engagement")) {

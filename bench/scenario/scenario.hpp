@@ -2,9 +2,9 @@
 // criteria.
 //
 // Values in the file have the unit in their key (heading_deg); the structs use SI and radians, times in us.
-// Each section of the file is a struct with its own reader; the readers of nodes are in bench/nodes and come
-// with the DbcVocabulary. Reading is strict: an unknown key, a wrong type, a value out of range or a missing
-// key is an error of one line, "file:line: key 'slave_imu.period_ms': what is wrong, expected what".
+// Each section of the file is a struct with its own reader; the readers of nodes are in bench/nodes, and the
+// DbcVocabulary contains them. Reading is strict: an unknown key, a wrong type, a value out of range or a
+// missing key is an error of one line, "file:line: key 'slave_imu.period_ms': what is wrong, expected what".
 #pragma once
 
 #include <algorithm>
@@ -45,7 +45,7 @@ struct Scenario {
   std::string title;
   std::int64_t duration_us = 0;
   std::uint64_t seed = 0;
-  std::optional<bool> fd;  ///< the selected DBC: canhil-fd or canhil; none: not selected
+  std::optional<bool> fd;  ///< the selected DBC; true: canhil-fd, false: canhil, none: not selected
 
   std::shared_ptr<const Foreign> foreign;  ///< null: the target uses canhil's own DBC
   std::vector<TargetSetup> targets;        ///< one for each estimator that the target runs
@@ -63,7 +63,7 @@ struct Scenario {
   [[nodiscard]] bool runs(std::string_view estimator) const {
     return std::ranges::find(targets, estimator, &TargetSetup::estimator) != targets.end();
   }
-  /// The node with this table name; null: it is not on the bus.
+  /// The node with this table name; null: this node is not on the bus.
   [[nodiscard]] const NodeSettings* node(std::string_view key) const {
     const auto found = std::ranges::find(nodes, key, [](const NodeSettings& one) { return one.table().key; });
     return found == nodes.end() ? nullptr : &*found;

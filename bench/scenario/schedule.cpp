@@ -8,11 +8,12 @@ namespace canhil::scenario {
 Schedule read_schedule(Section& section) {
   return {.period_us =
               section.optional_time_us({"period_ms",
-                                        "Time from a sample to the next. Default: the cycle time in the DBC. "
-                                        "If the value differs from the cycle time, the report says so."},
+                                        "Time from one sample to the next. Default: the cycle time in the "
+                                        "DBC. If the value differs from the cycle time, the report says so."},
                                        Limits::between(1, 10'000)),
           .latency_us = section.time_us(
-              {"latency_ms", "Time from the time of validity of a sample to its transmission."},
+              {"latency_ms",
+               "Delay between the time of validity of a sample and the transmission of the sample."},
               Limits::between(0, 10'000), 0)};
 }
 

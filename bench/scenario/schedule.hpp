@@ -17,7 +17,7 @@ struct Schedule {
 /// The keys period_ms and latency_ms of a node's section.
 Schedule read_schedule(Section& section);
 
-/// The same for a node that samples a glide: its period must be a multiple of the truth's step.
+/// The same for a node that samples a glide: the period of the node must be a multiple of the truth's step.
 Schedule read_glide_schedule(Section& section);
 
 }  // namespace canhil::scenario

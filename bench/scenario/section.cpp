@@ -18,13 +18,13 @@ namespace canhil::scenario {
 
 struct Section::State {
   std::shared_ptr<File> file;
-  const toml::table* table = nullptr;  // null: the table is missing, and the error is reported
+  const toml::table* table = nullptr;  // null: the table is missing; this is reported as an error
   std::string path;
   std::size_t line = 1;
   std::vector<std::string> asked;
   std::vector<std::pair<std::string, std::string>> missing;  // key, expected value
 
-  /// Records for the reference how a key is requested.
+  /// Records how a key is requested, for the reference of all keys.
   void describe(const Key& key, DescribedKey as) const {
     if (file->description == nullptr) return;
     as.table = path;
@@ -37,8 +37,7 @@ struct Section::State {
     if (std::ranges::find(asked, key) == asked.end()) asked.emplace_back(key);
     return table == nullptr ? nullptr : table->get(key);
   }
-  /// Requests a key like the function above, but an absent key counts as missing unless `may_be_absent` is
-  /// set.
+  /// Requests a key, like ask(key), but an absent key counts as missing unless `may_be_absent` is set.
   const toml::node* ask(std::string_view key, std::string_view expected, bool may_be_absent = false) {
     const toml::node* node = ask(key);
     if (node == nullptr && !may_be_absent) missing.emplace_back(key, expected);
@@ -54,7 +53,8 @@ struct Section::State {
   void fail(std::string_view key, std::size_t at, std::string_view what, std::string_view expected) const {
     file->fail(at, fmt::format("key '{}': {}, expected {}", path_of(key), what, expected));
   }
-  /// The text of a key; null: the key is absent, or is not a text, which is reported as an error.
+  /// The text of a key; null: the key is absent, or the value is not a text; the latter is reported as an
+  /// error.
   const std::string* text(std::string_view key, std::string_view expected, bool may_be_absent) {
     const toml::node* node = ask(key, expected, may_be_absent);
     if (node == nullptr) return nullptr;
@@ -62,8 +62,8 @@ struct Section::State {
     if (value == nullptr) fail(key, line_of(*node), type_of(*node), expected);
     return value == nullptr ? nullptr : &value->get();
   }
-  /// The elements of an array. Empty: there is no node, or the node is no array or an empty array, which is
-  /// reported as an error.
+  /// The elements of an array. Empty: `node` is null, or the node is not an array, or the array is empty; the
+  /// last two cases are reported as errors.
   const toml::array& elements(std::string_view key, const toml::node* node, std::string_view expected) const {
     static const toml::array none;
     if (node == nullptr) return none;
@@ -72,7 +72,7 @@ struct Section::State {
     fail(key, line_of(*node), array == nullptr ? type_of(*node) : "is empty", expected);
     return none;
   }
-  /// The table at a node, which may be null.
+  /// The table at `node`, which may be null: then a table without keys.
   [[nodiscard]] Section inside(std::string_view key, const toml::node* node, std::string inner_path) const {
     auto state = std::make_shared<State>();
     state->file = file;
@@ -83,7 +83,7 @@ struct Section::State {
     if (state->table == nullptr) fail(key, state->line, type_of(*node), "a table");
     return Section(std::move(state));
   }
-  /// The numbers of an array, or zeros if it is missing or wrong.
+  /// The numbers of an array, or zeros if the array is missing or wrong.
   template <std::size_t n>
   std::array<double, n> numbers(std::string_view key, const Limits& limits, std::string_view expected) {
     const toml::node* node = ask(key);

@@ -1,7 +1,8 @@
-// A table of a scenario file, read strictly: every key in it must be requested, with its type and limits.
+// A table of a scenario file, read strictly: the reader must request every key in the table, with the type
+// and limits of the key.
 //
-// The first error of the file is kept. Readers need not check for it: after an error they receive harmless
-// values. A key's unit is its suffix (heading_deg); values are returned in SI and radians.
+// The first error of the file is kept. Readers need not check for errors: after an error they receive
+// harmless values. A key's unit is its suffix (heading_deg); values are returned in SI and radians.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +24,12 @@ namespace canhil::scenario {
 
 class Section {
  public:
-  /// The whole file; settings are applied before it is read. A text that is not TOML is the file's first
-  /// error. Errors about a setting have no line.
+  /// The whole file; settings replace values of the file before any key is read. A text that is not TOML is
+  /// the file's first error. Errors about a setting have no line.
   static Section parse(std::string_view text, std::string_view file_name,
                        std::span<const Setting> settings = {});
 
-  /// Changes the folder that contains the files named in this file.
+  /// Sets the folder of the files that this file names.
   void look_in(std::string folder);
 
   [[nodiscard]] bool has(std::string_view key) const;
@@ -36,7 +37,7 @@ class Section {
   /// The key, preceded by the path of its tables.
   [[nodiscard]] std::string path(std::string_view key) const;
 
-  /// "file:line" of a key, or "file" if a setting put it there.
+  /// "file:line" of a key, or "file" if a setting added the key.
   [[nodiscard]] std::string where(std::string_view key) const;
 
   /// Accepts a key and ignores its value.
@@ -66,15 +67,15 @@ class Section {
   std::string text(const Key& key, const std::optional<std::string>& fallback = {});
   std::string one_of(const Key& key, std::span<const std::string> names,
                      const std::optional<std::string>& fallback = {});
-  /// The same for names that the user's files define, so the reference does not list the names.
+  /// Like one_of(), but for names that the user's files define, so the reference does not list these names.
   std::string given_name(const Key& key, std::span<const std::string> names,
                          const std::optional<std::string>& fallback = {});
 
-  /// A path in the file, resolved against the file's folder.
+  /// A path that the file contains, resolved against the folder of the file.
   [[nodiscard]] std::string beside(std::string_view path) const;
   /// The content of the file that a key names; none: it cannot be read, and the error is reported.
   std::optional<std::string> read_beside(const Key& key, std::string_view kind, std::size_t most_bytes);
-  /// FNV-1a of all files that read_beside() has read; 0: none.
+  /// FNV-1a hash of all files that read_beside() has read; 0: no file has been read.
   [[nodiscard]] std::uint64_t& files_hash();
   /// The paths of the files that read_beside() has read, in the order in which they were read.
   [[nodiscard]] std::vector<std::string>& files();
@@ -91,25 +92,27 @@ class Section {
   /// with dots.
   std::vector<Setting> settings();
 
-  /// A table; if it is missing, a table in which all keys are absent without an error.
+  /// A table. If the table is missing, finish() of the outer table reports this, and the returned table has
+  /// no keys; its own finish() reports nothing.
   Section table(const Key& key);
   std::optional<Section> optional_table(const Key& key);
-  /// An array of tables, at least one. Their paths count from 1: check[1].
+  /// An array of tables, at least one. Their paths are numbered from 1: check[1].
   std::vector<Section> tables(std::string_view key);
 
   /// A table, or an array of tables.
   std::vector<Section> table_or_tables(std::string_view key);
 
-  /// Reports an error in the value of a key, present or missing.
+  /// Reports an error about a key, whether the key is present or missing.
   void reject(std::string_view key, std::string_view what, std::string_view expected);
   /// Reports an error (one line) in the file or text that a key names.
   void reject(std::string_view key, const Error& error);
-  /// Reports that a key, or one of several keys, is missing; an unknown key is reported first.
+  /// Makes finish() report that a key, or one of several keys, is missing; if the table also has an unknown
+  /// key, finish() reports the unknown key instead.
   void missing(std::string_view key, std::string_view expected);
-  /// Rejects a key that is present but has no effect together with others.
+  /// Rejects a key if it is present: a key that has no effect together with other keys.
   void refuse(std::string_view key, std::string_view what, std::string_view expected);
-  /// Must be called after all keys have been requested: reports a key that was not requested, with the given
-  /// reason, or otherwise a missing key.
+  /// Must be called after all keys have been requested. Reports a key that is in the table but was not
+  /// requested, with the given reason; if there is no such key, reports a missing key.
   void finish(std::string_view unasked = "is unknown");
 
   /// The first error of the whole file.

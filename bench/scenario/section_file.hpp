@@ -66,7 +66,7 @@ struct Section::File {
     error = Error{std::move(message)};
   }
 
-  /// Sets a value by its key, creating the tables on the way.
+  /// Sets a value by its key, and creates missing tables.
   void set(const Setting& setting) {
     if (std::ranges::count(setting.key, '.') >= most_key_parts) return fail(0, deep_key);
     toml::table* table = &root;

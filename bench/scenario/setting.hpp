@@ -10,7 +10,7 @@ struct Setting {
   std::string key;                    ///< including the tables around it: "master_ins.period_ms"
   std::string value;                  ///< as TOML text
   std::vector<std::string> elements;  ///< elements of an array, each as TOML text
-  int line = 0;                       ///< line of its definition
+  int line = 0;                       ///< line of the setting's definition
 };
 
 }  // namespace canhil::scenario

@@ -21,7 +21,7 @@ constexpr std::array<Endings, 6> of_one_dimension{{{"_s", "_ms", "_us"},
                                                    {"_mps2", "_g", "_ug"},
                                                    {"_m"}}};
 
-/// The column's name with each permitted unit, its own unit first.
+/// The column's name with each permitted unit, first with the unit in `name`.
 std::vector<std::string> names_of(std::string_view name) {
   std::vector<std::string> names{std::string(name)};
   for (const Endings& endings : of_one_dimension) {
@@ -79,7 +79,8 @@ std::string shown(std::string_view text) {
   return part + (text.size() > most ? "..." : "");
 }
 
-/// The column of a file that has a requested name, and the factor to the requested unit.
+/// The column with a requested name: its index in the file, and the factor from its unit to the requested
+/// unit.
 struct Column {
   std::size_t index = 0;
   double factor = 1;

@@ -45,8 +45,8 @@ struct Rows {
   std::size_t first = 0, last = 0;
 };
 
-/// The rows from the last one at or before 0 to the first one at or after end_us. Error: there is no such
-/// row, or a gap between rows exceeds gap_us.
+/// The rows from the last row at or before time 0 to the first row at or after end_us. Error: there is no
+/// such row, or a gap between rows exceeds gap_us.
 Result<Rows> covering(const Table& table, std::size_t index, std::span<const std::int64_t> t_us,
                       std::int64_t end_us, std::int64_t gap_us);
 

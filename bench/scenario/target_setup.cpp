@@ -16,12 +16,13 @@ InitialSigma read_initial_sigma(Section section, const TargetSetup& target) {
   const InitialSigma sigma{
       .velocity = section.number({"velocity_mps", "1-sigma of each component of the initial velocity."},
                                  Limits::above(0)),
-      .tilt = section.number({"tilt_deg", "1-sigma of the misalignments about north and east."},
-                             Limits::above(0, 90)),
-      .heading = section.number(
-          {"heading_deg",
-           "1-sigma of the heading. At most 180; with `sin_cos` up to 600, for an unknown heading."},
-          Limits::above(0, 600)),
+      .tilt =
+          section.number({"tilt_deg", "1-sigma of each of the initial misalignments about north and east."},
+                         Limits::above(0, 90)),
+      .heading = section.number({"heading_deg",
+                                 "1-sigma of the initial heading. At most 180; with the algorithm `sin_cos` "
+                                 "at most 600, for an unknown heading."},
+                                Limits::above(0, 600)),
       .position = section.number({"position_m", "1-sigma of each component of the initial position."},
                                  Limits::above(0))};
   constexpr double half_turn = 180 * world::units::deg;
@@ -41,7 +42,7 @@ std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& con
   constexpr double largest = 3.4e38;  // ParamSet carries an IEEE single
   std::vector<Parameter> parameters;
   for (const std::string& name : contract.parameters) {
-    const bool given = section.has(name);  // may belong to another estimator; then the target rejects it
+    const bool given = section.has(name);  // the target rejects a parameter of another estimator
     if (!given && !may_be_meant(name)) continue;
     const double value = section.plain_number(name, Limits::between(-largest, largest), 0.0);
     if (!given) continue;
@@ -53,25 +54,27 @@ std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& con
   return parameters;
 }
 
-/// Without a handshake the target receives no parameters or initial state, so none can be set.
+/// Without a handshake the target receives no parameters and no initial state, so a scenario cannot set them.
 TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
   static const std::vector<std::string> none{"none"};
-  section.one_of({"handshake", "Only with `mapping`; `none` is the only value: the bench sends no commands."},
-                 none, none.front());
+  section.one_of(
+      {"handshake",
+       "Only with `mapping`. The only value is `none`: the bench sends no commands to the target."},
+      none, none.front());
   section.text({"mapping",
                 "Mapping file of a target that has a DBC of its own, relative to the scenario file "
-                "(mapping.md)."});  // already read to choose
-                                    // the vocabulary
+                "(mapping.md)."});  // this key was already
+                                    // read, to choose the vocabulary
   TargetSetup target;
   target.estimator = contract.estimators.front();
   target.own_start = {
-      .settle_us =
-          section.time_us({"settle_s", "With `mapping`: time that the bench waits before the first sample."},
-                          Limits::between(0, 3600), 0.5),
-      .silence_us = section.time_us(
-          {"silence_s",
-           "With `mapping`, in real time: the run ends if the target sends nothing for longer than this."},
-          Limits::above(0, 3600), 1.0),
+      .settle_us = section.time_us(
+          {"settle_s", "With `mapping`: time that the bench waits before it sends the first sample."},
+          Limits::between(0, 3600), 0.5),
+      .silence_us = section.time_us({"silence_s",
+                                     "With `mapping`, in real time: the run ends if the target sends nothing "
+                                     "for longer than this time."},
+                                    Limits::above(0, 3600), 1.0),
       .before = section.text(
           {"before", "With `mapping`: shell command that is run before the flight; it must exit with 0."},
           ""),
@@ -87,10 +90,10 @@ TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
     section.refuse(key, "is for a target with a mapping", "the key 'mapping' beside it");
   TargetSetup target;
   target.estimator = section.one_of(
-      {"estimator", "Estimator that the target runs, by its name in the DBC's value table Estimator."},
+      {"estimator", "Name of the estimator that the target runs, from the DBC's value table Estimator."},
       contract.estimators);
   target.algorithm = section.one_of({"algorithm",
-                                     "Algorithm of the estimator, by its name in the DBC's value table "
+                                     "Name of the estimator's algorithm, from the DBC's value table "
                                      "Algorithm. scenarios.md lists the algorithms of each estimator."},
                                     contract.algorithms);
   target.algorithm_where = fmt::format("{}: key '{}'", section.where("algorithm"), section.path("algorithm"));

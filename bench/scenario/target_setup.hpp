@@ -1,5 +1,5 @@
-// Reads [target], or [[target]] once for each estimator that the target runs at the same time: its
-// configuration before the start.
+// Reads the configuration of the target before the start: [target] or, if the target runs several estimators
+// at the same time, one [[target]] for each estimator.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,8 @@ struct InitialSigma {
   double position = 0;  ///< each component [m]
 };
 
-/// One ParamSet. The value keeps the unit in the parameter's name, because it is sent in this unit.
+/// One ParamSet. The value stays in the unit that the parameter's name contains, because the value is sent in
+/// this unit.
 struct Parameter {
   std::string name;
   double value = 0;
@@ -32,13 +33,13 @@ struct Parameter {
 /// Settings for a target that receives nothing at the start (DbcVocabulary::foreign).
 struct OwnStart {
   std::int64_t settle_us = 0;   ///< time from the start of target or bench to the first sample
-  std::int64_t silence_us = 0;  ///< a target silent for longer counts as gone
+  std::int64_t silence_us = 0;  ///< a target that is silent for longer counts as gone
   std::string before, after;    ///< shell commands around the run: power, relays; empty: none
 };
 
 struct TargetSetup {
   std::string estimator;          ///< a name of the DBC's value table Estimator
-  std::string algorithm;          ///< a name of Algorithm
+  std::string algorithm;          ///< a name of the DBC's value table Algorithm
   std::string algorithm_where{};  ///< in the scenario, for messages: "my.toml:9: key 'target.algorithm'"
   InitialSigma initial_sigma;
   std::optional<world::InitialErrorModel> initial_error{};  ///< replaces the scenario's initial_error

@@ -15,23 +15,24 @@ namespace canhil::scenario {
 namespace {
 
 double read_heading(Section& section) {
-  return section.number(
-      {"heading_deg",
-       "Heading. `rest`, `level_acceleration`: constant; `weave`, `s_path`: the mean; others: at the start."},
-      Limits::between(-180, 360));
+  return section.number({"heading_deg",
+                         "Heading. `rest`, `level_acceleration`: constant; `weave`, `s_path`: the mean; "
+                         "other trajectories: the heading at the start."},
+                        Limits::between(-180, 360));
 }
 
 world::Motion read_rest(Section& section) {
   return world::Rest{
-      .angles = {.roll = section.number(
-                     {"roll_deg",
-                      "Roll angle. `rest`: constant; `unknown`: at the start, as the target receives it."},
-                     Limits::between(-180, 180), 0),
-                 .pitch = section.number(
-                     {"pitch_deg",
-                      "Pitch angle. `rest`: constant; `unknown`: at the start, as the target receives it."},
-                     Limits::between(-90, 90), 0),
-                 .heading = read_heading(section)}};
+      .angles = {
+          .roll = section.number(
+              {"roll_deg",
+               "Roll angle. `rest`: constant; `unknown`: the initial value that the target receives."},
+              Limits::between(-180, 180), 0),
+          .pitch = section.number(
+              {"pitch_deg",
+               "Pitch angle. `rest`: constant; `unknown`: the initial value that the target receives."},
+              Limits::between(-90, 90), 0),
+          .heading = read_heading(section)}};
 }
 
 world::Motion read_level_acceleration(Section& section) {
@@ -70,10 +71,10 @@ world::Motion read_weave(Section& section) {
 world::DepthProfile read_depth(Section& section, double speed) {
   const world::DepthProfile profile{
       .depth = section.number({"dive_depth_m",
-                               "Depth below the start to which the vehicle dives in each period. The dive "
-                               "must not be steeper than 45 degrees."},
+                               "The vehicle dives to this depth below the start once in each "
+                               "`dive_period_s`. The dive must not be steeper than 45 degrees."},
                               Limits::at_least(0), 0),
-      .period = section.number({"dive_period_s", "Period of the dives. Only beside `dive_depth_m`."},
+      .period = section.number({"dive_period_s", "Period of the dives. Only together with `dive_depth_m`."},
                                Limits::above(0), 1)};
   for (const auto& [key, other] :
        {std::pair{"dive_depth_m", "dive_period_s"}, std::pair{"dive_period_s", "dive_depth_m"}}) {
@@ -95,9 +96,10 @@ double read_roll(Section& section, const Key& key) {
 
 world::Motion read_s_path(Section& section) {
   world::SPath path;
-  path.speed = section.number(
-      {"speed_mps", "Speed along the nose. `rest_then_go`: after the start; others: constant."},
-      Limits::above(0));
+  path.speed = section.number({"speed_mps",
+                               "Speed along the vehicle's forward axis. `rest_then_go`: full speed, reached "
+                               "at the end of `start_s`; other trajectories: constant."},
+                              Limits::above(0));
   path.heading = read_heading(section);
   path.heading_amplitude = section.number(
       {"heading_amplitude_deg", "Amplitude of the heading; 0: a straight path."}, Limits::between(0, 180));
@@ -116,9 +118,10 @@ world::Motion read_s_path(Section& section) {
 
 world::Motion read_racetrack(Section& section) {
   world::Racetrack track;
-  track.speed = section.number(
-      {"speed_mps", "Speed along the nose. `rest_then_go`: after the start; others: constant."},
-      Limits::above(0));
+  track.speed = section.number({"speed_mps",
+                                "Speed along the vehicle's forward axis. `rest_then_go`: full speed, reached "
+                                "at the end of `start_s`; other trajectories: constant."},
+                               Limits::above(0));
   track.heading = read_heading(section);
   track.leg = section.number({"leg_s", "Duration of a straight leg."}, Limits::above(0));
   track.turn = section.number({"turn_s", "Duration of a half turn to the right."}, Limits::above(0));
@@ -130,9 +133,10 @@ world::Motion read_racetrack(Section& section) {
 
 world::Motion read_spiral(Section& section) {
   world::Spiral spiral;
-  spiral.speed = section.number(
-      {"speed_mps", "Speed along the nose. `rest_then_go`: after the start; others: constant."},
-      Limits::above(0));
+  spiral.speed = section.number({"speed_mps",
+                                 "Speed along the vehicle's forward axis. `rest_then_go`: full speed, "
+                                 "reached at the end of `start_s`; other trajectories: constant."},
+                                Limits::above(0));
   spiral.heading = read_heading(section);
   spiral.period =
       section.number({"turn_period_s", "Period of the turns. `spiral`: time of a full turn to the right."},
@@ -145,9 +149,10 @@ world::Motion read_spiral(Section& section) {
 
 world::Motion read_rest_then_go(Section& section) {
   world::RestThenGo motion;
-  motion.speed = section.number(
-      {"speed_mps", "Speed along the nose. `rest_then_go`: after the start; others: constant."},
-      Limits::above(0));
+  motion.speed = section.number({"speed_mps",
+                                 "Speed along the vehicle's forward axis. `rest_then_go`: full speed, "
+                                 "reached at the end of `start_s`; other trajectories: constant."},
+                                Limits::above(0));
   motion.heading = read_heading(section);
   motion.rest =
       section.number({"rest_s", "Time at rest, before the carrier starts to move."}, Limits::at_least(0));

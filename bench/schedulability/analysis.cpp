@@ -8,20 +8,20 @@ namespace {
 constexpr std::int64_t given_up_ns =
     3'600'000'000'000;  // one hour: a longer busy period gives no useful bound
 
-// Error flag 6, superposed flag 6, delimiter 8, intermission 3, and 8 for the suspended transmission of an
-// error-passive node: Tindell, Burns, Wellings 1995.
+// The bits that an error costs: error flag 6, superposed error flag 6, error delimiter 8, intermission 3, and
+// suspend transmission of an error-passive node 8 (Tindell, Burns, Wellings 1995).
 constexpr std::int64_t error_frame_bits = 31;
 
 constexpr std::int64_t divide_up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
-/// The number of instances of a stream that can be queued within an interval that includes its start but not
-/// its end: ceil(interval / T); without a period, 1.
+/// The number of instances of a stream that can be queued in an interval. The interval includes its first
+/// moment, but not its last. With a period T this is ceil(interval / T), without a period 1.
 std::int64_t queued_within(const Stream& stream, std::int64_t interval_ns) {
   if (interval_ns <= 0) return 0;
   return stream.period_ns > 0 ? divide_up(interval_ns, stream.period_ns) : 1;
 }
 
-/// The message under analysis and the messages of higher priority, times in ns.
+/// The analysed message and the messages of higher priority. Times are in ns.
 struct Level {
   std::span<const Stream> higher;
   const Stream& own;
@@ -32,19 +32,20 @@ struct Level {
   std::int64_t per_error = 0;
   ErrorModel errors{};
 
-  /// sum over hp(m) of ceil((t + J_k + extra) / T_k) C_k
+  /// The interference by the messages of higher priority: sum over hp(m) of ceil((t + J_k + extra) / T_k) C_k
   [[nodiscard]] std::int64_t interference(std::int64_t t, std::int64_t extra) const {
     std::int64_t sum = 0;
     for (std::size_t k = 0; k < higher.size(); ++k)
       sum += queued_within(higher[k], t + higher[k].jitter_ns + extra) * higher_c[k];
     return sum;
   }
-  /// E_m(t) = (burst + ceil(t / T_error) - 1) (31 bits + max over hep(m) of C_k)
+  /// The time that errors cost: E_m(t) = (burst + ceil(t / T_error) - 1) (31 bits + max over hep(m) of C_k)
   [[nodiscard]] std::int64_t error_overhead(std::int64_t t) const {
     if (errors.burst == 0) return 0;
     return (errors.burst + divide_up(t, errors.interval_ns) - 1) * per_error;
   }
-  /// The utilisation by this level and by errors: the busy period ends only if it is below 1.
+  /// The utilisation of the bus by the messages of this level and by errors. The busy period ends only if
+  /// this utilisation is below 1.
   [[nodiscard]] double demand() const {
     const auto share = [](std::int64_t c, std::int64_t t) {
       return t > 0 ? static_cast<double>(c) / static_cast<double>(t) : 0;
@@ -55,7 +56,8 @@ struct Level {
   }
 };
 
-/// The smallest solution of t = f(t), by iteration from below; none: it exceeds an hour.
+/// The smallest solution of t = f(t), found by iteration from a smaller t; nullopt: the solution is larger
+/// than one hour.
 template <class F>
 std::optional<std::int64_t> fixed_point(std::int64_t t, F&& f) {
   for (;;) {
@@ -66,34 +68,36 @@ std::optional<std::int64_t> fixed_point(std::int64_t t, F&& f) {
   }
 }
 
-/// Equations 9 to 13 of the paper, with the error overhead of its section 3.4.
+/// Equations 9 to 13 of Davis et al. 2007, with the error overhead of section 3.4 of that paper.
 Response analyse(const Level& level) {
   const std::int64_t c = level.own_c;
   Response result{.transmission_ns = c, .blocking_ns = level.blocking};
   if (level.demand() >= 1) return result;
-  // t_m = E_m(t) + B_m + sum over hep(m) of ceil((t + J_k) / T_k) C_k
+  // The busy period: t_m = E_m(t) + B_m + sum over hep(m) of ceil((t + J_k) / T_k) C_k
   const auto busy = fixed_point(c, [&](std::int64_t t) {
     return level.error_overhead(t) + level.blocking + level.interference(t, 0) +
            queued_within(level.own, t + level.own.jitter_ns) * c;
   });
   if (!busy) return result;
-  // Q_m = ceil((t_m + J_m) / T_m) instances; any of them may have the longest response.
+  // The number of instances in the busy period: Q_m = ceil((t_m + J_m) / T_m). Each of them may have the
+  // longest response.
   result.instances = queued_within(level.own, *busy + level.own.jitter_ns);
   std::int64_t worst = 0;
   std::int64_t w = level.blocking;
   for (std::int64_t q = 0; q < result.instances; ++q) {
-    // w_m(q) = E_m(w + C_m) + B_m + q C_m + sum over hp(m) of ceil((w + J_k + tau_bit) / T_k) C_k
+    // The time for which instance q waits in the queue:
+    //   w_m(q) = E_m(w + C_m) + B_m + q C_m + sum over hp(m) of ceil((w + J_k + tau_bit) / T_k) C_k
     const auto queueing = fixed_point(w, [&](std::int64_t t) {
       return level.error_overhead(t + c) + level.blocking + q * c + level.interference(t, level.bit);
     });
     if (!queueing) return result;
-    // R_m(q) = J_m + w_m(q) - q T_m + C_m
+    // The response time: R_m(q) = J_m + w_m(q) - q T_m + C_m
     const std::int64_t r = level.own.jitter_ns + *queueing - q * level.own.period_ns + c;
     if (r > worst) {
       worst = r;
       result.worst_instance = q;
     }
-    w = *queueing + c;  // w_m(q + 1) is not smaller
+    w = *queueing + c;  // w_m(q + 1) is at least this large, so the next iteration starts here
   }
   result.response_ns = worst;
   return result;
@@ -118,10 +122,10 @@ Response response(std::span<const Stream> streams, std::size_t index, std::int64
 
 namespace {
 
-/// The index of the first stream at which the bus is certainly overloaded. This stream and those after it are
-/// not analysed: tens of thousands would take too long.
+/// The index of the first stream with which the bus is certainly overloaded. This stream and all later
+/// streams are not analysed, because the analysis of tens of thousands of streams would take too long.
 std::size_t first_overloaded(std::span<const Stream> streams, const wire::BitRates& rates) {
-  constexpr double for_sure = 1 + 1e-9;  // sums in a different order differ in the last bits
+  constexpr double for_sure = 1 + 1e-9;  // the same sum in a different order differs in the last bits
   double demand = 0;
   for (std::size_t i = 0; i < streams.size(); ++i) {
     if (streams[i].period_ns > 0) {
@@ -150,8 +154,8 @@ std::vector<Response> responses(std::span<const Stream> streams, const Bus& bus)
 
 namespace {
 
-/// The streams of a bus on which every node sends its frames first in, first out, with the current bounds of
-/// their response times.
+/// The streams of a bus on which every node sends its frames in the order of queueing (FIFO), and the bounds
+/// of their response times that have been found so far.
 class FifoBus {
  public:
   FifoBus(std::span<const Stream> streams, const wire::BitRates& rates)
@@ -160,7 +164,7 @@ class FifoBus {
     r_ = c_;
   }
 
-  /// The smallest r that solves all equations; false: there is none within the limit.
+  /// Finds the smallest r that solves all equations; false: no r within the limit solves them.
   bool solve() {
     for (bool changed = true; changed;) {
       changed = false;

@@ -2,13 +2,14 @@
 // Network (CAN) schedulability analysis: refuted, revisited and revised", Real-Time Systems 35 (2007)
 // 239-272.
 //
-// A response begins when a message becomes due, and ends with the intermission after its frame.
-// Assumptions: every node enters its highest-priority message into each arbitration (a priority queue), ids
-// are unique, and a message becomes due no more often than its period allows. Messages of one sample group
-// become due together; the analysis allows this for all messages of the bus.
+// A response begins when a message becomes due, and ends with the intermission after the message's frame.
+// Assumptions: every node has a priority queue, i.e. takes part in each arbitration with its waiting message
+// of highest priority; ids are unique; and the time between two releases of a message is at least its period.
+// The messages of one sample group become due together. The analysis covers this case, because it allows all
+// messages of the bus to become due together.
 //
-// fifo_responses() gives bounds for nodes that send in order of queueing (SocketCAN's queues, and therefore
-// the bench and hil-target).
+// fifo_responses() computes bounds for nodes that send their frames in the order of queueing. SocketCAN's
+// queues work in this way, and therefore the bench and hil-target do.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +22,12 @@
 
 namespace canhil::schedulability {
 
-/// The source of the minimum interval between two frames of a message.
+/// Where the minimum interval between two frames of a message comes from.
 enum class Release : std::uint8_t {
-  cycle,     ///< sent cyclically, GenMsgCycleTime
+  cycle,     ///< sent cyclically, with the cycle time GenMsgCycleTime
   interval,  ///< sent on events, at intervals of at least GenMsgDelayTime
   option,    ///< sent on events, at a minimum interval that the caller assumes
-  once       ///< sent on events at unknown intervals: assumed due once within any response
+  once       ///< sent on events at unknown intervals; assumed to become due once in any response
 };
 
 /// One message in the analysis.
@@ -36,23 +37,23 @@ struct Stream {
   bool extended = false;
   std::string sender{};
   Release release = Release::cycle;
-  std::int64_t period_ns = 0;  ///< minimum interval between two releases; 0: Release::once
+  std::int64_t period_ns = 0;  ///< minimum interval between two releases; 0 for Release::once
   std::optional<std::int64_t> deadline_ns{};
   std::int64_t jitter_ns = 0;  ///< the longest time from becoming due to being queued
   wire::BitLength length{};    ///< longest length of a frame
 };
 
-/// Bus errors: `burst` at once, then one every `interval_ns`. Each costs an error frame and a retransmission
-/// (Tindell, Burns, Wellings 1995; Davis et al. 2007, section 3.4).
+/// Bus errors: first `burst` errors at the same time, then one error every `interval_ns`. Each error costs an
+/// error frame and a retransmission (Tindell, Burns, Wellings 1995; Davis et al. 2007, section 3.4).
 struct ErrorModel {
-  std::int64_t burst = 0;  ///< 0: no errors
+  std::int64_t burst = 0;  ///< number of errors at the same time; 0: the bus has no errors
   std::int64_t interval_ns = 0;
 };
 
 struct Response {
-  std::int64_t transmission_ns = 0;           ///< C
-  std::int64_t blocking_ns = 0;               ///< B, transmission time of the longest frame of lower priority
-  std::optional<std::int64_t> response_ns{};  ///< R; none: the analysis finds no bound
+  std::int64_t transmission_ns = 0;           ///< C, duration of the longest frame of the message
+  std::int64_t blocking_ns = 0;               ///< B, duration of the longest frame of lower priority
+  std::optional<std::int64_t> response_ns{};  ///< R; nullopt: the analysis finds no bound
   std::int64_t instances = 0;                 ///< number of instances in the longest busy period
   std::int64_t worst_instance = 0;            ///< index of the instance with the longest response, from 0
 };
@@ -67,31 +68,34 @@ struct Bus {
   ErrorModel errors{};
 };
 
-/// R of streams[index], with a given blocking [ns]. The streams before it, and only these, have higher
-/// priority.
+/// The response of streams[index]; `blocking_ns` is the blocking by lower priorities. The streams before
+/// streams[index] have higher priority, all others have lower priority.
 Response response(std::span<const Stream> streams, std::size_t index, std::int64_t blocking_ns,
                   const Bus& bus);
 
-/// R of every stream; the streams are sorted by wire::arbitration_rank().
+/// The response of every stream. The streams must be sorted by wire::arbitration_rank().
 std::vector<Response> responses(std::span<const Stream> streams, const Bus& bus);
 
-/// R of every stream if each sender queues its frames in the order in which they become ready, following the
-/// idea of Davis, Kollmann, Pollex, Slomka, "Controller Area Network (CAN) schedulability analysis with FIFO
-/// queues" (ECRTS 2011). A frame m of node N that is queued at t waits for the frames before it in its own
-/// queue, for one frame of lower priority than all of N's, and for frames of other nodes with higher priority
-/// than L, the frame of N with the lowest priority. With r_k the longest time from queueing to the end, every
-/// frame on the bus at t was queued after t - r_k:
+/// The response of every stream if each node sends its frames in the order of queueing (FIFO). The method
+/// follows the idea of Davis, Kollmann, Pollex, Slomka, "Controller Area Network (CAN) schedulability
+/// analysis with FIFO queues" (ECRTS 2011). Let L be the frame of node N with the lowest priority. A frame m
+/// of N waits for three kinds of frames: the frames before m in the queue of N; one frame with a lower
+/// priority than L; and frames of other nodes with a higher priority than L, called hp(L). Let r_k be the
+/// longest time from the queueing of a frame k to its end. Then every frame k that is on the bus at time t
+/// was queued after t - r_k. Hence, with the period T, the jitter J and the duration C of each frame, the
+/// blocking B and the bit time tau_bit:
 ///   w_m = B_L + sum over k in N of ceil((r_k + J_k) / T_k) C_k - C_m
 ///             + sum over other k in hp(L) of ceil((w_m + r_k + J_k + tau_bit) / T_k) C_k
 ///   r_m = w_m + C_m,  R_m = J_m + r_m
-/// This bound is sufficient, not exact. The streams are sorted by wire::arbitration_rank(). Bus
-/// errors are not taken into account.
+/// This bound is sufficient, not exact. The streams must be sorted by wire::arbitration_rank(). Bus errors
+/// are not taken into account.
 std::vector<Response> fifo_responses(std::span<const Stream> streams, const wire::BitRates& rates);
 
 /// The utilisation of the bus by all streams with a period.
 double utilisation(std::span<const Stream> streams, const wire::BitRates& rates);
 
-/// True if the message is guaranteed to meet its deadline; without a deadline: if there is a bound.
+/// True if the response time of the message has a bound, and this bound does not exceed the deadline (if the
+/// message has a deadline).
 bool meets_deadline(const Stream& stream, const Response& response);
 
 }  // namespace canhil::schedulability

@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t ns_per_us = 1'000;
 constexpr double ns_per_ms = 1e6;
 
-/// A numeric attribute, or 0.
+/// The value of a numeric attribute; 0 if the attribute is absent or not a number.
 double number(const dbc::AttributeValue* value) {
   if (value == nullptr) return 0;
   if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
@@ -22,7 +22,7 @@ double number(const dbc::AttributeValue* value) {
   return real != nullptr ? *real : 0;
 }
 
-/// A time attribute of a message, in ms; 0: absent.
+/// The value of a time attribute of a message, in ms; 0 if the attribute is absent.
 double time_ms(const dbc::Database& database, const dbc::Message& message, std::string_view attribute) {
   return number(dbc::find_attribute(database, message.attributes, dbc::Owner::message, attribute));
 }

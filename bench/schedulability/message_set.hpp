@@ -1,4 +1,4 @@
-// The messages of a DBC as streams: periods, jitters, lengths.
+// Converts the messages of a DBC to streams with their periods, jitters and lengths.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,23 @@
 
 namespace canhil::schedulability {
 
-/// Values that are used where a DBC states none.
+/// Values that are used for messages for which the DBC has no such value.
 struct Assumptions {
-  std::int64_t event_interval_ns = 0;  ///< for event messages without a GenMsgDelayTime; 0: Release::once
-  std::int64_t jitter_ns = 0;          ///< for messages without a GenMsgJitter
+  std::int64_t event_interval_ns = 0;  ///< event messages without GenMsgDelayTime; 0: Release::once
+  std::int64_t jitter_ns = 0;          ///< messages without GenMsgJitter
 };
 
-/// The messages of a DBC by priority, with the longest frame of each. Times come from message attributes, in
-/// ms: the period from GenMsgCycleTime, for event messages from GenMsgDelayTime; the deadline from
-/// GenMsgDeadline, by default the period; the jitter from GenMsgJitter. An FD message switches the bit
-/// rate unless its attribute CANFD_BRS is 0. If a message switches, the data bit rate must be known. Error:
-/// one line that names the message.
+/// The messages of a DBC, sorted by priority, each with the length of its longest frame. The times come from
+/// attributes of the message, in ms. The period comes from GenMsgCycleTime or, for event messages, from
+/// GenMsgDelayTime; the deadline from GenMsgDeadline (default: the period); the jitter from GenMsgJitter. The
+/// frames of an FD message use bit rate switch, except if the attribute CANFD_BRS is 0. If a message uses bit
+/// rate switch, `rates` must contain the data bit rate. An error is one line that names the message.
 Result<std::vector<Stream>> streams_of(const dbc::Database& database, const Assumptions& assumptions,
                                        const wire::BitRates& rates);
 
-/// The bit rates: the given ones; where 0, the DBC's attributes Baudrate and BaudrateCANFD. Error: there
-/// is no nominal bit rate, or the data bit rate is below it.
+/// The bit rates for the analysis. A bit rate that is 0 in `given` is taken from the DBC's attribute Baudrate
+/// (nominal) or BaudrateCANFD (data). Returns an error if there is no nominal bit rate, or if the data bit
+/// rate is below the nominal one.
 Result<wire::BitRates> bit_rates(const dbc::Database& database, const wire::BitRates& given);
 
 }  // namespace canhil::schedulability

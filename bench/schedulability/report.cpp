@@ -17,7 +17,7 @@ std::string_view name_of(Release release) {
   return names.at(static_cast<std::size_t>(release));
 }
 
-/// In ms, with three decimals.
+/// The time as text: in ms, with three decimals.
 std::string milliseconds(const Time& ns, std::string_view none = "-") {
   return ns ? fmt::format("{:.3f}", static_cast<double>(*ns) * 1e-6) : std::string(none);
 }
@@ -45,7 +45,7 @@ bool any(const Analysis& analysis, Release release) {
   return std::ranges::find(analysis.streams, release, &Stream::release) != analysis.streams.end();
 }
 
-/// A line with the assumed values that the DBC does not state.
+/// One line for each assumption about event messages that the analysis used.
 std::string assumptions(const Analysis& analysis) {
   std::string text;
   if (any(analysis, Release::interval))
@@ -154,7 +154,8 @@ std::string json(const Analysis& analysis) {
                   {"utilisation", utilisation(analysis.streams, bus.rates)},
                   {"schedulable", schedulable(analysis)},
                   {"messages", std::move(messages)}};
-  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // a file name need not be UTF-8
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) +
+         "\n";  // replaces bytes of a file name that are not UTF-8
 }
 
 }  // namespace canhil::schedulability

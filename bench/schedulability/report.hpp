@@ -16,16 +16,17 @@ struct Analysis {
   std::vector<Response> responses;
 };
 
-/// Analyses streams, which must be sorted by priority.
+/// Analyses the messages `streams`, which must be sorted by priority.
 Analysis analyse(std::string file, std::vector<Stream> streams, const Bus& bus);
 
 /// True if every message meets its deadline.
 bool schedulable(const Analysis& analysis);
 
-/// One line for each message by priority, times in ms; then the utilisation, the assumptions and the verdict.
+/// One line for each message, sorted by priority, with times in ms. After these lines come the utilisation,
+/// the assumptions and the verdict.
 std::string table(const Analysis& analysis);
 
-/// One JSON object, times in s; null where there is no value. docs/schedulability.md names the keys.
+/// One JSON object. Times are in s; a missing value is null. docs/schedulability.md describes the keys.
 std::string json(const Analysis& analysis);
 
 }  // namespace canhil::schedulability

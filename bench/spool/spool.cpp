@@ -15,14 +15,14 @@ namespace {
 int open_in(const std::string& folder) {
   const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (file >= 0) return file;
-  std::string name = folder + "/canhil-XXXXXX";  // for a file system without unnamed files (O_TMPFILE)
+  std::string name = folder + "/canhil-XXXXXX";  // some file systems have no unnamed files (O_TMPFILE)
   const int named = mkostemp(name.data(), O_CLOEXEC);
   if (named >= 0) unlink(name.c_str());
   return named;
 }
 
-// Returns -1 if no file can be made. The blocks are allocated at once: otherwise a page fault on a full disk
-// would kill the program.
+// Makes a file of `bytes` bytes; -1: this is not possible. The disk space is allocated now: otherwise a later
+// page fault would kill the program if the disk were full.
 int open_file(std::size_t bytes) {
   const char* folder = std::getenv("TMPDIR");
   const int file = open_in(folder != nullptr && *folder != '\0' ? folder : "/var/tmp");
@@ -52,7 +52,7 @@ SpoolFile::SpoolFile() : file_(open_file(step_bytes)) {
     close(file_);
     throw std::bad_alloc();
   }
-  munlock(data_, bytes_);  // in a process that locks its memory: locked pages cannot be released
+  munlock(data_, bytes_);  // in case the process locks its memory: locked pages cannot be released
 }
 
 SpoolFile::~SpoolFile() {
@@ -68,7 +68,7 @@ void SpoolFile::grow() {
   bytes_ = larger;
 }
 
-// Called when the disk is full.
+// Moves the data from the file into ordinary memory. Called when the disk is full.
 void SpoolFile::into_memory(std::size_t bytes) {
   void* memory = anonymous(bytes);
   std::memcpy(memory, data_, bytes_);
@@ -81,8 +81,8 @@ void SpoolFile::into_memory(std::size_t bytes) {
 
 void SpoolFile::enter(std::size_t block) const {
   last_block_.store(block, std::memory_order_relaxed);
-  // Access to the first most_blocks blocks is not counted. So a file of this size is never released, in
-  // whatever order it is accessed.
+  // Access to the first most_blocks blocks is not counted. So the pages of a file with at most most_blocks
+  // blocks are never released, in whatever order they are accessed.
   if (file_ < 0 || block < most_blocks ||
       entered_.fetch_add(1, std::memory_order_relaxed) % most_blocks != most_blocks - 1)
     return;

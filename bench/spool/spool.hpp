@@ -1,9 +1,9 @@
 // Append-only series of values in bounded memory, for the data that a run collects.
 //
-// The first two megabytes are in memory. The rest is in an unnamed mapped file: pages are loaded on access
-// and released behind the reader, so a pass over a day needs no more memory than a pass over a minute.
-// Release is a hint to the kernel: a released page is loaded again when needed, and references stay valid
-// exactly as long as those into a vector.
+// The first two megabytes are in memory. The rest is in an unnamed mapped file. Pages of the file are loaded
+// on access, and all pages are released from time to time. So reading the data of a day needs no more memory
+// than reading the data of a minute. A released page is loaded again at the next access. Therefore references
+// into a Spool remain valid exactly as long as references into a vector.
 #pragma once
 
 #include <algorithm>
@@ -19,11 +19,11 @@
 
 namespace canhil {
 
-/// An unnamed mapped file in TMPDIR (default /var/tmp). Nothing remains on disk however the program ends. If
-/// no file can be made, or the disk is full, ordinary memory is used instead.
+/// An unnamed mapped file in TMPDIR (default /var/tmp). In whatever way the program ends, nothing remains on
+/// the disk. If no file can be made, or if the disk is full, ordinary memory is used instead.
 class SpoolFile {
  public:
-  /// Errors: std::bad_alloc.
+  /// Throws std::bad_alloc if there is no memory.
   SpoolFile();
   ~SpoolFile();
   SpoolFile(const SpoolFile&) = delete;
@@ -31,9 +31,11 @@ class SpoolFile {
 
   [[nodiscard]] void* data() const { return data_; }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
-  /// Enlarges the file; its contents stay, its address may change. Errors: std::bad_alloc.
+  /// Enlarges the file. The contents remain; the address in data() may change. Throws std::bad_alloc if there
+  /// is no memory.
   void grow();
-  /// Must be called at each access; from time to time it releases all pages. Thread-safe.
+  /// Must be called at each access to the byte `offset`. From time to time, touch() releases all pages.
+  /// Thread-safe.
   void touch(std::size_t offset) const {
     const std::size_t block = offset / block_bytes;
     if (block != last_block_.load(std::memory_order_relaxed)) enter(block);
@@ -41,9 +43,9 @@ class SpoolFile {
   [[nodiscard]] bool on_disk() const { return file_ >= 0; }
 
  private:
-  static constexpr std::size_t block_bytes = 64 << 10;  // loaded by a page fault
-  static constexpr unsigned most_blocks = 32;           // changes of block after which all are released
-  static constexpr std::size_t step_bytes = 16 << 20;   // growth step
+  static constexpr std::size_t block_bytes = 64 << 10;  // accesses are counted in blocks of this size
+  static constexpr unsigned most_blocks = 32;  // all pages are released after so many changes of the block
+  static constexpr std::size_t step_bytes = 16 << 20;  // the file grows by this size
 
   void enter(std::size_t block) const;
   void into_memory(std::size_t bytes);
@@ -55,8 +57,8 @@ class SpoolFile {
   mutable std::atomic<unsigned> entered_ = 0;
 };
 
-/// Like a vector that only grows at its end. For types that may be copied as bytes: numbers, and structs and
-/// matrices of numbers.
+/// A container like a vector, but elements can only be added at its end. The type T must be copyable as
+/// bytes: a number, a struct of numbers or a matrix of numbers.
 template <class T>
 class Spool {
   static_assert(std::is_trivially_destructible_v<T>);
@@ -112,7 +114,7 @@ class Spool {
     std::construct_at(static_cast<T*>(file_->data()) + filed_, value);
     file_->touch(filed_++ * sizeof(T));
   }
-  /// Reserves memory for the part that is held in memory.
+  /// Reserves memory for those of `count` elements that are stored in memory.
   void reserve(std::size_t count) { few_.reserve(std::min(count, most_in_memory)); }
 
   [[nodiscard]] std::size_t size() const { return few_.size() + filed_; }
@@ -142,8 +144,8 @@ class Spool {
     for (const T& value : values) push_back(value);
   }
 
-  std::vector<T> few_;               // the first elements
-  std::unique_ptr<SpoolFile> file_;  // the rest
+  std::vector<T> few_;               // the first elements, in memory
+  std::unique_ptr<SpoolFile> file_;  // the file with the other elements
   std::size_t filed_ = 0;
 };
 

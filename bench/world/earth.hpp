@@ -12,8 +12,8 @@ struct Position {
   double height = 0;     ///< above the ellipsoid [m]
 };
 
-/// The longitude, wrapped to -180 to 180 deg, the range of its signals on the bus. Position::longitude is not
-/// wrapped: along a flight it continues beyond 180 deg.
+/// The longitude, wrapped to -180 to 180 deg, the range of the longitude signals on the bus.
+/// Position::longitude is not wrapped: along a flight it continues beyond 180 deg.
 double longitude_deg(const Position& position);
 
 /// Meridian radius of curvature R_N of Groves (2013), eq. (2.105) [m].

@@ -51,7 +51,8 @@ class FlightRecord {
   /// Time of the last epoch.
   [[nodiscard]] std::int64_t end_us() const { return epochs_.back().t_us; }
 
-  /// Truth at any time in [0, end_us()]: a look-up at an epoch, otherwise integrated from the epoch before.
+  /// Truth at any time in [0, end_us()]. At an epoch, the stored truth is returned; between two epochs, the
+  /// truth is integrated from the earlier epoch.
   [[nodiscard]] Truth at(std::int64_t t_us) const;
 
  private:

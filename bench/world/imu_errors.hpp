@@ -26,7 +26,8 @@ class ErroneousImu {
  public:
   ErroneousImu(const ImuErrorModel& model, Stream stream);
 
-  /// The measurement of one sample. Call once for each sample, in order: takes six numbers of the stream.
+  /// The measurement of one sample. Call once for each sample, in order: each call takes six numbers from the
+  /// stream.
   ImuIncrement measure(const ImuIncrement& exact);
 
   /// The true biases of this run: [rad/s] and [m/s^2], body axes.

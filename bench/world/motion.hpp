@@ -23,8 +23,8 @@ Movement movement(const Motion& motion, double t);
 /// The velocity alone [m/s].
 Vector3 velocity(const Motion& motion, double t);
 
-/// The times [us] at which an acceleration, a rate or a derivative of these jumps, ascending: those between
-/// `from_us` and `to_us`, ends excluded. Quadrature must not step across them.
+/// The times [us] in ascending order at which an acceleration, a rate or one of their derivatives is
+/// discontinuous, between `from_us` and `to_us`, ends excluded. Quadrature must not step across these times.
 std::vector<std::int64_t> jumps_us(const Motion& motion, std::int64_t from_us, std::int64_t to_us);
 
 /// A complete truth: initial position and motion.

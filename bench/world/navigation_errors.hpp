@@ -22,18 +22,18 @@ struct NavigationErrorModel {
   RandomConstant attitude;  ///< misalignment phi [rad]: computed attitude = exp(-[phi x]) C_bn
 };
 
-/// Errors of an initial state. A heading error psi, which may be large, rotates about down before the
-/// misalignment phi is applied: computed attitude = exp(-[phi x]) Rz(-psi) C_bn. So psi does not change the
-/// size of the tilts.
+/// Errors of an initial state. A heading error psi, which may be large, is a rotation about the down axis; it
+/// is applied before the misalignment phi: computed attitude = exp(-[phi x]) Rz(-psi) C_bn. So psi does not
+/// change the size of the tilts.
 struct InitialErrorModel : NavigationErrorModel {
   double heading_sigma = 0;      ///< sigma of psi [rad]
   double heading_magnitude = 0;  ///< added to psi with random sign [rad]
 };
 
-/// A solution with errors drawn from the model. Takes nine numbers of the stream, whatever the sigmas are.
+/// A solution with errors drawn from the model. Takes nine numbers from the stream, whatever the sigmas are.
 NavigationSolution measure(const Truth& truth, const NavigationErrorModel& model, Stream& stream);
 
-/// The same for an initial state. Takes eleven numbers of the stream.
+/// An initial state with errors drawn from the model. Takes eleven numbers from the stream.
 NavigationSolution initial_solution(const Truth& truth, const InitialErrorModel& model, Stream& stream);
 
 }  // namespace canhil::world

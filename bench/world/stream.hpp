@@ -34,7 +34,7 @@ struct RandomConstant {
   Vector3 sigma = Vector3::Zero();
 };
 
-/// Draws the constant. Takes three numbers of the stream, whatever sigma is.
+/// Draws the constant. Takes three numbers from the stream, whatever sigma is.
 Vector3 draw(const RandomConstant& constant, Stream& stream);
 
 }  // namespace canhil::world

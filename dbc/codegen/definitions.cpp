@@ -10,8 +10,8 @@
 namespace canhil::dbc {
 namespace {
 
-/// True for signals whose member is a double that packing rounds. A multiplexor is always sent packed: its
-/// raw value decides which signals are present.
+/// True if the signal's member is a double, and packing rounds it to a raw value. False for a multiplexor,
+/// whose raw value decides which signals are present.
 bool is_rounded(const Message& message, const Signal& signal) {
   return !is_protection(message, signal) && !is_plain(signal) && !signal.multiplexor;
 }
@@ -32,7 +32,8 @@ std::string signals_text(const Message& message) {
   return text + "}};\n}  // namespace\n";
 }
 
-/// The range of physical values: real_range() of a double with scale 1, offset 0 and the same limits.
+/// The range of the signal's physical values: that of a 64-bit float signal with scale 1, offset 0 and the
+/// same limits.
 RealRange physical_range(Signal signal) {
   signal.type = RawType::float64;
   signal.scale = 1;

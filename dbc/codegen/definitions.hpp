@@ -1,4 +1,5 @@
-// Definitions that the generated header only declares, with static checks of the generated code.
+// The definitions of functions that the generated header only declares, and static checks of the generated
+// code.
 #pragma once
 
 #include <string>
@@ -7,11 +8,13 @@
 
 namespace canhil::dbc {
 
-/// True if a Frame has room behind the packed bytes for one double per signal that packing rounds. False if
-/// such a signal is multiplexed: only the packed bytes show whether the frame holds it.
+/// True if a Frame has enough room behind the packed bytes for one double for each signal that packing
+/// rounds. False if a signal that packing rounds is multiplexed, because only the packed bytes show whether
+/// the frame contains this signal.
 bool can_travel_unrounded(const Message& message);
 
-/// Definitions of a message's signals() and scaled(), and assertions on its layout and resolution.
+/// C++ text: the definitions of signals() and scaled() of a message, and assertions about the layout and the
+/// resolution of the message.
 std::string definitions_text(const Message& message);
 
 }  // namespace canhil::dbc

@@ -21,8 +21,8 @@ using wire::FdContainer;
 constexpr std::array fd_sizes{8U, 12U, 16U, 20U, 24U, 32U, 48U, 64U};
 constexpr std::int64_t data_bitrate = 2'000'000;
 
-/// The messages that one frame of the FD contract carries, in the order of transmission. A message without a
-/// group is the only one in its frame.
+/// The classic messages that one frame of the FD contract carries, in the order of transmission. The frame of
+/// a message without a sample group carries only this message.
 struct Part {
   std::string name;
   std::vector<const Message*> messages;
@@ -72,13 +72,15 @@ bool is_plain_message(const Message& message) {
   return !message.fd && std::ranges::none_of(message.signals, &Signal::multiplexor);
 }
 
-/// An all-zero slot means that its message is absent, so all zeros must not be a valid message.
+/// A slot of zeros means that the message of this slot is absent. Therefore eight zeros must not be a valid
+/// message.
 bool zeros_are_no_message(const Message& message) {
   const std::array<std::uint8_t, FdContainer::slot_bytes> zeros{};
   return e2e::crc(zeros, message.e2e_data_id) != 0;
 }
 
-/// Why a message cannot travel in a container of its group, whose last message is `last`; none: it can.
+/// Returns what is expected of the message so that the container of its group can carry it; nullopt: the
+/// container can carry it. `last` is the last message of the group.
 std::optional<std::string> objection(const Message& message, const Message& last) {
   if (message.size != FdContainer::slot_bytes || message.extended || message.e2e_data_id == 0)
     return "of 8 bytes with an 11-bit id and an E2eDataId";
@@ -196,7 +198,8 @@ Result<Database> on_fd(const Database& classic, std::string_view dbc_name) {
 Result<std::string> fd_text(const Database& classic, std::string_view dbc_name) {
   return on_fd(classic, dbc_name).and_then([&](const Database& fd) -> Result<std::string> {
     std::string text = dbc_text(fd);
-    // Parses the text again: an error shows that the writer cannot express a part of the database.
+    // Parses the written text: an error means that the text lacks a part of the database or states it
+    // wrongly.
     if (auto read = parse(text, fmt::format("{} on CAN FD", dbc_name)); !read)
       return tl::unexpected(read.error());
     return text;

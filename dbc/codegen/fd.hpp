@@ -1,7 +1,8 @@
 // The contract on CAN FD: one container, a frame of up to 64 bytes, for each sample group.
 //
-// A container holds the bytes of the group's classic messages one after the other, each with its own E2E
-// fields. A receiver for the classic contract only has to split the container (dbc/ports/fd_groups.hpp).
+// A container contains the bytes of the group's classic messages, one message after the other. Each of these
+// messages has its own E2E fields. A receiver for the classic contract only has to split the container
+// (dbc/ports/fd_groups.hpp).
 #pragma once
 
 #include <string>
@@ -12,22 +13,23 @@
 
 namespace canhil::dbc {
 
-/// Converts a classic contract to CAN FD. Each sample group of several messages becomes one message with the
-/// id of its first. Transmission order is the order of ids; the signals of the k-th message (k from 0) start
-/// at byte 8 k. Groups of more than eight messages are divided, eight to a container. Signals with the same
-/// name in several messages of a container get the suffix "_" and k + 1 (e2e_crc_1, e2e_crc_2 ...). A
-/// SIG_GROUP_ with the name of the classic message lists its signals; the attribute E2eDataIds lists the data
-/// ids of the messages. Messages without a group keep id and signals. All frames switch the bit rate.
-/// Error: one line `dbc_name:line:column: ...` if a message of a group does not have 8 protected bytes and an
-/// 11-bit id, has a data id for which eight zeros are a valid frame, or differs from its group in sender or
-/// cycle time; if the message with the time of validity is not the last of its group; or if a message is FD
-/// or multiplexed.
+/// Converts a classic contract to CAN FD. Each sample group of several messages becomes one message, the
+/// container, with the id of the group's first message. The messages of a container are sorted by id; the
+/// signals of the k-th message (k from 0) start at byte 8 k. A group of more than eight messages is divided
+/// into containers of at most eight messages. If several messages of a container have signals with the same
+/// name, these signals get the suffix "_" and k + 1 (e2e_crc_1, e2e_crc_2 ...). For each classic message, a
+/// SIG_GROUP_ with the name of the message lists its signals. The attribute E2eDataIds lists the data ids of
+/// the messages. Messages without a group keep their id and their signals. All frames use bit rate switch.
+/// Returns an error of one line, `dbc_name:line:column: ...`, in these cases: a message of a group does not
+/// have 8 protected bytes and an 11-bit id; it has a data id for which eight zeros are a valid frame; it
+/// differs from the other messages of its group in sender or cycle time; the message with the time of
+/// validity is not the last of its group; a message is FD or multiplexed.
 Result<Database> on_fd(const Database& classic, std::string_view dbc_name);
 
-/// on_fd() as the text of a DBC file.
+/// The result of on_fd(), as the text of a DBC file.
 Result<std::string> fd_text(const Database& classic, std::string_view dbc_name);
 
-/// A C++ header with the containers as constants, and the hashes of both texts.
+/// A C++ header with the containers as constants, and with the hashes of the two DBC texts (classic and FD).
 Result<std::string> fd_header(const Database& classic, std::string_view name_space,
                               std::string_view dbc_name);
 

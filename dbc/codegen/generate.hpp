@@ -1,5 +1,5 @@
-// Database -> C++: a header with structs, pack(), unpack(), enumerations and the hash, and a source with
-// rarely needed definitions and static checks, compiled once.
+// Generates C++ from a Database. The header has structs, pack(), unpack(), enumerations and the hash. The
+// source, which is compiled once, has definitions that are rarely needed, and static checks.
 #pragma once
 
 #include <string>
@@ -10,13 +10,14 @@
 
 namespace canhil::dbc {
 
-/// The header's text; deterministic. Error: one line, if the database breaks a rule that generated code
-/// relies on (E2E fields where a data id is given, resolution of measurements).
+/// The text of the header. The same database always gives the same text. Returns an error of one line if the
+/// database breaks a rule on which the generated code relies: a message with a data id has the E2E fields,
+/// and measurements have enough resolution.
 Result<std::string> generate_header(const Database& database, std::string_view name_space,
                                     std::string_view dbc_name);
 
-/// The source's text, for a database that generate_header() accepts; `header` is the path that the source
-/// includes.
+/// The text of the source, for a database that generate_header() accepts. `header` is the path in the
+/// #include of the source.
 std::string generate_source(const Database& database, std::string_view name_space, std::string_view dbc_name,
                             std::string_view header);
 

@@ -1,4 +1,4 @@
-// A Database as JSON, for other tools and for comparison with other DBC parsers.
+// Converts a Database to JSON, for other tools and for the comparison with other DBC parsers.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace canhil::dbc {
 
-/// Messages, signals, value tables, nodes, attributes; in the order of the DBC.
+/// The messages, signals, value tables, nodes and attributes, in the order of the DBC.
 std::string to_json(const Database& database);
 std::string to_json(const Message& message);
 

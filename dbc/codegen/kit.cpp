@@ -16,10 +16,10 @@ namespace {
 
 struct Group {
   std::string name;
-  std::vector<const Message*> messages;  // by id: the order of transmission
+  std::vector<const Message*> messages;  // sorted by id, which is the order of transmission
 };
 
-// The groups, sorted by the id of their first message.
+// The groups, sorted by the id of each group's first message.
 std::vector<Group> groups_of(const Database& database) {
   std::vector<const Message*> sorted;
   for (const Message& message : database.messages) sorted.push_back(&message);
@@ -51,7 +51,8 @@ std::string c_name(std::string_view of, std::string_view name) {
   return fmt::format("CANHIL_{}_{}", upper(of), upper(identifier(name)));
 }
 
-// Why the kit's tables cannot describe the message; empty: they can.
+// Returns why the tables of c_header() and python_module() cannot describe the message; an empty string: they
+// can.
 std::string unfit(const Message& message) {
   if (message.extended || message.fd || message.size > 8)
     return fmt::format("message {}: expected classic CAN of at most 8 bytes with an 11-bit id", message.name);
@@ -95,7 +96,7 @@ std::string kind_of(const Signal& signal) {
 }
 
 struct Limits {
-  std::string lowest, highest;  // of the raw value, as numbers of C and Python
+  std::string lowest, highest;  // limits of the raw value, as number literals of C and Python
 };
 Limits limits_of(const Signal& signal) {
   if (signal.is_float()) {
@@ -110,7 +111,7 @@ Limits limits_of(const Signal& signal) {
   return {text(range.lowest), text(range.highest)};
 }
 
-// The index of a signal among the values of a group; -1: the group has no signal of that name.
+// The index of the named signal among the values of a group; -1: the group has no signal of this name.
 int index_of(const Group& group, std::string_view name) {
   int index = 0;
   for (const Message* message : group.messages) {
@@ -122,7 +123,7 @@ int index_of(const Group& group, std::string_view name) {
   return -1;
 }
 
-// The name of the value table with exactly the signal's values; empty: none.
+// The name of the value table that has exactly the named values of the signal; empty: no table has them.
 std::string table_of(const Database& database, const Signal& signal) {
   const auto table = std::ranges::find_if(database.value_tables, [&](const ValueTable& one) {
     return ascending(one.values) == ascending(signal.values);

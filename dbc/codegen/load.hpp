@@ -7,8 +7,9 @@
 
 namespace canhil::dbc {
 
-/// Table of bit/s and bus load: one line for each sender, and the sum. Event-triggered and CAN FD messages
-/// are counted separately; their load is not included.
+/// A table of bit/s and bus load, with one line for each sender and one for the sum. The load includes only
+/// cyclic classic messages. A separate column has the number of all other messages (event-triggered or CAN
+/// FD).
 std::string load_table(const Database& database);
 
 }  // namespace canhil::dbc

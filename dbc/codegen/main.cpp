@@ -61,12 +61,14 @@ canhil::Result<std::string> text_for(const canhil::dbc::Database& database, cons
 
 bool holds(const std::string& path, const std::string& text) {
   std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown)) return false;  // reading a device might never end
+  if (!std::filesystem::is_regular_file(path, unknown))
+    return false;  // the content of a device might have no end
   std::ifstream file(path, std::ios::binary);
   return file && std::string{std::istreambuf_iterator<char>(file), {}} == text;
 }
 
-// Does not touch a file that has this content already, so that sources that include it are not recompiled.
+// Writes `text` to a file. A file that has this content already keeps its time, so that sources that include
+// the file are not recompiled.
 int write_file(const std::string& path, const std::string& text) {
   if (holds(path, text)) return 0;
   std::ofstream file(path, std::ios::binary);
@@ -100,7 +102,7 @@ bool is_namespace(std::string_view name) {
   return std::regex_match(name.begin(), name.end(), parts);
 }
 
-// Why the options are refused; empty: they are not.
+// Returns why the options are rejected; an empty string: they are accepted.
 std::string refused(const Options& options) {
   for (const auto& [a, b] : {std::pair(options.output, options.dbc), std::pair(options.source, options.dbc),
                              std::pair(options.source, options.output)}) {

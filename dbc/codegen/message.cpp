@@ -25,7 +25,8 @@ std::set<Word> words_of(const Message& message, const std::vector<const Signal*>
   return words;
 }
 
-/// The signal's bits as an expression: std::int64_t if signed, else std::uint64_t.
+/// A C++ expression for the raw value of the signal. Its type is std::int64_t for a signed signal, otherwise
+/// std::uint64_t.
 std::string raw_expression(const Message& message, const Signal& signal) {
   std::string text;
   const bool is_signed = signal.is_signed();
@@ -59,7 +60,7 @@ std::string integer_literal(std::int64_t raw, bool is_signed) {
   return fmt::format("std::int64_t{{{}}}", raw);
 }
 
-/// The raw bits of the member, rounded and saturated, as a std::uint64_t expression.
+/// A C++ expression of type std::uint64_t: the raw bits of the member, rounded and saturated.
 std::string pack_expression(const Message& message, const Signal& signal) {
   const std::string name = member_name(message, signal);
   const auto scaled = [&](std::string_view function, double low, double high) {
@@ -85,8 +86,8 @@ std::string pack_expression(const Message& message, const Signal& signal) {
 
 std::string raw_name(const Signal& signal) { return "raw_of_" + identifier(signal.name) + "_"; }
 
-/// A C++ condition on the raw values of the multiplexors, true if the frame holds the signal; empty: it
-/// always does.
+/// A C++ condition on the raw values of the multiplexors that is true if the frame contains the signal.
+/// Empty: every frame of the message contains the signal.
 std::string presence(const Message& message, const Signal& signal) {
   if (signal.multiplexed_by.empty()) return {};
   const Signal& multiplexor = *find_signal(message, signal.multiplexed_by);
@@ -188,7 +189,7 @@ std::string comment_line(std::string_view indent, std::string_view text) {
   std::string line;
   for (const char c : text) line += c == '\n' ? ' ' : c;
   while (line.ends_with('\\') || line.ends_with(' '))
-    line.pop_back();  // a backslash would continue the comment
+    line.pop_back();  // a backslash at the end would make the next line part of the comment
   return line.empty() ? "" : fmt::format("{}/// {}\n", indent, line);
 }
 

@@ -1,4 +1,4 @@
-// The generated struct of one message. Internal to dbcgen.
+// Generates the struct of one message. This header is internal to dbcgen.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace canhil::dbc {
 
-/// The struct, as C++.
+/// The C++ text of the struct.
 std::string message_text(const Enums& enums, const Message& message);
 
 }  // namespace canhil::dbc

@@ -51,8 +51,8 @@ std::vector<ValueName> sorted(std::vector<ValueName> values) {
   return values;
 }
 
-/// The lengths [bits] of the longest unsigned and the longest signed signal that share a type. The type must
-/// hold the raw values of both.
+/// Of the signals that share an enumeration type: the lengths [bits] of the longest unsigned and of the
+/// longest signed signal. The type must be able to represent the raw values of both.
 struct Width {
   unsigned of_unsigned = 0;
   unsigned of_signed = 0;

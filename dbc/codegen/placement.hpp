@@ -1,4 +1,4 @@
-// Where the bits of a signal lie in 64-bit words of its message.
+// The positions of a signal's bits in 64-bit words of the message.
 #pragma once
 
 #include <utility>
@@ -8,19 +8,20 @@
 
 namespace canhil::dbc {
 
-/// Up to 8 bytes of a message that generated code loads at once. The first byte is the least significant one
-/// (little-endian) or the most significant one (big-endian).
+/// Up to 8 bytes of a message that the generated code loads at once. The first byte is the least significant
+/// one if the order is little-endian, and the most significant one if it is big-endian.
 struct Word {
   unsigned first = 0;
   unsigned bytes = 8;
   ByteOrder order = ByteOrder::little_endian;
-  /// Words of one message differ in their first byte and byte order.
+  /// Compares the first byte and the byte order, in which the words of one message differ.
   friend bool operator<(const Word& a, const Word& b) {
     return std::pair(a.first, a.order) < std::pair(b.first, b.order);
   }
 };
 
-/// Maps `length` bits of a word, starting at `shift`, to the bits of the raw value that start at `raw_shift`.
+/// A piece of a signal: `length` bits of a word from bit `shift` upwards. They are the bits of the raw value
+/// from bit `raw_shift` upwards.
 struct Piece {
   Word word;
   unsigned shift = 0;
@@ -28,9 +29,9 @@ struct Piece {
   unsigned raw_shift = 0;
 };
 
-/// One piece, or two (most significant first) for a signal that touches nine bytes.
-/// A message of up to 8 bytes is one word. In a longer message the word starts at the signal's first byte,
-/// but at the latest 8 bytes before the end of the message.
+/// The pieces of a signal: one piece, or two pieces (most significant first) if the signal has bits in nine
+/// bytes. A message of up to 8 bytes is one word. In a longer message, the word starts with the first byte of
+/// the signal, but not later than 8 bytes before the end of the message.
 std::vector<Piece> pieces_of(const Message& message, const Signal& signal);
 
 }  // namespace canhil::dbc

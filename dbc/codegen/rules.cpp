@@ -33,8 +33,8 @@ std::optional<Breach> protection_breach(const Message& message) {
                             message.name)};
 }
 
-/// All messages of a sample group must answer the same groups, and each answered group must be a sample group
-/// of another node.
+/// All messages of a sample group must answer the same sample groups. Each answered group must be sent by
+/// another node.
 std::optional<Breach> answer_breach(const Database& database, const Message& message) {
   for (const std::string& group : message.answers) {
     const auto answered = std::ranges::find(database.messages, group, &Message::sample_group);

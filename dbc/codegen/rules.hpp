@@ -1,5 +1,5 @@
-// Rules that canhil's contract must keep in addition to the DBC format: protection of messages, and
-// resolution of signals relative to sensor noise.
+// The rules that canhil's contract must follow in addition to those of the DBC format. They are about the
+// protection of messages, the answers, and the resolution of signals relative to the sensor noise.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@ namespace canhil::dbc {
 
 struct Breach {
   Position at;
-  std::string what;  ///< one line: what, expected ...
+  std::string what;  ///< one line that states what is wrong and what is expected
 };
 
-/// The first breach, or none.
+/// The first breach of a rule; nullopt: the database follows all rules.
 std::optional<Breach> find_breach(const Database& database);
 
-/// A table row for every measurement: signal, LSB, sensor sigma, (LSB / sqrt 12) / sigma, whether the
-/// rounding remainder is carried to the next sample, verdict.
+/// A table with a row for every measurement. The columns are: signal; LSB; sensor sigma; (LSB / sqrt 12) /
+/// sigma; whether the remainder of the rounding is added to the next sample; verdict.
 std::string quantisation_table(const Database& database);
 
 }  // namespace canhil::dbc

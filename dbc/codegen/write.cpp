@@ -111,7 +111,7 @@ std::string definitions_text(const Database& database) {
   return text + defaults;
 }
 
-// An enumeration's value is written as the index of its label.
+// The text of an attribute value. The value of an enumeration is written as the index of its label.
 std::string given_text(const Database& database, Owner owner, const std::string& name,
                        const AttributeValue& value) {
   const auto definition = std::ranges::find_if(database.definitions, [&](const AttributeDefinition& one) {

@@ -1,4 +1,4 @@
-// Database -> DBC text.
+// Converts a Database to the text of a DBC file.
 #pragma once
 
 #include <string>
@@ -7,8 +7,9 @@
 
 namespace canhil::dbc {
 
-/// The text of a database; parse() of it returns an equal database with another hash. Omits multiplexing,
-/// further senders, environment variables and relation attributes, which canhil's contracts do not use.
+/// The text of a database. If the text is parsed, the result is an equal database, only with another hash.
+/// Multiplexing, further senders, environment variables and relation attributes are omitted, because canhil's
+/// contracts do not use them.
 std::string dbc_text(const Database& database);
 
 }  // namespace canhil::dbc

@@ -83,7 +83,7 @@ Option Command::add_number(const std::string& name, std::optional<std::uint64_t>
 
 Option Command::add_flag_or_number(const std::string& name, std::optional<int>& value,
                                    const std::string& help, int usual, int least, int most) const {
-  // CLI11 passes this text for an option that is given without a value.
+  // CLI11 passes this text if the user gives the option without a value.
   constexpr std::string_view missing = "true";
   const auto read = [&value, name, usual, least, most, missing](const std::string& text) {
     value = text.empty() || text == missing ? usual : read_number<int>(name, text, least, most);

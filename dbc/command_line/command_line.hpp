@@ -1,5 +1,5 @@
-// The command line of all programs. This header hides CLI11, which takes seconds to compile: only
-// command_line.cpp includes it.
+// The command line of all programs. This header hides CLI11, which takes seconds to compile. Only
+// command_line.cpp includes CLI11.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class Option;
 
 namespace canhil::command_line {
 
-/// An option or argument. The command owns it.
+/// An option or argument of a command. The Command owns the underlying CLI11 object.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
@@ -27,55 +27,58 @@ class Option {
   Option required() const;
   Option needs(Option other) const;
   Option excludes(Option other) const;
-  /// Each occurrence takes exactly one value; later words remain arguments.
+  /// Each occurrence of the option has exactly one value. The words after that value are arguments of the
+  /// command.
   Option one_word_each() const;
-  /// Takes exactly `count` values.
+  /// The option has exactly `count` values.
   Option words(int count) const;
   Option one_of(std::vector<std::string> words) const;
-  /// Valid only after parsing.
+  /// May be called only after parsing.
   [[nodiscard]] bool given() const;
 
  private:
   CLI::Option* option_;
 };
 
-/// A program or one of its subcommands. The Program owns it. Variables that options write to must outlive
-/// parsing.
+/// A program or one of its subcommands. The Program owns the underlying CLI11 object. The variables to which
+/// options write must exist until parsing has ended.
 class Command {
  public:
   explicit Command(CLI::App* command) : command_(command) {}
 
-  /// "--name", "-n,--name", or "NAME": an argument.
+  /// `name` is "--name" or "-n,--name" for an option, "NAME" for an argument.
   Option add_option(const std::string& name, std::string& value, const std::string& help) const;
   Option add_option(const std::string& name, std::vector<std::string>& value, const std::string& help) const;
   Option add_flag(const std::string& name, bool& value, const std::string& help) const;
 
-  /// A decimal whole number from `least` to `most`; anything else is rejected with one line. CLI11's own
-  /// parser follows strtoull: it reads -1 as a large number and 010 as eight, and clips large numbers.
+  /// The value must be a decimal whole number from `least` to `most`; anything else is rejected with one
+  /// line. CLI11's own parser is not used, because it follows strtoull: it reads -1 as a large number and 010
+  /// as eight, and clips large numbers.
   Option add_number(const std::string& name, std::optional<int>& value, const std::string& help, int least,
                     int most) const;
   Option add_number(const std::string& name, std::optional<std::uint64_t>& value, const std::string& help,
                     std::uint64_t least = 0,
                     std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
-  /// A flag that a whole number from `least` to `most` may follow; without a number the value is `usual`.
+  /// A flag after which a whole number from `least` to `most` may follow. If no number follows, the value is
+  /// `usual`.
   Option add_flag_or_number(const std::string& name, std::optional<int>& value, const std::string& help,
                             int usual, int least, int most) const;
-  /// A decimal number from `least` to `most`; "nan" is rejected.
+  /// The value must be a decimal number from `least` to `most`; "nan" is rejected.
   Option add_number(const std::string& name, double& value, const std::string& help, double least,
                     double most) const;
 
   Command add_subcommand(const std::string& name, const std::string& help) const;
   void require_subcommands(std::size_t least, std::size_t most) const;
-  /// Sets a callback that runs at the end of parsing if this command was given. Callbacks of subcommands run
-  /// first.
+  /// Sets a callback that runs at the end of parsing if the user gave this command. The callbacks of
+  /// subcommands run before it.
   void on_given(std::function<void()> callback) const;
 
-  /// Valid only after parsing.
+  /// May be called only after parsing.
   [[nodiscard]] bool subcommand_given() const;
 
   [[nodiscard]] std::string name() const;
   [[nodiscard]] std::vector<Command> subcommands() const;
-  /// "--json", "--help" and so on.
+  /// The names of the options, such as "--json" and "--help".
   [[nodiscard]] std::vector<std::string> long_options() const;
 
  private:
@@ -85,16 +88,18 @@ class Command {
 class Program : public Command {
  public:
   explicit Program(const std::string& help);
-  Program(const std::string& help, const std::string& version);  // with --version
+  Program(const std::string& help, const std::string& version);  // adds the option --version
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Makes every option and argument, including those of subcommands, reject '' and words that begin with
-  /// "--" as its value. Call it after adding all options, arguments and subcommands.
+  /// Makes every option and argument, including those of subcommands, reject two kinds of values: the empty
+  /// string and words that begin with "--". Call refuse_no_values() after all options, arguments and
+  /// subcommands have been added.
   void refuse_no_values();
 
-  /// Error: what was wrong, in one line. An exit code if help or the version was requested and printed.
+  /// Parses the command line. The error is one line that states what was wrong. If the user requested help or
+  /// the version, prints it and returns an exit code.
   Result<std::optional<int>> parse(int argc, const char* const* argv);
 
  private:
@@ -103,14 +108,16 @@ class Program : public Command {
   std::unique_ptr<CLI::App> app_;
 };
 
-/// Replaces control characters in a message by '?': file names may contain line breaks and escape sequences.
+/// Replaces control characters in a message by '?', because file names may contain line breaks and escape
+/// sequences.
 std::string one_line(std::string message);
 
-/// The exit code of a program that ends with `code`. If writing to standard output failed, prints a line on
-/// stderr and returns 2. If `code` is 2, the program has printed its error line already.
+/// Returns the exit code of a program that ends with `code`. If writing to standard output failed, prints a
+/// line on stderr and returns 2. It prints no line if `code` is 2, because the program has then printed an
+/// error line already.
 int finish(const char* program, int code);
 
-/// For callbacks: ends parsing with the error "WHAT is required".
+/// Ends parsing with the error "WHAT is required". May be called by callbacks of on_given().
 [[noreturn]] void throw_required(const std::string& what);
 
 }  // namespace canhil::command_line

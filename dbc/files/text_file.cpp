@@ -23,7 +23,8 @@ Result<std::string> read_text_file(const std::filesystem::path& path, std::strin
                                std::generic_category().message(reason), kind));
   };
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return unreadable(EISDIR);  // opening it would succeed
+  if (std::filesystem::is_directory(path, ignored))
+    return unreadable(EISDIR);  // opening a directory would succeed
   std::ifstream file(path, std::ios::binary);
   if (!file) return unreadable(errno);
   std::string content;

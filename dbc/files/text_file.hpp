@@ -1,4 +1,4 @@
-// Reads the files that a user names: DBC, scenarios and campaigns, reports.
+// Reads text files whose paths the user gives: DBC files, scenarios, campaigns, reports.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,12 @@
 
 namespace canhil {
 
-/// 2^20 bytes.
+/// The number of bytes in a mebibyte.
 inline constexpr std::size_t mebibyte = std::size_t{1} << 20U;
 
-/// The content of a file, a pipe or a device. Reads at most `most_bytes`, as a device may have no end. Error:
-/// one line with the path, the reason (unreadable, or more than `most_bytes`) and the expected `kind`.
+/// The content of a file, a pipe or a device. Reads at most `most_bytes`, because a device may have no end.
+/// The error is one line with the path, the reason (unreadable, or more than `most_bytes`) and `kind`, the
+/// kind of file that is expected.
 Result<std::string> read_text_file(const std::filesystem::path& path, std::string_view kind,
                                    std::size_t most_bytes);
 

@@ -1,4 +1,4 @@
-// The name of a file while it is being written.
+// The temporary name of a file, which is used until the file is complete.
 #pragma once
 
 #include <unistd.h>
@@ -7,7 +7,8 @@
 
 namespace canhil {
 
-/// Unique to this process: two processes that write to the same path must not share a temporary file.
+/// The name contains the process id, so that two processes that write to the same path use different
+/// temporary files.
 inline std::string unfinished_name(const std::string& path) {
   return path + "." + std::to_string(getpid()) + ".part";
 }

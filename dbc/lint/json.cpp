@@ -25,7 +25,7 @@ std::string to_json(const std::vector<Linted>& files) {
                      {"signals", linted.signals},
                      {"findings", findings}});
   }
-  // A file name may contain bytes that are not UTF-8.
+  // A file name may contain bytes that are not UTF-8; dump() replaces them.
   return ordered_json{{"files", pages}}.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,5 @@
-// Static Analysis Results Interchange Format 2.1.0, OASIS standard of 27 March 2020.
+// Writes findings in the Static Analysis Results Interchange Format (SARIF) 2.1.0, OASIS standard of 27 March
+// 2020.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -12,7 +13,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A path as a URI reference (RFC 3986), percent-encoded; an absolute path becomes a file:// URI.
+/// Converts a path to a URI reference (RFC 3986) with percent-encoding. An absolute path becomes a file://
+/// URI.
 std::string uri_of(const std::string& path) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
   std::string uri = path.starts_with('/') ? "file://" : "";

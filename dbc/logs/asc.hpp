@@ -1,11 +1,11 @@
-// Vector's ASCII log: a header, then one event per line. Events other than frames are ignored.
+// Vector's ASCII log: a header, then one event per line. Events that are not frames are ignored.
 //     date Tue Nov 24 08:12:13.000 2026
 //     base hex  timestamps absolute
 //     internal events logged
 //     Begin Triggerblock Tue Nov 24 08:12:13.000 2026
 //        0.249713 1  7DF             Rx   d 8 02 01 0D 00 00 00 00 00
 //        0.250000 CANFD   1 Tx        1FFx  1 0 9 12 00 01 ...
-// Channels are numbers from 1; a comment "// channel 1: can0" keeps the name of the interface.
+// Channels are numbered from 1. A comment such as "// channel 1: can0" contains the name of the interface.
 #pragma once
 
 #include <map>
@@ -20,7 +20,8 @@ namespace canhil::logs {
 /// Parses a log line by line.
 class AscParser {
  public:
-  /// The frame in a line; none: the line holds no frame or a remote frame. Error: what was expected.
+  /// The frame in a line; nullopt: the line contains no frame, or a remote frame. The error states what was
+  /// expected.
   Result<std::optional<LogEntry>> line(std::string_view text);
 
  private:
@@ -34,9 +35,9 @@ class AscParser {
   [[nodiscard]] std::string interface_of(unsigned channel) const;
 
   int base_ = 16;
-  bool relative_ = false;      // each time is relative to the previous event
-  std::int64_t start_ns_ = 0;  // of the trigger block
-  std::int64_t last_ns_ = 0;   // of the last event, relative to start_ns_
+  bool relative_ = false;      // true: each time is relative to the previous event
+  std::int64_t start_ns_ = 0;  // start of the trigger block
+  std::int64_t last_ns_ = 0;   // time of the last event, relative to start_ns_
   std::map<unsigned, std::string> names_;
 };
 

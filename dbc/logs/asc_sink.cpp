@@ -11,7 +11,7 @@
 namespace canhil::logs {
 namespace {
 
-// In local time: the format has no time zone.
+// The date in local time, because the format has no time zone.
 std::string date(std::int64_t s) {
   return fmt::format("{:%a %b %d %H:%M:%S}.000 {:%Y}", fmt::localtime(s), fmt::localtime(s));
 }
@@ -32,8 +32,8 @@ class AscSink final : public LogSink {
     if (!begun_) begin(entry.t_ns);
     const std::size_t channel = channel_of(entry.interface);
     const Frame& frame = entry.frame;
-    // The format cannot express times before the start of the log, which is the full second of the first
-    // frame. A frame with an earlier stamp gets the time 0.
+    // The log starts at the full second of the first frame. The format cannot express earlier times, so a
+    // frame with an earlier stamp gets the time 0.
     const std::int64_t since_us = std::max<std::int64_t>(entry.t_ns - start_s_ * ns_per_s, 0) / 1000;
     std::string line = fmt::format("{:4}.{:06} ", since_us / 1'000'000, since_us % 1'000'000);
     const std::string_view direction = entry.transmitted ? "Tx" : "Rx";

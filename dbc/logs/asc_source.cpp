@@ -40,7 +40,7 @@ std::optional<Number> number_of(std::string_view word, int base) {
   return value;
 }
 
-// "12.345678" as nanoseconds.
+// Converts a time in seconds, such as "12.345678", to nanoseconds.
 std::optional<std::int64_t> time_of(std::string_view word) {
   const std::size_t dot = word.find('.');
   if (dot == std::string_view::npos) return std::nullopt;
@@ -52,11 +52,12 @@ std::optional<std::int64_t> time_of(std::string_view word) {
   return std::int64_t{*seconds} * ns_per_s + *ns;
 }
 
-// With these limits, the start of a log plus the time of an event since then is below 2^63 ns.
+// With these limits, the start of a log plus the time of an event relative to the start is below 2^63 ns.
 constexpr int last_year = 2200;
 constexpr std::int64_t longest_ns = 1'000'000'000 * ns_per_s;
 
-// "Tue Nov 24 08:12:13.500 2026" and "Tue Nov 24 08:12:13.500 am 2026", in local time.
+// Converts a date in local time to ns since 1970. Formats: "Tue Nov 24 08:12:13.500 2026" and "Tue Nov 24
+// 08:12:13.500 am 2026".
 std::optional<std::int64_t> date_of(std::span<const std::string_view> words) {
   constexpr std::array months{"jan", "feb", "mar", "apr", "may", "jun",
                               "jul", "aug", "sep", "oct", "nov", "dec"};
@@ -71,8 +72,8 @@ std::optional<std::int64_t> date_of(std::span<const std::string_view> words) {
   const auto hour = number_of<int>(clock.substr(0, 2), 10), minute = number_of<int>(clock.substr(3, 2), 10);
   const auto since = time_of(std::string(clock.substr(6)) + (clock.size() == 8 ? ".0" : ""));
   if (!hour || !minute || !since) return std::nullopt;
-  // python-can 4.1 removes the last digits of the microseconds wherever these digits occur in the date. So
-  // the year may be "2" in place of "2026".
+  // python-can 4.1 shortens microseconds to milliseconds by a text replacement that also removes the same
+  // digits elsewhere in the date. So the year may be "2" instead of "2026".
   const auto within = [](int value, int least, int most) { return least <= value && value <= most; };
   if (!within(*year, 1970, last_year) || !within(*day, 1, 31) || !within(*hour, 0, 23) ||
       !within(*minute, 0, 59) || *since >= 61 * ns_per_s)
@@ -116,7 +117,7 @@ Result<void> AscParser::read_data(std::span<const std::string_view> words, std::
   return {};
 }
 
-// ID DIRECTION d DLC BYTES...
+// The format of a classic frame: ID DIRECTION d DLC BYTES...
 Result<void> AscParser::read_classic(std::span<const std::string_view> words, LogEntry& entry) const {
   const auto dlc = words.size() > 3 ? number_of<std::size_t>(words[3], 16) : std::nullopt;
   if (!read_id(words[0], entry.frame)) return failure("an id");
@@ -125,7 +126,7 @@ Result<void> AscParser::read_classic(std::span<const std::string_view> words, Lo
   return read_data(words.subspan(4), std::min<std::size_t>(*dlc, 8), entry.frame);
 }
 
-// DIRECTION ID [NAME] BRS ESI DLC SIZE BYTES...
+// The format of an FD frame: DIRECTION ID [NAME] BRS ESI DLC SIZE BYTES...
 Result<void> AscParser::read_fd(std::span<const std::string_view> words, LogEntry& entry) const {
   entry.transmitted = same(words[0], "tx");
   if (!read_id(words[1], entry.frame)) return failure("an id");
@@ -152,17 +153,17 @@ Result<std::optional<LogEntry>> AscParser::event(const std::vector<std::string_v
   const auto channel = words.size() > 3 || (words.size() > 2 && !fd)
                            ? number_of<unsigned>(words[fd ? 2 : 1], 10)
                            : std::nullopt;
-  if (!channel) return std::optional<LogEntry>();  // "Start of measurement", "log trigger event"
+  if (!channel) return std::optional<LogEntry>();  // not a frame, such as "Start of measurement"
   const std::span<const std::string_view> rest(words.begin() + (fd ? 3 : 2), words.end());
   LogEntry entry{.t_ns = start_ns_ + last_ns_, .interface = interface_of(*channel), .frame = {}};
   const std::size_t first = fd && is_direction(rest[0]) ? 1 : 0;
   if (rest.size() > first && same(rest[first], "errorframe")) {
-    constexpr std::uint32_t bus_error = 0x80;  // CAN_ERR_BUSERROR: the format has no further detail
+    constexpr std::uint32_t bus_error = 0x80;  // CAN_ERR_BUSERROR; the format has no details of the error
     entry.frame = {.id = bus_error, .size = 8, .error = true};
     return std::optional(std::move(entry));
   }
   if (rest.size() < 3 || !is_direction(rest[fd ? 0 : 1]))
-    return std::optional<LogEntry>();  // "Statistic: ..."
+    return std::optional<LogEntry>();  // not a frame, such as "Statistic: ..."
   if (!fd && same(rest[2], "r")) return std::optional<LogEntry>();
   if (!fd && !same(rest[2], "d")) return failure("'d' or 'r' after the direction");
   if (auto read = fd ? read_fd(rest, entry) : read_classic(rest, entry); !read)
@@ -170,7 +171,7 @@ Result<std::optional<LogEntry>> AscParser::event(const std::vector<std::string_v
   return std::optional(std::move(entry));
 }
 
-// True if the line belongs to the header.
+// Reads a line of the header; false: the line does not belong to the header.
 bool AscParser::header(std::string_view text, const std::vector<std::string_view>& words) {
   constexpr std::string_view channel = "// channel ";
   if (text.starts_with(channel)) {

@@ -14,9 +14,9 @@ namespace {
 
 using logs::ns_per_s;
 constexpr unsigned flag_brs = 1;
-constexpr unsigned flag_fd = 4;  // Linux 6.1 and later set it in every FD frame, and candump shows it
+constexpr unsigned flag_fd = 4;  // Linux 6.1 and later set this flag in every FD frame, and candump shows it
 
-/// Scans a line and remembers the position of the first error.
+/// Reads a line from left to right, and stores the position of the first error.
 class Cursor {
  public:
   explicit Cursor(std::string_view line) : line_(line) {}
@@ -37,7 +37,7 @@ class Cursor {
   }
   void require(char c, const char* what) { expect(accept(c), what); }
 
-  /// The characters up to the first for which `is_kind` is false.
+  /// The characters before the first one for which `is_kind` returns false.
   template <class Kind>
   std::string_view run(Kind is_kind) {
     const std::size_t start = at_;
@@ -123,7 +123,8 @@ void parse_data(Cursor& cursor, Frame& frame) {
   }
 }
 
-// A remote frame requests data and carries none: "(1.000000) can0 123#R8". A DBC describes no remote frames.
+// True for a remote frame, such as "(1.000000) can0 123#R8". A remote frame requests data and carries none. A
+// DBC does not describe remote frames.
 bool is_remote(std::string_view line) {
   const std::size_t hash = line.find('#');
   return hash != std::string_view::npos && line.substr(hash + 1).starts_with('R');
@@ -193,8 +194,8 @@ class CandumpSource final : public LogSource {
       if (is_remote(text)) continue;
       auto entry = parse_log_line(text, lines_.where());
       if (!entry) return tl::unexpected(entry.error());
-      // If the recorder was killed, the last line may end between two data bytes and would be read as a
-      // shorter frame.
+      // If the recording program was killed, the last line may end between two data bytes. Such a line must
+      // not be read as a shorter frame.
       if (!(*line)->ended)
         return failure(fmt::format("{}:{}: expected the end of the line: the log is cut", lines_.where(),
                                    text.size() + 1));

@@ -10,7 +10,8 @@
 namespace canhil::logs {
 
 void LineWriter::write(std::string_view text) {
-  if (error_ != 0 || !file_) return;  // after an error: a log may end early, but must have no gap
+  if (error_ != 0 || !file_)
+    return;  // after an error, write nothing more: a log may end early, but must have no gap
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) error_ = errno;
 }
 
@@ -30,19 +31,19 @@ Result<std::optional<LineReader::Line>> LineReader::next() {
     if (length == 0) return std::optional<Line>();
   }
   ++number_;
-  if (!file_.eof() && read) --length;  // gcount() includes the line end
+  if (!file_.eof() && read) --length;  // gcount() counts the line end too
   if (length > longest_line) {
     return failure(
         fmt::format("{}: is longer than {} characters, expected a line of a log", where(), longest_line));
   }
   Line line{.text = {line_.data(), length}, .ended = !file_.eof()};
-  if (line.text.ends_with('\r')) line.text.remove_suffix(1);  // Windows line end
+  if (line.text.ends_with('\r')) line.text.remove_suffix(1);  // line end of Windows
   return std::optional(line);
 }
 
 Result<std::string> beginning_of(const std::string& path, std::size_t most) {
   std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(path, ignored);  // opening it would succeed
+  const bool is_folder = std::filesystem::is_directory(path, ignored);  // opening a directory would succeed
   std::ifstream file(path, std::ios::binary);
   if (!file || is_folder)
     return failure(fmt::format("cannot read log '{}': {}", path, std::strerror(is_folder ? EISDIR : errno)));

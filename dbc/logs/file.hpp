@@ -1,4 +1,4 @@
-// File access that the log formats share.
+// Access to files, used by all log formats.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// Writes lines, buffered.
+/// Writes lines to a file, through a buffer.
 class LineWriter {
  public:
   explicit LineWriter(File file) : file_(std::move(file)) {}
   void write(std::string_view text);
-  /// The errno of the first error; 0: none.
+  /// Closes the file. Returns the errno of the first error; 0: there was no error.
   int close();
 
  private:
@@ -33,22 +33,23 @@ class LineWriter {
   int error_ = 0;
 };
 
-/// Reads lines of a limited length, without their ends.
+/// Reads lines of a limited length. The returned lines have no line end.
 class LineReader {
  public:
   explicit LineReader(const std::string& path) : file_(path), path_(path) {}
 
   struct Line {
     std::string_view text;
-    bool ended = true;  ///< false: the file ends without a line end
+    bool ended = true;  ///< false: this is the last line, and it has no line end
   };
-  /// None at the end of the file. The text is valid until the next call.
+  /// The next line; nullopt: the file has ended. The text is valid until the next call.
   Result<std::optional<Line>> next();
-  /// "FILE:LINE" of the last line read.
+  /// "FILE:LINE" of the line that was read last.
   [[nodiscard]] std::string where() const;
 
  private:
-  /// In characters. The limit is generous: a line with a frame has about 200.
+  /// The largest length of a line, in characters. It is generous: a line with a frame has about 200
+  /// characters.
   static constexpr std::size_t longest_line = 4096;
 
   std::ifstream file_;
@@ -57,7 +58,8 @@ class LineReader {
   std::size_t number_ = 0;
 };
 
-/// The first characters of a file, at most `most`. Error: one line; the file cannot be read.
+/// The first characters of a file, at most `most` of them. Returns an error of one line if the file cannot be
+/// read.
 Result<std::string> beginning_of(const std::string& path, std::size_t most);
 
 }  // namespace canhil::logs

@@ -1,4 +1,4 @@
-// The log formats; each has its own source file.
+// Readers and writers of the log formats. Each format has its own source files.
 #pragma once
 
 #include "dbc/logs/file.hpp"
@@ -13,7 +13,7 @@ std::unique_ptr<LogSink> asc_sink(File file);
 std::unique_ptr<LogSource> asc_source(const std::string& path);
 
 std::unique_ptr<LogSink> pcap_sink(File file);
-/// Error: one line; the capture cannot be read, or its link type is not SocketCAN.
+/// Returns an error of one line if the capture cannot be read, or if its link type is not SocketCAN.
 Result<std::unique_ptr<LogSource>> pcap_source(const std::string& path);
 
 }  // namespace canhil::logs

@@ -14,8 +14,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// How captures begin: pcap with stamps in microseconds (little endian, big endian), pcap with stamps in
-// nanoseconds (the same), pcapng.
+// The first bytes of captures: pcap with stamps in microseconds (little-endian, big-endian); pcap with stamps
+// in nanoseconds (little-endian, big-endian); pcapng.
 constexpr std::array captures{"\xD4\xC3\xB2\xA1"sv, "\xA1\xB2\xC3\xD4"sv, "\x4D\x3C\xB2\xA1"sv,
                               "\xA1\xB2\x3C\x4D"sv, "\x0A\x0D\x0D\x0A"sv};
 
@@ -23,7 +23,7 @@ bool is_capture(std::string_view beginning) {
   return std::ranges::any_of(captures, [&](std::string_view magic) { return beginning.starts_with(magic); });
 }
 
-// An ASC header begins with comments, the date or the number base.
+// The header of an ASC log begins with a comment, the date or the number base.
 bool is_asc(std::string_view beginning) {
   return beginning.starts_with("date ") || beginning.starts_with("base ") || beginning.starts_with("//");
 }

@@ -1,10 +1,10 @@
-// Recorded frames in files of three formats. A writer chooses the format by the file's name, a reader by the
-// file's content:
-//   *.pcap   libpcap's, link type SocketCAN, stamps in nanoseconds: tcpdump, Wireshark, tshark. Does not
-//            record interface names or the sender of a frame
-//   *.asc    Vector's ASCII log, stamps in microseconds: CANoe, CANalyzer, python-can. Records only the time
-//            of an error frame
-//   others   candump's (candump.hpp), stamps in microseconds: can-utils, python-can
+// Logs of frames, in files of three formats. A writer chooses the format by the name of the file, a reader by
+// the content of the file:
+//   *.pcap   libpcap's format with link type SocketCAN, stamps in nanoseconds; for tcpdump, Wireshark and
+//            tshark. Contains neither the names of interfaces nor whether the recorder sent a frame
+//   *.asc    Vector's ASCII log, stamps in microseconds; for CANoe, CANalyzer and python-can. Contains only
+//            the time of an error frame
+//   others   candump's format (candump.hpp), stamps in microseconds; for can-utils and python-can
 #pragma once
 
 #include <cstdint>
@@ -20,43 +20,45 @@ namespace canhil {
 
 /// One frame of a log.
 struct LogEntry {
-  std::int64_t t_ns = 0;  ///< CLOCK_REALTIME
+  std::int64_t t_ns = 0;  ///< time stamp of CLOCK_REALTIME
   std::string interface;
   Frame frame;
-  bool transmitted = false;  ///< sent by the recorder itself
+  bool transmitted = false;  ///< true: the recorder itself sent the frame
 };
 
-/// Writes one format.
+/// Base class: writes a log in one format.
 class LogSink {
  public:
   LogSink() = default;
   LogSink(const LogSink&) = delete;
   LogSink& operator=(const LogSink&) = delete;
   virtual ~LogSink() = default;
-  /// Appends an entry; an error shows in close().
+  /// Appends an entry. If this fails, close() returns the error.
   virtual void write(const LogEntry& entry) = 0;
-  /// The errno of the error that stopped writing; 0: everything is written.
+  /// Ends the log. Returns the errno of the error after which nothing more was written; 0: everything was
+  /// written.
   virtual int close() = 0;
 };
 
-/// Reads one format.
+/// Base class: reads a log of one format.
 class LogSource {
  public:
   LogSource() = default;
   LogSource(const LogSource&) = delete;
   LogSource& operator=(const LogSource&) = delete;
   virtual ~LogSource() = default;
-  /// The next entry; none at the end. Error: one line with its place.
+  /// The next entry; nullopt: the log has ended. The error is one line that states the position in the file.
   virtual Result<std::optional<LogEntry>> next() = 0;
 };
 
-/// Writes a log, buffered. A write that fails (disk full) makes close() fail.
+/// Writes a log, through a buffer. If a write fails (for example because the disk is full), close() returns
+/// the error.
 class LogWriter {
  public:
-  /// `final_name`: the name to which the caller will rename the file; it determines the format and appears in
-  /// messages; empty: `path`.
+  /// Creates the file `path`. The caller may rename the file to `final_name` later. This name (or `path`, if
+  /// `final_name` is empty) determines the format and appears in error messages.
   static Result<LogWriter> create(const std::string& path, const std::string& final_name = {});
-  /// Appends an entry; an error shows in close().
+  /// Appends an entry. If this fails, close() returns the error.
   void write(const LogEntry& entry) { sink_->write(entry); }
   /// Flushes the buffer and ends the log.
   Result<void> close();
@@ -69,12 +71,14 @@ class LogWriter {
   std::string path_;
 };
 
-/// Reads a log; a malformed line is an error. Remote frames are skipped: a DBC describes none.
+/// Reads a log. A malformed line is an error. Remote frames are skipped, because a DBC does not describe
+/// them.
 class LogReader {
  public:
-  /// Opens a log; its first bytes decide the format. Error: one line.
+  /// Opens a log. The first bytes of the file determine the format. An error is one line.
   static Result<LogReader> open(const std::string& path);
-  /// The next entry; none at the end. Error: "FILE:LINE:COLUMN: ...", for pcap "FILE: packet N: ...".
+  /// The next entry; nullopt: the log has ended. An error begins with "FILE:LINE:COLUMN: ..."; for pcap it is
+  /// "FILE: packet N: ...".
   Result<std::optional<LogEntry>> next() { return source_->next(); }
 
  private:

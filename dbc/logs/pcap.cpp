@@ -1,5 +1,6 @@
-// libpcap's format with link type SocketCAN (LINKTYPE_CAN_SOCKETCAN, 227): a header of eight bytes, then the
-// data. The header: id with SocketCAN's flags, big endian; length; FD flags; two zero bytes.
+// Captures in the format of libpcap, with link type SocketCAN (LINKTYPE_CAN_SOCKETCAN, 227). A packet has a
+// header of eight bytes, then the data. The header has the id with SocketCAN's flags (big-endian), the
+// length, the FD flags, and two zero bytes.
 #include "dbc/logs/pcap.hpp"
 
 #include <fmt/format.h>
@@ -31,9 +32,9 @@ class PcapSink final : public LogSink {
                                                       PCAP_TSTAMP_PRECISION_NANO)),
         dump_(pcap_dump_fopen(capture_.get(), file.get())) {
     if (dump_ != nullptr)
-      static_cast<void>(file.release());  // the dumper closes it
+      static_cast<void>(file.release());  // dump_ closes the file
     else
-      error_ = errno;  // the file's header was not written
+      error_ = errno;  // the header of the file could not be written
   }
 
   void write(const LogEntry& entry) override {
@@ -49,7 +50,7 @@ class PcapSink final : public LogSink {
     const auto size = static_cast<bpf_u_int32>(header_size + frame.size);
     pcap_pkthdr header{};
     header.ts.tv_sec = entry.t_ns / ns_per_s;
-    header.ts.tv_usec = entry.t_ns % ns_per_s;  // nanoseconds: the capture's precision
+    header.ts.tv_usec = entry.t_ns % ns_per_s;  // in nanoseconds, which is the precision of the capture
     header.caplen = header.len = size;
     pcap_dump(reinterpret_cast<u_char*>(dump_), &header, packet.data());
     if (std::ferror(pcap_dump_file(dump_)) != 0) error_ = errno;

@@ -1,4 +1,4 @@
-// Packets of SocketCAN captures.
+// Decodes packets of SocketCAN captures.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace canhil::logs {
 
-/// The frame in a packet; none: a remote frame. Error: what is wrong with the packet.
+/// The frame in a packet; nullopt: it is a remote frame. The error states what is wrong with the packet.
 Result<std::optional<Frame>> frame_of_packet(std::span<const std::uint8_t> packet);
 
 }  // namespace canhil::logs

@@ -1,4 +1,4 @@
-// The sections for named values, comments and environment variables.
+// Reads the sections with named values, comments and environment variables.
 #include <fmt/format.h>
 
 #include <set>

@@ -1,4 +1,4 @@
-// Attributes: their definitions, defaults and values.
+// Reads the sections with the definitions, defaults and values of attributes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,8 @@ std::string_view name_of(Owner owner) {
 
 bool is_relation(Owner owner) { return owner >= Owner::node_message; }
 
-/// Takes the next keyword and returns its owner; the network if there is no keyword.
+/// Reads a keyword such as BO_, and returns the kind of object that it means. If the next token is no
+/// keyword, the attribute belongs to the network.
 Owner read_owner(Reader& in, bool relation) {
   Owner owner = Owner::network;
   if (in.peek().kind == TokenKind::word) {
@@ -60,7 +61,7 @@ std::string joined(const std::vector<std::string>& labels) {
   return fmt::format("\"{}\"", fmt::join(labels, "\", \""));
 }
 
-/// An enumeration's value is written as its label or as its number.
+/// Reads the value of an enumeration. The text has either the label or its number.
 AttributeValue read_label(Reader& in, const AttributeDefinition& definition) {
   const Position at = in.peek().at;
   std::string label;
@@ -173,7 +174,7 @@ void read_default(Reader& in, Draft& draft, bool relation) {
     fail_at(Rule::duplicate_default, at,
             fmt::format("default of attribute \"{}\" a second time, expected it once", definition.name));
   }
-  // Tools write "" for an enumeration without a default.
+  // Some tools write "" if an enumeration has no default.
   const bool none = definition.type == AttributeType::enumeration && in.peek().kind == TokenKind::string &&
                     in.peek().text.empty();
   if (none) {

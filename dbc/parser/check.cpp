@@ -1,4 +1,5 @@
-// Checks that need the whole text: the meaning of attributes, multiplexing, and the layout of every message.
+// Checks that are possible only after the whole text has been read: the meaning of attributes, the
+// multiplexing, and the layout of every message.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,8 +17,8 @@
 namespace canhil::dbc {
 namespace {
 
-/// Finds attributes like find_attribute(), but in logarithmic time: a DBC may have tens of thousands of
-/// messages, signals and definitions.
+/// Finds the same values as find_attribute(), but in logarithmic time, because a DBC may have tens of
+/// thousands of messages, signals and definitions.
 class Defaults {
  public:
   explicit Defaults(const Database& database) {
@@ -45,7 +46,7 @@ Value attribute_or(const Defaults& defaults, const Attributes& attributes, Owner
   return typed != nullptr ? *typed : otherwise;
 }
 
-/// A number of any type, as double.
+/// The value of a numeric attribute as double; 0 if the attribute is absent or not a number.
 double number_or_zero(const Defaults& defaults, const Attributes& attributes, Owner owner,
                       std::string_view name) {
   const AttributeValue* value = defaults.find(attributes, owner, name);
@@ -122,13 +123,13 @@ void check_size(Findings& findings, Message& message) {
   }
 }
 
-/// Checks length, scale and limits of a signal; removes impossible limits. False: the length is outside 1..64
-/// bits, so the signal cannot be decoded.
+/// Checks the length, the scale and the limits of a signal, and removes impossible limits. False: the length
+/// is not 1..64 bits, so the signal cannot be decoded.
 bool check_numbers(Findings& findings, const Message& message, Signal& signal) {
   const std::string name = full_name(message, signal);
   const auto find = [&](Rule rule, std::string what) { findings.add(rule, signal.at, std::move(what)); };
   const auto drop_limits = [&] { signal.minimum = signal.maximum = 0; };
-  if (signal.length > 512) return false;  // reported when it was read
+  if (signal.length > 512) return false;  // a finding was added when the length was read
   if (signal.length == 0 || signal.length > 64) {
     find(Rule::signal_length, fmt::format("signal {} has {} bits, expected 1..64", name, signal.length));
     return false;
@@ -174,7 +175,8 @@ void check_values(Findings& findings, const Message& message, const Signal& sign
   }
 }
 
-/// Marks the signal's bits (byte * 8 + bit). True if all of them are inside the message.
+/// Sets those elements of `bits` (index: byte * 8 + bit) that the signal occupies. False: the signal reaches
+/// beyond the message.
 bool bits_of(const Message& message, const Signal& signal, std::bitset<512>& bits) {
   for (unsigned i = 0; i < signal.length; ++i) {
     const unsigned bit = wire::bit_position(signal.start_bit, i, signal.byte_order == ByteOrder::big_endian);
@@ -190,7 +192,7 @@ void check_layout(Findings& findings, const Message& message, LeftOut& left_out)
     const Signal& signal = message.signals[i];
     if (left_out[i]) continue;
     if (!bits_of(message, signal, bits[i])) {
-      // A start bit beyond 64 bytes was reported when it was read.
+      // For a start bit beyond 64 bytes, a finding was added when the start bit was read.
       if (signal.start_bit < bits[i].size()) {
         findings.add(
             Rule::signal_beyond_message, signal.at,
@@ -212,7 +214,8 @@ void check_layout(Findings& findings, const Message& message, LeftOut& left_out)
   }
 }
 
-/// Removes the signals marked in `left_out` from the message and from its groups.
+/// Removes the signals that are marked in `left_out` from the message and from the signal groups of the
+/// message.
 void leave_out(Message& message, const LeftOut& left_out) {
   if (std::ranges::find(left_out, true) == left_out.end()) return;
   std::vector<Signal> kept;
@@ -225,7 +228,8 @@ void leave_out(Message& message, const LeftOut& left_out) {
                   [&](const std::string& name) { return find_signal(message, name) == nullptr; });
 }
 
-/// Removes the messages that are marked as left out. By now, all sections about them have been read.
+/// Removes the messages that are marked in draft.left_out. They were kept until now, because later sections
+/// of the text could refer to them.
 void leave_out_messages(Draft& draft) {
   std::vector<Message> kept;
   for (std::size_t i = 0; i < draft.left_out.size(); ++i) {

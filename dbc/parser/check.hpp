@@ -1,4 +1,4 @@
-// Checks that need a complete message. Internal to the parser.
+// Checks that are possible only for a complete message. This header is internal to the parser.
 #pragma once
 
 #include <string>
@@ -14,12 +14,13 @@ using LeftOut = std::vector<bool>;
 /// "Message.signal"
 std::string full_name(const Message& message, const Signal& signal);
 
-/// Assigns the message's multiplexor to each multiplexed signal for which the text names none; leaves the
-/// signal out if the message has no multiplexor or several. Defined in multiplexing.cpp.
+/// Assigns the multiplexor of the message to each multiplexed signal for which the text names no multiplexor.
+/// If the message has no multiplexor or several, leaves these signals out. Defined in multiplexing.cpp, like
+/// the next two functions.
 void resolve_multiplexors(Findings& findings, Message& message, LeftOut& left_out);
-/// Checks types and values of multiplexors, and finds cycles.
+/// Checks the types and values of multiplexors. Leaves out signals that are multiplexed in a cycle.
 void check_multiplexing(Findings& findings, const Message& message, LeftOut& left_out);
-/// Leaves out each signal whose multiplexor is left out.
+/// Leaves out each signal whose multiplexor is left out, directly or by this rule.
 void leave_out_multiplexed(Findings& findings, const Message& message, LeftOut& left_out);
 
 }  // namespace canhil::dbc

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t largest_size = 64;
 
-/// A copy of the data, padded so that every window of BitPlacement fits.
+/// A copy of the data, padded with zeros to 64 bytes, because BitPlacement accesses eight bytes at once.
 struct Padded {
   explicit Padded(std::span<const std::uint8_t> data) : size(std::min(data.size(), largest_size)) {
     std::copy_n(data.begin(), size, bytes.begin());
@@ -58,7 +58,7 @@ Result<std::vector<DecodedSignal>> decode(const Message& message, std::span<cons
   const MessagePlan plan(message);
   std::vector<double> values(plan.signals());
   std::vector<DecodedSignal> decoded;
-  static_cast<void>(plan.decode(data, values));  // cannot fail: both have the right length
+  static_cast<void>(plan.decode(data, values));  // cannot fail: both arrays have the right length
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (plan.is_present(i, data)) decoded.push_back({&message.signals[i], values[i]});
   }
@@ -76,7 +76,8 @@ Result<std::vector<std::uint8_t>> encode(const Message& message, std::span<const
     by_number[static_cast<std::size_t>(signal - message.signals.data())] = value.value;
   }
   std::vector<std::uint8_t> data(message.size);
-  static_cast<void>(MessagePlan(message).encode(by_number, data));  // cannot fail: both have the right length
+  static_cast<void>(
+      MessagePlan(message).encode(by_number, data));  // cannot fail: both arrays have the right length
   return data;
 }
 

@@ -1,5 +1,5 @@
-// A codec for a DBC known only at run time: a thin layer over plan.hpp that finds signals by name. It is
-// slow; for more than a few frames use plan.hpp.
+// A codec for a DBC that is known only at run time. It finds signals by name, which makes it slow; use
+// plan.hpp to decode or encode more than a few frames.
 #pragma once
 
 #include <cstdint>
@@ -13,43 +13,46 @@
 
 namespace canhil::dbc {
 
-/// The signal's bits, right-aligned, not sign-extended. The data must hold the whole message.
+/// The bits of a signal, right-aligned, without sign extension. `data` must contain the whole message.
 std::uint64_t raw_bits(const Signal& signal, std::span<const std::uint8_t> data);
 
-/// Writes the lowest `signal.length` bits of raw; leaves other bits alone. The data must hold the whole
-/// message.
+/// Writes the lowest `signal.length` bits of `raw` into the bits of the signal, and does not change other
+/// bits. `data` must contain the whole message.
 void put_raw_bits(const Signal& signal, std::uint64_t raw, std::span<std::uint8_t> data);
 
-/// Raw bits (right-aligned) to the physical value raw * scale + offset, in the signal's unit.
+/// Converts raw bits (right-aligned) to the physical value raw * scale + offset, in the unit of the signal.
 double to_physical(const Signal& signal, std::uint64_t raw);
 
-/// Physical value to raw bits: rounded half to even, saturated to [minimum, maximum] and to what the bits can
-/// hold; NaN becomes the minimum.
+/// Converts a physical value to raw bits. The raw value is rounded half to even, and saturated to [minimum,
+/// maximum] and to the range of the signal's bits. NaN becomes the minimum.
 std::uint64_t to_raw(const Signal& signal, double value);
 
-/// The name of a raw value (right-aligned bits); empty: it has none.
+/// The name of a raw value (right-aligned bits); empty: the raw value has no name.
 std::string_view value_name(const Signal& signal, std::uint64_t raw);
 
-/// True if the frame holds the signal: every multiplexor above it has one of the values that select it.
+/// True if the frame contains the signal, i.e. if every multiplexor above the signal has a value that selects
+/// the signal.
 bool is_present(const Message& message, const Signal& signal, std::span<const std::uint8_t> data);
 
-/// A signal that a frame holds, and its physical value.
+/// A signal that a frame contains, and the physical value of the signal.
 struct DecodedSignal {
   const Signal* signal = nullptr;
   double value = 0;
 };
 
-/// The signals that a frame holds, in the order of the DBC. Error if data and message differ in length.
+/// The signals that a frame contains, in the order of the DBC. Returns an error if the length of `data` is
+/// not that of the message.
 Result<std::vector<DecodedSignal>> decode(const Message& message, std::span<const std::uint8_t> data);
 
-/// A physical value for the signal of that name.
+/// A physical value for the signal with the name `signal`.
 struct NamedValue {
   std::string_view signal;
   double value = 0;
 };
 
-/// Encodes physical values. Signals that are not named get the value 0; unused bits are 0; multiplexed
-/// signals that the multiplexors do not select are not written. Error for an unknown signal name.
+/// Encodes physical values. Signals that `values` does not name have the value 0, and unused bits are 0.
+/// Multiplexed signals that the multiplexors do not select are not written. Returns an error if the message
+/// has no signal with one of the names.
 Result<std::vector<std::uint8_t>> encode(const Message& message, std::span<const NamedValue> values);
 
 }  // namespace canhil::dbc

@@ -7,7 +7,8 @@
 namespace canhil::dbc {
 namespace {
 
-/// One condition for a signal's presence in a frame: a multiplexor above it and the values that select it.
+/// A condition for the presence of a signal in a frame: the multiplexor must have a value in one of the
+/// ranges.
 struct Condition {
   std::string_view multiplexor;
   const std::vector<MuxRange>* ranges;
@@ -32,7 +33,7 @@ bool disjoint(const std::vector<MuxRange>& a, const std::vector<MuxRange>& b) {
 
 constexpr double two_63 = 9223372036854775808.0;
 
-/// An integral double as 64 bits of two's complement, saturated to the range of the type.
+/// Converts a whole number to 64 bits (two's complement if signed), saturated to the range of the type.
 std::int64_t to_bits(double value, bool is_signed) {
   if (is_signed) {
     if (value >= two_63) return std::numeric_limits<std::int64_t>::max();
@@ -88,7 +89,8 @@ std::optional<RawRange> raw_range(const Signal& signal) {
     double first = (signal.minimum - signal.offset) / signal.scale;
     double last = (signal.maximum - signal.offset) / signal.scale;
     if (signal.scale < 0) std::swap(first, last);
-    // Limits are decimal: 1.31 / 2e-5 means 65500, but the division may yield slightly less.
+    // Limits are decimal numbers: 1.31 / 2e-5 means 65500, but the division may give a slightly smaller
+    // number.
     const auto slack = [](double x) { return 1e-9 * std::max(1.0, std::abs(x)); };
     lowest = std::max(lowest, std::ceil(first - slack(first)));
     highest = std::min(highest, std::floor(last + slack(last)));

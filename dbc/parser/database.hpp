@@ -1,4 +1,4 @@
-// The content of a DBC file, resolved and checked. parse() fills it in; the codec and dbcgen read it.
+// The content of a DBC file after all checks. parse() returns a Database; the codec and dbcgen use it.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,19 @@
 
 namespace canhil::dbc {
 
-/// A position in the text. Lines and columns count from 1; columns count characters.
+/// A position in the text of a DBC file. Lines and columns are counted from 1; a column is a character.
 struct Position {
   int line = 1;
   int column = 1;
 };
 
-/// INT and HEX: int64; FLOAT: double; STRING and ENUM (its label): string.
+/// The value of an attribute. It is an int64 for the types INT and HEX, a double for FLOAT, and a string for
+/// STRING and for ENUM (the label).
 using AttributeValue = std::variant<std::int64_t, double, std::string>;
 using Attributes = std::map<std::string, AttributeValue, std::less<>>;
 
-/// The kinds of objects that have attributes. The last three are relations between a node and another object.
+/// The kinds of objects that have attributes. The last three kinds are relations between a node and another
+/// object.
 enum class Owner : std::uint8_t {
   network,
   node,
@@ -33,7 +35,7 @@ enum class Owner : std::uint8_t {
   node_variable
 };
 
-/// The type of an attribute: INT, HEX, FLOAT, STRING, ENUM.
+/// The type of an attribute. In the order of the enumeration: INT, HEX, FLOAT, STRING, ENUM.
 enum class AttributeType : std::uint8_t { integer, hexadecimal, real, text, enumeration };
 
 /// A definition of an attribute (BA_DEF_), with its default (BA_DEF_DEF_).
@@ -41,9 +43,9 @@ struct AttributeDefinition {
   std::string name;
   Owner owner = Owner::network;
   AttributeType type = AttributeType::integer;
-  double minimum = 0;  ///< minimum and maximum both 0: no limits
+  double minimum = 0;  ///< if minimum and maximum are both 0, there are no limits
   double maximum = 0;
-  std::vector<std::string> labels;  ///< of an enumeration
+  std::vector<std::string> labels;  ///< the labels of an enumeration
   std::optional<AttributeValue> initial;
 };
 
@@ -54,7 +56,7 @@ struct ValueName {
   friend bool operator==(const ValueName&, const ValueName&) = default;
 };
 
-/// Names of raw values, in the order of the text.
+/// A table of names of raw values, in the order of the text.
 struct ValueTable {
   std::string name;
   std::vector<ValueName> values;
@@ -67,46 +69,49 @@ struct Node {
   Attributes attributes;
 };
 
-/// The order of a signal's bytes: Intel or Motorola.
+/// The byte order of a signal: Intel (little-endian) or Motorola (big-endian).
 enum class ByteOrder : std::uint8_t { little_endian, big_endian };
 /// The type of a raw value.
 enum class RawType : std::uint8_t { unsigned_integer, signed_integer, float32, float64 };
 
-/// Raw values of a multiplexor, both ends included.
+/// A range of raw values of a multiplexor; `first` and `last` are included.
 struct MuxRange {
   std::uint64_t first = 0;
   std::uint64_t last = 0;
   friend bool operator==(const MuxRange&, const MuxRange&) = default;
 };
 
-/// physical = raw * scale + offset.
+/// A signal (SG_). Its physical value is raw * scale + offset.
 struct Signal {
   std::string name;
   std::string unit;
   std::string comment;
-  unsigned start_bit = 0;  ///< DBC position of the least (Intel) or most (Motorola) significant bit
-  unsigned length = 0;     ///< bits, 1..64
+  /// The position, in the numbering of a DBC, of the least significant bit (Intel) or of the most significant
+  /// bit (Motorola).
+  unsigned start_bit = 0;
+  unsigned length = 0;  ///< number of bits, 1..64
   ByteOrder byte_order = ByteOrder::little_endian;
   RawType type = RawType::unsigned_integer;
   double scale = 1;
   double offset = 0;
-  double minimum = 0;  ///< minimum and maximum both 0: limited only by the raw value
+  double minimum = 0;  ///< if minimum and maximum are both 0, only the bits limit the value
   double maximum = 0;
   std::vector<std::string> receivers;
   std::vector<ValueName> values;
   bool multiplexor = false;
-  std::string multiplexed_by;        ///< name of the multiplexor; empty: always present
-  std::vector<MuxRange> mux_ranges;  ///< present if the multiplexor's raw value is in one of these
+  std::string multiplexed_by;  ///< name of the multiplexor; empty: the signal is always present
+  /// The signal is present if the raw value of its multiplexor is in one of these ranges.
+  std::vector<MuxRange> mux_ranges;
   Attributes attributes;
   Position at;
 
-  /// From the attributes SensorSigma and CarriesRemainder.
+  /// The values of the attributes SensorSigma and CarriesRemainder.
   double sensor_sigma = 0;
   bool carries_remainder = false;
 
-  /// True for two's complement integers.
+  /// True if the raw value is a signed integer (two's complement).
   [[nodiscard]] bool is_signed() const { return type == RawType::signed_integer; }
-  /// True for IEEE 754 numbers.
+  /// True if the raw value is a floating-point number (IEEE 754).
   [[nodiscard]] bool is_float() const { return type == RawType::float32 || type == RawType::float64; }
 };
 
@@ -120,10 +125,10 @@ struct SignalGroup {
 /// A message (BO_) with its signals.
 struct Message {
   std::string name;
-  std::uint32_t id = 0;  ///< without the flag of the extended format
+  std::uint32_t id = 0;  ///< the CAN id, without the flag that marks an extended id
   bool extended = false;
-  unsigned size = 0;   ///< bytes
-  std::string sender;  ///< empty: none (Vector__XXX)
+  unsigned size = 0;   ///< number of bytes
+  std::string sender;  ///< empty: the text names no sender (Vector__XXX)
   std::vector<std::string> further_senders;
   std::string comment;
   std::vector<Signal> signals;
@@ -131,12 +136,12 @@ struct Message {
   Attributes attributes;
   Position at;
 
-  /// From the attributes VFrameFormat, GenMsgCycleTime, E2eDataId, SampleGroup and Answers.
+  /// The values of the attributes VFrameFormat, GenMsgCycleTime, E2eDataId, SampleGroup and Answers.
   bool fd = false;
   std::int64_t cycle_time_us = 0;
   std::uint16_t e2e_data_id = 0;
   std::string sample_group;
-  std::vector<std::string> answers;  ///< sample groups, separated by spaces in the text
+  std::vector<std::string> answers;  ///< names of sample groups; in the text, spaces separate them
 };
 
 /// An environment variable (EV_).
@@ -144,27 +149,27 @@ struct EnvironmentVariable {
   std::string name;
   std::string unit;
   std::string comment;
-  int type = 0;  ///< 0 integer, 1 float, 2 string
+  int type = 0;  ///< 0: integer, 1: float, 2: string
   double minimum = 0;
   double maximum = 0;
   double initial = 0;
-  unsigned data_size = 0;  ///< ENVVAR_DATA_; 0: not a data variable
+  unsigned data_size = 0;  ///< from ENVVAR_DATA_; 0: not a data variable
   std::vector<std::string> nodes;
   std::vector<ValueName> values;
   Attributes attributes;
 };
 
-/// An attribute of a node together with a message, a signal or an environment variable.
+/// An attribute of the relation between a node and a message, a signal or an environment variable.
 struct RelationAttribute {
   std::string attribute;
   Owner owner = Owner::node_message;
   std::string node;
-  std::uint32_t message_id = 0;  ///< as in the text: bit 31 marks an extended id
-  std::string target;            ///< signal or variable
+  std::uint32_t message_id = 0;  ///< as in the text, where bit 31 marks an extended id
+  std::string target;            ///< name of the signal or of the environment variable
   AttributeValue value;
 };
 
-/// All that a DBC file says.
+/// The whole content of a DBC file.
 struct Database {
   std::string version;
   std::string comment;
@@ -175,48 +180,50 @@ struct Database {
   std::vector<AttributeDefinition> definitions;
   Attributes attributes;
   std::vector<RelationAttribute> relations;
-  std::uint64_t hash = 0;  ///< of the text, see hash()
+  std::uint64_t hash = 0;  ///< hash() of the text
 };
 
-/// The message with this id, or none.
+/// The message with this id; nullptr: there is none.
 const Message* find_message(const Database& database, std::uint32_t id, bool extended = false);
-/// The message with this name, or none.
+/// The message with this name; nullptr: there is none.
 const Message* find_message(const Database& database, std::string_view name);
-/// The signal with this name, or none.
+/// The signal with this name; nullptr: there is none.
 const Signal* find_signal(const Message& message, std::string_view name);
-/// The value that `attributes` (those of an object) give to an attribute; otherwise the default of its
-/// definition; none if there is no default.
+/// The value of the attribute `name` of an object. `attributes` are those of the object. If they do not
+/// contain the attribute, returns the default of its definition; nullptr: there is no default.
 const AttributeValue* find_attribute(const Database& database, const Attributes& attributes, Owner owner,
                                      std::string_view name);
 
-/// True for a valid time in an attribute of a message: 0 (none), or 1 us to 1e9 ms. Negative or tiny times
-/// would be mistaken for none; larger ones overflow in nanoseconds.
+/// True if `ms` is a valid time in an attribute of a message: 0 (no time), or 1 us to 1e9 ms. Negative or
+/// smaller times would be taken for 0, larger times would overflow in nanoseconds.
 bool is_message_time_ms(double ms);
-/// The range of is_message_time_ms(), for messages.
+/// The times that is_message_time_ms() accepts, as text for error messages.
 inline constexpr std::string_view message_time_range = "0 (none) or 0.001..1e9";
 
-/// True if no frame can hold both signals: both depend on one multiplexor, and no value of it selects both.
+/// True if no frame can contain both signals: both depend on the same multiplexor, and no value of this
+/// multiplexor selects both.
 bool mutually_exclusive(const Message& message, const Signal& a, const Signal& b);
 
-/// The raw values that an integer signal can take: those that fit its bits and lie inside [minimum, maximum].
-/// For an unsigned signal, `lowest` and `highest` hold the bits of a std::uint64_t.
+/// The range of the raw values that an integer signal can have: they fit the bits of the signal and lie
+/// inside [minimum, maximum]. For an unsigned signal, `lowest` and `highest` contain the bits of a
+/// std::uint64_t.
 struct RawRange {
   std::int64_t lowest = 0;
   std::int64_t highest = 0;
 };
-/// The raw range of an integer signal; none: no raw value lies inside [minimum, maximum].
+/// The range of the raw values of an integer signal; nullopt: no raw value lies inside [minimum, maximum].
 std::optional<RawRange> raw_range(const Signal& signal);
 
-/// Whether a signal can carry a physical value. For an integer signal, up to one step outside
-/// its range is accepted.
+/// Whether a signal can carry a physical value. Also true for a value that is outside the range of an integer
+/// signal by at most one raw step.
 bool holds(const Signal& signal, double value);
 
-/// The raw values that a float signal can take: finite, and inside [minimum, maximum].
+/// The range of the raw values that a float signal can have: they are finite and inside [minimum, maximum].
 struct RealRange {
   double lowest = 0;
   double highest = 0;
 };
-/// The range of a float signal.
+/// The range of the raw values of a float signal.
 RealRange real_range(const Signal& signal);
 
 }  // namespace canhil::dbc

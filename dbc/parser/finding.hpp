@@ -1,5 +1,5 @@
-// Findings: each oddity in a DBC text violates a rule. The table of rules gives the consequence of each
-// violation; docs/dbc.md shows the table.
+// A finding is a place in a DBC text that violates a rule. The table of rules states the consequence of each
+// violation; docs/dbc.md contains this table.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,12 @@
 
 namespace canhil::dbc {
 
-/// note: nothing is lost; the strict reader accepts the file too. warning: the strict reader rejects the
-/// file; the lenient reader accepts it with the rule's consequence. error: both reject the file.
+/// note: no information of the file is lost, and both readers accept the file. warning: the strict reader
+/// rejects the file; the lenient reader accepts it, with the consequence that the rule states. error: both
+/// readers reject the file.
 enum class Severity : std::uint8_t { note, warning, error };
 
-/// The rules; rule_texts() has the text of each.
+/// The rules. rule_texts() returns the texts of all rules.
 enum class Rule : std::uint8_t {
   not_a_dbc,
   unfinished_string,
@@ -87,9 +88,9 @@ enum class Rule : std::uint8_t {
 /// The text of a rule.
 struct RuleText {
   Rule rule;
-  std::string_view id;  ///< for programs and for people: "undeclared-node"
+  std::string_view id;  ///< name of the rule, such as "undeclared-node"
   Severity severity;
-  std::string_view finding;      ///< what is odd, without details of a file
+  std::string_view finding;      ///< what violates the rule, without details of a file
   std::string_view consequence;  ///< what the lenient reader does
 };
 
@@ -100,26 +101,27 @@ const RuleText& text_of(Rule rule);
 /// The name of a severity: "note", "warning", "error".
 std::string_view name_of(Severity severity);
 
-/// Where a text breaks a rule.
+/// A place where a text violates a rule.
 struct Finding {
   Rule rule;
   Position at;
-  std::string what;  ///< one line: what was found, and what was expected
+  std::string what;  ///< one line that states what was found and what was expected
 };
 
-/// Collects the findings about a text. Throws Abandoned after 10,000 of them.
+/// Collects the findings about a text, at most 10,000 of them.
 class Findings {
  public:
   struct Abandoned {};
 
-  /// Adds a finding; throws Abandoned after 10,000.
+  /// Adds a finding. Throws Abandoned if there are 10,000 findings.
   void add(Rule rule, Position at, std::string what);
-  /// Adds at most one finding for each pair of rule and name: an undeclared node may occur a thousand times.
+  /// Adds a finding, except if there is already one with the same rule and name: an undeclared node may occur
+  /// a thousand times in a text.
   void add_once(Rule rule, Position at, const std::string& name, std::string what);
 
   /// The findings so far.
   [[nodiscard]] const std::vector<Finding>& all() const { return all_; }
-  /// Moves the findings out.
+  /// Returns the findings and removes them from this object.
   [[nodiscard]] std::vector<Finding> take() { return std::move(all_); }
 
  private:

@@ -90,7 +90,8 @@ class Lexer {
     return std::string("0x") + digits[code >> 4U] + digits[code & 15U];
   }
 
-  // A sign belongs to a number only if a digit follows: "@1- (" ends with the sign of the signal.
+  // A '-' or '+' belongs to a number only if a digit follows. In "@1- (" it does not: there it means that the
+  // signal is signed.
   [[nodiscard]] bool starts_number() const {
     const std::size_t sign = (peek() == '-' || peek() == '+') ? 1 : 0;
     const std::size_t dot = peek(sign) == '.' ? 1 : 0;
@@ -111,7 +112,8 @@ class Lexer {
     }
     return text;
   }
-  // A backslash escapes a quote or itself; before anything else it is kept. Line breaks become \n.
+  // Reads a string. A backslash escapes a quote or a backslash; before any other character it is an ordinary
+  // character. Line breaks become \n.
   std::string string(Position start) {
     std::string text;
     take();
@@ -136,7 +138,7 @@ class Lexer {
   Position at_;
 };
 
-/// Length of the UTF-8 sequence that starts here, 0 if there is none.
+/// The length of the UTF-8 sequence with which `text` begins; 0: `text` does not begin with a valid sequence.
 std::size_t utf8_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   const std::size_t length = lead < 0x80                     ? 1
@@ -164,7 +166,8 @@ void append_utf8(std::string& out, std::uint32_t code) {
   }
 }
 
-// Windows-1252 differs from Latin-1 in 0x80..0x9F; bytes without a character there become U+FFFD.
+// The characters of the bytes 0x80..0x9F in Windows-1252; all other bytes are as in Latin-1. A byte that has
+// no character becomes U+FFFD.
 constexpr std::array<std::uint16_t, 32> cp1252_high{
     0x20AC, 0xFFFD, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
     0x2039, 0x0152, 0xFFFD, 0x017D, 0xFFFD, 0xFFFD, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022,

@@ -1,4 +1,4 @@
-// DBC text to tokens. Internal to the parser.
+// Splits the text of a DBC into tokens. This header is internal to the parser.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace canhil::dbc {
 
-/// Exception that leaves a section from any depth of calls. The parser always catches it and continues with
-/// the next section.
+/// An exception that ends the reading of a section. The parser always catches the exception and continues
+/// with the next section.
 struct SectionFailure {
   Position at;
   std::string what;
@@ -27,17 +27,20 @@ enum class TokenKind : unsigned char { word, number, string, mark, end };
 
 struct Token {
   TokenKind kind = TokenKind::end;
-  std::string text;  ///< strings: without quotes, escapes resolved
+  std::string text;  ///< of a string: without the quotes and with escapes resolved
   Position at;
 };
 
-/// Tokens of UTF-8 text, the last one of kind end. An unexpected character becomes a mark token.
+/// The tokens of a UTF-8 text; the last token has the kind `end`. An unexpected character becomes a token of
+/// the kind `mark`.
 std::vector<Token> tokens_of(std::string_view text, Findings& findings);
 
-/// The text as UTF-8; text that is not UTF-8 is converted from Windows-1252. A byte order mark is dropped.
+/// Returns the text as UTF-8, without a byte order mark. If the text is not valid UTF-8, converts it from
+/// Windows-1252.
 std::string to_utf8(std::string_view text);
 
-/// The first byte that is not part of a valid UTF-8 character, if there is one.
+/// The position of the first byte that is not part of a valid UTF-8 character; nullopt: there is no such
+/// byte.
 std::optional<Position> first_not_utf8(std::string_view text);
 
 }  // namespace canhil::dbc

@@ -1,4 +1,4 @@
-// The sections that define messages and signals.
+// Reads the sections that define messages and signals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace {
 constexpr unsigned largest_size = 64;
 constexpr unsigned last_bit = 8 * largest_size - 1;
 
-// M: multiplexor; m3: present when the multiplexor is 3; m3M: both.
+// Reads the indicator of a signal. M: the signal is a multiplexor. m3: the signal is present when its
+// multiplexor has the value 3. m3M: both.
 void read_mux_indicator(Reader& in, Signal& signal) {
   const std::string expected = "':' or a multiplexing indicator M, m<number> or m<number>M";
   std::string_view text = in.peek().text;
@@ -37,7 +38,8 @@ bool names_no_node(const Reader& in) {
   return in.peek().kind == TokenKind::end || (in.peek().kind == TokenKind::word && !in.at_name());
 }
 
-// Commas separate the receivers; in old files blanks separate them, on one line.
+// Reads the receivers of a signal. Commas separate them. In old files blanks separate them; then all are on
+// one line.
 void read_receivers(Reader& in, Draft& draft, Signal& signal) {
   Position at;
   const auto follows = [&] { return in.take_mark_if(',') || (in.at_name() && in.peek().at.line == at.line); };
@@ -81,7 +83,8 @@ Signal read_signal(Reader& in, Draft& draft) {
   return signal;
 }
 
-/// True if a frame can have the id of the message; the pseudo message has no frame.
+/// True if a frame can have the id of the message. False for the pseudo message VECTOR__INDEPENDENT_SIG_MSG,
+/// which has no frame.
 bool check_id(Draft& draft, const Message& message, std::uint32_t written_id) {
   if (message.id == independent_signals_id) {
     draft.findings.add(
@@ -112,7 +115,8 @@ void read_sender(Reader& in, Draft& draft, Message& message) {
   }
 }
 
-/// Reads a signal of the current message. After an unreadable signal the next one is still read.
+/// Reads a signal of the current message. If the signal is unreadable, skips the tokens before the next
+/// signal or section.
 void read_next_signal(Reader& in, Draft& draft) {
   Signal signal;
   try {

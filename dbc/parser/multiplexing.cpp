@@ -12,8 +12,8 @@ namespace {
 
 bool has_multiplexor(const Signal& signal) { return !signal.multiplexed_by.empty(); }
 
-/// True for simple multiplexing: the text does not name the signal's multiplexor, as the message has only
-/// one.
+/// True if the signal is multiplexed and the text does not name its multiplexor. This is usual in a message
+/// that has only one multiplexor.
 bool is_unnamed(const Signal& signal) { return !signal.mux_ranges.empty() && !has_multiplexor(signal); }
 
 void check_type(Findings& findings, const Message& message, const Signal& signal) {

@@ -13,14 +13,14 @@ namespace {
 
 void read_version(Reader& in, Draft& draft) { draft.database.version = in.string("the version"); }
 
-// NS_ lists names, many of them keywords, up to BS_ or BU_. The list does not describe the bus and is
-// skipped.
+// Skips the section NS_. It is a list of names, many of which are keywords, and ends before BS_ or BU_. The
+// list does not describe the bus.
 void read_new_symbols(Reader& in, Draft& /*draft*/) {
   in.mark(':');
   while (in.peek().kind == TokenKind::word && !in.at_word("BS_") && !in.at_word("BU_")) in.take();
 }
 
-// BS_: bit timing, obsolete, mostly empty.
+// Reads the section BS_ (bit timing), which is obsolete and usually empty.
 void read_bit_timing(Reader& in, Draft& /*draft*/) {
   in.mark(':');
   if (in.peek().kind != TokenKind::number) return;
@@ -76,13 +76,14 @@ constexpr std::array<Section, 20> sections{{
     {"BA_REL_", read_relation_attribute},
 }};
 
-/// Skips the rest of a section. At least one of its tokens has been taken.
+/// Skips the rest of a section, of which at least one token must have been taken.
 void skip_section(Reader& in) {
   while (!in.at_section_end()) in.take();
   in.take_mark_if(';');
 }
 
-/// Reads the section that begins with the next token. False if neither a section nor an SG_ begins there.
+/// Reads the section that begins with the next token. False: the next token begins neither a section nor an
+/// SG_.
 bool read_section(Reader& in, Draft& draft) {
   const Token first = in.peek();
   const auto section = std::ranges::find(sections, first.text, &Section::keyword);
@@ -105,7 +106,7 @@ bool read_section(Reader& in, Draft& draft) {
   return true;
 }
 
-/// False: the text is not empty but contains no section of a DBC.
+/// Reads all sections. False: the text is not empty but contains no section of a DBC.
 bool read_sections(Reader& in, Draft& draft) {
   bool any = in.peek().kind == TokenKind::end;
   while (in.peek().kind != TokenKind::end) any = read_section(in, draft) || any;
@@ -118,7 +119,8 @@ std::string line_of(const Finding& finding, std::string_view file_name) {
   return fmt::format("{}:{}:{}: {}", file_name, finding.at.line, finding.at.column, finding.what);
 }
 
-/// The database, unless a finding is at least as severe as `refused`.
+/// Returns the database if all findings are less severe than `refused`, otherwise an error with the first
+/// other finding.
 Result<Database> database_unless(Inspection inspection, Severity refused, std::string_view file_name) {
   const auto worst = std::ranges::find_if(
       inspection.findings, [refused](const Finding& finding) { return severity_of(finding) >= refused; });
@@ -141,10 +143,10 @@ Inspection inspect(std::string_view text) {
     if (const auto at = first_not_utf8(text))
       findings.add(Rule::windows_1252, *at, "the text is not UTF-8, expected UTF-8");
     Reader in(tokens_of(to_utf8(text), findings), findings);
-    if (!read_sections(in, draft))  // for a text that is not a DBC, other findings would not help
+    if (!read_sections(in, draft))  // the text is not a DBC: other findings would not help
       return {{}, {{Rule::not_a_dbc, {}, "no section of a DBC file, expected one such as BO_"}}};
     finish(draft);
-  } catch (const Findings::Abandoned&) {  // the last finding is the error
+  } catch (const Findings::Abandoned&) {  // the last finding states that there are too many
   }
   Inspection inspection{std::nullopt, findings.take()};
   if (std::ranges::count(inspection.findings, Severity::error, severity_of) == 0) {
@@ -155,7 +157,7 @@ Inspection inspect(std::string_view text) {
 }
 
 Result<Inspection> inspect_file(const std::string& path) {
-  // A token takes up to about twenty times the memory of its text.
+  // The size is limited, because a token needs up to about twenty times the memory of its text.
   const auto text = read_text_file(path, "a DBC file", 16 * mebibyte);
   if (!text) return tl::unexpected(text.error());
   return inspect(*text);

@@ -1,6 +1,6 @@
-// Reads a DBC file. One reader reports all oddities of a text as findings (finding.hpp). The strict
-// functions, for the contract from which code is generated, reject a file with warnings or errors; the
-// lenient ones reject only errors.
+// Reads a DBC file. inspect() reports everything in a text that violates a rule as findings (finding.hpp).
+// The strict functions are for the contract from which code is generated; they reject a file with warnings or
+// errors. The lenient functions reject only a file with errors.
 #pragma once
 
 #include <cstdint>
@@ -17,36 +17,41 @@ namespace canhil::dbc {
 
 /// The result of inspect().
 struct Inspection {
-  std::optional<Database> database;  ///< none: one of the findings is an error
+  std::optional<Database> database;  ///< nullopt: one of the findings is an error
   std::vector<Finding> findings;     ///< in the order in which they were found
 };
 
-/// The database of a DBC text, and all findings about it.
+/// Reads a DBC text. Returns the database, and all findings about the text.
 Inspection inspect(std::string_view text);
 
-/// inspect() of a file's content. Error if the file cannot be read, or is larger than 16 MiB.
+/// Calls inspect() with the content of a file. Returns an error if the file cannot be read, or is larger than
+/// 16 MiB.
 Result<Inspection> inspect_file(const std::string& path);
 
-/// The database of an inspection, or its first error as one line `file_name:line:column: what, expected ...`.
+/// The database of an inspection. If the inspection found errors, returns the first of them as one line
+/// `file_name:line:column: what, expected ...`.
 Result<Database> usable(Inspection inspection, std::string_view file_name);
 
-/// Strict: DBC text (UTF-8 or Windows-1252, any line ends) as a Database.
-/// Error: one line `file_name:line:column: what, expected ...`.
+/// The strict reader: converts a DBC text (UTF-8 or Windows-1252, any line ends) to a Database. An error is
+/// one line, `file_name:line:column: what, expected ...`.
 Result<Database> parse(std::string_view text, std::string_view file_name);
 
-/// Lenient, for DBC files from elsewhere: usable(inspect(text), file_name). Harmless oddities have the
-/// consequences that the rules give.
+/// The lenient reader, for DBC files of other makers: usable(inspect(text), file_name). Warnings have the
+/// consequences that the rules state.
 Result<Database> parse_leniently(std::string_view text, std::string_view file_name);
 
-/// parse() of a file's content. Error also if the file cannot be read, or is larger than 16 MiB.
+/// Calls parse() with the content of a file. Returns an error also if the file cannot be read, or is larger
+/// than 16 MiB.
 Result<Database> read_file(const std::string& path);
-/// parse_leniently() of a file's content; errors like read_file().
+/// Calls parse_leniently() with the content of a file. Returns an error also if the file cannot be read, or
+/// is larger than 16 MiB.
 Result<Database> read_file_leniently(const std::string& path);
 
-/// FNV-1a, 64 bits, of the text without carriage returns, so that a checkout's line ends do not change it.
+/// The 64-bit FNV-1a hash of the text without its carriage returns. So the hash does not depend on the line
+/// ends that a git checkout uses.
 std::uint64_t hash(std::string_view text);
 
-/// Folds a 64-bit hash into 24 bits by exclusive or of its parts, for the frames that carry it.
+/// Shortens a 64-bit hash to 24 bits by exclusive or of its parts. Frames carry these 24 bits.
 constexpr std::uint32_t fold24(std::uint64_t hash) {
   return static_cast<std::uint32_t>((hash ^ (hash >> 24U) ^ (hash >> 48U)) & 0xFF'FFFFU);
 }

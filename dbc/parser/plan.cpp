@@ -16,7 +16,7 @@ namespace {
 
 constexpr unsigned window = 8;  // bytes
 
-/// Data of at least one window's size: shorter data is copied and padded with zeros.
+/// Gives access to data of at least `window` bytes. Shorter data is copied and padded with zeros.
 class Window {
  public:
   explicit Window(std::span<const std::uint8_t> data) : data_(data.data()) {
@@ -46,8 +46,8 @@ void store(std::uint8_t* data, std::uint64_t word, bool big_endian) {
 
 BitPlacement::BitPlacement(const Signal& signal, std::size_t size)
     : mask(wire::mask(signal.length)), big_endian(signal.byte_order == ByteOrder::big_endian) {
-  // The sequential number of the signal's first bit: within a byte Intel counts from the least significant
-  // bit, Motorola from the most significant one.
+  // `first` is the sequential number of the signal's first bit. The bits of each byte are counted from the
+  // least significant bit for Intel, and from the most significant bit for Motorola.
   const unsigned first = big_endian ? signal.start_bit / 8 * 8 + 7 - signal.start_bit % 8 : signal.start_bit;
   const auto last_window = static_cast<unsigned>(std::max<std::size_t>(size, window)) - window;
   first_byte = static_cast<std::uint8_t>(std::min(first / 8, last_window));
@@ -68,7 +68,8 @@ std::uint64_t BitPlacement::raw(const std::uint8_t* data) const {
 
 void BitPlacement::put(std::uint64_t raw, std::uint8_t* data) const {
   raw &= mask;
-  const unsigned in_ninth = big_endian ? ninth_bits : 0;  // number of low bits in the ninth byte
+  const unsigned in_ninth =
+      big_endian ? ninth_bits : 0;  // number of the lowest bits of the signal that are in the ninth byte
   const std::uint64_t word = load(data + first_byte, big_endian);
   store(data + first_byte, (word & ~(mask >> in_ninth << shift)) | raw >> in_ninth << shift, big_endian);
   if (ninth_bits == 0) return;
@@ -106,7 +107,7 @@ double Conversion::physical(std::uint64_t raw) const {
       number = wire::real<double>(raw);
       break;
   }
-  // Plain values are passed on without arithmetic: a signalling NaN keeps its bits.
+  // If scale and offset change nothing, no arithmetic is done, so that a signalling NaN keeps its bits.
   return is_plain ? number : wire::physical(number, scale, offset);
 }
 
@@ -143,7 +144,8 @@ std::uint64_t quantised(const Conversion& conversion, const RawLimits& limits, d
 }
 
 MessagePlan::MessagePlan(const Message& message) : size_(message.size) {
-  std::map<std::string_view, std::uint32_t> numbers;  // keeps the first of two signals with the same name
+  std::map<std::string_view, std::uint32_t>
+      numbers;  // signal name -> number; of two signals with the same name, the first one
   for (const Signal& signal : message.signals) {
     const auto number = static_cast<std::uint32_t>(steps_.size());
     numbers.emplace(signal.name, number);

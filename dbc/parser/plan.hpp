@@ -1,6 +1,7 @@
-// A message compiled for the run-time codec: for each signal its bits, its conversion to a number, and the
-// condition for its presence. Built once when a DBC is read; using it allocates nothing. Results equal those
-// of generated code bit for bit: both use dbc/wire/quantise.hpp.
+// A plan contains, for each signal of a message, the position of its bits, the conversion to a number, and
+// the condition for its presence. A plan is made once, when a DBC is read. Decoding and encoding with a plan
+// allocate no memory. The results are bit-identical to those of generated code, because both use
+// dbc/wire/quantise.hpp.
 #pragma once
 
 #include <cstddef>
@@ -12,86 +13,87 @@
 
 namespace canhil::dbc {
 
-/// The position of a signal: a window of eight bytes with shift and mask. A signal of 58 bits or more may
-/// reach into a ninth byte.
+/// The position of a signal in a message: a window of eight bytes, and shift and mask in this window. A
+/// signal of 58 bits or more may also have bits in a ninth byte.
 struct BitPlacement {
   std::uint64_t mask = 0;
-  std::uint8_t first_byte = 0;  ///< of the window
-  std::uint8_t shift = 0;       ///< from the least significant bit of the window to that of the signal
-  std::uint8_t ninth_bits = 0;  ///< number of the signal's bits in the byte after the window
+  std::uint8_t first_byte = 0;  ///< first byte of the window
+  std::uint8_t shift = 0;       ///< number of bits of the window below the lowest bit of the signal
+  std::uint8_t ninth_bits = 0;  ///< how many bits of the signal are in the byte after the window
   bool big_endian = false;
 
   BitPlacement() = default;
-  /// For data of at least `size` bytes that contain all bits of the signal.
+  /// The position in data of at least `size` bytes. All bits of the signal must be in these bytes.
   BitPlacement(const Signal& signal, std::size_t size);
 
-  /// The signal's bits, right-aligned. The data has at least eight bytes.
+  /// The bits of the signal, right-aligned. `data` must have at least eight bytes.
   [[nodiscard]] std::uint64_t raw(const std::uint8_t* data) const;
-  /// Writes the signal's bits; does not change other bits.
+  /// Writes the bits of the signal, and does not change other bits.
   void put(std::uint64_t raw, std::uint8_t* data) const;
 };
 
 /// Converts raw bits to a physical value: raw * scale + offset.
 struct Conversion {
-  /// How the raw bits are read; wide_unsigned: 64 bits without a sign.
+  /// The meaning of the raw bits; wide_unsigned: an unsigned integer of 64 bits.
   enum class Kind : std::uint8_t { integer, wide_unsigned, float32, float64 };
 
   double scale = 1;
   double offset = 0;
   std::uint64_t mask = 0;
-  std::uint64_t sign_bit = 0;  ///< of a signed integer
+  std::uint64_t sign_bit = 0;  ///< mask of the sign bit of a signed integer
   Kind kind = Kind::integer;
-  bool is_plain = true;  ///< scale 1, offset 0
+  bool is_plain = true;  ///< true: the scale is 1 and the offset is 0
 
   Conversion() = default;
   /// The conversion of a signal.
   explicit Conversion(const Signal& signal);
 
-  /// Raw bits as a signed integer.
+  /// Converts raw bits to a signed integer.
   [[nodiscard]] std::int64_t sign_extended(std::uint64_t raw) const {
     return static_cast<std::int64_t>((raw ^ sign_bit) - sign_bit);
   }
-  /// Raw bits as a physical value, in the signal's unit.
+  /// Converts raw bits to a physical value, in the unit of the signal.
   [[nodiscard]] double physical(std::uint64_t raw) const;
 };
 
-/// The limits of the raw number before rounding.
+/// The limits of the raw value. They are applied before rounding.
 struct RawLimits {
   double lowest = 0;
   double highest = 0;
 
   RawLimits() = default;
-  /// The limits of a signal: its bits, and [minimum, maximum].
+  /// The limits of a signal, which follow from its bits and from [minimum, maximum].
   explicit RawLimits(const Signal& signal);
 };
 
-/// Raw bits, right-aligned, of a physical value: rounded half to even, saturated to the limits; NaN becomes
-/// the minimum.
+/// Converts a physical value to raw bits, right-aligned. The raw value is rounded half to even and saturated
+/// to the limits. NaN becomes the minimum.
 std::uint64_t quantised(const Conversion& conversion, const RawLimits& limits, double value);
 
-/// A message compiled for decoding and encoding at run time.
+/// A plan for the decoding and encoding of one message at run time.
 class MessagePlan {
  public:
-  /// For a message from the parser.
+  /// Makes the plan for a message from the parser.
   explicit MessagePlan(const Message& message);
 
-  /// Bytes of the message.
+  /// The number of bytes of the message.
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// The number of signals; they are numbered as in Message::signals.
+  /// The number of signals. The index of a signal is the same as in Message::signals.
   [[nodiscard]] std::size_t signals() const { return steps_.size(); }
 
-  /// Writes the physical value of every signal in the frame, NaN for absent signals. Returns false and writes
-  /// nothing if the data is shorter than the message, or if `values` has fewer elements than the message has
-  /// signals.
+  /// Writes the physical value of every signal of the message into `values`; NaN if the frame does not
+  /// contain the signal. Returns false and writes nothing in two cases: `data` is shorter than the message,
+  /// or `values` has fewer elements than the message has signals.
   [[nodiscard]] bool decode(std::span<const std::uint8_t> data, std::span<double> values) const;
 
-  /// Encodes physical values. Unused bits are 0; signals that the multiplexors do not select are not written;
-  /// where signals overlap, the one with more multiplexors above it wins, otherwise the later one. Bytes
-  /// beyond the message do not change. Returns false and writes nothing in the same cases as decode().
+  /// Encodes physical values. Unused bits are 0. Signals that the multiplexors do not select are not written.
+  /// If two signals overlap, the signal with more multiplexors above it overwrites the other; if both have as
+  /// many, the later signal overwrites the earlier one. Bytes beyond the message do not change. Returns false
+  /// and writes nothing in the same cases as decode().
   [[nodiscard]] bool encode(std::span<const double> values, std::span<std::uint8_t> data) const;
 
-  /// Whether the frame holds a signal: every multiplexor above it has one of the values that select it. The
-  /// data has the length of the message.
+  /// Whether the frame contains the signal with this index, i.e. whether every multiplexor above the signal
+  /// has a value that selects the signal. `data` must have the length of the message.
   [[nodiscard]] bool is_present(std::size_t signal, std::span<const std::uint8_t> data) const;
 
  private:
@@ -100,7 +102,7 @@ class MessagePlan {
   struct Step {
     BitPlacement bits;
     Conversion conversion;
-    std::uint32_t multiplexor = always;  ///< index of the multiplexor's signal
+    std::uint32_t multiplexor = always;  ///< index of the signal that is the multiplexor
     std::uint32_t first_range = 0, end_range = 0;
   };
 
@@ -110,8 +112,8 @@ class MessagePlan {
   std::size_t size_ = 0;
   std::vector<Step> steps_;
   std::vector<RawLimits> limits_;
-  std::vector<MuxRange> ranges_;      ///< of all signals
-  std::vector<std::uint32_t> order_;  ///< order of encoding: multiplexors before the signals that they select
+  std::vector<MuxRange> ranges_;      ///< ranges of all signals, one signal after the other
+  std::vector<std::uint32_t> order_;  ///< indices in the order of encoding: a multiplexor before its signals
 };
 
 }  // namespace canhil::dbc

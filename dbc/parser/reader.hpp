@@ -1,4 +1,4 @@
-// Reads the tokens of a DBC text into a draft of the database. Internal to the parser.
+// Reads the tokens of a DBC text into a draft of the database. This header is internal to the parser.
 #pragma once
 
 #include <algorithm>
@@ -23,9 +23,9 @@ class Reader {
     return tokens_[std::min(index_ + ahead, tokens_.size() - 1)];
   }
   const Token& take() { return tokens_[index_ + 1 < tokens_.size() ? index_++ : index_]; }
-  /// True if the next token is the first on its line and a keyword that can begin a section.
+  /// True if the next token is the first token of its line, and is a keyword that can begin a section.
   [[nodiscard]] bool at_section() const;
-  /// True if the next token is ';', or if the section ends without one.
+  /// True if the next token is ';', or if the section ends there without a ';'.
   [[nodiscard]] bool at_section_end() const {
     return at_mark(';') || at_section() || peek().kind == TokenKind::end;
   }
@@ -42,25 +42,25 @@ class Reader {
   bool take_mark_if(char mark);
 
   void mark(char mark);
-  void semicolon();                         ///< the end of a section
-  std::string word(std::string_view what);  ///< any name except keywords
+  void semicolon();                         ///< reads the end of a section
+  std::string word(std::string_view what);  ///< reads a name that is not a keyword
   std::string string(std::string_view what);
   double real(std::string_view what);
   std::int64_t integer(std::string_view what);
   std::uint64_t natural(std::string_view what, std::uint64_t maximum);
-  /// Like natural(), but a number above the maximum becomes a finding and returns maximum + 1.
+  /// Like natural(), but for a number above the maximum adds a finding and returns maximum + 1.
   std::uint64_t natural_or(Rule rule, std::string_view what, std::uint64_t maximum);
-  /// An integer; another number becomes a finding and is rounded.
+  /// Reads an integer. For a number that is not an integer, adds a finding and returns the rounded number.
   std::int64_t whole(std::string_view what);
-  /// A real number. A number beyond the range of double becomes a finding; the result is then 0 or the
-  /// largest double, with the number's sign.
+  /// Reads a real number. For a number outside the range of double, adds a finding and returns 0 or the
+  /// largest double, with the sign of the number.
   double limit(std::string_view what);
-  /// The upper end of a range such as "3-5", whose "-5" the lexer reads as one number. Returns 5.
+  /// Reads the upper end of a range such as "3-5", and returns 5. The lexer reads the "-5" as one number.
   std::uint64_t natural_after_minus(std::string_view what);
 
-  /// Reports the next token as unexpected and leaves the section.
+  /// Throws SectionFailure: the next token is unexpected, and the rest of the section is not read.
   [[noreturn]] void fail(const std::string& expected) const;
-  /// Reports the next token as unexpected and stays in the section.
+  /// Adds a finding that the next token is unexpected. The reading of the section continues.
   void report(Rule rule, const std::string& expected);
 
  private:
@@ -74,46 +74,46 @@ class Reader {
 /// The DBC's placeholder for a missing node.
 inline constexpr std::string_view nobody = "Vector__XXX";
 
-/// Name -> index in a list. Lists may have tens of thousands of entries.
+/// Finds the index of a name in a list, which may have tens of thousands of entries.
 using Index = std::map<std::string, std::size_t, std::less<>>;
 
-/// A Database under construction. Messages and signals that are left out stay here until finish() removes
-/// them, as later sections may refer to them.
+/// A Database while the text is read. Messages and signals that are marked as left out remain in it until
+/// finish() removes them, because later sections may refer to them.
 struct Draft {
   explicit Draft(Findings& all) : findings(all) {}
 
   Findings& findings;
   Database database;
   Index nodes, messages, variables, tables;
-  std::map<std::uint64_t, std::size_t> messages_by_id;  ///< by text_id()
+  std::map<std::uint64_t, std::size_t> messages_by_id;  ///< key: text_id()
   std::vector<Index> signals;                           ///< of each message
   std::vector<bool> left_out;                           ///< of each message
   Index definitions, relation_definitions;
-  std::map<std::string, Position, std::less<>> mux_extended;  ///< where SG_MUL_VAL_ names "id signal"
+  std::map<std::string, Position, std::less<>> mux_extended;  ///< "id signal" -> position of its SG_MUL_VAL_
 };
 
-/// Id of the pseudo message VECTOR__INDEPENDENT_SIG_MSG, whose signals no frame carries.
+/// The id of the pseudo message VECTOR__INDEPENDENT_SIG_MSG. No frame carries the signals of this message.
 inline constexpr std::uint32_t independent_signals_id = 0xC000'0000;
 inline constexpr std::uint32_t extended_flag = 0x8000'0000;
 inline constexpr std::uint32_t last_standard_id = 0x7FF;
 inline constexpr std::uint32_t last_extended_id = 0x1FFF'FFFF;
 
-/// The id in the notation of a DBC. Some files omit the flag of an extended id; it is added if the id needs
-/// more than 11 bits.
+/// The id in the notation of a DBC. Some files omit the flag that marks an extended id. Therefore text_id()
+/// adds the flag if the id needs more than 11 bits.
 constexpr std::uint64_t text_id(std::uint64_t id) {
   return id > last_standard_id && id <= last_extended_id ? id | extended_flag : id;
 }
 
 /// Each of these functions returns the object that the text names. If there is no such object, the function
-/// leaves the section.
+/// throws SectionFailure, which ends the reading of the section.
 Message& message_of(Draft& draft, std::uint64_t raw_id, Position at);
 Signal& signal_of(Draft& draft, Message& message, std::string_view name, Position at);
 Node& node_of(Draft& draft, std::string_view name, Position at);
-/// Adds a finding if BU_ does not list the node.
+/// Adds a finding if the section BU_ does not list the node.
 void check_node(Draft& draft, const std::string& name, Position at);
 EnvironmentVariable& variable_of(Draft& draft, std::string_view name, Position at);
 
-/// Each function reads one section, after its keyword.
+/// Each of these functions reads one section; the keyword of the section has been taken already.
 void read_message(Reader& in, Draft& draft);                    // messages.cpp: BO_ and its SG_
 void read_transmitters(Reader& in, Draft& draft);               // BO_TX_BU_
 void read_signal_group(Reader& in, Draft& draft);               // SIG_GROUP_
@@ -129,8 +129,8 @@ void read_default(Reader& in, Draft& draft, bool relation);     // BA_DEF_DEF_, 
 void read_attribute(Reader& in, Draft& draft);                  // BA_
 void read_relation_attribute(Reader& in, Draft& draft);         // BA_REL_
 
-/// Copies attribute values into messages and signals, and runs the checks that need the whole text. Defined
-/// in check.cpp.
+/// Copies attribute values into messages and signals, and does the checks that are possible only after the
+/// whole text has been read. Defined in check.cpp.
 void finish(Draft& draft);
 
 }  // namespace canhil::dbc

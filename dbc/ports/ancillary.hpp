@@ -8,11 +8,12 @@
 namespace canhil {
 
 struct Ancillary {
-  std::int64_t software_ns = 0;  ///< CLOCK_REALTIME when the driver handed the frame over; 0: none
-  std::int64_t hardware_ns = 0;  ///< the controller's own clock; 0: none
+  /// The CLOCK_REALTIME at which the driver delivered the frame to the kernel; 0: no stamp.
+  std::int64_t software_ns = 0;
+  std::int64_t hardware_ns = 0;  ///< stamp of the controller's own clock; 0: no stamp
 };
 
-/// Reads the control messages of one received frame: SO_TIMESTAMPING.
+/// Reads the time stamps from the control messages (SO_TIMESTAMPING) of one received frame.
 Ancillary read_ancillary(msghdr& message);
 
 }  // namespace canhil

@@ -9,18 +9,19 @@
 
 namespace canhil {
 
-/// Disturbs every bit on the wire independently with probability p, so an error hits a frame of n bits with
-/// probability 1 - (1 - p)^n, at its first disturbed bit. All nodes detect the error: the sender reads a bit
-/// that differs from the one it sent, and the receivers see the error flag of the sender, so two error flags
-/// follow one another. The random number of an attempt depends only on the seed and on the number of earlier
-/// attempts on the wire, so the errors are the same on every machine.
+/// Disturbs every bit on the wire with probability p, independently of the other bits. So an error occurs in
+/// a frame of n bits with probability 1 - (1 - p)^n, at the first disturbed bit of the frame. All nodes
+/// detect the error: the sender reads a bit that differs from the bit that it sent, and the receivers detect
+/// the error flag of the sender. Therefore two error flags follow one another. The random number for an
+/// attempt to send a frame depends only on the seed and on the number of earlier attempts on the wire. So the
+/// errors are the same on every machine.
 class BitErrors {
  public:
-  /// `rate`: probability of an error per bit; `rates`: of the wire.
+  /// `rate` is the probability of an error per bit; `rates` are the bit rates of the wire.
   BitErrors(double rate, const wire::BitRates& rates, std::uint64_t seed)
       : rate_(rate), rates_(rates), engine_(seed) {}
 
-  /// The error that hits this attempt, if any.
+  /// The error in this attempt to send a frame; nullopt: there is none.
   std::optional<WireError> operator()(const Attempt& attempt);
 
  private:

@@ -10,8 +10,9 @@
 namespace canhil {
 namespace {
 
-// Linux 6.0 introduced CAN_ERR_CNT. Earlier kernels put the counters into frames of the class "controller"
-// without a flag.
+// Copies the error counters of the controller from an error frame. Since Linux 6.0, the flag CAN_ERR_CNT
+// marks frames with counters. Earlier kernels put the counters, without a flag, into frames of the class
+// "controller".
 void take_counters(BusErrors& errors, const Frame& frame) {
   const bool flagged = (frame.id & CAN_ERR_CNT) != 0;
   const bool old = (frame.id & CAN_ERR_CRTL) != 0 && (frame.data[6] != 0 || frame.data[7] != 0);
@@ -22,8 +23,8 @@ void take_counters(BusErrors& errors, const Frame& frame) {
   errors.rx_counter_max = std::max(errors.rx_counter_max, frame.data[7]);
 }
 
-// The bit for the larger error counter, both bits if they are equal, as the kernel's can_change_state() sets
-// them.
+// Returns the bit of the larger error counter, or both bits if the counters are equal. can_change_state() of
+// the kernel sets the bits in the same way.
 std::uint8_t controller_bits(const ControllerNews& news, unsigned transmit, unsigned receive) {
   return static_cast<std::uint8_t>((news.tx_counter >= news.rx_counter ? transmit : 0U) |
                                    (news.rx_counter >= news.tx_counter ? receive : 0U));
@@ -72,7 +73,7 @@ std::optional<BusEvent> add(BusErrors& errors, const Frame& frame) {
   count(controller(CAN_ERR_CRTL_RX_OVERFLOW), errors.rx_overflow);
   count(controller(CAN_ERR_CRTL_TX_OVERFLOW), errors.tx_overflow);
   take_counters(errors, frame);
-  // In ascending order of severity: the last change wins.
+  // The changes are in ascending order of severity, because the last change is the one that is returned.
   change(controller(CAN_ERR_CRTL_ACTIVE), errors.active, BusEvent::error_active);
   change(controller(CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING), errors.warning,
          BusEvent::error_warning);
@@ -113,7 +114,7 @@ Frame error_frame(const ControllerNews& news) {
     frame.id |= CAN_ERR_RESTARTED;
   } else if (news.event == BusEvent::bus_off) {
     frame.id |= CAN_ERR_BUSOFF;
-    return frame;  // the counters of a bus-off controller have no meaning
+    return frame;  // without counters, because those of a bus-off controller have no meaning
   }
   frame.id |= CAN_ERR_CNT;
   frame.data[6] = static_cast<std::uint8_t>(std::min(news.tx_counter, 255));

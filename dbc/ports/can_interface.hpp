@@ -7,11 +7,11 @@
 
 namespace canhil {
 
-/// The interface's index; 0: no interface has this name.
+/// The index of the interface with this name; 0: no interface has this name.
 int interface_index(const std::string& interface);
 
-/// One line that says why the interface cannot be used (missing, not CAN, down, or classic although FD is
-/// needed); none: it can. `socket` may be any socket.
+/// Returns one line with the reason why the interface cannot be used: it is missing, not a CAN interface,
+/// down, or classic although `fd` is true. nullopt: the interface can be used. `socket` may be any socket.
 std::optional<std::string> objection(int socket, std::string_view interface, bool fd);
 
 }  // namespace canhil

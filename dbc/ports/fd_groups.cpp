@@ -44,7 +44,7 @@ class FdGroups final : public Port {
       if (const SendOutcome outcome = inner_->send(*due); outcome != SendOutcome::sent) return outcome;
       packer_.clear();
     }
-    FdPacker packer = packer_;  // a copy: it replaces packer_ only if the bus accepts its container
+    FdPacker packer = packer_;  // a copy, which replaces packer_ only if the bus accepts the container
     if (const auto full = packer.put(frame)) {
       if (const SendOutcome outcome = inner_->send(*full); outcome != SendOutcome::sent) return outcome;
     }
@@ -73,7 +73,7 @@ class FdGroups final : public Port {
   [[nodiscard]] RoomWait room_wait() const override { return inner_->room_wait(); }
   [[nodiscard]] bool closed() const override { return inner_->closed(); }
   [[nodiscard]] bool up() const override { return inner_->up(); }
-  /// Counts frames on the wire, i.e. containers, not the messages in them.
+  /// A container counts as one frame; the messages in it are not counted.
   [[nodiscard]] PortCounters counters() const override {
     PortCounters counters = inner_->counters();
     counters.foreign += foreign_;
@@ -91,7 +91,7 @@ class FdGroups final : public Port {
   std::unique_ptr<Port> inner_;
   FdPacker packer_;
   FdUnpacked unpacked_;
-  std::size_t next_ = 0;  // the first of unpacked_ that has not been received
+  std::size_t next_ = 0;  // index of the first frame of unpacked_ that has not been received
   Received envelope_;
   std::uint64_t foreign_ = 0;
 };
@@ -171,8 +171,8 @@ Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions opt
   if (joined || !is_local(bus)) return joined;
   options.fd = format != BusFormat::classic;
   auto hosted = host_local_bus(bus, options, std::move(rules));
-  // If both attempts fail, the more helpful error is returned: that of hosting if joining found no host,
-  // else (another process hosts the bus) that of joining.
+  // If joining and hosting both fail, the more helpful error is returned. If no process hosts the bus, this
+  // is the error of hosting, otherwise the error of joining.
   if (!hosted && joined.error().message.starts_with(nobody_hosts)) return tl::unexpected(hosted.error());
   if (!hosted) return joined;
   return format == BusFormat::fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);

@@ -1,9 +1,10 @@
-// The FD contract on a bus: nodes exchange classic frames, the wire carries containers.
+// The FD contract on a bus: a node sends and receives classic frames, but the frames on the wire are
+// containers.
 //
-// A container (dbc/codegen/fd.hpp) is an envelope: unpacking restores the packed frames in order, byte for
-// byte, so codecs, sample groups and E2E do not depend on it. An all-zero slot means an absent message; no
-// valid message is all zeros. A lost frame therefore stays lost, and its receiver detects the loss by the E2E
-// counter as on a classic bus.
+// Unpacking a container (dbc/codegen/fd.hpp) restores the packed classic frames in order, byte for byte. So
+// codecs, sample groups and E2E protection do not depend on containers. A slot of zeros means that its
+// message is absent; no valid message consists of zeros. So a message that was lost before packing remains
+// absent, and the receiver detects the loss by the E2E counter, as on a classic bus.
 #pragma once
 
 #include <array>
@@ -19,33 +20,36 @@
 
 namespace canhil {
 
-/// What a bus carries: one of the project's two contracts, or unmodified CAN FD frames of another contract.
+/// What a bus carries: frames of one of the project's two contracts (classic, fd), or CAN FD frames of
+/// another contract, which are not changed (fd_frames).
 enum class BusFormat : std::uint8_t { classic, fd, fd_frames };
 
-/// The name of the contract, as for `--dbc`.
+/// The name of the contract in the option `--dbc`.
 constexpr std::string_view name_of(BusFormat format) {
   return format == BusFormat::fd ? "canhil-fd" : "canhil";
 }
-/// "CAN FD frames (canhil-fd)".
+/// The format as text, such as "CAN FD frames (canhil-fd)".
 constexpr std::string_view to_text(BusFormat format) {
   return format == BusFormat::fd          ? "CAN FD frames (canhil-fd)"
          : format == BusFormat::fd_frames ? "CAN FD frames"
                                           : "classic frames (canhil)";
 }
 
-/// Collects the frames of a group into their container. At most one container is open at a time. Before a
-/// frame that does not continue the open container, the container is sent incomplete. So frames keep their
-/// order on the bus.
+/// Collects the frames of a group in a container. At most one container is open, i.e. waits for more frames.
+/// If the next frame cannot be added to the open container, the container is sent incomplete before that
+/// frame. So frames keep their order on the bus.
 class FdPacker {
  public:
-  /// The container that must go on the bus before this frame, or none.
+  /// The open container, if it must be sent before `frame`; otherwise nullopt.
   [[nodiscard]] std::optional<Frame> due_before(const Frame& frame) const;
   /// Discards the open container.
   void clear() { container_ = none; }
-  /// Takes a frame for which due_before() is none. Returns what to send: the container that it completes, the
-  /// frame itself as an FD frame if it belongs to no container, or nothing yet.
+  /// Adds a frame, for which due_before() must be nullopt. Returns the frame that must be sent now: the
+  /// container, if the frame completes it, or the frame itself as an FD frame, if it belongs to no container.
+  /// nullopt: nothing must be sent yet.
   std::optional<Frame> put(const Frame& frame);
-  /// Takes a frame, and calls `out` with each frame to send now: due_before(), then what put() returns.
+  /// Adds a frame. Calls `out` with each frame that must be sent now: first due_before(), then the result of
+  /// put().
   template <class Out>
   void pack(const Frame& frame, const Out& out) {
     if (const auto due = due_before(frame)) {
@@ -63,12 +67,12 @@ class FdPacker {
   std::array<std::uint8_t, Frame::max_size> data_{};
 };
 
-/// The content of a frame of an FD bus: the messages of a container, or the frame itself. A frame of at most
-/// 8 bytes becomes a classic one.
+/// The content of a frame from an FD bus: the messages of a container, or the frame itself. If the frame is
+/// no container and has at most 8 bytes, it becomes a classic frame.
 class FdUnpacked {
  public:
   FdUnpacked() = default;
-  /// Unpacks a frame of an FD bus.
+  /// Unpacks a frame from an FD bus.
   explicit FdUnpacked(const Frame& frame);
   /// The frames, in the order in which they were packed.
   [[nodiscard]] std::span<const Frame> frames() const { return {frames_.data(), count_}; }
@@ -78,38 +82,41 @@ class FdUnpacked {
   std::size_t count_ = 0;
 };
 
-/// A node of an FD bus: packs sent frames and unpacks received ones, own echoes included; each unpacked frame
-/// has the stamp of its container. A frame that waits for other frames of its group counts as sent. If these
-/// frames do not follow, the container is sent incomplete before the next frame outside the group, which is
-/// at the latest a Sync or heartbeat. Received classic frames are marked foreign and counted. `inner` must
-/// have been opened with fd; its only_ids, if any, are ids on the wire.
+/// Makes the port of a node of an FD bus from the port `inner`. It packs sent frames and unpacks received
+/// ones, also own echoes; each unpacked frame has the stamp of its container. A frame that waits in a
+/// container for other frames of its group counts as sent. If these frames do not follow, the container is
+/// sent incomplete before the next frame that is not of the group; at the latest, this is a Sync or a
+/// heartbeat. Received classic frames are marked as foreign and counted. `inner` must have been opened with
+/// PortOptions::fd. If it has only_ids, these are ids of containers.
 std::unique_ptr<Port> in_fd_groups(std::unique_ptr<Port> inner);
 
-/// Reads a log of either contract as classic frames: `hil-bench run --log` records classic frames on both
-/// kinds of bus, candump on an FD bus records containers.
+/// Reads a log of one of the two contracts and returns classic frames. Logs of `hil-bench run --log` contain
+/// classic frames, also on an FD bus. Logs that candump recorded on an FD bus contain containers.
 class ClassicLogReader {
  public:
-  /// Takes over an open log.
+  /// `reader` is an open log.
   explicit ClassicLogReader(LogReader reader) : reader_(std::move(reader)) {}
-  /// The next entry; at the end and on errors the same as LogReader::next().
+  /// The next entry. At the end and on errors, returns the same as LogReader::next().
   Result<std::optional<LogEntry>> next();
 
  private:
   LogReader reader_;
   FdUnpacked unpacked_;
-  std::size_t next_ = 0;  // the first of unpacked_ that has not been returned
+  std::size_t next_ = 0;  // index of the first frame of unpacked_ that has not been returned
   LogEntry envelope_;
 };
 
-/// open_port() for a contract.
+/// Opens a bus like open_port(), for a given contract.
 Result<std::unique_ptr<Port>> open_bus(std::string_view bus, PortOptions options, BusFormat format);
 
-/// open_bus(); hosts an embedded bus, with these rules, if no process hosts it.
+/// Opens a bus like open_bus(). If `bus` is an embedded bus that no process hosts, hosts this bus with
+/// `rules`.
 Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions options, BusFormat format,
                                            HubRules rules = {});
 
-/// The contract that `--dbc` names: canhil, canhil-fd, or a file with the text of one of these two, identical
-/// to the text that this program was built from. Error: one line.
+/// The contract for the value of `--dbc`: canhil, canhil-fd, or a file. The text of the file must be
+/// identical to the text of one of these two contracts with which this program was built. An error is one
+/// line.
 Result<BusFormat> named_contract(const std::string& name_or_file);
 
 }  // namespace canhil

@@ -13,15 +13,16 @@ namespace {
 
 constexpr int most_reports = 20;
 
-// Each node needs one file descriptor. The limit leaves three quarters of the descriptors to the rest of the
-// process.
+// The largest number of nodes. Each node needs one file descriptor. Three quarters of the descriptors remain
+// for the rest of the process.
 std::size_t most_nodes(std::size_t wanted) {
   rlimit files{};
   if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return wanted;
   return std::min<std::size_t>(wanted, files.rlim_cur / 4);
 }
 
-// For a node that is behind: the time at which its arrears reach the limit if it takes no further frame.
+// For a node that stalls the bus (Peer::behind): the time at which its arrears reach the limit, if the node
+// reads no frame until then.
 std::int64_t overdue_ns(const Peer& peer, const HubRules& rules) {
   return peer.behind_since_ns + rules.reading_limit_ns - peer.arrears_ns;
 }
@@ -35,7 +36,8 @@ Gate::Gate(Descriptor listener, HubRules rules, std::string bus)
 
 Gate::Admission Gate::admit(std::vector<Peer>& peers) {
   pollfd waiting{.fd = listener_.get(), .events = POLLIN, .revents = 0};
-  if (::poll(&waiting, 1, 0) != 1) return Admission::none;  // far cheaper than an accept() that fails
+  if (::poll(&waiting, 1, 0) != 1)
+    return Admission::none;  // poll() is far cheaper than an accept() that fails
   Descriptor socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!socket) return Admission::none;
   const Process process = process_behind(socket.get());
@@ -70,7 +72,7 @@ void Gate::drop_silent(std::vector<Peer>& peers, bool fd_bus) {
     Datagram none;
     Frame no_frame;
     const Reading last = read(peer, fd_bus, none, no_frame);
-    if (last == Reading::joined) return false;  // its Hello arrived in time, but the hub reads it only now
+    if (last == Reading::joined) return false;  // the Hello arrived in time, but the hub reads it late
     if (last == Reading::nothing) report(to_text(peer), "sent no Hello and was dropped");
     if (last == Reading::nonsense) report_nonsense(peer);
     return true;

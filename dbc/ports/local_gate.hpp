@@ -1,4 +1,4 @@
-// Admits nodes to the embedded bus and decides which ones to drop.
+// Admits nodes to the embedded bus, and decides which nodes must be dropped.
 #pragma once
 
 #include <cstddef>
@@ -15,27 +15,28 @@ namespace canhil::local {
 
 class Gate {
  public:
-  /// `bus`: the name of the bus, for the lines about nodes that are turned away.
+  /// `bus` is the name of the bus. It appears in the lines about nodes that are refused or dropped.
   Gate(Descriptor listener, HubRules rules, std::string bus);
 
-  /// Readable when a node waits for admission.
+  /// A descriptor that is readable when a node waits for admission.
   [[nodiscard]] int listener() const { return listener_.get(); }
-  /// Readable when a node's time limit has expired.
+  /// A descriptor that is readable when the time limit of a node has expired.
   [[nodiscard]] int alarm() const { return alarm_.descriptor(); }
 
-  /// Admits the next waiting node into `peers`, or refuses it; none: no node was waiting.
+  /// The result of admit(), which admits the next waiting node into `peers` or refuses it. none: no node was
+  /// waiting.
   enum class Admission : std::uint8_t { none, refused, admitted };
   Admission admit(std::vector<Peer>& peers);
 
-  /// Drops connections that sent no Hello in time.
+  /// Drops the connections from which no Hello came in time.
   void drop_silent(std::vector<Peer>& peers, bool fd_bus);
 
-  /// Whether the node has stalled the bus for too long and must be dropped.
+  /// True if the node has stalled the bus for too long and must be dropped.
   [[nodiscard]] bool has_waited_enough(const Peer& peer, std::int64_t now_ns) const;
   void report_dropped_reader(const Peer& peer);
   void report_nonsense(const Peer& peer);
 
-  /// Sets the alarm to the time at which the next node must be dropped.
+  /// Sets the alarm to the first time at which the limit of a node expires.
   void set_alarm(const std::vector<Peer>& peers);
 
  private:
@@ -45,7 +46,7 @@ class Gate {
   HubRules rules_;
   std::string bus_;
   Timer alarm_;
-  bool strangers_ = false;  // at the last check some peers had not sent their Hello
+  bool strangers_ = false;  // some peers may not have sent their Hello yet
   int reported_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The hub of the embedded bus: the host's port.
+// The hub of the embedded bus, which is the port of the host.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/epoll.h>
@@ -31,13 +31,14 @@ using local::HubWire;
 using local::Peer;
 using local::Reading;
 
-constexpr int backlog = 64;                // connections that may wait for accept()
-constexpr std::size_t ready_limit = 4096;  // most frames that may wait for the host to receive them
-constexpr int accept_every = 64;           // the hub looks for new nodes at the latest after this many reads
-// Nodes may send, join and leave without end. One call therefore handles at most this many of these events;
-// the descriptor stays readable for the rest.
+constexpr int backlog = 64;                // how many connections may wait for accept()
+constexpr std::size_t ready_limit = 4096;  // how many frames may wait until the host receives them
+constexpr int accept_every = 64;           // the hub looks for new nodes at least once in so many reads
+// Nodes may send, join and leave without a pause. Therefore one call handles at most so many of these events.
+// If there are more, the descriptor remains readable.
 constexpr int most_at_once = 256;
-constexpr int most_let_in = 4;  // admitting a node costs far more than a frame
+constexpr int most_let_in =
+    4;  // at most so many nodes are admitted in one call: admission takes far longer than a frame
 
 class Hub final : public LocalHub {
  public:
@@ -74,12 +75,12 @@ class Hub final : public LocalHub {
     return SendOutcome::sent;
   }
 
-  /// If a frame is waiting, receive() needs one system call. Looking for new nodes needs another one. So
-  /// receive() looks for them only after two searches for a frame in a row have found none, or after
-  /// accept_every reads. Nodes are not overlooked: a new node wakes a host that waits.
+  /// If a frame is waiting, receive() needs one system call. The search for new nodes needs another one.
+  /// Therefore receive() looks for new nodes only after two searches for a frame in a row have found none, or
+  /// after accept_every reads. No node is overlooked, because a new node wakes a host that waits.
   std::optional<Received> receive() override {
     if (wire_) run_wire();
-    if (!ready_.empty()) return next_ready();  // older than all unread frames
+    if (!ready_.empty()) return next_ready();  // these frames are older than all frames in the sockets
     if (wire_) return std::nullopt;
     std::optional<Received> received(std::in_place);
     Datagram datagram;
@@ -105,8 +106,8 @@ class Hub final : public LocalHub {
   }
 
   [[nodiscard]] int descriptor() const override { return epoll_.get(); }
-  /// An epoll descriptor is never writable. While the bus is stalled, it becomes readable once the slow node
-  /// has room.
+  /// An epoll descriptor is never writable. If the bus is stalled, the descriptor becomes readable when the
+  /// node that stalls the bus has room.
   [[nodiscard]] RoomWait room_wait() const override {
     if (behind_ > 0) return {.events = POLLIN};
     if (wire_) return {.pause_ns = wire_->frame_ns()};
@@ -144,7 +145,8 @@ class Hub final : public LocalHub {
     }
   }
 
-  /// While the bus is stalled, only the nodes that stall it may wake the host: no other frames can pass.
+  /// Sets which events wake the host. While the bus is stalled, only the nodes that stall the bus may wake
+  /// the host, because the bus carries no other frames.
   void watch_all() {
     const std::uint32_t others = behind_ > 0 ? 0 : std::uint32_t{EPOLLIN};
     watch(gate_.listener(), others);
@@ -154,7 +156,7 @@ class Hub final : public LocalHub {
   }
 
   /// Delivers the pending frame to the nodes that had no room for it, and drops nodes that have stalled the
-  /// bus for too long; true if the frame has been delivered to all.
+  /// bus for too long. True if no node still lacks the frame.
   bool catch_up() {
     if (behind_ == 0) return true;
     const int before = behind_;
@@ -173,8 +175,8 @@ class Hub final : public LocalHub {
     return behind_ == 0;
   }
 
-  /// Delivers one frame to every node that wants it. If a node has no room, the frame stays pending, and the
-  /// next frame is read only after all nodes have taken it.
+  /// Delivers a frame to every node that wants it. If a node has no room, the frame remains pending. The next
+  /// frame is read only after all these nodes have received the pending one.
   void deliver(Datagram& datagram, int origin) {
     for (Peer& peer : peers_) deliver_to(peer, datagram, origin);
     if (behind_ > 0) watch_all();
@@ -189,8 +191,8 @@ class Hub final : public LocalHub {
     pending_origin_ = origin;
   }
 
-  /// Reads the next frame, from each node in turn; returns the sending node's socket, or no_origin without a
-  /// frame.
+  /// Reads the next frame; the nodes take turns. Returns the socket of the node that sent the frame;
+  /// no_origin: no node has sent a frame.
   int read_any(Datagram& datagram, Frame& frame) {
     for (std::size_t idle = 0; idle < peers_.size();) {
       if (next_ >= peers_.size()) next_ = 0;
@@ -217,7 +219,7 @@ class Hub final : public LocalHub {
     return no_origin;
   }
 
-  /// Admits waiting nodes; true if there were any.
+  /// Admits or refuses the next waiting node; false: no node was waiting.
   bool accept_nodes() {
     reads_since_accept_ = 0;
     gate_.drop_silent(peers_, fd_);
@@ -233,7 +235,7 @@ class Hub final : public LocalHub {
     return !only_some_ || frame.error || (!frame.extended && wanted_.test(frame.id));
   }
 
-  /// Queues a frame for the host to receive.
+  /// Puts a frame into the queue from which the host receives.
   void queue_ready(const Frame& frame, std::int64_t t_ns, bool own) {
     if (ready_.empty()) ::eventfd_write(ready_event_.get(), 1);
     ready_.push_back({.frame = frame, .t_ns = t_ns, .source = StampSource::hub, .own = own});
@@ -257,7 +259,8 @@ class Hub final : public LocalHub {
     return SendOutcome::sent;
   }
 
-  /// Puts the nodes' frames onto the wire, and delivers the frames that the wire has carried by now.
+  /// Moves frames from the nodes into the queues of the wire, and delivers the frames whose transmission on
+  /// the wire has ended by now.
   void run_wire() {
     int left = most_at_once;
     while (catch_up()) {
@@ -282,7 +285,7 @@ class Hub final : public LocalHub {
     });
   }
 
-  /// Delivers a controller's report only to the node of this controller.
+  /// Delivers the report of a controller only to the node that has this controller.
   void deliver(const WireReport& report) {
     if (report.node == HubWire::host) return queue_ready(report.frame, report.t_ns, false);
     const auto peer = peer_of(report.node);
@@ -304,8 +307,8 @@ class Hub final : public LocalHub {
     if ((!own || own_echo_) && wants(carried.frame)) queue_ready(carried.frame, carried.delivered_ns, own);
   }
 
-  /// Moves at most `left` frames from the nodes into their queues on the wire, as long as the queues have
-  /// room and the host keeps up with receiving.
+  /// Moves at most `left` frames from the nodes into the queues of the wire, while these queues have room and
+  /// while not too many frames wait for the host.
   void take_in(int& left) {
     for (int n = 0; n < most_let_in && accept_nodes(); ++n) {
     }
@@ -315,7 +318,7 @@ class Hub final : public LocalHub {
       hold_full_nodes();
       const int origin = read_any(datagram, frame);
       if (origin == no_origin) return;
-      if (frame.error) {  // a controller's report: it does not use the wire
+      if (frame.error) {  // an error frame that a node sent is not transmitted over the wire
         datagram.t_ns = clock_ns(CLOCK_MONOTONIC);
         deliver(datagram, origin);
         if (wants(frame)) queue_ready(frame, datagram.t_ns, false);
@@ -348,12 +351,12 @@ class Hub final : public LocalHub {
   bool only_some_;
   local::IdSet wanted_;
   bool own_echo_;
-  std::optional<HubWire> wire_;  ///< none: frames take no time
+  std::optional<HubWire> wire_;  ///< nullopt: frames take no time
   std::vector<Peer> peers_;
   std::size_t next_ = 0;
   int reads_since_accept_ = 0;
   bool found_nothing_ = false;
-  int behind_ = 0;  ///< number of peers that are behind
+  int behind_ = 0;  ///< number of peers for which Peer::behind is true
   Datagram pending_{};
   int pending_origin_ = no_origin;
   std::deque<Received> ready_;
@@ -382,7 +385,8 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
 
 void run_hub(Port& hub, const std::function<bool()>& stop) {
   constexpr std::int64_t look_up_ns = 100'000'000;
-  constexpr int at_most = 1000;  // frames between two calls of stop(), so that a full bus cannot prevent them
+  constexpr int at_most =
+      1000;  // frames between two calls of stop(), so that stop() is called also on a full bus
   while (!stop()) {
     wait(hub, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + look_up_ns);
     for (int n = 0; n < at_most && hub.receive(); ++n) {

@@ -1,4 +1,4 @@
-// A node of the embedded bus: one connection to the hub.
+// The port of a node of the embedded bus. The node has one connection to the hub.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -42,14 +42,14 @@ class LocalNode final : public Port {
     Datagram datagram;
     ssize_t bytes = 0;
     do {
-      // If the hub closes before it has read all frames of this node, recv() fails once with ECONNRESET. The
-      // next calls still return frames that the hub had sent before.
+      // If the hub closes the connection before it has read all frames of this node, recv() fails once with
+      // ECONNRESET. The next calls return the frames that the hub had sent before.
       bytes = ::recv(socket_.get(), &datagram, sizeof datagram, 0);
     } while (bytes < 0 && (errno == EINTR || errno == ECONNRESET));
     if (bytes < 0 && errno == EAGAIN) return std::nullopt;
     std::optional<Received> received(std::in_place);
     if (bytes <= 0 || !local::decode(datagram, static_cast<std::size_t>(bytes), fd_, received->frame)) {
-      closed_ = true;  // the hub is gone, or the peer is not a hub
+      closed_ = true;  // the hub has ended, or the other process is no hub
       return std::nullopt;
     }
     received->t_ns = datagram.t_ns;
@@ -74,7 +74,8 @@ class LocalNode final : public Port {
   Descriptor socket_;
   std::string name_;
   bool fd_;
-  WireFacts wire_;  // from the bus's name: the hub does not report it
+  WireFacts
+      wire_;  // known only if the name of the bus has the settings, because the hub does not report them
   bool closed_ = false;
   PortCounters counters_;
 };

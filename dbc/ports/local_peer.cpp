@@ -17,7 +17,8 @@ Reading read_hello(Peer& peer) {
   if (bytes != sizeof hello || hello.magic != Hello::expected_magic) return Reading::nonsense;
   hello.node_name.back() = '\0';
   peer.name = hello.node_name.data();
-  // The name will be printed, so its line breaks and terminal escape sequences are replaced.
+  // The name will be printed. Therefore all characters that could be part of line breaks or terminal escape
+  // sequences are replaced.
   std::ranges::replace_if(
       peer.name, [](char c) { return c < ' ' || c > '~'; }, '?');
   peer.own_echo = hello.own_echo != 0;
@@ -59,7 +60,7 @@ bool offer(Peer& peer, Datagram& datagram, bool own) {
     return true;
   }
   if (errno == EAGAIN || errno == ENOBUFS || errno == EINTR) return false;
-  peer.mute = true;  // the peer is dead; the next read from it reports that
+  peer.mute = true;  // the peer has ended; the next read() from the peer reports that
   return true;
 }
 

@@ -41,8 +41,8 @@ Descriptor new_socket() {
   return Descriptor(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
 }
 
-// Whether the opened file still has its name: a host that ends removes its lock file, and a lock on a removed
-// file does not exclude other processes.
+// True if `path` is still the name of the opened file. A host that ends removes its lock file, and a lock on
+// a removed file does not exclude other processes.
 bool still_named(const Descriptor& file, const std::string& path) {
   struct stat opened {
   }, named{};
@@ -74,7 +74,8 @@ Result<std::string> directory() {
   const std::string runtime = set == nullptr ? "" : set;
   struct stat entry {};
   std::string path = runtime + "/canhil";
-  // su and sudo may keep another user's directory; a long path leaves no room for a socket's name.
+  // XDG_RUNTIME_DIR is not always usable: after su or sudo it may be the directory of another user, and a
+  // long path leaves no room for the name of a socket.
   const bool fit = runtime.starts_with('/') && path.size() <= longest_directory &&
                    ::lstat(runtime.c_str(), &entry) == 0 && is_ours_alone(entry);
   if (!fit) path = fmt::format("/tmp/canhil-uid-{}", ::geteuid());
@@ -105,7 +106,7 @@ Result<Claim> Claim::take(std::string_view bus, const std::string& name) {
 Claim::~Claim() {
   if (!lock_) return;
   for (const Format format : {Format::classic, Format::fd}) ::unlink(socket_of(path_, format).c_str());
-  ::unlink(lock_of(path_).c_str());  // before the lock is released, see still_named()
+  ::unlink(lock_of(path_).c_str());  // must happen before the lock is released, see still_named()
 }
 
 Descriptor Claim::listen(Format format, int backlog) const {

@@ -1,4 +1,4 @@
-// The sockets of a user's embedded buses, in a directory that only this user can enter.
+// The sockets of the embedded buses of a user. They are in a directory that only this user can enter.
 #pragma once
 
 #include <sys/types.h>
@@ -13,50 +13,54 @@
 
 namespace canhil::local {
 
-/// The directory of this user's buses, created if missing: `canhil` in XDG_RUNTIME_DIR if that directory is
-/// private and belongs to the user, else /tmp/canhil-uid-UID. Error: one line, see make_private().
+/// The directory for the buses of this user; creates the directory if it is missing. It is `canhil` in
+/// XDG_RUNTIME_DIR if XDG_RUNTIME_DIR is private and belongs to the user, otherwise /tmp/canhil-uid-UID.
+/// Errors are those of make_private().
 Result<std::string> directory();
 
-/// Creates a directory of mode 0700 unless it exists. Error: one line, if the path is not a directory,
-/// belongs to another user, or is open to others.
+/// Creates a directory of mode 0700 if the path does not exist. Returns an error of one line if the path is
+/// not a directory, belongs to another user, or can be entered by other users.
 Result<void> make_private(const std::string& path);
 
-/// The frame format of a bus. Each format has its own socket, so connect() fails for the wrong format, and
-/// joining needs no answer from the host.
+/// The frame format of a bus. Each format has its own socket. So connect() fails for the wrong format, and a
+/// node can join without an answer of the host.
 enum class Format : std::uint8_t { classic, fd };
 
-/// The exclusive right to host a bus, for the lifetime of the object. The kernel releases the lock of a
-/// process that dies; the next host removes the sockets of that process.
+/// The exclusive right to host a bus, for the lifetime of the object. If a process dies, the kernel releases
+/// its lock, and the next host removes its sockets.
 class Claim {
  public:
-  /// Error: one line: the directory cannot be used, or another process hosts the bus already.
+  /// Takes the right to host a bus. Returns an error of one line if the directory cannot be used, or if
+  /// another process hosts the bus already.
   static Result<Claim> take(std::string_view bus, const std::string& name);
   Claim(Claim&& other) noexcept = default;
   Claim& operator=(Claim&& other) = delete;
   ~Claim();
 
-  /// The listening socket of the bus; none: errno says why.
+  /// Creates the listening socket of the bus. An empty descriptor is returned on failure; errno then has the
+  /// reason.
   [[nodiscard]] Descriptor listen(Format format, int backlog) const;
 
  private:
   Claim(Descriptor lock, std::string path) : lock_(std::move(lock)), path_(std::move(path)) {}
   Descriptor lock_;
-  std::string path_;  // common path of the bus's files, without their suffixes
+  std::string path_;  // common path of the files of this bus, without their suffixes
 };
 
-/// A connection to the host of a bus; none: errno says why.
+/// Makes a connection to the host of a bus. An empty descriptor is returned on failure; errno then has the
+/// reason.
 Descriptor connect_to(const std::string& directory, const std::string& name, Format format);
 
-/// The process at the other end of a connection, from the kernel.
+/// The process at the other end of a connection, as the kernel reports it.
 struct Process {
   pid_t pid = 0;
   uid_t uid = 0;
 };
 Process process_behind(int socket);
-/// "pid 17 of uid 1000".
+/// The process as text, such as "pid 17 of uid 1000".
 std::string to_text(const Process& process);
-/// True if the process belongs to this user. Processes of different users never share a bus, not even with
-/// root.
+/// True if the process belongs to this user. Processes of different users never share a bus, also if one of
+/// the users is root.
 bool is_of_this_user(const Process& process);
 
 }  // namespace canhil::local

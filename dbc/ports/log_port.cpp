@@ -34,7 +34,7 @@ class LogPort final : public Port {
   std::optional<Received> receive() override {
     while (!closed_) {
       const auto entry = reader_.next();
-      if (!entry || !*entry) {  // the log was checked on opening: the file has changed since then
+      if (!entry || !*entry) {  // the whole log was valid when it was opened, so the file has changed since
         closed_ = true;
       } else if (const Frame& frame = (*entry)->frame; passes(frame)) {
         ++counters_.received;

@@ -20,10 +20,11 @@ timespec to_timespec(std::int64_t ns) {
   return {.tv_sec = static_cast<std::time_t>(ns / ns_per_s), .tv_nsec = static_cast<long>(ns % ns_per_s)};
 }
 
-// Waits for one of the events, the pause or the deadline; see wait().
+// Waits until one of the events occurs, the pause ends or the deadline passes; see wait().
 bool wait_for(const Port& port, RoomWait how, std::int64_t deadline_ns) {
   if (how.events == 0 && how.pause_ns == 0) return true;
-  const bool forever = deadline_ns == no_deadline && how.pause_ns == 0;  // saves a clock reading and a timer
+  const bool forever =
+      deadline_ns == no_deadline && how.pause_ns == 0;  // then a clock reading and a timer are not necessary
   const std::int64_t left_ns =
       forever ? 0 : std::max<std::int64_t>(deadline_ns - clock_ns(CLOCK_MONOTONIC), 0);
   const bool pause = how.pause_ns != 0 && how.pause_ns <= left_ns;
@@ -48,8 +49,8 @@ bool Port::wait_for_frame(std::int64_t deadline_ns) {
 bool Port::wait_for_room(std::int64_t deadline_ns) { return wait_for(*this, room_wait(), deadline_ns); }
 
 bool wait(Port& port, WaitFor what, std::int64_t deadline_ns) {
-  // While an interface is down, poll() reports room at once and does not report the return of the interface.
-  // So the wait ends after a pause, to check the interface again.
+  // If an interface is down, poll() immediately reports room, and does not report when the interface is up
+  // again. Therefore the wait ends after a pause, so that the caller checks the interface again.
   if (!port.up()) return wait_for(port, {.events = POLLIN, .pause_ns = look_again_ns}, deadline_ns);
   if (what == WaitFor::frame) return port.wait_for_frame(deadline_ns);
   return port.wait_for_room(deadline_ns);

@@ -1,4 +1,4 @@
-// Frames read from a CAN socket by one system call.
+// The frames that one system call reads from a CAN socket.
 #pragma once
 
 #include <linux/can.h>
@@ -18,7 +18,7 @@ class ReceiveBatch {
   struct Item {
     const canfd_frame& frame;
     bool fd = false;
-    bool own = false;  ///< the echo of a frame sent by the same socket
+    bool own = false;  ///< the echo of a frame that this socket sent
     Ancillary ancillary;
   };
 
@@ -27,16 +27,17 @@ class ReceiveBatch {
   ReceiveBatch& operator=(const ReceiveBatch&) = delete;
 
   [[nodiscard]] bool empty() const { return next_ == count_; }
-  /// The next frame; the batch must not be empty. Valid until fetch().
+  /// Returns the next frame of the batch, which must not be empty. The frame is valid until fetch().
   Item take();
-  /// Reads all waiting frames, up to the capacity. False: no frame; errno says why. `flags` as for
-  /// recvmmsg(): MSG_DONTWAIT, or MSG_WAITFORONE to wait for the first frame up to the socket's SO_RCVTIMEO.
+  /// Reads all waiting frames, up to the capacity. False: no frame was read; errno has the reason. `flags`
+  /// are those of recvmmsg(): with MSG_DONTWAIT, fetch() does not wait; with MSG_WAITFORONE, it waits for the
+  /// first frame, at most for the time SO_RCVTIMEO of the socket.
   bool fetch(int socket, int flags);
-  /// True if the last fetch() left nothing behind.
+  /// True if the last fetch() read all frames that were waiting.
   [[nodiscard]] bool took_all() const { return count_ < capacity; }
 
  private:
-  // Enough for the control message that read_ancillary() reads.
+  // Large enough for the control messages that read_ancillary() reads.
   static constexpr std::size_t control_bytes = 128;
   struct alignas(cmsghdr) Control {
     std::array<char, control_bytes> bytes;

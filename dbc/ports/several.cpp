@@ -12,7 +12,8 @@
 namespace canhil {
 namespace {
 
-constexpr std::int64_t retry_ns = 200'000;  // poll() on a set of descriptors cannot signal room
+constexpr std::int64_t retry_ns =
+    200'000;  // time after which to try again: poll() on an epoll set cannot signal room
 
 bool add(const Descriptor& set, const Port& port) {
   epoll_event event{.events = EPOLLIN, .data = {}};
@@ -63,7 +64,7 @@ class Several final : public Port {
     }
     return sum;
   }
-  /// Reports no wire: each bus has its own.
+  /// Does not report a wire, because each bus has its own wire.
   [[nodiscard]] Capabilities capabilities() const override {
     return {.reports_errors = std::ranges::all_of(
                 ports_, [](const auto& port) { return port->capabilities().reports_errors; })};
@@ -78,16 +79,17 @@ class Several final : public Port {
   }
 
  private:
-  // Discards the stamp of the controller. Each controller stamps by its own clock, but a stimulus and its
-  // answer may be on different buses; the kernel's clock stamps the frames of all buses.
+  // Removes the stamp of the controller from a received frame. Each controller has its own clock, but a
+  // stimulus and its answer may be on different buses. For the frames of all buses there are stamps of the
+  // kernel's clock.
   static void admit(Received& received, std::size_t bus) {
     received.bus = static_cast<std::uint8_t>(bus);
     received.hardware_ns = 0;
     if (received.source == StampSource::hardware) received.source = StampSource::kernel;
   }
 
-  // Adds a port to the epoll set again when its interface has returned. EEXIST is no error: the port kept its
-  // descriptor.
+  // Adds a port to the epoll set again when its interface is up again. The error EEXIST is harmless: the set
+  // still contains the descriptor of the port.
   void watch(std::size_t i) {
     const bool up = ports_[i]->up();
     if (up && !was_up_[i]) add(readable_, *ports_[i]);
@@ -96,7 +98,8 @@ class Several final : public Port {
 
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<bool> was_up_;
-  std::vector<std::optional<Received>> waiting_;  // the next frame of each port
+  std::vector<std::optional<Received>>
+      waiting_;  // for each port, the next received frame, which receive() has not returned yet
   PortRoute route_;
   Descriptor readable_;
 };

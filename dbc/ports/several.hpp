@@ -1,4 +1,4 @@
-// Several buses as one: sensors on can0, aiding on can1.
+// Joins several buses into one port, for example if the sensors are on can0 and the aiding is on can1.
 #pragma once
 
 #include <functional>
@@ -10,20 +10,21 @@
 
 namespace canhil {
 
-/// The index of the port to which a frame is sent.
+/// A function that returns the index of the port to which a frame is sent.
 using PortRoute = std::function<std::size_t(const Frame&)>;
 
-/// Joins one or more ports into one. A frame is sent to the port that `route` names. Of the waiting received
-/// frames the one with the oldest stamp comes first, which gives the order on the buses if they are read in
-/// time. The joined port closes when one of its ports does, and has the name of the first. Error: the ports
-/// stamp by different clocks (an embedded bus beside SocketCAN).
+/// Joins one or more ports into one port. `route` selects the port to which a frame is sent. receive()
+/// returns, of all waiting frames, the frame with the oldest stamp. This is the order on the buses, if the
+/// ports are read in time. The joined port closes when one of its ports closes, and has the name of the first
+/// port. Returns an error if the ports have stamps of different clocks (an embedded bus and a SocketCAN
+/// interface).
 Result<std::unique_ptr<Port>> join_ports(std::vector<std::unique_ptr<Port>> ports, PortRoute route);
 
-/// join_or_host() for each name, joined.
+/// Calls join_or_host() for each name, and joins the ports.
 Result<std::unique_ptr<Port>> open_buses(const std::vector<std::string>& buses, const PortOptions& options,
                                          BusFormat format, PortRoute route, const HubRules& rules);
 
-/// open_bus() for each name, joined; all frames are sent to the first.
+/// Calls open_bus() for each name, and joins the ports. All frames are sent to the first bus.
 Result<std::unique_ptr<Port>> open_buses(const std::vector<std::string>& buses, const PortOptions& options,
                                          BusFormat format = BusFormat::classic);
 

@@ -8,13 +8,14 @@
 namespace canhil {
 namespace {
 
-// ISO 11898-1:2015, 12.1.4: error counters and their limits.
+// The error counters and their limits: ISO 11898-1:2015, 12.1.4.
 constexpr int error_warning_from = 96;
 constexpr int error_passive_above = 127;
 constexpr int bus_off_above = 255;
 constexpr int transmit_error = 8;
 constexpr int receive_error = 1;
-constexpr int first_to_notice = 8;  // increment for a receiver that reads a dominant bit after its error flag
+// Increment of the error counter of a receiver that reads a dominant bit after its own error flag.
+constexpr int first_to_notice = 8;
 constexpr int receive_errors_after_success = 119;
 constexpr std::int64_t recovery_runs = 128;
 constexpr std::int64_t recessive_run_bits = 11;
@@ -22,7 +23,7 @@ constexpr std::int64_t recessive_run_bits = 11;
 using wire::intermission_bits;
 constexpr std::int64_t delimiter_bits = 8;
 constexpr std::int64_t suspend_bits = 8;
-constexpr std::int64_t after_acknowledgement_bits = 1 + 7 + intermission_bits;  // delimiter, end of frame
+constexpr std::int64_t after_acknowledgement_bits = 1 + 7 + intermission_bits;  // ACK delimiter, end of frame
 
 bool is_passive(int tec, int rec) { return std::max(tec, rec) > error_passive_above; }
 
@@ -62,11 +63,13 @@ std::optional<Carried> SimulatedWire::next(std::int64_t until_ns) {
       if (running_->over_ns > until_ns) return std::nullopt;
       if (!running_->error) return succeed();
       fail();
-      if (has_report()) return std::nullopt;  // the report is older than the next frame
+      if (has_report())
+        return std::nullopt;  // the caller must take the report first: it is older than the next frame
       continue;
     }
     const std::int64_t start_ns = first_start_ns();
-    if (start_ns == never || until_ns < start_ns + bit_ns_) {  // more nodes may still join the arbitration
+    if (start_ns == never ||
+        until_ns < start_ns + bit_ns_) {  // until the first bit ends, more nodes may join the arbitration
       idle_until(until_ns);
       return std::nullopt;
     }
@@ -110,7 +113,7 @@ std::int64_t SimulatedWire::first_start_ns() const {
   return first;
 }
 
-/// The frame that wins the arbitration among all frames that are ready before the first bit ends.
+/// The frame that wins the arbitration. All frames that are queued before the first bit ends take part.
 std::optional<SimulatedWire::Candidate> SimulatedWire::winner(std::int64_t start_ns) const {
   const std::int64_t closed_ns = start_ns + bit_ns_;
   std::optional<Candidate> best;
@@ -130,7 +133,7 @@ std::optional<SimulatedWire::Candidate> SimulatedWire::winner(std::int64_t start
   return best;
 }
 
-/// True if another node is on the bus and acknowledges.
+/// True if the frame is acknowledged, i.e. if another node than the sender is on the bus.
 bool SimulatedWire::acknowledged(std::size_t sender) const {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     if (n != sender && !nodes_[n].off) return true;
@@ -138,13 +141,15 @@ bool SimulatedWire::acknowledged(std::size_t sender) const {
   return false;
 }
 
-/// The error that hits the attempt, if any: between its second bit and its end.
+/// The error in this attempt to send a frame; nullopt: there is none. The error is between the second bit of
+/// the frame and its end.
 std::optional<WireError> SimulatedWire::error_of(const Attempt& attempt, bool acknowledged) {
   const std::int64_t length_ns = attempt.end_ns - attempt.start_ns;
   std::optional<WireError> error = disturb_ ? disturb_(attempt) : std::nullopt;
   if (error && error->at && state(*error->at) != NodeState::error_active) {
     if (!nodes_[*error->at].off) nodes_[*error->at].rec += receive_error;
-    error.reset();  // the error flag of an error passive receiver is recessive, so no other node notices it
+    error.reset();  // no other node notices the error, because the error flag of an error passive receiver is
+                    // recessive
   }
   if (error) {
     error->after_ns = std::clamp(error->after_ns, bit_ns_, length_ns - intermission_bits * bit_ns_);
@@ -197,7 +202,8 @@ Carried SimulatedWire::succeed() {
   return carried;
 }
 
-/// Ends the attempt with an error frame; the frame stays in its queue for the next attempt.
+/// Ends the attempt with an error frame. The frame that was to be sent remains in its queue for the next
+/// attempt.
 void SimulatedWire::fail() {
   const std::size_t from = running_->from.node;
   const std::int64_t noticed_ns = running_->attempt.start_ns + running_->error->after_ns;
@@ -209,8 +215,8 @@ void SimulatedWire::fail() {
     other.rec += receive_error + (running_->error->at == n ? first_to_notice : 0);
     report_to_host(n, noticed_ns, SeenError::stuff);
   }
-  // An error passive sender without other nodes does not count missing acknowledgements: they must not drive
-  // it bus-off.
+  // If there are no other nodes, an error passive sender does not count missing acknowledgements, because
+  // these errors must not drive the sender into bus-off.
   if (running_->acknowledged || !is_passive(sender.tec, sender.rec)) sender.tec += transmit_error;
   ++counters_.error_frames;
   report_to_host(from, noticed_ns, missed ? SeenError::acknowledgement : SeenError::bit);
@@ -218,7 +224,8 @@ void SimulatedWire::fail() {
   if (sender.tec > bus_off_above) go_off(sender);
 }
 
-/// The node's controller reports an error that it saw, and its state if that has changed.
+/// Makes the report in which the controller of a node reports the error `seen` and, if its state has changed,
+/// the new state.
 void SimulatedWire::report_to_host(std::size_t node, std::int64_t t_ns, SeenError seen) {
   Node& n = nodes_[node];
   if (!n.setup.reports_errors) return;
@@ -245,10 +252,12 @@ void SimulatedWire::finish() {
   if (is_passive(sender.tec, sender.rec)) sender.silent_until_ns = free_ns_ + suspend_bits * bit_ns_;
   running_.reset();
   see_recessive(1,
-                free_ns_);  // one run: delimiter, end of frame (or rest of the error frame) and intermission
+                // One run of recessive bits: the delimiter, the end of frame (or the rest of the error frame)
+                // and the intermission.
+                free_ns_);
 }
 
-/// Counts the recessive bits of an idle bus.
+/// Counts the recessive bits of the idle bus up to t_ns.
 void SimulatedWire::idle_until(std::int64_t t_ns) {
   if (running_ || t_ns <= idle_ns_) return;
   const std::int64_t runs = (t_ns - idle_ns_) / (recessive_run_bits * bit_ns_);
@@ -256,7 +265,8 @@ void SimulatedWire::idle_until(std::int64_t t_ns) {
   see_recessive(runs, idle_ns_);
 }
 
-/// A bus-off node returns after 128 runs of 11 recessive bits. The last of these `runs` ends at last_ns.
+/// Counts `runs` more runs of 11 recessive bits, of which the last ends at last_ns. After 128 runs, a bus-off
+/// node takes part in the bus again.
 void SimulatedWire::see_recessive(std::int64_t runs, std::int64_t last_ns) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     Node& node = nodes_[n];

@@ -23,10 +23,12 @@
 namespace canhil {
 namespace {
 
-constexpr std::int64_t retry_ns = 200'000;          // about 1.5 full classic frames at 1 Mbit/s
-constexpr std::int64_t blocking_ns = 20'000'000;    // the longest wait of one call for a frame (SO_RCVTIMEO)
-constexpr std::int64_t look_again_ns = 10'000'000;  // between two checks whether an interface is up again
-constexpr int large_queue_bytes = 4 << 20;          // about 5000 frames: half a second of a full bus
+constexpr std::int64_t retry_ns = 200'000;  // the duration of about 1.5 full classic frames at 1 Mbit/s
+constexpr std::int64_t blocking_ns =
+    20'000'000;  // the longest time for which one call waits for a frame (SO_RCVTIMEO)
+constexpr std::int64_t look_again_ns =
+    10'000'000;                             // the time between two checks whether an interface is up again
+constexpr int large_queue_bytes = 4 << 20;  // room for about 5000 frames: half a second of a full bus
 
 canfd_frame to_kernel(const Frame& frame) {
   canfd_frame raw{};
@@ -54,7 +56,8 @@ bool set(int socket, int level, int option, const T& value) {
   return ::setsockopt(socket, level, option, &value, sizeof value) == 0;
 }
 
-/// Sets which frames to receive: the given ids, or all; never remote frames.
+/// Sets the filters of the socket: it receives frames with the given ids, or all frames if no ids are given.
+/// Remote frames are never received.
 bool set_filters(int socket, const std::vector<std::uint32_t>& only_ids) {
   std::vector<can_filter> filters;
   filters.reserve(only_ids.size() + 1);
@@ -74,14 +77,14 @@ bool configure(int socket, const PortOptions& options) {
   const int on = 1;
   const int own = options.own_echo ? 1 : 0;
   const timeval blocking{.tv_sec = 0, .tv_usec = blocking_ns / 1000};
-  const int smallest = 0;  // the kernel raises it to its minimum; for the reason see socketcan.hpp
+  const int smallest = 0;  // the kernel uses its minimum instead; for the reason see socketcan.hpp
   const int receive_bytes =
       options.receive_buffer_bytes == 0 ? large_queue_bytes : options.receive_buffer_bytes;
   return set_filters(socket, options.only_ids) && set(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, own) &&
          set(socket, SOL_SOCKET, SO_TIMESTAMPING, stamps) && set(socket, SOL_SOCKET, SO_RCVTIMEO, blocking) &&
          set(socket, SOL_SOCKET, SO_SNDBUF, smallest) &&
          ((!options.fd && !options.foreign) || set(socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on)) &&
-         // SO_RCVBUFFORCE needs CAP_NET_ADMIN; SO_RCVBUF is limited to net.core.rmem_max.
+         // SO_RCVBUFFORCE needs CAP_NET_ADMIN; SO_RCVBUF cannot exceed net.core.rmem_max.
          (set(socket, SOL_SOCKET, SO_RCVBUFFORCE, receive_bytes) ||
           set(socket, SOL_SOCKET, SO_RCVBUF, receive_bytes));
 }
@@ -91,9 +94,9 @@ class SocketCan final : public Port {
   SocketCan(Descriptor socket, std::string name, PortOptions options)
       : socket_(std::move(socket)), name_(std::move(name)), options_(std::move(options)) {}
 
-  /// Binds to the interface that has the name now; if the socket is bound to it already, the kernel does
-  /// nothing. Sets the filters too, as the socket loses them when its interface is removed. False: errno says
-  /// why.
+  /// Binds the socket to the interface that has the name at present. If the socket is bound to this interface
+  /// already, the kernel does nothing. Also sets the filters, because the socket loses them when its
+  /// interface is removed. False: errno has the reason.
   bool bind_to_interface() {
     sockaddr_can at{};
     at.can_family = AF_CAN;
@@ -126,13 +129,13 @@ class SocketCan final : public Port {
     return received;
   }
 
-  /// Waits and reads in one system call, which shortens the frame's latency. That call's timeout is coarse,
-  /// so the last milliseconds before the deadline use poll(), whose timer is exact.
+  /// Waits and reads in one system call, which shortens the latency of the frame. The timeout of this call is
+  /// coarse. Therefore, for the last milliseconds before the deadline, poll() is used, whose timer is exact.
   bool wait_for_frame(std::int64_t deadline_ns) override {
     if (!batch_.empty()) return true;
     while (deadline_ns == no_deadline || deadline_ns - clock_ns(CLOCK_MONOTONIC) >= 2 * blocking_ns) {
       if (fetch(MSG_WAITFORONE)) return true;
-      if (errno != EAGAIN) return errno != EINTR;  // receive() reports an outage
+      if (errno != EAGAIN) return errno != EINTR;  // if the interface is down, receive() finds out
     }
     return Port::wait_for_frame(deadline_ns);
   }
@@ -143,8 +146,8 @@ class SocketCan final : public Port {
   }
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] bool up() const override { return up_; }
-  /// Reads the drop counter by SO_MEMINFO, as SO_RXQ_OVFL would report a loss only with the next queued
-  /// frame.
+  /// Reads the number of lost frames with SO_MEMINFO, because SO_RXQ_OVFL would report a loss only with the
+  /// next frame in the queue.
   [[nodiscard]] PortCounters counters() const override {
     PortCounters counters = counters_;
     std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
@@ -158,10 +161,10 @@ class SocketCan final : public Port {
   [[nodiscard]] const std::string& name() const override { return name_; }
 
  private:
-  /// Reads the waiting frames. False: none waits, or the last read emptied the queue.
+  /// Reads the waiting frames. False: no frame is waiting, or the previous read emptied the queue.
   bool fetch() {
     if (!up_) is_back();
-    if (took_all_) {  // the queue was empty: saves a system call; wait() notices frames that came since
+    if (took_all_) {  // saves a system call; wait() notices frames that have come since then
       took_all_ = false;
       return false;
     }
@@ -200,14 +203,15 @@ class SocketCan final : public Port {
     clear_error();
   }
 
-  /// Clears a pending socket error, so that it does not wake the receiver again.
+  /// Clears a pending error of the socket, so that the error does not wake the receiver again.
   void clear_error() {
     int pending = 0;
     socklen_t size = sizeof pending;
     ::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &pending, &size);
   }
 
-  /// Whether the interface is up again, perhaps recreated. Asks the kernel at most every look_again_ns.
+  /// Returns whether the interface is up again; it may have been removed and created again. Asks the kernel
+  /// at most once in look_again_ns.
   bool is_back() {
     const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
     if (now_ns < look_ns_) return false;
@@ -221,7 +225,7 @@ class SocketCan final : public Port {
     received.t_ns = said.software_ns;
     received.hardware_ns = said.hardware_ns;
     received.source = said.hardware_ns != 0 ? StampSource::hardware : StampSource::kernel;
-    if (said.software_ns == 0) {  // one of the first frames: the kernel enables stamping with a delay
+    if (said.software_ns == 0) {  // only the first frames, because the kernel enables stamps with a delay
       received.t_ns = clock_ns(CLOCK_REALTIME);
       if (said.hardware_ns == 0) received.source = StampSource::process;
     }
@@ -231,7 +235,7 @@ class SocketCan final : public Port {
   std::string name_;
   PortOptions options_;
   bool up_ = true;
-  std::int64_t look_ns_ = 0;  // when to check next for an interface that is down
+  std::int64_t look_ns_ = 0;  // when to check next whether the interface is up again
   bool interface_queue_full_ = false;
   ReceiveBatch batch_;
   bool took_all_ = false;  // the queue was empty after the last frame that receive() returned

@@ -1,4 +1,4 @@
-// A point of time on CLOCK_MONOTONIC that poll() can wait for.
+// A timer on CLOCK_MONOTONIC for which poll() can wait.
 #pragma once
 
 #include <sys/timerfd.h>
@@ -14,7 +14,8 @@ class Timer {
  public:
   Timer() : timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {}
 
-  /// Makes the descriptor readable from at_ns on, until the next set(); 0: never.
+  /// Sets the time at_ns at which the descriptor becomes readable. It then remains readable until the next
+  /// set(). With 0 it never becomes readable.
   void set(std::int64_t at_ns) {
     constexpr std::int64_t ns_per_s = 1'000'000'000;
     itimerspec time{};

@@ -11,7 +11,8 @@
 namespace canhil {
 namespace {
 
-/// Removes and returns the text before the mark (all, if there is none); removes the mark too.
+/// Removes the text before the first `mark`, and the mark itself, and returns the removed text without the
+/// mark. If there is no mark, removes and returns all text.
 std::string_view cut(std::string_view& text, char mark) {
   const std::size_t at = std::min(text.find(mark), text.size());
   const std::string_view head = text.substr(0, at);
@@ -26,7 +27,7 @@ bool read_number(std::string_view digits, Number lowest, Number highest, Number&
   return read.ec == std::errc{} && read.ptr == end && number >= lowest && number <= highest;
 }
 
-/// Applies `key=value`; false: not a valid setting.
+/// Applies a setting `key=value`; false: the setting is not valid.
 bool read_setting(std::string_view setting, WireSettings& into) {
   const std::string_view key = cut(setting, '=');
   if (key == "bitrate") return read_number<std::int64_t>(setting, 1'000, 1'000'000, into.rates.nominal);
@@ -46,7 +47,7 @@ Result<WireSettings> wire_settings(std::string_view bus) {
   std::set<std::string_view> given;
   bool more = !rest.empty();
   while (more) {
-    more = rest.find('&') != std::string_view::npos;  // after a '&' another setting must follow
+    more = rest.find('&') != std::string_view::npos;  // another setting must follow after a '&'
     const std::string_view setting = cut(rest, '&');
     if (!read_setting(setting, result)) {
       return failure(

@@ -12,8 +12,8 @@
 namespace canhil::protection {
 namespace {
 
-// Greg Cook, Catalogue of parametrised CRC algorithms (reveng.sourceforge.io/crc-catalogue):
-// name, {width, polynomial, start, input reflected, output reflected, final xor}, check.
+// Source: Greg Cook, Catalogue of parametrised CRC algorithms (reveng.sourceforge.io/crc-catalogue). The
+// columns are: name, {width, polynomial, start, input reflected, output reflected, final xor}, check.
 constexpr std::uint64_t ones = ~std::uint64_t{0};
 constexpr std::array catalogue{
     PublishedCrc{"CRC-4/G-704", {4, 0x3, 0, true, true, 0}, 0x7},
@@ -82,8 +82,8 @@ Result<void> validate(const Crc& crc) {
   return {};
 }
 
-// One 64-bit register serves all widths: a narrower CRC occupies its top bits, and mirroring the register
-// moves the mirrored CRC down to bit 0.
+// Computes CRCs of all widths with a register of 64 bits. A narrower CRC is in the top bits of the register.
+// If the output is reflected, mirroring the register moves the CRC down to bit 0.
 std::uint64_t compute(const Crc& crc, std::span<const std::uint8_t> bytes) {
   const unsigned shift = Crc::widest - crc.width;
   boost::crc_basic<Crc::widest> top(crc.polynomial << shift, crc.start << shift, 0, crc.input_reflected,

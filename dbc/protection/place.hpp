@@ -1,4 +1,4 @@
-// Bits of a message at a Place.
+// Reads and writes the bits of a message that are at a Place.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,9 @@
 
 namespace canhil::protection {
 
-/// Calls visit(byte, mask of one bit, index of the bit in the field) for each bit of a field; index 0 is the
-/// least significant one.
+/// Calls visit(byte, mask, index) for each bit of a field. `byte` and `mask` give the position of the bit in
+/// the message. `index` is the number of the bit in the field; the least significant bit of the field has
+/// number 0.
 template <class Visit>
 void for_each_bit(const Place& place, Visit visit) {
   for (unsigned i = 0; i < place.length; ++i) {
@@ -20,7 +21,7 @@ void for_each_bit(const Place& place, Visit visit) {
   }
 }
 
-/// The field's bits, right-aligned. The data must hold the place.
+/// The bits of the field at `place`, right-aligned. The whole field must be inside `data`.
 inline std::uint64_t read(const Place& place, std::span<const std::uint8_t> data) {
   std::uint64_t value = 0;
   for_each_bit(place, [&](unsigned byte, std::uint8_t bit, unsigned index) {
@@ -29,8 +30,8 @@ inline std::uint64_t read(const Place& place, std::span<const std::uint8_t> data
   return value;
 }
 
-/// Writes the lowest bits of a value, as many as the field has; does not change other bits. The data must
-/// hold the place.
+/// Writes the lowest bits of `value` into the field at `place`, and does not change other bits. The whole
+/// field must be inside `data`.
 inline void write(const Place& place, std::uint64_t value, std::span<std::uint8_t> data) {
   for_each_bit(place, [&](unsigned byte, std::uint8_t bit, unsigned index) {
     const bool set = ((value >> index) & 1U) != 0;

@@ -10,10 +10,10 @@
 namespace canhil::protection {
 namespace {
 
-/// Which bytes of the data id a profile includes in the checksum.
+/// The way in which a profile includes the data id in the checksum.
 enum class DataId : std::uint8_t { both, alternating, low, nibble, list };
 
-/// A field of whole bytes, starting at a byte of the profile.
+/// A field of `bytes` whole bytes. `byte` counts from the first byte of the profile's header.
 Place bytes_at(const ProfileChoice& choice, unsigned byte, unsigned bytes, bool big_endian) {
   return {.start_bit = choice.offset_bits + 8 * byte + (big_endian ? 7 : 0),
           .length = 8 * bytes,
@@ -26,8 +26,9 @@ Place nibble_at(const ProfileChoice& choice, unsigned bit) {
 
 Crc known(std::string_view name) { return published_crc(name).value(); }
 
-// Profiles 1, 2, 11 and 22: CRC in byte 0, counter in the low nibble of byte 1. The CRCs of 1 and 11 start
-// with 0 and end without xor, unlike CRC-8/SAE-J1850 with the same polynomial.
+// Settings for the profiles 1, 2, 11 and 22: the CRC is in byte 0, the counter is in the low nibble of byte
+// 1. The CRC of profiles 1 and 11 has the polynomial of CRC-8/SAE-J1850, but starts with 0 and has no final
+// xor.
 Settings short_header(const ProfileChoice& choice, DataId mode) {
   const AddedByte low{Source::data_id, 0, 0};
   const AddedByte high{Source::data_id, 0, 1};
@@ -65,8 +66,8 @@ Settings short_header(const ProfileChoice& choice, DataId mode) {
   return settings;
 }
 
-/// The header of a profile whose fields are whole bytes. Each field has a first byte and a number of bytes; 0
-/// bytes: the field is not sent.
+/// The header of a profile whose fields are whole bytes. A field is given by its first byte and its number of
+/// bytes. A field with 0 bytes is not sent.
 struct Header {
   struct Field {
     unsigned byte = 0;
@@ -134,7 +135,7 @@ Settings profile_7(const ProfileChoice& choice, unsigned size) {
 struct Profile {
   std::string_view name;
   Settings (*settings)(const ProfileChoice&, unsigned size);
-  unsigned data_id_bits = 0;  ///< 0: the profile uses a data id list
+  unsigned data_id_bits = 0;  ///< length of the data id; 0: the profile uses a data id list
   bool nibble = false;
 };
 

@@ -1,5 +1,5 @@
-// Published protection profiles as settings: AUTOSAR's end-to-end profiles (AUTOSAR FO PRS E2EProtocol,
-// R23-11).
+// Settings for published protection profiles, namely AUTOSAR's end-to-end profiles (AUTOSAR FO PRS
+// E2EProtocol, R23-11).
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,23 @@
 
 namespace canhil::protection {
 
-/// The parameters of a profile that depend on the message. A place given here replaces the profile's default.
+/// Those parameters of a profile that depend on the message. If `checksum`, `counter` or `data_id_nibble` has
+/// a value, this place is used instead of the profile's default.
 struct ProfileChoice {
   std::uint32_t data_id = 0;
-  std::vector<std::uint8_t> data_id_list;  ///< 16 entries, profiles 2 and 22 only
-  unsigned offset_bits = 0;                ///< of all the profile's fields; whole bytes
+  std::vector<std::uint8_t> data_id_list;  ///< 16 entries; only for profiles 2 and 22
+  unsigned offset_bits = 0;                ///< offset of all fields of the profile; a multiple of 8
   std::optional<Place> checksum;
   std::optional<Place> counter;
-  std::optional<Place> data_id_nibble;  ///< variants 1C and 11C only
+  std::optional<Place> data_id_nibble;  ///< only for variants 1C and 11C
 };
 
 /// The names that profile() accepts, such as "autosar-e2e-11c".
 std::span<const std::string_view> profile_names();
 
-/// Settings of a profile for a message of `size` bytes. Error: one line for an unknown name, or for a data
-/// id, list or offset that the profile does not allow. Protection::make() checks that the fields fit the
-/// message.
+/// The settings of a profile for a message of `size` bytes. Returns an error of one line if the name is
+/// unknown, or if the profile does not allow the data id, the data id list or the offset. Protection::make()
+/// checks whether the fields fit the message.
 Result<Settings> profile(std::string_view name, const ProfileChoice& choice, unsigned size);
 
 }  // namespace canhil::protection

@@ -13,8 +13,9 @@ std::uint8_t byte_of(std::uint32_t value, unsigned index) {
   return static_cast<std::uint8_t>(value >> (8 * index));
 }
 
-// data_id_list has an entry for each counter below the modulo. A received counter of the modulo or more
-// selects an arbitrary entry; a later check rejects that counter.
+// The value of a byte that is added to the checksum. data_id_list has an entry for each counter value below
+// the modulo. For a larger received counter, an arbitrary entry is used, because a later check rejects such a
+// counter.
 std::uint8_t added(const AddedByte& byte, const Settings& settings, const Subject& subject,
                    std::uint64_t counter) {
   switch (byte.source) {
@@ -130,7 +131,7 @@ std::uint64_t Protection::next(std::uint64_t counter) const {
 }
 
 std::uint64_t Protection::steps(std::uint64_t from, std::uint64_t to) const {
-  const auto rank = [&](std::uint64_t value) {  // number of allowed values below `value`
+  const auto rank = [&](std::uint64_t value) {  // how many allowed values are below `value`
     if (!settings_.counter) return value;
     const auto& skipped = settings_.counter->skipped;
     return value - static_cast<std::uint64_t>(std::ranges::lower_bound(skipped, value) - skipped.begin());

@@ -32,7 +32,7 @@ constexpr std::array<std::pair<std::string_view, AddedByte>, 11> added_bytes{
      {"message_id_3", {Source::message_id, 0, 3}},
      {"length", {Source::length, 0, 0}}}};
 
-/// The number after "crc"; none: another word, or a width that Crc does not support.
+/// The number N in a word "crcN"; nullopt: it is another word, or Crc does not support the width N.
 std::optional<unsigned> crc_width(std::string_view word) {
   constexpr std::string_view crc = "crc";
   if (!word.starts_with(crc)) return std::nullopt;

@@ -11,10 +11,12 @@
 namespace canhil::protection {
 namespace {
 
-constexpr unsigned longest_counter = 32;  // so sums of modulo and period cannot overflow 64 bits
+constexpr unsigned longest_counter =
+    32;  // in bits; small enough that sums of modulo and period fit in 64 bits
 constexpr unsigned longest_constant = 64;
 
-/// The fields that the settings write. Each must be inside the message and must not overlap another.
+/// The fields that a Protection writes. Each field must be inside the message and must not overlap another
+/// field.
 class Fields {
  public:
   explicit Fields(unsigned size) : size_(size) {}

@@ -1,4 +1,4 @@
-// --realtime, --priority and --cpu, the same for both programs.
+// The options --realtime, --priority and --cpu, which are the same for hil-bench and hil-target.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,20 @@
 
 namespace canhil::realtime {
 
-/// The values as typed.
+/// The values that the user typed.
 struct Options {
   bool wanted = false;
   std::optional<int> priority;
   std::optional<int> cpu;
 
-  /// The argument for enter(); none without --realtime.
+  /// The argument for enter(); nullopt: --realtime was not given.
   [[nodiscard]] std::optional<Request> request() const {
     if (!wanted) return std::nullopt;
     return Request{.priority = priority.value_or(default_priority), .cpu = cpu};
   }
 };
 
-/// Adds the options; `options` must outlive the command. Returns --realtime.
+/// Adds the three options to `command`. `options` must outlive the command. Returns the option --realtime.
 inline command_line::Option add_options(command_line::Command command, Options& options) {
   const auto realtime = command.add_flag(
       "--realtime", options.wanted,

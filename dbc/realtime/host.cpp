@@ -17,7 +17,7 @@
 namespace canhil::realtime {
 namespace {
 
-// rlim_t is 64 bits wide; RLIM_INFINITY is its largest value.
+// The limit of a resource. rlim_t has 64 bits, and RLIM_INFINITY is its largest value.
 std::uint64_t limit(int resource) {
   rlimit value{};
   return ::getrlimit(static_cast<__rlimit_resource>(resource), &value) == 0 ? value.rlim_cur : 0;
@@ -43,7 +43,7 @@ std::string program_path() {
 }  // namespace
 
 std::string preemption(std::string_view version) {
-  // #1 SMP PREEMPT_RT Debian ...; before Linux 5.3: #1 SMP PREEMPT RT
+  // Examples of `version`: "#1 SMP PREEMPT_RT Debian ..."; before Linux 5.3 "#1 SMP PREEMPT RT".
   for (const std::string_view model :
        {"PREEMPT_RT", "PREEMPT RT", "PREEMPT_DYNAMIC", "PREEMPT_LAZY", "PREEMPT"}) {
     if (version.find(model) != std::string_view::npos)
@@ -96,7 +96,8 @@ std::string missing(const Rights& rights, int priority, std::string_view user, s
   std::vector<std::string> lacks;
   if (!rights.may_schedule && rights.priority < static_cast<std::uint64_t>(priority))
     lacks.push_back(fmt::format("real-time priority {} is above the limit of {}", priority, rights.priority));
-  // A finite limit counts as missing: it may suffice at the start, but locking fails when the program grows.
+  // With a finite limit, the right counts as missing: the limit may suffice at the start, but locking fails
+  // later, when the program needs more memory.
   if (!rights.may_lock && rights.locked_bytes != std::numeric_limits<std::uint64_t>::max())
     lacks.push_back(
         fmt::format("the limit of {} KiB does not allow locking all memory", rights.locked_bytes / 1024));

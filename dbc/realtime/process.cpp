@@ -23,9 +23,10 @@ namespace {
 constexpr std::size_t page_bytes = 4096;
 constexpr std::size_t stack_bytes = 512 << 10;
 
-int cpu_sleep_request = -1;  // stays open until the process ends: closing it withdraws the request
+int cpu_sleep_request = -1;  // remains open until the process ends, because closing it ends the request
 
-// While the file is open, the kernel limits the wake-up latency of the CPUs to 0 us.
+// Opens /dev/cpu_dma_latency and writes 0 us. While this file is open, the kernel keeps the CPUs out of sleep
+// states from which they wake up late.
 void keep_cpus_awake() {
   if (cpu_sleep_request >= 0) return;
   const int file = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
@@ -42,14 +43,15 @@ void touch(volatile char* bytes, std::size_t size) {
   for (std::size_t at = 0; at < size; at += page_bytes) bytes[at] = 0;
 }
 
-// Faults in the pages of the stack. Not inlined: the array must not stay on the stack of the caller.
+// Writes to each page of the stack, so that no page fault occurs later. Not inlined, because the array must
+// not stay on the stack of the caller.
 [[gnu::noinline]] void touch_stack() {
   std::array<char, stack_bytes> bytes;
   touch(bytes.data(), bytes.size());
 }
 
-// Faults in `size` bytes of the heap. malloc() will not return freed memory to the kernel, and will allocate
-// large blocks from the heap too, so that neither causes page faults later.
+// Writes to each page of `size` bytes of the heap, so that no page fault occurs later. Also configures
+// malloc(): it never returns freed memory to the kernel, and it takes large blocks from the heap too.
 void touch_heap(std::size_t size) {
   ::mallopt(M_TRIM_THRESHOLD, -1);
   ::mallopt(M_MMAP_MAX, 0);
@@ -110,7 +112,8 @@ Result<void> enter(const Request& request) {
   return {};
 }
 
-// mlockall() copies the private pages that fork() left shared with the child, as a write would.
+// After fork(), parent and child share pages until one of them writes. mlockall() copies these pages, as a
+// write would.
 bool own_memory_again() { return ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0; }
 
 std::vector<int> cpus() {

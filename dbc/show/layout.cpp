@@ -10,7 +10,8 @@
 namespace canhil::dbc {
 namespace {
 
-/// A, B, ... Z, AA, AB, ...: short, as cells of the matrix are narrow.
+/// The label of signal `number` in the matrix: A, B, ... Z, AA, AB, ... Labels are short, because the cells
+/// are narrow.
 std::string label(std::size_t number) {
   std::string text;
   for (std::size_t rest = number + 1; rest > 0; rest = (rest - 1) / 26)
@@ -18,8 +19,8 @@ std::string label(std::size_t number) {
   return text;
 }
 
-/// The bits of a message as a matrix. Cell "A7": bit 7 of the raw value of signal A; "A7+": other signals use
-/// this bit too.
+/// The bits of a message as a matrix. A cell "A7" is bit 7 of the raw value of the signal with label A. "A7+"
+/// means that other signals use this bit of the message too.
 std::string matrix(const Message& message) {
   std::vector<std::string> cells(std::size_t{8} * message.size, ".");
   for (std::size_t s = 0; s < message.signals.size(); ++s) {

@@ -11,7 +11,7 @@
 namespace canhil::dbc {
 namespace {
 
-/// The number of UTF-8 characters.
+/// The number of characters in a UTF-8 text.
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));

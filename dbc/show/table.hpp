@@ -1,4 +1,4 @@
-// Columns of text. Internal to show.
+// Formats tables of text. This header is internal to dbc/show.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@ namespace canhil::dbc {
 
 using Row = std::vector<std::string>;
 
-/// Formats rows with equal numbers of cells: each column as wide as its widest cell, two blanks between
-/// columns. Control characters become '?'.
+/// Formats a table; all rows must have the same number of cells. Each column is as wide as its widest cell,
+/// and two blanks separate the columns. Control characters become '?'.
 std::string aligned(std::vector<Row> rows);
 
-/// "0x123" for 11 bits, "0x00000123" for 29 bits, like candump.
+/// The id as text: "0x123" for 11 bits, "0x00000123" for 29 bits. The number of digits is that of candump.
 std::string id_text(const Message& message);
 
-/// "10 ms"; "-": no cycle time.
+/// The cycle time as text, such as "10 ms"; "-": the message has no cycle time.
 std::string cycle_text(const Message& message);
 
-/// All senders; "-": none.
+/// The names of all senders; "-": the message has no sender.
 std::string sender_text(const Message& message);
 
 }  // namespace canhil::dbc

@@ -1,4 +1,5 @@
-// The version of all programs of the project: CMake's project version, and the git revision of the build.
+// The version of all programs of the project: the project version in CMakeLists.txt, and the git revision of
+// the build.
 #pragma once
 
 #include <cstdint>
@@ -7,20 +8,21 @@
 
 namespace canhil {
 
-/// Semantic version, https://semver.org.
+/// A semantic version, see https://semver.org.
 struct Version {
   std::uint8_t major = 0, minor = 0, patch = 0;
 };
 
-/// The version in project(canhil VERSION ...) of CMakeLists.txt.
+/// The version that project(canhil VERSION ...) in CMakeLists.txt states.
 Version version();
-/// "0.2.0"
+/// The version as text, such as "0.2.0".
 std::string_view version_text();
 
-/// The git revision of the build, with "-dirty" if files were altered; "unknown" outside a checkout.
+/// The git revision of the build. "-dirty" is appended if files differ from that revision; "unknown": the
+/// build was not made in a git checkout.
 std::string_view revision();
 
-/// What --version prints: "hil-bench 0.2.0 (revision 0123456789ab)".
+/// The text that --version prints, such as "hil-bench 0.2.0 (revision 0123456789ab)".
 std::string version_line(std::string_view program);
 
 }  // namespace canhil

@@ -1,8 +1,9 @@
-// The length of a frame on the wire: exact from its content, worst case from its size. From the length follow
-// the frame's duration and the bus load.
+// The length of a frame on the wire, in bits: the exact length for a given content, and the largest length
+// for a given size. The duration of the frame and the bus load are computed from the length.
 //
-// All lengths include the acknowledgement and the intermission of 3 bits before the next frame. Layouts:
-// ISO 11898-1:2015, 10.4. The sender is assumed to be error active (bit ESI of FD frames).
+// All lengths include the acknowledgement and the intermission of 3 bits before the next frame. The layouts
+// of the frames are those of ISO 11898-1:2015, 10.4. The sender is assumed to be error active (bit ESI of FD
+// frames).
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,10 @@
 
 namespace canhil::wire {
 
-/// Bits at the nominal bit rate and, in an FD frame with bit rate switch, at the data bit rate. The rate
-/// switches at the sample points of BRS and of the CRC delimiter. Together these two bits last one nominal
-/// and one data bit, so BRS counts as nominal and the delimiter as data.
+/// The number of bits at the nominal bit rate and, for FD frames with bit rate switch, at the data bit rate.
+/// The rate changes at the sample points of the bit BRS and of the CRC delimiter. Together, these two bits
+/// take the time of one nominal bit and one data bit. Therefore BRS is counted as a nominal bit and the
+/// delimiter as a data bit.
 struct BitLength {
   std::int64_t nominal = 0;
   std::int64_t data = 0;
@@ -23,7 +25,7 @@ struct BitLength {
     data += other.data;
     return *this;
   }
-  /// All bits, whatever their rate.
+  /// The number of all bits, at both rates.
   [[nodiscard]] constexpr std::int64_t bits() const { return nominal + data; }
   friend constexpr bool operator==(const BitLength&, const BitLength&) = default;
 };
@@ -31,14 +33,14 @@ struct BitLength {
 /// Bit rates [bit/s]; nominal must be above 0.
 struct BitRates {
   std::int64_t nominal = 0;
-  std::int64_t data = 0;  ///< in the data phase of FD frames; 0: same as nominal
+  std::int64_t data = 0;  ///< rate in the data phase of FD frames; 0: the same as nominal
 };
 
-/// The bits that a sender puts on the wire: counts them including stuff bits, and computes the CRC of classic
-/// frames.
+/// The bits that a sender puts on the wire. BitStream counts these bits, including the stuff bits, and
+/// computes the CRC of classic frames.
 class BitStream {
  public:
-  /// Appends a bit, and a stuff bit before it where one is due.
+  /// Appends a bit. If a stuff bit is due, appends it before this bit.
   constexpr void put(bool bit) {
     if (run_ == longest_run) stuff();
     run_ = bit == last_ ? run_ + 1 : 1;
@@ -47,15 +49,15 @@ class BitStream {
     const bool feedback = bit != ((crc_ >> 14U & 1U) != 0);
     crc_ = (crc_ << 1U & 0x7FFFU) ^ (feedback ? crc15_polynomial : 0);
   }
-  /// Appends the low `count` bits of `value`, most significant first.
+  /// Appends the lowest `count` bits of `value`, the most significant of them first.
   constexpr void put(std::uint32_t value, int count) {
     while (count-- > 0) put((value >> static_cast<unsigned>(count) & 1U) != 0);
   }
-  /// Adds the stuff bit that is due if the stream ends with five equal bits.
+  /// Ends the stream: if its last five bits are equal, appends a stuff bit.
   constexpr void close() {
     if (run_ == longest_run) stuff();
   }
-  /// Bits so far, with stuff bits.
+  /// The number of bits so far, with stuff bits.
   [[nodiscard]] constexpr int length() const { return length_; }
   /// The CRC of the bits so far, without stuff bits.
   [[nodiscard]] constexpr std::uint32_t crc15() const { return crc_; }
@@ -76,28 +78,28 @@ class BitStream {
   std::uint32_t crc_ = 0;
 };
 
-/// The intermission follows every frame, at the nominal bit rate. The stamp of a frame is the time at
-/// which its intermission begins.
+/// The intermission follows every frame, at the nominal bit rate. The time stamp of a frame is the time at
+/// which the intermission after the frame begins.
 inline constexpr std::int64_t intermission_bits = 3;
 
-/// Acknowledgement with delimiter, end of frame, intermission.
+/// The acknowledgement with its delimiter, the end of frame, and the intermission.
 inline constexpr std::int64_t frame_end_bits = 2 + 7 + intermission_bits;
 
-/// The data length code of a size; the size must have one.
+/// The data length code of a size. There must be a data length code for this size.
 constexpr std::uint32_t data_length_code(unsigned size) {
   if (size <= 8) return size;
   if (size <= 24) return 9 + (size - 12) / 4;
   return size == 32 ? 13 : size == 48 ? 14 : 15;
 }
 
-/// Stuff count, CRC and CRC delimiter of an FD frame; a fixed stuff bit precedes every four bits of stuff
-/// count and CRC.
+/// The number of bits of the stuff count, the CRC and the CRC delimiter of an FD frame. In stuff count and
+/// CRC, there is a fixed stuff bit before every four bits.
 constexpr int fd_crc_field_bits(unsigned size) {
   const int bits = 4 + (size <= 16 ? 17 : 21);
   return bits + (bits + 3) / 4 + 1;
 }
 
-/// The length of a frame with this content. 0 for an error frame, whose length on the wire is unknown.
+/// The exact length of a frame on the wire; 0 for an error frame, because its length on the wire is unknown.
 constexpr BitLength bit_length(const Frame& frame) {
   if (frame.error) return {};
   BitStream wire;
@@ -106,11 +108,11 @@ constexpr BitLength bit_length(const Frame& frame) {
     wire.put(frame.id >> 18U, 11);
     wire.put(0b11, 2);  // SRR, IDE
     wire.put(frame.id, 18);
-    wire.put(false);                 // RTR; RRS in FD frames
+    wire.put(false);                 // RTR, in FD frames RRS
     if (!frame.fd) wire.put(false);  // r1
   } else {
     wire.put(frame.id, 11);
-    wire.put(0b00, 2);  // RTR or RRS, IDE
+    wire.put(0b00, 2);  // RTR (in FD frames RRS), IDE
   }
   if (!frame.fd) {
     wire.put(false);  // r0
@@ -118,32 +120,32 @@ constexpr BitLength bit_length(const Frame& frame) {
     for (const std::uint8_t byte : frame.payload()) wire.put(byte, 8);
     wire.put(wire.crc15(), 15);
     wire.close();
-    return {.nominal = wire.length() + 1 + frame_end_bits};  // 1: CRC delimiter
+    return {.nominal = wire.length() + 1 + frame_end_bits};  // the 1 is the CRC delimiter
   }
   wire.put(frame.brs ? 0b101 : 0b100, 3);  // FDF, res, BRS
   const int arbitration = wire.length();
-  wire.put(data_length_code(frame.size), 5);  // ESI (0: error active), DLC
+  wire.put(data_length_code(frame.size), 5);  // ESI (0 means error active), DLC
   for (const std::uint8_t byte : frame.payload()) wire.put(byte, 8);
-  // close() is not called: if a stuff bit is due after the data, the first fixed stuff bit takes its place.
+  // close() is not called: if a stuff bit is due after the data, the first fixed stuff bit replaces it.
   const int data = wire.length() - arbitration + fd_crc_field_bits(frame.size);
   if (!frame.brs) return {.nominal = arbitration + data + frame_end_bits};
   return {.nominal = arbitration + frame_end_bits, .data = data};
 }
 
 /// The largest length of a classic frame of size s: g + 8 s + 13 + floor((g + 8 s - 1) / 4) bits, where g is
-/// 34 for 11-bit ids, 54 for 29-bit ones (Davis, Burns, Bril, Lukkien 2007, eq. 1).
+/// 34 for an 11-bit id and 54 for a 29-bit id (Davis, Burns, Bril, Lukkien 2007, eq. 1).
 constexpr BitLength worst_case_length(unsigned size, bool extended) {
   const std::int64_t stuffed = (extended ? 54 : 34) + 8 * static_cast<std::int64_t>(size);
   return {.nominal = stuffed + 13 + (stuffed - 1) / 4};
 }
 
-/// The largest length of an FD frame of size s.
-/// Up to BRS there are 17 bits (11-bit id) or 36 bits (29-bit id). FDF = 1 and res = 0 end every run, so
-/// stuff bits fall into the 14 or 33 bits before them: at most floor((14 - 1) / 4) = 3 or floor((33 - 1) / 4)
-/// = 8. From ESI to the last data bit there are 5 + 8 s bits. A run may begin before ESI: two bits earlier at
-/// res (without bit rate switch) or one bit earlier at BRS (with it). A stuff bit due after the last bit is a
-/// fixed one. So there are at most floor((5 + 8 s + 2 - 2) / 4) = 1 + 2 s stuff bits, also for error passive
-/// senders (ESI = 1).
+/// The largest length of an FD frame of size s. From the start of frame to BRS, there are 17 bits (11-bit id)
+/// or 36 bits (29-bit id). FDF = 1 and res = 0 end every run of equal bits. Therefore stuff bits occur only
+/// in the 14 or 33 bits before FDF: at most floor((14 - 1) / 4) = 3 or floor((33 - 1) / 4) = 8. From ESI to
+/// the last data bit, there are 5 + 8 s bits. A run of equal bits may begin before ESI: without bit rate
+/// switch two bits before it, at res; with bit rate switch one bit before it, at BRS. A stuff bit that is due
+/// after the last data bit is replaced by a fixed stuff bit. So there are at most floor((5 + 8 s + 2 - 2) /
+/// 4) = 1 + 2 s stuff bits, also for error passive senders (ESI = 1).
 constexpr BitLength worst_case_fd_length(unsigned size, bool extended, bool brs) {
   const std::int64_t arbitration = extended ? 36 + 8 : 17 + 3;
   const std::int64_t s = size;
@@ -152,7 +154,7 @@ constexpr BitLength worst_case_fd_length(unsigned size, bool extended, bool brs)
   return {.nominal = arbitration + frame_end_bits, .data = data};
 }
 
-/// The duration of a length [s].
+/// The duration of frames with this length [s].
 constexpr double duration_s(const BitLength& length, const BitRates& rates) {
   const std::int64_t data_rate = rates.data > 0 ? rates.data : rates.nominal;
   return static_cast<double>(length.nominal) / static_cast<double>(rates.nominal) +
@@ -169,7 +171,8 @@ constexpr std::int64_t duration_ns(const BitLength& length, const BitRates& rate
          rounded_up(length.data, rates.data > 0 ? rates.data : rates.nominal);
 }
 
-/// The fraction of an interval (above 0) during which frames with this total length occupy the bus; 1: full.
+/// The fraction of an interval during which frames with the total length `sum` occupy the bus; 1 means a full
+/// bus. The interval must be above 0.
 constexpr double bus_load(const BitLength& sum, double interval_s, const BitRates& rates) {
   return duration_s(sum, rates) / interval_s;
 }

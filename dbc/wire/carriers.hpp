@@ -1,5 +1,5 @@
-// The frame that carries each message. On classic CAN, each message has its own frame. On CAN FD, the
-// container of its sample group carries the message; a message without a container has its own frame.
+// Defines which frame carries each message. On classic CAN, each message has its own frame. On CAN FD, a
+// message is in the container of its sample group; a message without a container has its own frame.
 #pragma once
 
 #include <algorithm>
@@ -17,15 +17,15 @@ namespace canhil::wire {
 
 /// A frame on the wire.
 struct Carrier {
-  std::size_t first = 0;    ///< index of the first message in the frame; the frame has that message's id
-  std::string_view name{};  ///< of the frame's message in the bus's contract
+  std::size_t first = 0;    ///< index of the first message in the frame; its id is the id of the frame
+  std::string_view name{};  ///< name of the frame in the contract of the bus
   BitLength longest{};
 };
 
-/// The carrier of each message, by index in all_messages.
+/// The carrier of each message. The index is that of the message in all_messages.
 using Carriers = std::array<Carrier, messages::all_messages.size()>;
 
-/// On classic CAN: each message travels in a frame of its own.
+/// The carriers on classic CAN: each message has its own frame.
 inline constexpr Carriers classic_carriers = [] {
   Carriers carriers{};
   for (std::size_t i = 0; i < carriers.size(); ++i) {
@@ -35,7 +35,8 @@ inline constexpr Carriers classic_carriers = [] {
   return carriers;
 }();
 
-/// On CAN FD: the containers of the sample groups, and frames of their own for the other messages.
+/// The carriers on CAN FD: the containers of the sample groups. Each message without a container has its own
+/// frame.
 inline constexpr Carriers fd_carriers = [] {
   Carriers carriers = classic_carriers;
   for (std::size_t i = 0; i < carriers.size(); ++i) {
@@ -51,8 +52,8 @@ inline constexpr Carriers fd_carriers = [] {
   return carriers;
 }();
 
-/// The carriers of a bus's messages. For the project's contract: fd_carriers or classic_carriers.
-/// Each message of another DBC has its own frame.
+/// The carriers of the messages of a bus. For the project's contract, these are fd_carriers or
+/// classic_carriers. Each message of another DBC has its own frame.
 inline std::vector<Carrier> carriers_of(std::span<const MessageInfo> messages, bool fd) {
   if (messages.data() == messages::all_messages.data()) {
     const Carriers& own = fd ? fd_carriers : classic_carriers;

@@ -1,6 +1,7 @@
-// End-to-end protection, AUTOSAR E2E profile 11 variant A (PRS_E2EProtocol): CRC-8 SAE J1850 polynomial 0x1D
-// with start value 0 in byte 0, over the 16-bit data id (low byte first, not sent) and bytes 1.. of the
-// frame; a counter 0..14 in the low nibble of byte 1.
+// End-to-end protection (E2E) according to AUTOSAR profile 11 variant A (PRS_E2EProtocol). Byte 0 of a frame
+// is a CRC-8 with the SAE J1850 polynomial 0x1D and start value 0. The CRC covers the 16-bit data id (low
+// byte first; the data id is not sent) and all bytes of the frame after byte 0. The low nibble of byte 1 is a
+// counter from 0 to 14.
 #pragma once
 
 #include <array>
@@ -16,11 +17,11 @@ inline constexpr int counter_period = 15;  // the profile excludes the value 15
 namespace detail {
 
 inline constexpr std::size_t stride =
-    7;  // bytes per step: an 8-byte frame has one step after the CRC byte, a 64-byte frame nine
+    7;  // bytes per step: after the CRC byte, an 8-byte frame needs one step, a 64-byte frame nine steps
 
-// advance[k][b]: the CRC of byte b followed by k zero bytes. The CRC is linear, so the CRC of several bytes
-// is the exclusive or of such entries. These look-ups are independent of each other, whereas in a loop over
-// bytes each would wait for the previous one.
+// advance[k][b] is the CRC of byte b followed by k zero bytes. The CRC is linear, so the CRC of several bytes
+// is the exclusive or of such entries. The look-ups of the entries do not depend on each other. In a loop
+// over single bytes, each look-up would have to wait for the previous one.
 consteval std::array<std::array<std::uint8_t, 256>, stride> crc_tables() {
   std::array<std::array<std::uint8_t, 256>, stride> advance{};
   for (unsigned b = 0; b < 256; ++b) {
@@ -37,7 +38,8 @@ inline constexpr auto advance = crc_tables();
 
 }  // namespace detail
 
-/// CRC of a frame's bytes from byte 1 on, for a data id. Length: 2..64 bytes.
+/// The CRC of all bytes of a frame after byte 0, for a data id. `data` is the whole frame and has 2..64
+/// bytes.
 constexpr std::uint8_t crc(std::span<const std::uint8_t> data, std::uint16_t data_id) {
   using detail::advance;
   std::uint8_t c = static_cast<std::uint8_t>(advance[1][data_id & 0xFFU] ^ advance[0][data_id >> 8U]);
@@ -52,32 +54,32 @@ constexpr std::uint8_t crc(std::span<const std::uint8_t> data, std::uint16_t dat
   return c;
 }
 
-/// Writes counter (0..14) and CRC into a packed frame.
+/// Writes the counter (0..14) and the CRC into a packed frame.
 constexpr void protect(std::span<std::uint8_t> data, std::uint16_t data_id, std::uint8_t counter) {
   data[1] = static_cast<std::uint8_t>((data[1] & 0xF0U) | counter);
   data[0] = crc(data, data_id);
 }
 
-/// The counter of a protected frame.
+/// The counter in a protected frame.
 constexpr std::uint8_t counter(std::span<const std::uint8_t> data) { return data[1] & 0x0FU; }
 
-/// The counter after this one.
+/// The counter value that follows `counter`.
 constexpr std::uint8_t next(std::uint8_t counter) {
   return static_cast<std::uint8_t>(counter + 1 == counter_period ? 0 : counter + 1);
 }
 
-/// The result of checking a received frame, given the frames before it.
+/// The result of the check of a received frame. It also depends on the frames before it.
 enum class Check : std::uint8_t {
-  ok,         ///< CRC right, counter follows
-  some_lost,  ///< CRC right, counter jumped: frames were lost in between
-  repeated,   ///< CRC right, same counter as before: not new
-  wrong_crc   ///< discard the frame
+  ok,         ///< CRC right, counter as expected
+  some_lost,  ///< CRC right, but the counter jumped: frames were lost
+  repeated,   ///< CRC right, but the counter is that of the previous frame: not new
+  wrong_crc   ///< CRC, counter or size wrong: discard the frame
 };
 
-/// Holds the last counter of one received message.
+/// Stores the last counter of one received message.
 class Receiver {
  public:
-  /// Checks a frame and stores its counter. lost() is then the number of frames lost before it (0..13).
+  /// Checks a frame, and stores its counter if the CRC is right.
   constexpr Check check(std::span<const std::uint8_t> data, std::uint16_t data_id) {
     lost_ = 0;
     if (data.size() < 2 || data[0] != crc(data, data_id) || counter(data) >= counter_period)
@@ -90,9 +92,9 @@ class Receiver {
     lost_ = (now + counter_period - before - 1) % counter_period;
     return lost_ == 0 ? Check::ok : Check::some_lost;
   }
-  /// The frames lost before the last checked one (0..13).
+  /// The number of frames that were lost before the frame that was checked last (0..13).
   [[nodiscard]] constexpr int lost() const { return lost_; }
-  /// Forgets the last counter: the next frame with a right CRC is ok.
+  /// Deletes the stored counter. For the next frame with a right CRC, check() returns ok.
   constexpr void reset() { last_ = none; }
 
  private:

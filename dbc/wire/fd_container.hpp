@@ -9,26 +9,27 @@
 
 namespace canhil::wire {
 
-/// One container: `count` classic frames of 8 bytes, in the order of transmission. Filled in by dbcgen.
+/// Describes a container: it has `count` classic frames of 8 bytes, in the order of transmission. dbcgen
+/// generates these descriptions.
 struct FdContainer {
   static constexpr std::size_t max_slots = 8;
   static constexpr std::size_t slot_bytes = 8;
 
-  std::string_view name{};  ///< of the message on CAN FD
-  std::uint16_t id = 0;     ///< of its first slot
+  std::string_view name{};  ///< name of the container's message in the FD contract
+  std::uint16_t id = 0;     ///< id of the container, which is the id of its first slot
   std::uint8_t size = 0;
   std::uint8_t count = 0;
   std::array<std::uint16_t, max_slots> slots{};  ///< the ids of the classic frames
 };
 
-/// The container and slot of a classic id.
+/// The container and the slot in which the message with a classic id is.
 struct FdPlace {
   static constexpr std::uint8_t nowhere = 0xFF;
-  std::uint8_t container = nowhere;  ///< index
+  std::uint8_t container = nowhere;  ///< index of the container; nowhere: the message is in no container
   std::uint8_t slot = 0;
 };
 
-/// The place of every standard id.
+/// The place of every standard id. The index is the id.
 constexpr std::array<FdPlace, 2048> fd_places(std::span<const FdContainer> containers) {
   std::array<FdPlace, 2048> places{};
   for (std::size_t c = 0; c < containers.size(); ++c) {

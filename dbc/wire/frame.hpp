@@ -8,18 +8,19 @@
 
 namespace canhil {
 
-/// One CAN or CAN FD data frame, or an error frame as SocketCAN reports it (id then holds the error class
-/// bits).
+/// A data frame of CAN or CAN FD, or an error frame as SocketCAN reports it. In an error frame, `id` contains
+/// the bits of the error class.
 struct Frame {
   static constexpr std::size_t max_size = 64;
 
-  std::uint32_t id = 0;    ///< 11 or 29 bits, without flags
-  std::uint8_t size = 0;   ///< bytes of data in use
-  bool extended = false;   ///< 29-bit id
-  bool fd = false;         ///< CAN FD format
-  bool brs = false;        ///< CAN FD: data phase at the higher bit rate
-  bool error = false;      ///< error frame
-  bool unrounded = false;  ///< scaled signals follow the payload as doubles: within one process only
+  std::uint32_t id = 0;   ///< 11 or 29 bits, without flags
+  std::uint8_t size = 0;  ///< number of data bytes
+  bool extended = false;  ///< 29-bit id
+  bool fd = false;        ///< CAN FD format
+  bool brs = false;       ///< CAN FD with bit rate switch: the data phase has the higher bit rate
+  bool error = false;     ///< error frame
+  /// The scaled signals follow the payload as doubles. Such frames exist only inside one process.
+  bool unrounded = false;
   std::array<std::uint8_t, max_size> data{};
 
   /// The data bytes of the frame.

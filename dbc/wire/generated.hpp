@@ -1,4 +1,4 @@
-// Functions that generated code calls in its codec and in its static assertions. All generated headers
+// Functions that the generated code calls in its codecs and in its static assertions. All generated headers
 // include this file.
 #pragma once
 
@@ -17,8 +17,8 @@
 
 namespace canhil::wire {
 
-/// True if every signal lies inside its message, and signals that are not multiplexed overlap neither each
-/// other nor the E2E fields of a protected message.
+/// True if two conditions hold: every signal is inside the message; and signals that are not multiplexed
+/// overlap neither each other nor, in a protected message, the E2E fields.
 constexpr bool is_sound(const MessageInfo& message, std::span<const SignalInfo> signals) {
   std::array<bool, 512> taken{};
   if (message.e2e_data_id != 0) std::fill_n(taken.begin(), 12, true);
@@ -32,25 +32,26 @@ constexpr bool is_sound(const MessageInfo& message, std::span<const SignalInfo> 
   return true;
 }
 
-/// The limit of rounding noise relative to the sensor's noise: LSB / sqrt(12) <= sigma / 4.
+/// The largest allowed ratio of the rounding noise to the sensor noise: LSB / sqrt(12) <= sigma / 4.
 inline constexpr double largest_quantisation_ratio = 0.25;
 
-/// Standard deviation of rounding to multiples of `lsb`, divided by the sensor's per-sample sigma.
+/// The standard deviation of the rounding to multiples of `lsb`, divided by the sigma of one sample of the
+/// sensor.
 constexpr double quantisation_ratio(double lsb, double sensor_sigma) {
   constexpr double sqrt_12 = 3.4641016151377544;
   return lsb / sqrt_12 / sensor_sigma;
 }
 
-/// The verdict on a measurement's resolution.
+/// The verdict on the resolution of a measured signal.
 enum class Resolution : std::uint8_t {
   enough,
   too_coarse,       ///< LSB / sqrt(12) > sigma / 4
-  loses_remainder,  ///< an increment (delta_*) without CarriesRemainder: rounding errors accumulate
-  unknown_sigma     ///< CarriesRemainder shows that the signal is a measurement, but it has no SensorSigma
+  loses_remainder,  ///< an increment (delta_*) without CarriesRemainder, so rounding errors accumulate
+  unknown_sigma     ///< a signal with CarriesRemainder, so a measurement, but without SensorSigma
 };
 
-/// Judges a signal by its LSB and the 1-sigma of its sensor, both in the signal's unit. A sigma of 0
-/// means: no sensor.
+/// Judges the resolution of a signal by its LSB and by the sigma of its sensor, both in the unit of the
+/// signal. A sigma of 0 means that the signal is not from a sensor.
 constexpr Resolution resolution_of(std::string_view name, double lsb, double sensor_sigma,
                                    bool carries_remainder) {
   if (name.starts_with("delta_") && !carries_remainder) return Resolution::loses_remainder;
@@ -59,14 +60,14 @@ constexpr Resolution resolution_of(std::string_view name, double lsb, double sen
                                                                              : Resolution::too_coarse;
 }
 
-/// True if the resolution of every measurement among the signals suffices for its sensor.
+/// True if every signal that is a measurement has enough resolution for its sensor.
 constexpr bool is_fine_enough(std::span<const SignalInfo> signals) {
   return std::ranges::all_of(signals, [](const SignalInfo& s) {
     return resolution_of(s.name, lsb(s), s.sensor_sigma, s.carries_remainder) == Resolution::enough;
   });
 }
 
-/// The message with this id in a directory sorted by id, or none.
+/// The message with this id in a list that is sorted by id; nullptr: the list has no such message.
 constexpr const MessageInfo* find(std::span<const MessageInfo> sorted, std::uint32_t id, bool extended) {
   const auto found = std::ranges::lower_bound(sorted, id, {}, &MessageInfo::id);
   for (auto i = found; i != sorted.end() && i->id == id; ++i) {

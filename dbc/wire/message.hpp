@@ -1,4 +1,4 @@
-// Generated messages to protected frames and back.
+// Converts generated messages to protected frames, and frames to messages.
 #pragma once
 
 #include "dbc/wire/e2e.hpp"
@@ -7,8 +7,9 @@
 
 namespace canhil {
 
-/// Packs a generated message (rounding, saturating) and, if it has an E2E data id, protects it with the given
-/// counter (0..14). With Rounding::none its scaled signals also follow the packed bytes as doubles.
+/// Packs a generated message into a frame; the signals are rounded and saturated. If the message has an E2E
+/// data id, the frame is protected with the given counter (0..14). With Rounding::none, the scaled signals
+/// are also appended to the packed bytes as doubles.
 template <class Message>
 Frame to_frame(const Message& message, std::uint8_t counter, Rounding rounding = Rounding::as_on_the_bus) {
   Frame frame;
@@ -25,7 +26,7 @@ Frame to_frame(const Message& message, std::uint8_t counter, Rounding rounding =
   return frame;
 }
 
-/// Unpacks a frame that has the id and size of the message. Ignores the E2E fields.
+/// Unpacks a frame, which must have the id and the size of the message. Ignores the E2E fields.
 template <class Message>
 Message from_frame(const Frame& frame) {
   Message message =

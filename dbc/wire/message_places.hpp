@@ -1,5 +1,5 @@
-// Maps a frame's id to the index of its message in a list known only at run time. For the project's own
-// contract see routes.hpp.
+// Finds the index of a frame's message in a list of messages that is known only at run time. For the
+// project's own contract see routes.hpp.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ class MessagePlaces {
   /// The largest number of messages in a list.
   static constexpr std::size_t most = nowhere;
 
-  /// For a list of at most `most` messages.
+  /// `messages` must have at most `most` elements.
   explicit MessagePlaces(std::span<const MessageInfo> messages) {
     standard_.fill(nowhere);
     for (std::size_t i = 0; i < messages.size(); ++i) {
@@ -30,7 +30,7 @@ class MessagePlaces {
     }
   }
 
-  /// The index of the frame's message; nowhere: an error frame, or an id without a message.
+  /// The index of the frame's message; nowhere: it is an error frame, or no message has its id.
   [[nodiscard]] std::size_t operator()(const Frame& frame) const {
     if (frame.error) return nowhere;
     if (!frame.extended) return frame.id < standard_.size() ? standard_[frame.id] : nowhere;

@@ -1,4 +1,5 @@
-// A value or an error of one line, for functions with input that may be wrong. Never used on the frame path.
+// A value or an error of one line, for functions whose input may be wrong. Functions that are called for each
+// frame do not use it.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace canhil {
 
-/// One line for the user: what is wrong, where, and what was expected.
+/// One line for the user that states what is wrong, where, and what was expected.
 struct Error {
   std::string message;
 };
@@ -15,7 +16,7 @@ struct Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// Shorthand for returning an Error as a Result.
+/// A short way to return an Error from a function that returns a Result.
 inline tl::unexpected<Error> failure(std::string message) {
   return tl::unexpected<Error>(Error{std::move(message)});
 }

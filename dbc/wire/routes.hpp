@@ -1,4 +1,4 @@
-// Maps a frame's id to its message in one look-up.
+// Finds the message of a frame by the id of the frame, with one look-up.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace canhil {
 
-/// The messages that a receiver reads, by standard id.
+/// The messages that a receiver reads. They are found by their standard ids.
 class Routes {
  public:
   static constexpr std::size_t nowhere = 0xFF;
 
-  /// Selects the messages for which `wanted(const MessageInfo&)` is true.
+  /// Selects the messages for which `wanted(const MessageInfo&)` returns true.
   template <class Wanted>
   consteval explicit Routes(Wanted wanted) {
     index_.fill(nowhere);

@@ -8,19 +8,19 @@
 
 namespace canhil {
 
-/// Collects the messages of one group by their common E2E counter. Only complete groups are used.
+/// Collects the messages of one group, which all have the same E2E counter. Only complete groups are used.
 template <class... Messages>
 class SampleGroup {
  public:
-  /// What put() did.
+  /// The result of put().
   enum class Outcome : std::uint8_t {
-    waiting,          ///< stored; the group is incomplete
-    complete,         ///< the group is complete: read it now
-    dropped_previous  ///< stored; the previous group was incomplete and is discarded
+    waiting,          ///< the message is stored; the group is still incomplete
+    complete,         ///< the message is stored; the group is complete and must be read now
+    dropped_previous  ///< the message is stored; the previous, incomplete group was discarded
   };
 
-  /// Stores one message that carries `counter`. If this counter differs from the pending group's, a new group
-  /// starts.
+  /// Stores a message with the counter `counter`. If `counter` differs from that of the pending group, a new
+  /// group starts.
   template <class Message>
   Outcome put(const Message& message, std::uint8_t counter) {
     constexpr unsigned bit = bit_of<Message>();
@@ -36,14 +36,15 @@ class SampleGroup {
     return started_anew ? Outcome::dropped_previous : Outcome::waiting;
   }
 
-  /// The last message of this type; valid together when put() returned complete.
+  /// The last message of this type. After put() has returned complete, the messages of all types belong
+  /// together.
   template <class Message>
   [[nodiscard]] const Message& get() const {
     return std::get<Message>(messages_);
   }
-  /// The counter of the pending or last group.
+  /// The counter of the pending group or, if none is pending, of the last group.
   [[nodiscard]] std::uint8_t counter() const { return counter_; }
-  /// Discards an incomplete group; true if there was one.
+  /// Discards the pending group; false: no group was pending.
   bool discard() {
     const bool had = seen_ != 0;
     seen_ = 0;

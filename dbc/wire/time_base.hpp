@@ -1,13 +1,13 @@
-// The bench's time base in 32 bits: microseconds that wrap every 71.6 minutes. A sample that must fit into
-// one frame uses 16 bits in units of 10 us, which wrap every 655.36 ms.
+// Times of the bench's time base with 32 bits: they count microseconds and wrap every 71.6 minutes. Samples
+// that must fit into one frame use times with 16 bits, which count units of 10 us and wrap every 655.36 ms.
 #pragma once
 
 #include <cstdint>
 
 namespace canhil {
 
-/// The full time [us] nearest to `reference_us` whose low 32 bits are `low_us`. Correct within 35 minutes of
-/// the reference.
+/// Of all times [us] whose low 32 bits are `low_us`, returns the time nearest to `reference_us`. This is the
+/// right time if it is within 35 minutes of the reference.
 constexpr std::int64_t unwrap_us(std::uint32_t low_us, std::int64_t reference_us) {
   const auto difference = static_cast<std::int32_t>(low_us - static_cast<std::uint32_t>(reference_us));
   return reference_us + difference;
@@ -16,11 +16,11 @@ constexpr std::int64_t unwrap_us(std::uint32_t low_us, std::int64_t reference_us
 /// The low 32 bits of a time [us] of the bench's time base.
 constexpr std::uint32_t wrap_us(std::int64_t t_us) { return static_cast<std::uint32_t>(t_us); }
 
-/// The period [us] of times in 16 bits of 10 us.
+/// The time [us] after which times with 16 bits in units of 10 us wrap.
 inline constexpr std::int64_t short_period_us = 65536 * 10;
 
-/// The latest time [us] up to `latest_us` that equals `short_us` modulo short_period_us. Correct for times
-/// within 0.65 s before latest_us.
+/// Of all times [us] that equal `short_us` modulo short_period_us, returns the latest one that is not after
+/// `latest_us`. This is the right time if it is at most 0.65 s before latest_us.
 constexpr std::int64_t unwrap_short_us(std::int64_t short_us, std::int64_t latest_us) {
   const std::int64_t age_us = (latest_us - short_us) % short_period_us;
   return latest_us - (age_us < 0 ? age_us + short_period_us : age_us);

@@ -1,5 +1,6 @@
-// The sending side of the protocol: every message has its own E2E counter, which each transmission
-// increments. The messages of a sample group are sent equally often, so they carry the same counter.
+// The sender's part of the protocol. Every message has its own E2E counter, which is incremented with each
+// transmission of the message. The messages of a sample group are sent equally often, so they have the same
+// counter.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace canhil {
 
-/// Index of a message in messages::all_messages.
+/// The index of a message in messages::all_messages.
 template <class Message>
 consteval std::size_t message_index() {
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
@@ -26,7 +27,8 @@ consteval std::size_t message_index() {
 /// The E2E counters of all messages that one node sends.
 class TransmitCounters {
  public:
-  /// The counter for the next transmission of a message (0..14).
+  /// Returns the counter (0..14) for this transmission of a message, and increments the counter of the
+  /// message.
   template <class Message>
   std::uint8_t take() {
     std::uint8_t& next = next_[message_index<Message>()];
@@ -41,11 +43,11 @@ class TransmitCounters {
   std::array<std::uint8_t, messages::all_messages.size()> next_{};
 };
 
-/// A buffer of fixed size for outgoing frames, with the E2E counters of their sender. Never allocates.
+/// A buffer of fixed size for outgoing frames, with the E2E counters of the sender. Never allocates memory.
 template <std::size_t capacity>
 class Outbox {
  public:
-  /// An empty buffer, all counters 0.
+  /// Makes an empty buffer; all counters are 0.
   explicit Outbox(Rounding rounding = Rounding::as_on_the_bus) : rounding_(rounding) {}
 
   /// Packs, protects and appends one message.
@@ -53,13 +55,13 @@ class Outbox {
   void send(const Message& message) {
     if (size_ < capacity) frames_[size_++] = to_frame(message, counters_.take<Message>(), rounding_);
   }
-  /// Appends a finished frame of another contract.
+  /// Appends a frame of another contract without changing it.
   void put(const Frame& frame) {
     if (size_ < capacity) frames_[size_++] = frame;
   }
   /// The frames since the last clear(), in order.
   [[nodiscard]] std::span<const Frame> frames() const { return {frames_.data(), size_}; }
-  /// How scaled signals are rounded when sent.
+  /// How scaled signals are rounded when they are packed.
   [[nodiscard]] Rounding rounding() const { return rounding_; }
   /// Empties the buffer; the counters keep their values.
   void clear() { size_ = 0; }

@@ -1,5 +1,6 @@
-// Frames without rounding: within one process the scaled signals of a message travel as doubles behind its
-// packed bytes. Comparing such a run with a normal one shows the effect of the bus's resolution.
+// Frames without rounding. They exist only inside one process: the frame contains the packed bytes of the
+// message and, behind them, its scaled signals as doubles. The comparison of a run with such frames and a
+// normal run shows the effect of the resolution of the signals on the bus.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +11,27 @@
 
 namespace canhil {
 
-/// How scaled signals are rounded in transmission.
+/// How scaled signals are rounded when they are packed.
 enum class Rounding : std::uint8_t {
-  as_on_the_bus,  ///< to the steps of the DBC
-  none            ///< not at all; only within one process, as no bus carries such frames
+  as_on_the_bus,  ///< rounded to the steps that the DBC defines
+  none            ///< not rounded; only inside one process, because no bus carries such frames
 };
 
 namespace wire {
 
-/// A member of a message that packing rounds.
+/// A member of a message struct that packing rounds.
 struct ScaledMember {
-  std::size_t offset = 0;  ///< in the message's struct; the member is a double
-  double lowest = 0;  ///< lowest to highest: the physical range, to which the value saturates as on the bus
+  std::size_t offset = 0;  ///< offset of the member in the struct; the member is a double
+  /// The limits of the physical value. The value saturates to them, as on the bus.
+  double lowest = 0;
   double highest = 0;
 };
 
-/// Appends the members to a frame with the packed message: saturated, NaN as the lowest value.
+/// Appends the values of the members to a frame that contains the packed message. The values are saturated;
+/// NaN becomes the lowest value.
 void carry_unrounded(const void* message, std::span<const ScaledMember> members, Frame& frame);
 
-/// Replaces the members of an unpacked message by the values that carry_unrounded() appended.
+/// Replaces the members of an unpacked message by the values that carry_unrounded() appended to the frame.
 void take_unrounded(const Frame& frame, std::span<const ScaledMember> members, void* message);
 
 }  // namespace wire

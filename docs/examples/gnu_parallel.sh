@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Runs a campaign on several machines with GNU parallel. Every machine needs hil-bench, hil-bench-campaign, the campaign file and the folder
-# OUT under the same paths (a network file system):
+# Runs a campaign on several machines with GNU parallel. On every machine, hil-bench, hil-bench-campaign, the campaign file and the folder
+# OUT must have the same paths, for example on a network file system:
 #   docs/examples/gnu_parallel.sh CAMPAIGN.toml OUT SHARDS [--sshloginfile MACHINES]
-# Without --sshloginfile it starts the processes on this machine, one per core at a time.
+# Without --sshloginfile all processes run on this machine, as many at a time as the machine has cores.
 set -euo pipefail
 campaign=${1:?expected a campaign file}
 out=${2:?expected a folder for the results}

@@ -6,9 +6,9 @@ Packages: python3-numpy python3-canmatrix. From the root of the tree, with a bui
     docs/experiments/invariant_heading.py build/default/hil-bench --runs 100 --jobs 2 --work /tmp/invariant
 
 Flies runs 0..N-1 of the sin/cos variants of bench/monte_carlo/paper_inflight/starts.toml (and from 90 deg with larger tilts) with
-`campaign replay --log`, decodes the log with dbc/canhil.dbc, and gives the IMU, the fixes and the initial state to the invariant
-filter. The sin/cos filter's heading and sigma are those that the target answered in the same log. Decoded runs are kept in --work:
-a second call only filters. --forms adds variations of the invariant filter. The equations stand in invariant_heading.md.
+`campaign replay --log`, decodes the log with dbc/canhil.dbc, and gives the IMU samples, the fixes and the initial state to the invariant
+filter. The heading and the sigma of the sin/cos filter are the target's answers in the same log. Decoded runs are stored in --work, so
+that a second call only runs the filters. --forms adds variations of the invariant filter. invariant_heading.md contains the equations.
 """
 import argparse
 import functools
@@ -30,20 +30,20 @@ scenario = "{SCENARIOS}/{aid}_path.toml"
 set = {{ target.algorithm = "sin_cos", target.parameters.closed_loop = 1, initial_error.heading_magnitude_deg = {start}.0, \
 target.initial_sigma.heading_deg = {told}.0, initial_error.attitude_sigma_deg = [{tilt}.0, {tilt}.0, 0.0], \
 target.initial_sigma.tilt_deg = {tilt}.0 }}
-"""  # told 600 deg, that nothing is known, from 150 and 180 deg: as starts.toml
+"""  # for initial errors of 150 and 180 deg, the sigma {told} is 600 deg (heading unknown), as in starts.toml
 DEG, UG = np.pi / 180, 9.80665e-6
 A, E2, EARTH_RATE = 6378137.0, 6.69437999014e-3, 7.292115e-5
-DT, SAMPLES = 0.02, 50  # of the IMU between two fixes
+DT, SAMPLES = 0.02, 50  # period of the IMU [s], and its samples between two fixes
 T = SAMPLES * DT
 
-# What both filters are told; ssbl_path.toml, gps_path.toml.
+# The sigmas and noise densities with which both filters are configured, as in ssbl_path.toml and gps_path.toml.
 GYRO_NOISE, ACCEL_NOISE = 0.3 * DEG / 60, 50 * UG
 GYRO_BIAS, ACCEL_BIAS = 1 * DEG / 3600, 1000 * UG
 AIDS = {"ssbl": dict(position=[5.0, 5, 5], fix=[2.0, 2, 2], bias=3.1622777),
         "gps": dict(position=[10.0, 10, 15], fix=[10.0, 10, 15], bias=0.0)}
 
 
-truth_heading = lambda t: (40 + 50 * np.sin(2 * np.pi * t / 33)) * DEG  # of s_path in the scenarios [rad]
+truth_heading = lambda t: (40 + 50 * np.sin(2 * np.pi * t / 33)) * DEG  # true heading [rad] on the path s_path of the scenarios
 wrapped = lambda angle: (angle + np.pi) % (2 * np.pi) - np.pi
 t_ = lambda M: np.swapaxes(M, -1, -2)
 times = lambda M, v: (M @ v[..., None])[..., 0]
@@ -55,7 +55,7 @@ def dbc():
 
 
 def decoded(log, message):
-    """All frames of a message: {signal: values}."""
+    """Decodes all frames of a message in the log: {signal: values}."""
     frame = dbc().frame_by_name(message)
     found = re.findall(b" %03X#([0-9A-F]{16}) " % frame.arbitration_id.id, log)
     raw = np.frombuffer(bytes.fromhex(b"".join(found).decode()), "<u8")
@@ -69,7 +69,7 @@ def decoded(log, message):
 
 
 def fly(bench, work, aid, start, tilt, run):
-    """Replays a run; keeps the increments, the fixes, the initial state and the target's answers."""
+    """Replays a run, and stores the increments, the fixes, the initial state and the target's answers in a file in `work`."""
     kept = work / f"{aid}_{start}_{tilt}_{run}.npz"
     if kept.exists():
         return
@@ -99,7 +99,7 @@ def fly(bench, work, aid, start, tilt, run):
     error = wrapped(answer["heading_deg"] * DEG - truth_heading(answer_t))
     end_mrad = float(re.search(r"error at the end .* heading ([-+.\d]+) mrad", said)[1])
     assert abs(error[-1] * 1e3 - end_mrad) < 0.001, "formula of the true heading against the error that the bench reports"
-    first = np.searchsorted(answer_t, np.arange(1, 300))  # the first answer that knows of the fix, as the campaign takes it
+    first = np.searchsorted(answer_t, np.arange(1, 300))  # for each fix, the first answer that includes it; the campaign uses the same answer
     np.savez(kept, fix=fix,
              dtheta=axes(theta, *(f"delta_theta_{a}_rad" for a in "xyz")), dv=axes(velocity, *(f"delta_v_{a}_mps" for a in "xyz")),
              euler=axes(euler, "roll_deg", "pitch_deg", "heading_deg")[-1] * DEG,
@@ -120,7 +120,7 @@ def skew(v):
 
 
 def exp_and_left_jacobian(v):
-    """exp([v x]) and J with exp of (v, u) on SE(3): translation J u."""
+    """exp([v x]), and the matrix J for which the exponential of (v, u) on SE(3) has the translation J u."""
     angle = np.maximum(np.linalg.norm(v, axis=-1), 1e-9)[..., None, None]
     S, I = skew(v), np.eye(3)
     SS = S @ S
@@ -144,14 +144,14 @@ def ecef(p):
 
 
 def preintegrated(dtheta, dv):
-    """Increments of each second in the body axes at its start: rotation, velocity, position, and d of each by the biases.
-    dtheta, dv: runs x seconds x SAMPLES x 3."""
+    """The increments of rotation, velocity and position in each second, in the body axes at the start of this second, and the
+    derivatives of these increments with respect to the biases. dtheta, dv: arrays of runs x seconds x SAMPLES x 3."""
     (v, p), (C_g, v_g, p_g, v_a, p_a) = np.zeros((2,) + dtheta[:, :, 0].shape), np.zeros((5,) + dtheta.shape[:2] + (3, 3))
     C = C_g + np.eye(3)
     for i in range(SAMPLES):
         turn, force = dtheta[:, :, i], dv[:, :, i] + 0.5 * np.cross(dtheta[:, :, i], dv[:, :, i])
         step = times(C, force)
-        step_g = -C @ skew(force) @ C_g  # d of C force; C_g: right-handed, C exp(C_g dbg)
+        step_g = -C @ skew(force) @ C_g  # derivative of C force; C_g is defined by C(bg + dbg) = C exp(C_g dbg)
         p, p_g, p_a = p + (v + step / 2) * DT, p_g + (v_g + step_g / 2) * DT, p_a + (v_a - C * DT / 2) * DT
         v, v_g, v_a = v + step, v_g + step_g, v_a - C * DT
         turned = exp_and_left_jacobian(turn)[0]
@@ -166,7 +166,7 @@ def invariant(data, aid, heading_sigma, tilt_sigma, iterations=1, reset=False):
     """Heading error and sigma [rad] after each fix: runs x fixes."""
     told, n = AIDS[aid], len(data["v"])
     lat, lon = data["position"][:, 0], data["position"][:, 1]
-    # Local tangent plane at the INS's start: no transport rate; earth rate and gravity are known inputs.
+    # The axes are those of the tangent plane at the INS's initial position, so there is no transport rate. Earth rate and gravity are known inputs.
     to_plane = t_(from_euler(np.stack([0 * lat, -np.pi / 2 - lat, lon], -1)))
     fixes = times(to_plane[:, None], ecef(data["fix"]) - ecef(data["position"])[:, None])
     earth = EARTH_RATE * np.stack([np.cos(lat), 0 * lat, -np.sin(lat)], -1)
@@ -205,11 +205,11 @@ def invariant(data, aid, heading_sigma, tilt_sigma, iterations=1, reset=False):
 
         z, N = times(t_(C), fixes[:, k] - p - rho), t_(C) @ noise @ C
         xi = np.zeros((n, 18))
-        for i in range(iterations):  # one: the invariant EKF; more: Gauss-Newton on z = J(xi_R) (xi_p + xi_rho)
+        for i in range(iterations):  # one iteration: the invariant EKF; more: Gauss-Newton on z = J(xi_R) (xi_p + xi_rho)
             J = exp_and_left_jacobian(xi[:, R])[1]
             H = np.zeros((n, 3, 18))
             H[:, :, P] = H[:, :, F] = J
-            for axis in range(3) if i else ():  # d(J u)/d xi_R by differences
+            for axis in range(3) if i else ():  # the derivative d(J u)/d xi_R, computed from differences
                 moved = exp_and_left_jacobian(xi[:, R] + 1e-6 * np.eye(3)[axis])[1]
                 H[:, :, axis] = times(moved - J, xi[:, P] + xi[:, F]) / 1e-6
             S = H @ cov @ t_(H) + N
@@ -222,7 +222,7 @@ def invariant(data, aid, heading_sigma, tilt_sigma, iterations=1, reset=False):
         turn, J = exp_and_left_jacobian(xi[:, R])
         p, v, rho = p + times(C, times(J, xi[:, P])), v + times(C, times(J, xi[:, V])), rho + times(C, times(J, xi[:, F]))
         C, bg, ba = C @ turn, bg + xi[:, G], ba + xi[:, B]
-        if reset:  # the covariance follows to the new estimate: exp(xi)^-1 exp(xi + d) = exp(sum (-ad)^m/(m + 1)! d)
+        if reset:  # transforms the covariance to the new estimate: exp(xi)^-1 exp(xi + d) = exp(sum (-ad)^m/(m + 1)! d)
             ad, term, Jr = np.zeros((n, 18, 18)), np.eye(18), np.eye(18)
             for part in (R, V, P, F):
                 ad[:, part, part], ad[:, part, R] = skew(xi[:, R]), skew(xi[:, part])
@@ -231,7 +231,7 @@ def invariant(data, aid, heading_sigma, tilt_sigma, iterations=1, reset=False):
                 Jr = Jr + term
             cov = Jr @ cov @ t_(Jr)
         cov = (cov + t_(cov)) / 2
-        heading = np.arctan2(C[:, 1, 0], C[:, 0, 0]) + p[:, 1] / A * np.tan(lat)  # the meridians converge
+        heading = np.arctan2(C[:, 1, 0], C[:, 0, 0]) + p[:, 1] / A * np.tan(lat)  # the last term: the meridians converge
         errors[:, k] = wrapped(heading - truth_heading(k + 1.0))
         sigmas[:, k] = np.sqrt((C[:, 2:] @ cov[:, R, R] @ t_(C)[:, :, 2:])[:, 0, 0])
     return errors, sigmas, nis
@@ -244,7 +244,7 @@ def row(name, error, sigma):
 
 
 def ratio(invariant_error, sin_cos_error):
-    """RMS over RMS of the same runs, with its 5 % to 95 % range (bootstrap)."""
+    """The RMS of the invariant filter divided by that of the sin/cos filter in the same runs, with its 5 % to 95 % range (bootstrap)."""
     square, n = np.square([invariant_error, sin_cos_error]), len(sin_cos_error)
     drawn = square[:, np.random.default_rng(1).integers(0, n, (5000, n))].mean(-1)
     low, high = np.quantile(np.sqrt(drawn[0] / drawn[1]), [0.05, 0.95])
@@ -252,12 +252,12 @@ def ratio(invariant_error, sin_cos_error):
 
 
 def cell(work, aid, start, tilt, runs, forms):
-    """One aid and start: both filters at a few times, and the forms of the invariant one at the end."""
+    """The table rows for one aiding sensor and one initial error: both filters at a few times, and the forms of the invariant filter at the end."""
     loaded = [dict(np.load(work / f"{aid}_{start}_{tilt}_{run}.npz")) for run in range(runs)]
     data = {name: np.stack([one[name] for one in loaded]) for name in loaded[0]}
     seconds = lambda x: x.reshape(runs, 300, SAMPLES, 3)
     data["second"] = preintegrated(seconds(data["dtheta"]), seconds(data["dv"]))
-    told = 120 if start > 90 else start  # as the EKF and the UKF are told
+    told = 120 if start > 90 else start  # the heading sigma with which the EKF and the UKF are configured
     name, lines = f"{aid} {start} deg, tilts {tilt} deg", []
     e, s, nis = invariant(data, aid, told * DEG, tilt * DEG)
     for t in (30, 60, 120, 299):

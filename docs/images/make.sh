@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the pictures of the report page anew: the flights of docs/tutorial.md, flown in virtual time with their seeds (the same bits on every
-# machine), and a part of each page as headless Chromium shows it. Packages: chromium fonts-dejavu-core.
+# Makes the pictures of the report page anew. Flies the flights of docs/tutorial.md in virtual time with their seeds (the same bits on every
+# machine), and takes pictures of parts of their report pages with headless Chromium. Packages: chromium fonts-dejavu-core.
 #   docs/images/make.sh [BUILD]        BUILD: folder of hil-bench (default: build/default)
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -13,7 +13,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$root"
 
-fly() { # fly PAGE ARGUMENTS...: a page without the time at which it was made; a failing flight is a picture, too
+fly() { # fly PAGE ARGUMENTS...: flies and writes the report page, without the time at which it was made; the flight may fail its checks
   local page=$work/$1.html code=0
   shift
   "$bench" run bench/flights/transfer_alignment.toml "$@" --html "$page" >"$work/text" 2>&1 || code=$?
@@ -21,7 +21,7 @@ fly() { # fly PAGE ARGUMENTS...: a page without the time at which it was made; a
   sed -i -E 's/ &middot; [0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z//' "$page"
 }
 
-picture() { # picture NAME PAGE WIDTH,HEIGHT STYLE [CHROMIUM OPTIONS...]: what STYLE leaves of a page, up to the height
+picture() { # picture NAME PAGE WIDTH,HEIGHT STYLE [CHROMIUM OPTIONS...]: takes a picture of a page; the CSS in STYLE hides the other parts of the page
   local name=$1 page=$2 size=$3 style=$4 shown=$work/shown.html
   shift 4
   sed "s|</head>|<style>$style</style></head>|" "$work/$page.html" >"$shown"

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Takes the figures out of the pages of the papers, for docs/papers: docs/images/papers/PAPER_FIGURE.svg.
+"""Copies figures from the pages of the papers to docs/images/papers/PAPER_FIGURE.svg; the pages in docs/papers show these files.
 
     hil-bench campaign --paper transfer --out paper-transfer     # transfer, wind and los: two minutes each; inflight: seven
     python3 docs/images/papers.py paper-*/*.html
 
-Only figures that docs/papers shows are written. Each gets a white ground, as pages may be read in the dark, and its title.
+Writes only figures that docs/papers shows. Each gets its title, and a white background, because a browser may show the page with dark colours.
 """
 import re
 import sys

@@ -1,5 +1,5 @@
-// The interface of an estimator's adapter: sample groups in, output frames out. Each estimator has one
-// adapter file.
+// The interface of an adapter, which connects an estimator to the bus: an adapter takes the frames of sample
+// groups and returns answers. Each estimator has one adapter file.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace canhil::target {
 
-/// The answers to one frame: at most 134 frames if both inertial estimators run. One IMU sample then
-/// triggers, for each estimator, a navigation group and the filter groups of all fixes that waited for this
-/// sample.
+/// The answers to one received frame: at most 134 frames, if both alignment estimators run. In this case one
+/// IMU sample triggers, for each of the two, a navigation group and the filter groups of all fixes that
+/// waited for this sample.
 using Answers = Outbox<160>;
 
-/// Losses since reset, by cause.
+/// Numbers of lost or discarded frames and groups since reset, by reason.
 struct Losses {
   std::uint32_t frames_lost = 0;
   std::uint32_t bad_crc = 0;
@@ -25,7 +25,7 @@ struct Losses {
   std::uint32_t late = 0;
 };
 
-/// Why the device left normal operation; equals the error bits of TargetHeartbeat.
+/// The errors that the device reports: the error bits of TargetHeartbeat.
 struct Errors {
   bool dbc_mismatch = false;
   bool not_initialised = false;
@@ -35,8 +35,8 @@ struct Errors {
   bool command = false;
 };
 
-/// The content of the optional group TargetInitAir, for a body that flies in moving air. Valid at the time of
-/// the initial state, body axes.
+/// The content of the optional group TargetInitAir, for a vehicle that flies in moving air. The values are
+/// valid at the time of the initial state and are in body axes.
 struct InitialAir {
   std::array<double, 3> velocity{};  ///< w.r.t. the air [m/s]
   std::array<double, 3> rate{};      ///< [rad/s]
@@ -67,13 +67,13 @@ struct Context {
   Answers& answers;
   Losses& losses;
   Errors& errors;
-  ConsistencyMonitor& consistency;  ///< judges the innovations; answers report degraded()
+  ConsistencyMonitor& consistency;  ///< tests the innovations; answers contain its degraded()
 };
 
 /// The outcome of a step; `fault` ends the run of the estimator.
 enum class Health : std::uint8_t { good, fault };
 
-/// One estimator behind the bus. No method allocates, throws or blocks.
+/// The connection of one estimator to the bus. No method allocates, throws or blocks.
 class Adapter {
  public:
   Adapter() = default;
@@ -87,9 +87,9 @@ class Adapter {
   virtual bool reset(messages::Algorithm algorithm) = 0;
   /// Sets a parameter; `running` is true after the start. Accepted values take effect at the next step.
   virtual messages::ParameterStatus set(messages::Parameter parameter, double value, bool running) = 0;
-  /// The value in force; none: not a parameter of this estimator.
+  /// The current value of a parameter; none: this estimator does not have the parameter.
   [[nodiscard]] virtual std::optional<double> get(messages::Parameter parameter) const = 0;
-  /// The permitted values; none: not a parameter of this estimator.
+  /// The permitted values of a parameter; none: this estimator does not have the parameter.
   [[nodiscard]] virtual std::optional<ParameterRange> range(messages::Parameter parameter) const = 0;
   /// Starts from an initial state.
   virtual void start(const InitialState& initial) = 0;

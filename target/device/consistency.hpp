@@ -11,23 +11,23 @@
 namespace canhil::target {
 
 /// Two control charts of exponentially weighted averages (Roberts, 'Control Chart Tests Based on Geometric
-/// Moving Averages', 1959). Each chart is S <- keep S + z. If the filter is consistent, z has mean 0 and
-/// variance 1, so S has the variance 1/(1 - keep^2):
-///   size   z = (NIS - m)/sqrt(2 m), with a chi-squared NIS of m degrees of freedom: detects errors larger
-///          than the covariance;
+/// Moving Averages', 1959). Each chart is a sum S <- keep S + z, with a factor keep < 1. If the filter is
+/// consistent, z has mean 0 and variance 1, so S has the variance 1/(1 - keep^2):
+///   size   z = (NIS - m)/sqrt(2 m), with a chi-squared NIS of m degrees of freedom: detects errors that are
+///          larger than the covariance indicates;
 ///   bias   z = an innovation divided by its sigma: detects innovations that are not white because of a
 ///          lasting error (a model's coefficient, a sensor's scale). It detects them even if the filter has
-///          raised its noise so far that the NIS has its expected value again (Mehra, 'On the Identification
-///          of Variances and Adaptive Kalman Filtering', 1970).
+///          raised its assumed noise so far that the NIS has its expected value again (Mehra, 'On the
+///          Identification of Variances and Adaptive Kalman Filtering', 1970).
 /// A NIS below its expected value m raises no alarm, as the errors are then smaller than the covariance
 /// indicates.
 class ConsistencyMonitor {
  public:
   void reset() { *this = {}; }
 
-  /// Takes the innovation of a measurement that was used or gated: its NIS, and each component divided
-  /// by its sigma (at most nine components, the same number in every call). A NaN counts as the largest
-  /// value.
+  /// Adds the innovation of a measurement that was used or gated: the NIS, and each component of the
+  /// innovation divided by the sigma of this component (at most nine components, the same number in every
+  /// call). A NaN is treated as the largest value.
   void observe(double nis, std::span<const double> normalised) {
     const auto m = static_cast<double>(normalised.size());
     inconsistent_ = size_.alarmed((nis - m) / std::sqrt(2 * m));
@@ -42,8 +42,9 @@ class ConsistencyMonitor {
 
  private:
   // A control chart S with a memory of `updates` updates. The deviation z of a single update is limited to
-  // `largest` sigmas. The alarm begins when S exceeds 6 of its standard deviations (`either_side`: also below
-  // -6), and ends after 2 * `updates` consecutive updates with S within 2 standard deviations.
+  // `largest` sigmas. The alarm begins when S exceeds 6 times its standard deviation, and ends after 2 *
+  // `updates` consecutive updates with S below 2 times its standard deviation. With `either_side`, |S| is
+  // compared instead of S.
   template <int updates, int largest, bool either_side>
   class Chart {
    public:
@@ -63,9 +64,10 @@ class ConsistencyMonitor {
     bool alarm_ = false;
   };
 
-  // size_: four outliers in a row raise an alarm, three do not. S reaches 6 standard deviations at a mean NIS
-  // of 1.8 m for m = 3 (size_), and at a mean innovation of 0.19 sigma (bias_). For a consistent filter one
-  // or two in a million updates raise an alarm (5e6 draws each for m = 1, 2, 3 and 9).
+  // size_: four outliers in a row raise an alarm, three do not. S of size_ reaches 6 standard deviations if
+  // the mean NIS is 1.8 times its expected value m, for m = 3 degrees of freedom; S of bias_ does so if the
+  // mean innovation is 0.19 sigma. If the filter is consistent, one or two in a million updates raise an
+  // alarm (5e6 random draws for each of m = 1, 2, 3 and 9).
   Chart<20, 6, false> size_;
   std::array<Chart<500, 4, true>, 9> bias_{};
   bool inconsistent_ = false, distrusted_ = false;

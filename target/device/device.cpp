@@ -108,7 +108,7 @@ void Device::dispatch(const Frame& frame, std::uint8_t counter) {
   }
 }
 
-// An estimator that faults stops; the other estimators continue.
+// An estimator that returns a fault stops; the other estimators continue.
 template <class Step>
 void Device::for_running(Step&& step) {
   for (Estimation& estimation : selected_) {
@@ -171,7 +171,8 @@ void Device::reset(Estimator estimator, Algorithm algorithm) {
   enter(first, TargetState::idle);
 }
 
-// If a bench missed the answer, it repeats the command; the device then selects the estimator again.
+// Selects an additional estimator. If the same command is repeated (by a bench that missed the answer), the
+// device selects the estimator again.
 void Device::add(Estimator estimator, Algorithm algorithm) {
   const bool again = current().adapter != nullptr && current().adapter->estimator() == estimator;
   const bool elsewhere =
@@ -201,8 +202,8 @@ bool Device::select(Estimator estimator, Algorithm algorithm, Estimation& estima
   return true;
 }
 
-// Starts all selected estimators together, and only if all are ready. Their answers then depend only on the
-// frames of this run.
+// Starts all selected estimators together, but only if all of them are ready. Therefore the answers depend
+// only on the frames of this run.
 void Device::start() {
   // A bench that missed the answer repeats the command.
   const bool again = all_in(TargetState::running) && std::ranges::all_of(selected_, &Estimation::untouched);

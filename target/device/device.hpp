@@ -46,7 +46,7 @@ class Device {
  private:
   /// A selected estimator.
   struct Estimation {
-    Adapter* adapter = nullptr;  // null: no estimator selected, or one that the target does not have
+    Adapter* adapter = nullptr;  // null: none is selected, or the target does not have the selected one
     messages::Algorithm algorithm{};
     messages::TargetState state{};
     Errors errors{};
@@ -94,7 +94,7 @@ class Device {
   InitialGroup initial_group_;
   InitialAirGroup initial_air_group_;
   std::vector<std::unique_ptr<Adapter>> adapters_;  // of all estimators, created at start-up
-  std::vector<Estimation> selected_;                // never empty; reserved for all estimators
+  std::vector<Estimation> selected_;                // never empty; has capacity for all estimators
   std::int64_t now_us_ = 0;
   std::int64_t heartbeat_due_us_ = 0;
   bool lockstep_ = false;

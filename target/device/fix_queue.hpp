@@ -1,4 +1,5 @@
-// Fixes that are valid after the newest IMU epoch wait until the INS reaches their time of validity.
+// A queue of fixes whose time of validity is after the newest IMU epoch: they wait until the INS reaches this
+// time.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The IMU input of an inertial estimator: turns groups SlaveImu into increments without gaps, and sends
-// groups AlignNav or FixNav as answers.
+// The IMU input of an inertial estimator: converts SlaveImu groups to increments without gaps, and sends
+// AlignNav or FixNav groups as answers.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ inline Health numeric_fault(Context& context) {
   return Health::fault;
 }
 
-/// Passes three innovations with their covariance to the monitor.
+/// Passes the three components of an innovation, divided by their sigmas, and the NIS to the monitor.
 template <class UpdateResult>
 void observe(const UpdateResult& result, ConsistencyMonitor& monitor) {
   const Eigen::Vector3d sigma = result.innovation_covariance.diagonal().cwiseSqrt();
@@ -49,7 +49,7 @@ class ImuStream {
 
   void reset() { group_.discard(); }
 
-  /// Starts the INS at t_us; the first sample is answered.
+  /// Starts the INS at t_us. An answer is due at the first sample.
   void start(std::int64_t t_us, std::int64_t output_interval_us) {
     now_us_ = t_us;
     answered_us_ = t_us - output_interval_us;
@@ -111,8 +111,8 @@ class ImuStream {
   using Group = SampleGroup<messages::SlaveImuDeltaTheta, messages::SlaveImuDeltaV, messages::SlaveImuStatus>;
 
   static constexpr double us = 1e-6;
-  static constexpr std::int64_t bridge_limit_us = 200'000;  // a longer gap ends the run
-  static constexpr std::int64_t most_parts = 400;           // increments per gap; one frame triggers them all
+  static constexpr std::int64_t bridge_limit_us = 200'000;   // a longer gap ends the run
+  static constexpr std::int64_t most_parts = 400;            // increments that bridge one gap, in one call
   static constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of the IMU is an error
 
   template <class Message, class Step>
@@ -133,7 +133,7 @@ class ImuStream {
     const std::int64_t t_us = unwrap_us(status.time_of_validity_us, context.now_us);
     if (theta.gyro_validity != messages::Validity::valid ||
         velocity.accel_validity != messages::Validity::valid || !(imu.dt > 0)) {
-      drop_group(context);  // the next group bridges the gap
+      drop_group(context);  // the gap is bridged when the next group arrives
       return Taken::waiting;
     }
     const auto interval_us = static_cast<std::int64_t>(status.interval_us);
@@ -155,8 +155,8 @@ class ImuStream {
     return Taken::stepped;
   }
 
-  // Bridges a gap by increments from the mean of the rates before and after the gap. The next answer has the
-  // mark coasting.
+  // Bridges a gap with increments that are computed from the mean of the rates before and after the gap. The
+  // next answer has the mark coasting.
   template <class Step>
   void bridge(const strapdown::ImuIncrement& after, std::int64_t gap_us, const Step& step) {
     coasting_ = true;

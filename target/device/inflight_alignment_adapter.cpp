@@ -159,7 +159,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return health;
   }
 
-  // Combines the ship's position and the vehicle's position relative to it.
+  // Combines the ship's position and the vehicle's position relative to the ship.
   Health on_ssbl(Context& context) {
     const auto& horizontal = ssbl_group_.get<SsblRelativeNE>();
     const auto& latitude = ssbl_group_.get<SsblShipLatitude>();
@@ -198,7 +198,8 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return on_fix({t_us, gps_group_.counter(), fix}, valid, context);
   }
 
-  // Answers every complete group with its effect on the filter, or with the reason why it was not used.
+  // Answers every complete group. The answer reports the effect of the fix on the filter, or the reason why
+  // the fix was not used.
   Health on_fix(const At<Fix>& fix, bool valid, Context& context) {
     const FixSource chosen = tuning_.filter.aiding == ia::Aiding::gps ? FixSource::gps : FixSource::ssbl;
     if (fix.value.source != chosen) return refuse(fix, FixOutcome::wrong_source, context);
@@ -213,7 +214,8 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return refuse(fix, FixOutcome::future, context);
   }
 
-  // The settings for a fix, whose noise is the larger of its reported sigma and the sigma in the settings.
+  // The filter's settings for one fix: the noise of the fix is the sigma that its source reports, or the
+  // sigma in the settings if that is larger.
   [[nodiscard]] ia::Settings settings_for(const Fix& fix) const {
     ia::Settings filter = tuning_.filter;
     filter.fix_noise_horizontal = std::max(filter.fix_noise_horizontal, fix.horizontal_sigma);
@@ -318,7 +320,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   ia::History<history_length> history_{0, history_us};
   FixQueue<Fix, pending_limit> pending_;  // fixes ahead of the INS
   std::int64_t start_us_ = 0;
-  std::uint32_t gated_ = 0, refused_ = 0;  // fixes, since the start
+  std::uint32_t gated_ = 0, refused_ = 0;  // numbers of fixes since the start
 };
 
 }  // namespace

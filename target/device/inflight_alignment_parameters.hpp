@@ -14,11 +14,12 @@ namespace canhil::target {
 /// The values that the parameters set.
 struct InflightTuning {
   inflight_alignment::Settings filter;
-  double height_sigma = 0;  // 0: the sigma of the other coordinates
+  double height_sigma = 0;  // of the height; 0: equal to the sigma of north and east
   std::int64_t output_interval_us = 0;
 };
 
-/// Parameters in the unit of their name; the defaults fit the sensors of Kang, Kim, Park 2006 with an SSBL.
+/// The parameters, each in the unit that its name states. The defaults fit the sensors of Kang, Kim, Park
+/// 2006 with an SSBL.
 inline constexpr std::array inflight_alignment_parameters = [] {
   namespace ia = inflight_alignment;
   using Row = ParameterTable<InflightTuning>::Row;
@@ -32,22 +33,23 @@ inline constexpr std::array inflight_alignment_parameters = [] {
       Row{P::gyro_bias_sigma_degph, 1, 0, 1e6, real, stopped_only, "1-sigma of the gyro biases at the start.",
           [](InflightTuning& t, double v) { t.filter.gyro_bias_sigma_0 = v * degph; }},
       Row{P::accel_noise_ugprthz, 50, 0, 1e6, real, any_time,
-          "Density of the accelerometers' white noise that the filter assumes.",
+          "Density that the filter assumes for the accelerometers' white noise.",
           [](InflightTuning& t, double v) { t.filter.accel_noise_density = v * ug; }},
       Row{P::gyro_noise_degprth, 0.3, 0, 1e4, real, any_time,
-          "Density of the gyros' white noise that the filter assumes.",
+          "Density that the filter assumes for the gyros' white noise.",
           [](InflightTuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
       Row{P::closed_loop, 1, 0, 1, whole, stopped_only,
-          "`ekf`, `ukf`: 0: the INS is not corrected; 1: it is corrected. `sin_cos` always corrects it.",
+          "`ekf`, `ukf`: whether the filter corrects the INS. 0: no; 1: yes. `sin_cos` always corrects the "
+          "INS.",
           [](InflightTuning& t, double v) { t.filter.closed_loop = v > 0.5; }},
       Row{P::output_interval_ms, 10, 1, 1000, real, any_time, "Minimum time between navigation answers.",
           [](InflightTuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
       Row{P::aiding, 0, 0, 1, whole, stopped_only,
-          "Sensor of the fixes. 0: SSBL; 1: GPS. Fixes of the other sensor are refused.",
+          "Sensor whose fixes the filter uses. 0: SSBL; 1: GPS. Fixes of the other sensor are refused.",
           [](InflightTuning& t, double v) { t.filter.aiding = static_cast<ia::Aiding>(std::lround(v)); }},
       Row{P::attitude_error_frame, 0, 0, 1, whole, stopped_only,
-          "`ekf`, `ukf` with `closed_loop` 1: axes of the tilts that are fed back. 0: platform, as "
-          "published; 1: navigation.",
+          "`ekf`, `ukf` with `closed_loop` 1: axes in which the tilts are fed back. 0: platform axes, as "
+          "published; 1: navigation axes.",
           [](InflightTuning& t, double v) {
             t.filter.attitude_error_frame = static_cast<ia::AttitudeErrorFrame>(std::lround(v));
           }},
@@ -68,7 +70,8 @@ inline constexpr std::array inflight_alignment_parameters = [] {
           "The same as `fix_noise_horizontal_m`, for the height.",
           [](InflightTuning& t, double v) { t.filter.fix_noise_vertical = v; }},
       Row{P::fix_bias_sigma_m, 3.1622777, 0, 1e4, real, stopped_only,
-          "1-sigma that the filter assumes for the constant error of SSBL fixes (ship and SSBL together).",
+          "1-sigma that the filter assumes for the constant error of SSBL fixes, which is the sum of the "
+          "errors of ship and SSBL.",
           [](InflightTuning& t, double v) { t.filter.fix_bias_sigma_0 = v; }},
       Row{P::fix_bias_walk_mprts, 0, 0, 1e3, real, any_time,
           "Density of the random walk of the error that `fix_bias_sigma_m` describes; 0: the error is "
@@ -78,19 +81,21 @@ inline constexpr std::array inflight_alignment_parameters = [] {
           "1-sigma of the height at the start; 0: the filter uses `position_m` of `[target.initial_sigma]`.",
           [](InflightTuning& t, double v) { t.height_sigma = v; }},
       Row{P::handover_sigma_deg, 2, 1e-3, 90, real, any_time,
-          "`sin_cos`: sigma of the heading below which the heading counts as resolved and is fed back to the "
-          "INS.",
+          "`sin_cos`: if the sigma of the heading is below this value, the filter treats the heading as "
+          "resolved and feeds it back to the INS.",
           [](InflightTuning& t, double v) { t.filter.handover_sigma = v * deg; }},
       Row{P::gate_nis, 30, 0, 1e9, real, any_time,
-          "Fixes with a larger normalised innovation squared (NIS) are refused; 0: no gate.",
+          "Fixes whose normalised innovation squared (NIS) is larger than this value are refused. 0: no "
+          "gate.",
           [](InflightTuning& t, double v) { t.filter.gate_nis = v; }},
       Row{P::gate_recovery, 5, 0, 1e6, whole, any_time,
-          "The gate refuses at most this many fixes in a row; the next one is used.",
+          "The gate refuses at most this number of fixes in a row. The filter uses the next fix even if it "
+          "is beyond the gate.",
           [](InflightTuning& t, double v) {
             t.filter.gate_recovery = static_cast<std::uint32_t>(std::lround(v));
           }},
       Row{P::late_fixes, 1, 0, 1, whole, stopped_only,
-          "1: a late fix is applied at its time of validity; 0: when it arrives.",
+          "1: a late fix is applied at its time of validity; 0: it is applied when it arrives.",
           [](InflightTuning& t, double v) {
             t.filter.late_fixes = static_cast<ia::LateFixes>(std::lround(v));
           }},

@@ -21,9 +21,9 @@ constexpr double us = 1e-6, ms = 1e-3;
 constexpr std::int64_t lead_limit_us = 100'000;     // a group further ahead of the time base is rejected
 constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of the seeker is an error
 
-// Parameters in the unit of their name; the defaults are those of the estimator. The design is computed from
-// them at the start, so no parameter may change during a run. Within the ranges all designs and gains are
-// finite.
+// The parameters, each in the unit that its name states; the defaults are those of the estimator. The design
+// is computed from the parameters at the start, so no parameter may change during a run. Within the ranges
+// all designs and gains are finite.
 using Tuning = los::Settings;
 using Row = ParameterTable<Tuning>::Row;
 constexpr bool whole = true;
@@ -35,25 +35,26 @@ constexpr std::array rows{
         "Power spectral density of the flight target's jerk.",
         [](Tuning& t, double v) { t.jerk_density = v; }},
     Row{Parameter::thermal_noise_pitch_radpm2, standard.noise.pitch.thermal, 1e-14, 1e-6, real, stopped_only,
-        "Thermal noise of the error angle in pitch. The 1-sigma of a sample is this multiplied by the square "
-        "of the range. Planes with equal noises share one set of gains.",
+        "Thermal noise of the error angle in pitch. The 1-sigma of a sample is this value multiplied by the "
+        "square of the range. If the noises of both planes are equal, both planes use the same set of gains.",
         [](Tuning& t, double v) { t.noise.pitch.thermal = v; }},
     Row{Parameter::thermal_noise_yaw_radpm2, standard.noise.yaw.thermal, 1e-14, 1e-6, real, stopped_only,
         "The same as `thermal_noise_pitch_radpm2`, for yaw.",
         [](Tuning& t, double v) { t.noise.yaw.thermal = v; }},
     Row{Parameter::glint_noise_pitch_m, standard.noise.pitch.glint, 1e-3, 100, real, stopped_only,
-        "Glint noise of the error angle in pitch. The 1-sigma of a sample is this divided by the range.",
+        "Glint noise of the error angle in pitch. The 1-sigma of a sample is this value divided by the "
+        "range.",
         [](Tuning& t, double v) { t.noise.pitch.glint = v; }},
     Row{Parameter::glint_noise_yaw_m, standard.noise.yaw.glint, 1e-3, 100, real, stopped_only,
         "The same as `glint_noise_pitch_m`, for yaw.", [](Tuning& t, double v) { t.noise.yaw.glint = v; }},
     Row{Parameter::constant_noise_pitch_rad, standard.noise.pitch.constant, 0, 0.1, real, stopped_only,
-        "Noise of the error angle in pitch that does not depend on the range, 1-sigma of a sample.",
+        "Range-independent noise of the error angle in pitch, 1-sigma of a sample.",
         [](Tuning& t, double v) { t.noise.pitch.constant = v; }},
     Row{Parameter::constant_noise_yaw_rad, standard.noise.yaw.constant, 0, 0.1, real, stopped_only,
         "The same as `constant_noise_pitch_rad`, for yaw.",
         [](Tuning& t, double v) { t.noise.yaw.constant = v; }},
     Row{Parameter::sample_period_ms, standard.sample_period / ms, 0.5, 50, real, stopped_only,
-        "Sample period of the seeker for which the gains are computed.",
+        "The gains are computed for this sample period of the seeker.",
         [](Tuning& t, double v) { t.sample_period = v * ms; }},
     Row{Parameter::los_rate_sigma_radps, standard.rate_sigma_0, 1e-6, 10, real, stopped_only,
         "1-sigma of the LOS rate at the start.", [](Tuning& t, double v) { t.rate_sigma_0 = v; }},
@@ -61,12 +62,12 @@ constexpr std::array rows{
         stopped_only, "1-sigma of the flight target's acceleration at the start.",
         [](Tuning& t, double v) { t.acceleration_sigma_0 = v; }},
     Row{Parameter::start_up_s, standard.start_up, 0, 100, real, stopped_only,
-        "`combined`, `switched_table`: time for which a Kalman filter runs after each start; then the gain "
-        "comes from the tables.",
+        "`combined`, `switched_table`: time for which a Kalman filter runs after each start. After this time "
+        "the gain comes from the tables.",
         [](Tuning& t, double v) { t.start_up = v; }},
     Row{Parameter::gap_limit_ms, standard.gap_limit / ms, 0, 1e4, real, stopped_only,
-        "`combined`, `switched_table`: if the error angle is missing for longer than this, the Kalman filter "
-        "of `start_up_s` runs again.",
+        "`combined`, `switched_table`: if the error angle is missing for longer than this time, the Kalman "
+        "filter runs again for `start_up_s`.",
         [](Tuning& t, double v) { t.gap_limit = v * ms; }},
     Row{Parameter::low_pass_bandwidth_radps, standard.low_pass_bandwidth, 0.1, 200, real, stopped_only,
         "`low_pass`: bandwidth of the filter.", [](Tuning& t, double v) { t.low_pass_bandwidth = v; }},
@@ -79,37 +80,39 @@ constexpr std::array rows{
         "`combined`, `switched_table`: closing speed at which the table of gains ends.",
         [](Tuning& t, double v) { t.closing_speed_max = v; }},
     Row{Parameter::blind_range_m, standard.blind_range, 0, 1e4, real, stopped_only,
-        "Least range at which the estimate is usable. The filter uses the largest of four values: this, 3 "
-        "times `range_sigma_m`, 10 sample periods times the closing speed, and 20 m. At a smaller range, "
-        "answers have the mark `blind`.",
+        "Lower limit of the least usable range. The least usable range is the largest of four values: this "
+        "value; 3 times `range_sigma_m`; the closing speed times 10 sample periods; 20 m. At a smaller "
+        "range, answers have the mark `blind`.",
         [](Tuning& t, double v) { t.blind_range = v; }},
     Row{Parameter::range_sigma_m, standard.range_sigma, 0, 1e3, real, stopped_only,
         "1-sigma of the measured range, bias included; see `blind_range_m`.",
         [](Tuning& t, double v) { t.range_sigma = v; }},
     Row{Parameter::range_gate_m, standard.range_gate, 1, 1e5, real, stopped_only,
-        "A range that differs by more than this from the extrapolated one is a jump.",
+        "A range that differs by more than this value from the extrapolated range is treated as a jump.",
         [](Tuning& t, double v) { t.range_gate = v; }},
     Row{Parameter::closing_speed_gate_mps, standard.closing_speed_gate, 1, 1e4, real, stopped_only,
-        "A closing speed that differs by more than this from the extrapolated one is a jump.",
+        "A closing speed that differs by more than this value from the extrapolated closing speed is treated "
+        "as a jump.",
         [](Tuning& t, double v) { t.closing_speed_gate = v; }},
     Row{Parameter::relock_samples, static_cast<double>(standard.relock_samples), 1, 1e4, whole, stopped_only,
-        "After a jump of range or closing speed: number of samples in a row that must agree with each other "
-        "before they are used.",
+        "After a jump of range or closing speed, the filter uses range and closing speed again when this "
+        "number of samples in a row agree with each other.",
         [](Tuning& t, double v) { t.relock_samples = static_cast<int>(std::lround(v)); }},
     Row{Parameter::range_unchanged_limit_ms, standard.range_unchanged_limit / ms, 0, 1e4, real, stopped_only,
-        "A range that does not change at all for longer than this is stale.",
+        "A range that stays exactly the same for longer than this time is treated as stale.",
         [](Tuning& t, double v) { t.range_unchanged_limit = v * ms; }},
     // The maximum is below the largest angle that the bus carries, so that a saturated angle is refused.
     Row{Parameter::field_of_view_rad, standard.field_of_view, 1e-3, 0.6, real, stopped_only,
-        "Larger error angles are refused.", [](Tuning& t, double v) { t.field_of_view = v; }},
+        "Largest usable error angle. A sample with a larger error angle is refused.",
+        [](Tuning& t, double v) { t.field_of_view = v; }},
     Row{Parameter::antenna_rate_sigma_radps, standard.antenna_rate_sigma, 0, 100, real, stopped_only,
-        "1-sigma of the antenna rate while it is not measured. It makes the sigma of the answers grow while "
-        "coasting.",
+        "1-sigma that the filter assumes for the antenna rate while this rate is not measured. This value "
+        "makes the sigma of the answers grow while the filter coasts.",
         [](Tuning& t, double v) { t.antenna_rate_sigma = v; }},
     Row{Parameter::missile_acceleration_sigma_mps2, standard.missile_acceleration_sigma, 0, 1e4, real,
         stopped_only,
-        "1-sigma of the missile's acceleration while it is not measured. It makes the sigma of the answers "
-        "grow while coasting.",
+        "1-sigma that the filter assumes for the missile's acceleration while this acceleration is not "
+        "measured. This value makes the sigma of the answers grow while the filter coasts.",
         [](Tuning& t, double v) { t.missile_acceleration_sigma = v; }},
 };
 
@@ -128,7 +131,7 @@ std::optional<los::Algorithm> algorithm_of(Algorithm algorithm) {
   }
 }
 
-// Outcomes and faults have the same numbers in the estimator and on the bus.
+// The numerical values of outcomes and faults are the same in the estimator and on the bus.
 constexpr LosRateOutcome on_bus(los::Outcome outcome) { return static_cast<LosRateOutcome>(outcome); }
 constexpr LosRateFault on_bus(los::Fault fault) { return static_cast<LosRateFault>(fault); }
 static_assert(on_bus(los::Outcome::waiting) == LosRateOutcome::waiting);
@@ -162,8 +165,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return true;
   }
 
-  // The first usable sample starts the estimate. Of the initial state only the time is used, for detecting a
-  // silent seeker.
+  // The first usable sample starts the estimate. Only the time of the initial state is used: tick() needs it
+  // to detect a silent seeker.
   void start(const InitialState& initial) override {
     design_ = los::make_design(tuning_);
     acquire();
@@ -186,7 +189,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     }
   }
 
-  // Not a fault: when the seeker returns, the target is acquired anew.
+  // A silent seeker is not a fault: when samples arrive again, the estimate starts anew (acquire()).
   Health tick(Context context) override {
     if (context.now_us - now_us_ > silence_limit_us) context.errors.input_silent = true;
     return Health::good;
@@ -236,9 +239,9 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // The interval of a group should begin where the last group ended. If it begins later, groups were lost in
-  // between. If it begins earlier, its increments cover more than the step and are not used. The first group
-  // has no previous step.
+  // The interval of a group should begin where the last group ended. If the interval begins later, groups
+  // were lost in between. If the interval begins earlier, the increments of the group cover more than the
+  // step and are not used. The first group has no previous step.
   los::Measurement measured(std::int64_t t_us) const {
     const auto& antenna = group_.get<SeekerAntenna>();
     const auto& angles = group_.get<SeekerAngles>();

@@ -30,8 +30,8 @@ constexpr std::size_t history_length = 512;          // increments; at most one 
 constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix further ahead of the INS is rejected
 constexpr std::size_t pending_limit = 8;             // velocities that may wait for the INS
 
-// Parameters in the unit of their name. The defaults are the settings of the paper's reproduction, with the
-// recommended loop.
+// The parameters, each in the unit that its name states. The defaults are the settings that reproduce the
+// paper, except that `loop` has the recommended value.
 struct Tuning {
   ta::Settings filter;
   std::int64_t output_interval_us = 0;
@@ -49,46 +49,48 @@ constexpr std::array rows{
         "1-sigma of the gyro biases at the start.",
         [](Tuning& t, double v) { t.filter.gyro_bias_sigma_0.setConstant(v * degph); }},
     Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, real, any_time,
-        "Density of the accelerometers' white noise that the filter assumes.",
+        "Density that the filter assumes for the accelerometers' white noise.",
         [](Tuning& t, double v) { t.filter.accel_noise_density = v * ug; }},
     Row{Parameter::gyro_noise_degprth, 0.125, 0, 1e4, real, any_time,
-        "Density of the gyros' white noise that the filter assumes.",
+        "Density that the filter assumes for the gyros' white noise.",
         [](Tuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
     Row{Parameter::velocity_noise_m2ps, 0.01, 1e-9, 1e4, real, any_time,
-        "Density R of the master's velocity noise, in (m/s)^2 s. The filter uses the covariance R/dt, dt "
-        "being the time between two velocities.",
+        "Density R of the master's velocity noise, in (m/s)^2 s. The filter uses the covariance R/dt, where "
+        "dt is the time between two velocities of the master.",
         [](Tuning& t, double v) { t.filter.velocity_noise_density = v; }},
     Row{Parameter::h2_case, 2, 1, 4, whole, stopped_only,
-        "`robust_h2`: structure of the uncertainty, by its case number in the published paper "
-        "(papers/transfer.md).",
+        "`robust_h2`: structure of the model's uncertainty, given as the number of a case in the published "
+        "paper (papers/transfer.md).",
         [](Tuning& t, double v) { t.filter.h2_case = static_cast<ta::H2Case>(std::lround(v)); }},
     Row{Parameter::h2_alpha_rule, 0, 0, 1, whole, stopped_only,
-        "`robust_h2`: size alpha of the uncertainty. 0: from the attitude covariance; 1: constant, "
-        "`h2_alpha_mps2`.",
+        "`robust_h2`: how the filter finds alpha, the size of the uncertainty. 0: from the attitude "
+        "covariance; 1: alpha is the constant `h2_alpha_mps2`.",
         [](Tuning& t, double v) { t.filter.alpha_rule = static_cast<ta::AlphaRule>(std::lround(v)); }},
     Row{Parameter::h2_alpha_mps2, 0, 0, 1e3, real, any_time, "`robust_h2`: alpha if `h2_alpha_rule` is 1.",
         [](Tuning& t, double v) { t.filter.alpha_constant = v; }},
     Row{Parameter::fading_per_s, 0, 0, 10, real, any_time,
-        "`kalman`: fading memory. Over a time t the sigmas grow by the factor exp(`fading_per_s` t); 0: "
-        "none.",
+        "`kalman`: fading memory. During a time t the sigmas grow by the factor exp(`fading_per_s` t). 0: no "
+        "fading.",
         [](Tuning& t, double v) { t.filter.fading_per_s = v; }},
     Row{Parameter::mechanization, 1, 0, 1, whole, stopped_only,
-        "Mechanisation. 0: from each sample alone, with constant rate and specific force, as in the "
-        "published test vectors; 1: from two samples, with correction of coning and sculling.",
+        "Mechanisation. 0: it uses each sample alone and assumes constant rate and specific force, as the "
+        "published test vectors do; 1: it uses two samples and corrects coning and sculling.",
         [](Tuning& t, double v) {
           t.filter.mechanization = static_cast<strapdown::Mechanization>(std::lround(v));
         }},
     Row{Parameter::closed_loop, 2, 0, 2, whole, stopped_only,
-        "0: the INS is not corrected. 1: it is corrected as published. 2: it is corrected by the feedback of "
-        "an invariant error. With 2, velocities beyond `gate_nis` are refused, and `robust_h2` makes a "
-        "Kalman step where its own step would make the attitude covariance larger than at the start.",
+        "0: the INS is not corrected. 1: the INS is corrected as published. 2: the INS is corrected by the "
+        "feedback of an invariant error. With 2, the filter refuses velocities beyond `gate_nis`. With 2, "
+        "`robust_h2` makes a Kalman step if the step of `robust_h2` would make the attitude covariance "
+        "larger than at the start.",
         [](Tuning& t, double v) { t.filter.loop = static_cast<ta::Loop>(std::lround(v)); }},
     Row{Parameter::gate_nis, 2000, 0, 1e9, real, any_time,
-        "`closed_loop` 2: velocities with a larger normalised innovation squared (NIS) are refused; 0: no "
-        "gate.",
+        "Only with `closed_loop` 2: velocities whose normalised innovation squared (NIS) is larger than this "
+        "value are refused. 0: no gate.",
         [](Tuning& t, double v) { t.filter.gate_nis = v; }},
     Row{Parameter::gate_recovery, 5, 0, 1e6, whole, any_time,
-        "The gate refuses at most this many velocities in a row; the next one is used.",
+        "The gate refuses at most this number of velocities in a row. The filter uses the next velocity even "
+        "if it is beyond the gate.",
         [](Tuning& t, double v) { t.filter.gate_recovery = static_cast<std::uint32_t>(std::lround(v)); }},
     Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time,
         "Minimum time between navigation answers.",

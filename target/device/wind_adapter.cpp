@@ -158,7 +158,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
   }
 
   // Answers one group per output interval. In addition, answers every complete group that did not update the
-  // filter, or that updated it outside the range of the model or with late or refused fins.
+  // filter, and every group that updated it while a quantity was outside the range of the model, or while fin
+  // deflections were late or refused.
   void on_navigation(Context& context) {
     const auto& horizontal = group_.get<GliderNavVelocityNE>();
     const auto& attitude = group_.get<GliderNavAttitude>();

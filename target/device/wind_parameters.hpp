@@ -16,7 +16,8 @@ struct WindTuning {
   std::int64_t output_interval_us = 0;
 };
 
-/// Parameters in the unit of their name; the defaults are those of the filter (settings.hpp).
+/// The parameters, each in the unit that its name states; the defaults are those of the filter
+/// (settings.hpp).
 inline constexpr std::array wind_parameters = [] {
   using Row = ParameterTable<WindTuning>::Row;
   using P = messages::Parameter;
@@ -27,8 +28,9 @@ inline constexpr std::array wind_parameters = [] {
           [](WindTuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
       Row{P::process_noise, 3, 0, 3, whole, any_time,
           "Model of the process noise. 0: block-diagonal; 1: with the correlation of wind and air velocity; "
-          "2: as 1, with the noise of wrong aerodynamic coefficients; 3: two filters as in 2, one of them "
-          "with more wind noise for gusts, weighted by their likelihood.",
+          "2: as 1, plus the noise of wrong aerodynamic coefficients; 3: two filters with model 2, one of "
+          "which has more wind noise, for gusts. The results of the two filters are weighted by the "
+          "likelihood of each filter.",
           [](WindTuning& t, double v) {
             t.filter.process_noise = static_cast<wind::ProcessNoise>(std::lround(v));
           }},
@@ -36,7 +38,7 @@ inline constexpr std::array wind_parameters = [] {
           "Density of the process noise of the air velocity.",
           [](WindTuning& t, double v) { t.filter.density.air_velocity = v; }},
       Row{P::body_rate_noise_degpsprts, 0.2, 0, 1e3, real, any_time,
-          "Density of the process noise of the body rates; 0.05 in the published filter.",
+          "Density of the process noise of the body rates. The published filter has 0.05.",
           [](WindTuning& t, double v) { t.filter.density.rate = v * deg; }},
       Row{P::attitude_noise_degprts, 0.01, 0, 1e2, real, any_time,
           "Density of the process noise of the attitude.",
@@ -44,8 +46,9 @@ inline constexpr std::array wind_parameters = [] {
       Row{P::wind_noise_mpsprts, 0.3, 0, 1e3, real, any_time, "Density of the process noise of the wind.",
           [](WindTuning& t, double v) { t.filter.density.wind = v; }},
       Row{P::coefficient_sigma_percent, 5, 0, 100, real, any_time,
-          "1-sigma of the constant error of each part of an aerodynamic coefficient. With `process_noise` 2 "
-          "or 3 the reported sigmas include this error, except with `h_infinity`.",
+          "1-sigma that the filter assumes for the constant error of each part of an aerodynamic "
+          "coefficient. With `process_noise` 2 or 3 the reported sigmas include this error, except with "
+          "`h_infinity`.",
           [](WindTuning& t, double v) { t.filter.coefficient_sigma = v / 100; }},
       Row{P::glider_velocity_sigma_mps, 0.25, 1e-3, 1e3, real, any_time,
           "1-sigma that the filter assumes for a velocity sample.",
@@ -57,17 +60,17 @@ inline constexpr std::array wind_parameters = [] {
           "1-sigma that the filter assumes for an attitude sample.",
           [](WindTuning& t, double v) { t.filter.attitude_sigma = v * deg; }},
       Row{P::theta_per_s, 1.5, 0, 1e3, real, any_time,
-          "`h_infinity`: the filter's parameter theta is this multiplied by the interval of the sample. The "
-          "unit of this key is 1/(m/s)^2/s.",
+          "`h_infinity`: the filter's parameter theta is this value multiplied by the interval between "
+          "samples (at most 0.1 s). Theta has the unit 1/(m/s)^2, so this value has the unit 1/(m/s)^2/s.",
           [](WindTuning& t, double v) { t.filter.theta_per_s = v; }},
       Row{P::theta_cap_per_s, 2, 0, 1e3, real, any_time,
-          "`h_infinity`: theta is lowered until the product of theta and the largest eigenvalue of the "
-          "covariance weighted by S (see `theta_rate_weight`) is at most this multiplied by the interval of "
-          "the sample, and at most 0.9.",
+          "`h_infinity`: sets the upper limit for the product of theta and the largest eigenvalue of the "
+          "covariance weighted by S (see `theta_rate_weight`). The limit is this value multiplied by the "
+          "interval between samples, but at most 0.9. If the product is above the limit, theta is lowered.",
           [](WindTuning& t, double v) { t.filter.theta_cap_per_s = v; }},
       Row{P::theta_rate_weight, 1, 0, 1e8, real, any_time,
-          "`h_infinity`: weight of the body rates in S, in (m/s)^2/(rad/s)^2. S is the diagonal matrix that "
-          "weights the errors of the air velocity (weight 1) and of the body rates.",
+          "`h_infinity`: weight of the body rates in the matrix S, in (m/s)^2/(rad/s)^2. S is diagonal; it "
+          "gives the errors of the air velocity the weight 1 and the errors of the body rates this weight.",
           [](WindTuning& t, double v) { t.filter.rate_weight = v; }},
       Row{P::adaptation_time_s, 0.3, 1e-3, 1e3, real, any_time,
           "`adaptive_q`: time constant with which the variance of the process noise follows the NIS.",
@@ -82,25 +85,26 @@ inline constexpr std::array wind_parameters = [] {
           "1-sigma of the body rates at the start.",
           [](WindTuning& t, double v) { t.filter.rate_sigma_0 = v * deg; }},
       Row{P::initial_wind_sigma_mps, 20, 1e-3, 1e3, real, stopped_only,
-          "1-sigma of each component of the wind at the start, if the target receives no initial air "
-          "velocity.",
+          "1-sigma of each component of the wind in two cases: at the start, if the target receives no "
+          "initial air velocity, and when the filter restarts after jumps.",
           [](WindTuning& t, double v) { t.filter.wind_sigma_0 = v; }},
       Row{P::fins_late_ms, 30, 1, 1e4, real, any_time,
-          "Answers have the mark `fins_late` if the deflections of the fins are older than this.",
+          "Answers have the mark `fins_late` if the deflections of the fins are older than this time.",
           [](WindTuning& t, double v) { t.filter.fins_late = v * ms; }},
       Row{P::fins_missing_ms, 100, 1, 1e4, real, any_time,
-          "Answers have the mark `fins_missing` if the deflections of the fins are older than this.",
+          "Answers have the mark `fins_missing` if the deflections of the fins are older than this time.",
           [](WindTuning& t, double v) { t.filter.fins_missing = v * ms; }},
       // The filter bridges a gap while it processes one frame, in at most 400 parts of 25 ms.
       Row{P::glider_nav_coast_s, 2, 0, 10, real, any_time,
-          "Longest gap in the navigation samples that the filter bridges. After a longer gap the filter "
-          "restarts.",
+          "The filter bridges gaps between navigation samples up to this length. After a longer gap the "
+          "filter restarts.",
           [](WindTuning& t, double v) { t.filter.coast_limit = v; }},
       Row{P::glider_nav_stale_ms, 100, 1, 1e6, real, any_time,
-          "Navigation samples that do not change at all for longer than this are stale and are not used.",
+          "Navigation samples that stay exactly the same for longer than this time are treated as stale and "
+          "are not used.",
           [](WindTuning& t, double v) { t.filter.stale_limit = v * ms; }},
       Row{P::glider_nav_gate_mps, 50, 1, 1e6, real, any_time,
-          "A velocity whose innovation is larger than this is refused as a jump.",
+          "A velocity whose innovation is larger than this value is refused as a jump.",
           [](WindTuning& t, double v) { t.filter.velocity_gate = v; }},
   };
 }();

@@ -9,8 +9,8 @@
 
 namespace canhil::target {
 
-/// Counts the events of a bus; news() reports the counts. To keep the frame path fast, the functions that it
-/// calls only count.
+/// Counts the events of a bus; news() reports the counts. The functions that are called for single frames
+/// only count, to be fast.
 class BusNotes {
  public:
   void error_frame(const Frame& frame) { add(errors_, frame); }
@@ -18,13 +18,13 @@ class BusNotes {
   void late_in_queue() { ++late_in_queue_; }
   /// An answer was not sent because the interface is down.
   void met_interface_down() { ++unsent_; }
-  /// Stores whether the interface is up. An outage is noticed only if this function is called during it, so
-  /// call it more often than news().
+  /// Stores whether the interface is up. An outage is noticed only if this function is called during the
+  /// outage. Therefore call this function more often than news().
   void interface_is(bool up);
 
   /// Returns one line with the bus's name for each change since the last call, or an empty string. Events
-  /// that may come in floods (error frames without a change of state, FD frames on a classic bus or the
-  /// reverse) are reported at most once per second.
+  /// that may come in floods (error frames without a change of state, FD frames on a classic bus, classic
+  /// frames on an FD bus) are reported at most once per second.
   std::string news(const Port& port, BusFormat format);
 
  private:

@@ -19,20 +19,22 @@ constexpr std::int64_t bench_silent_ns = 2 * period_ns;
 constexpr std::int64_t bench_gone_ns = 2'000'000'000;
 constexpr std::int64_t send_patience_ns = 50'000'000;
 constexpr int looks_every = 16;  // the largest number of waits between two readings of the clock
-// While more frames are waiting, the target reads its clock after this many frames.
+// While frames keep coming, the target reads its clock at the latest after this many frames.
 constexpr int most_at_once = 256;
 
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 
-// A command shows that a bench is at work, as a Sync does. If only Sync counted, the process would send an
-// idle heartbeat between the command `start` and the first Sync. A replay would not contain this heartbeat.
+// Both a command and a Sync show that a bench is active. If only Sync frames were taken into account, the
+// process would send an idle heartbeat between the command `start` and the first Sync. A replay would not
+// contain this heartbeat.
 bool from_bench(const Frame& frame) {
   return !frame.extended &&
          (frame.id == messages::Sync::info.id || frame.id == messages::TargetCommand::info.id);
 }
 
-// Sends frames in order. Drops a frame if the transmit queue stays full until the deadline, or if the
-// interface is down. Counts the dropped frames; the receiver detects their loss by the E2E counters.
+// Sends frames in order. Drops a frame if the transmit queue stays full until the deadline
+// (send_patience_ns), or if the interface is down. Counts the dropped frames; the receiver detects their loss
+// by the E2E counters.
 void send(Port& port, std::span<const Frame> frames, BusNotes& notes) {
   std::int64_t deadline_ns = 0;  // set when the queue is first full
   for (const Frame& frame : frames) {
@@ -71,7 +73,7 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
   TimingWindow window;
   BusNotes notes;
   Outbox<1> reports;
-  // When the bench last sent Sync or a command; updated only when a report is due.
+  // The last time at which the bench sent Sync or a command; this time is updated only when a report is due.
   std::int64_t bench_ns = now_ns() - bench_silent_ns;
   // Before it sends its first frame, a target listens for longer than a heartbeat period, to detect another
   // target: two targets on one bus would corrupt each other's groups.
@@ -87,7 +89,7 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
       const auto received = port.receive();
       more = received.has_value();
       if (!more) break;
-      if (received->foreign) continue;  // the port counts them
+      if (received->foreign) continue;  // the port counts foreign frames
       if (received->frame.error) {
         notes.error_frame(received->frame);
         continue;
@@ -120,9 +122,9 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
       if (std::exchange(bench_heard, false)) bench_ns = now;
       print(notes.news(port, format));
       established = true;
-      // Sync drives the heartbeat. During a run the process adds no heartbeats, even if the bench is slow, so
-      // that the frames equal those of a replay. After the bench has disappeared, heartbeats resume, so that
-      // the next bench finds the target.
+      // While Sync arrives, the device sends the heartbeats that are due. During a run the process adds no
+      // heartbeats, even if the bench is slow, so that the frames equal those of a replay. After the bench
+      // has disappeared, the process sends heartbeats, so that the next bench finds the target.
       const std::int64_t patience_ns = device.running() ? bench_gone_ns : bench_silent_ns;
       if (now - bench_ns >= patience_ns) {
         send(port, device.idle_heartbeat(), notes);
@@ -132,7 +134,8 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
         send(port, reports.frames(), notes);
       }
     }
-    // A port may still hold frames from its last read, for which wait() would not return.
+    // The port may already have read further frames from the bus. wait() would not return for these frames,
+    // so wait() is called only if no frames are left.
     heard = more || wait(port, WaitFor::frame, report_due_ns);
   }
   print(notes.news(port, format));

@@ -9,10 +9,11 @@
 namespace canhil::target {
 
 /// Collects waiting and processing times of the frames that the device answered, except Sync and commands.
-/// Most of them are the last frames of sample groups.
+/// Most of these frames are the last frames of sample groups.
 class TimingWindow {
  public:
-  /// Adds a frame's wait between stamp and processing, and its processing time.
+  /// Adds a frame's waiting time, from its time stamp to the start of its processing, and its processing
+  /// time.
   void add(std::int64_t queue_ns, std::int64_t compute_ns) {
     queue_max_ns_ = std::max(queue_max_ns_, queue_ns);
     queue_sum_ns_ += queue_ns;

@@ -1,6 +1,6 @@
-// Faults of the wire, of a controller and of an interface: they are reported, the run continues if possible,
-// and nothing hangs. The wire is simulated by wire/canhil_wire.c; to the driver, the kernel and the programs
-// it looks like a real one.
+// Faults of the wire, of a controller and of an interface: they must be reported, the run must continue if
+// possible, and no program may hang. wire/canhil_wire.c simulates the wire; the driver, the kernel and the
+// programs cannot distinguish it from a real one.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -106,12 +106,13 @@ TEST(Interface, DownAndUpAgainOnTheTargetsSideIsSurvivedAndReported) {
       << "nobody acknowledged the bench's frames meanwhile";
 }
 
-// Without an acknowledgement, the bench's controller repeats its first frame endlessly, and its queue fills.
+// If nobody acknowledges its frames, the bench's controller repeats the same frame endlessly, and the
+// transmit queue becomes full.
 TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
   set_up_on_wire();
   const Outcome outcome = run_with([] { set_interface("can0", false); });
   EXPECT_FALSE(outcome.report["ending"]["completed"]);
-  // The bench has been silent since its last frame, which it sent just before the queue was full.
+  // The message states when the first frame was due that the full queue did not accept.
   EXPECT_THAT(outcome.ended.out, testing::ContainsRegex("fail: .*the bus took no frame since t="));
   EXPECT_THAT(outcome.incidents(), Contains("error passive"));
   EXPECT_EQ(outcome.ended.code, 1);
@@ -119,7 +120,7 @@ TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
 
 TEST(Interface, AdapterPulledAndPluggedInAgainOnTheBenchsSideIsSurvived) {
   set_up_on_wire();
-  run("rmmod canhil_wire");  // the module does not notice that a controller is removed
+  run("rmmod canhil_wire");  // the module of the simulated wire does not support the removal of a controller
   const Outcome outcome = run_with([] {
     run("echo 1 >/sys/class/net/can1/device/remove && echo 1 >/sys/bus/pci/rescan && "
         "ip link set can1 up type can bitrate 1000000");
@@ -146,8 +147,8 @@ TEST(BusOff, OnTheBenchsSideWithRestartIsSurvivedAndReported) {
       << "the frame that failed is lost, and counted";
 }
 
-// The bench reports why it received nothing for longer than a target may be silent; the target reports that
-// it has lost its input.
+// While the bench is bus-off, it receives nothing for longer than a target may be silent. The run must not
+// fail because of this silence, but because the target reports a fault: the target has lost its input.
 TEST(BusOff, OnTheBenchsSideForLongEndsWithTheTargetsFaultNotItsSilence) {
   set_up_on_wire("", "restart-ms 700");
   const Outcome outcome = run_with([] {

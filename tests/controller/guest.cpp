@@ -76,7 +76,7 @@ void wire(const std::string& what) {
 }
 
 Target::Target() {
-  // Does not wait for the target's heartbeat, because the bench waits for it.
+  // Need not wait for the target's heartbeat, because the bench waits for this heartbeat.
   const Ended started = shell(fmt::format("{} --bus can0 >{} 2>{} & echo $!", HIL_TARGET,
                                           scratch("target.out"), scratch("target.err")));
   pid_ = started.out;

@@ -1,4 +1,5 @@
-// The guest that tests/controller/run.sh starts: can0 is the interface of the target, can1 that of the bench.
+// Helper functions for tests in the guest system that tests/controller/run.sh starts. can0 is the interface
+// of the target, can1 that of the bench.
 #pragma once
 
 #include <string>
@@ -17,8 +18,8 @@ void set_up_on_wire(const std::string& can0_options = "", const std::string& can
 /// Sets the interface up or down without waiting, as `ip link set INTERFACE up` does.
 void set_interface(const std::string& interface, bool up);
 
-/// Waits at most half a minute until the interface has a carrier, or has none. A bus-off controller has no
-/// carrier.
+/// Waits until the interface has a carrier (`there`) or has none (not `there`), for at most half a minute.
+/// The interface of a bus-off controller has no carrier.
 void await_carrier(const std::string& interface, bool there);
 
 /// Waits for `count` Sync frames on can0.
@@ -27,7 +28,7 @@ void await_syncs(int count);
 /// Configures the wire with a command of wire/canhil_wire.c, such as "can1 broken".
 void wire(const std::string& what);
 
-/// Runs a shell command that must succeed; may be called while another thread is in shell().
+/// Runs a shell command that must succeed. May be called while another thread executes shell().
 void run(const std::string& command);
 
 /// Runs hil-target on can0 during the lifetime of the object.
@@ -37,7 +38,7 @@ class Target {
   ~Target();
   Target(const Target&) = delete;
   Target& operator=(const Target&) = delete;
-  /// The text on stderr so far.
+  /// What the target has printed on stderr so far.
   [[nodiscard]] std::string said() const;
 
  private:

@@ -1,6 +1,6 @@
 #!/bin/sh
-# guest.sh DIR: runs in the guest, which sees the host's files. Creates can0 and can1, runs DIR/command, and
-# writes its exit status to the port "status".
+# guest.sh DIR: runs in the guest system, which sees the host's files. Creates can0 and can1, runs DIR/command, and
+# writes the exit status of this command to the serial port "status".
 dir=$1
 export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 die() { echo "canhil: cannot $*" >/dev/console; busybox poweroff -f; }
@@ -14,7 +14,7 @@ mount -t devpts devpts /dev/pts
 ln -s /proc/self/fd /dev/fd
 mount -t tmpfs tmpfs /run
 
-port() { # prints the device of a port
+port() { # port NAME: prints the device of the virtual serial port NAME
   for one in /sys/class/virtio-ports/*; do
     if [ "$(cat "$one/name")" = "$1" ]; then echo "/dev/${one##*/}"; return; fi
   done
@@ -25,7 +25,7 @@ for i in can0 can1; do
   ip link set $i up type can bitrate "${CANHIL_CONTROLLER_BITRATE:-1000000}" || die "set up $i"
 done
 
-# Uses pipes, so that the command's output is a pipe, as it is for the caller.
+# Puts pipes between the command and the ports, so that the command's output is a pipe and not a serial port.
 mkfifo /run/out /run/err
 cat /run/out >"$(port out)" &
 cat /run/err >"$(port err)" &
@@ -33,7 +33,7 @@ setsid bash -c '. "$1/environment"; . "$1/command"' bash "$dir" </dev/null >/run
 command=$!
 wait $command
 status=$?
-kill -s KILL -- -$command 2>/dev/null # processes that the command left running keep the pipes open
+kill -s KILL -- -$command 2>/dev/null # ends processes that the command left running: they would keep the pipes open
 wait
 echo $status >"$(port status)"
 busybox poweroff -f

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# kernel.sh: downloads Debian's kernel into a cache (once), unpacks the parts that a guest with CAN controllers needs, and prints their
-# folder: vmlinuz, modules/*.ko, and build/ (the headers, to build a module). Nothing is installed.
+# kernel.sh: downloads Debian's kernel into a cache (once), unpacks the parts that a guest with CAN controllers needs, and prints the
+# folder of these parts: vmlinuz, modules/*.ko, and build/ (the headers, to build a module). Nothing is installed.
 # On failure: exit code 2 and one line.
 # The cache: ${XDG_CACHE_HOME:-~/.cache}/canhil/controller/, one folder per kernel; remove it to get Debian's newest kernel.
 set -euo pipefail
@@ -14,7 +14,7 @@ modules=(
 )
 modules=("${modules[@]/%/.ko}")
 
-present() { # the newest kernel in the cache
+present() { # prints the folder of the newest kernel in the cache; fails if the cache has no kernel
   local newest
   newest=$(find "$cache" -mindepth 2 -maxdepth 2 -name complete 2>/dev/null | sort -V | tail -n 1)
   if [[ -z "$newest" ]]; then return 1; fi
@@ -30,12 +30,12 @@ exec 9>"$cache/lock"
 flock 9 # if several run at the same time, only one downloads
 if present; then exit 0; fi
 
-# Uses package lists of its own: a user without rights cannot write to apt's folders, and the machine's lists
-# may be old or absent. In either case apt verifies downloads by the signatures of Debian's archive.
+# Package lists in the cache: a user without root rights cannot write to apt's folders, and the machine's lists
+# may be old or absent. With these lists too, apt verifies downloads by the signatures of Debian's archive.
 own_lists=(-o "Dir::State::Lists=$cache/lists" -o "Dir::Cache=$cache/apt" -o Debug::NoLocking=1 -o APT::Sandbox::User=root)
 options=(-o APT::Sandbox::User=root)
 depends() { apt-cache "${options[@]}" depends --important "$1" 2>/dev/null | sed -n 's/^ *Depends: //p'; }
-fetch() { # downloads into the current directory
+fetch() { # downloads the packages into the current directory
   local image
   image=$(depends linux-image-amd64 | grep -m 1 '^linux-image-[0-9]')
   if [[ -z "$image" ]]; then echo "E: no package linux-image-amd64 in the lists"; return 1; fi
@@ -67,7 +67,7 @@ mv "boot/vmlinuz-$release" "$release/vmlinuz"
 for module in "${modules[@]}"; do mv "lib/modules/$release/kernel/$module" "$release/modules/"; done
 printf '%s\n' "${modules[@]##*/}" >"$release/order" # the modules in the order in which they are loaded
 mv usr "$release/"
-# One Makefile of the headers uses an absolute path; the others use relative ones.
+# One Makefile of the headers contains an absolute path, which is wrong in the cache. It is made relative.
 build=$release/usr/src/linux-headers-$release
 sed -i 's|^include /usr/src/|include $(dir $(lastword $(MAKEFILE_LIST)))../|' "$build/Makefile"
 ln -s "usr/src/linux-headers-$release" "$release/build"

@@ -1,4 +1,5 @@
-// A transmit queue of 10 frames that is really full: the kernel returns ENOBUFS, which poll() cannot detect.
+// Tests with a transmit queue of 10 frames that is full: the kernel then returns ENOBUFS, a state for whose
+// end poll() cannot wait.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # run.sh COMMAND...: runs COMMAND on a machine where can0 and can1 are two SJA1000 controllers (kvaser_pci) on one bus, up, at 1 Mbit/s, in the
-# directory and with the environment of the caller. Its exit status, stdout and stderr are those of COMMAND.
+# directory and with the environment of the caller. The exit status, stdout and stderr of run.sh are those of COMMAND.
 # The machine is a PC that QEMU emulates in software, so no rights are needed. It has Debian's kernel and
 # drivers and sees the host's files; changes of files are discarded at the end. docs/controller.md describes
 # what the machine can test.
-# Needs (Debian): qemu-system-x86 busybox iproute2 gzip make gcc-12, and apt for the kernel, which is downloaded once (kernel.sh).
-# CANHIL_CONTROLLER_TIMEOUT_S (600) is the time limit.
+# Needs these packages of Debian: qemu-system-x86 busybox iproute2 gzip make gcc-12. apt downloads the kernel once (kernel.sh).
+# CANHIL_CONTROLLER_TIMEOUT_S (default 600) is the time limit.
 set -u
 here=$(dirname "$(readlink -f "$0")")
 
@@ -23,13 +23,13 @@ trap 'exit 130' INT TERM HUP
 export -p >"$dir/environment"
 { printf 'cd %q && exec' "$PWD"; printf ' %q' "$@"; echo; } >"$dir/command"
 
-# The faulty wire (wire/canhil_wire.c): a command that needs it loads it with insmod "$CANHIL_WIRE".
+# Builds the kernel module of the faulty wire (wire/canhil_wire.c). A command that needs the module loads it with insmod "$CANHIL_WIRE".
 cp -r "$here/wire" "$dir/wire"
 env -u MAKEFLAGS -u ARCH -u CROSS_COMPILE make -C "$kernel/build" M="$dir/wire" modules >"$dir/make" 2>&1 ||
   { say "cannot build wire/canhil_wire.c: $(grep -m1 -iE 'error|not found' "$dir/make")"; exit 125; }
 echo "export CANHIL_WIRE=$dir/wire/canhil_wire.ko" >>"$dir/environment"
 
-initramfs() { # the tree in $dir/initramfs
+initramfs() { # packs the tree $dir/initramfs into $dir/initramfs.gz
   mkdir -p "$dir/initramfs"/{bin,dev,modules} || return
   cp "$(command -v busybox)" "$dir/initramfs/bin/busybox" || return
   local library

@@ -1,5 +1,5 @@
-// The four estimators over the controllers and their driver: their outputs pass, and equal those of a run in
-// process bit for bit.
+// The four estimators over the emulated controllers and the kernel's driver: their outputs must pass, and
+// must equal those of a run in process bit for bit.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -8,7 +8,8 @@
 namespace canhil::test {
 namespace {
 
-// Flies in process in the guest too, because the host's processor may compute a sine with other instructions.
+// The run in process is flown in the guest too. On the host it could have other bits, because the host's
+// processor may compute a sine with other instructions.
 std::vector<Frame> frames_in_process(const std::string& name) {
   const std::string log = scratch("in_process.log");
   EXPECT_EQ(hil_bench(fmt::format("run {} --bus in-process --log {}", scenario(name), log)).code, 3);

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Makes the API pages and fails on every warning of Doxygen: wrong documentation, or a public type, function
-# or enumeration without a comment. Fields of structs need no comment, because their names carry their units;
-# neither do defaulted operators.
-#   api.sh FOLDER        pages in FOLDER/html (about a second)
+# or enumeration without a comment. Fields of structs need no comment, because their names contain their units.
+# Defaulted operators need no comment either.
+#   api.sh FOLDER        writes the pages to FOLDER/html; takes about a second
 set -euo pipefail
 [[ $# == 1 ]] || { echo "api.sh: expected a folder for the pages" >&2; exit 2; }
 mkdir -p "$1"

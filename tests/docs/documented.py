@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs the commands that one page of the documentation shows, in their order, in a folder of its own.
+"""Runs the commands that one page of the documentation shows, in the order of the page, in a separate folder.
 
-    documented.py PAGE SOURCE BUILD SCRATCH    PAGE as in the project: README.md, docs/campaigns.md
+    documented.py PAGE SOURCE BUILD SCRATCH    PAGE: path from the root of the project, such as docs/campaigns.md
 
-Each command must end with exit code 0, or with one that rules.py permits. If a command cannot be run here,
-rules.py gives the reason; then only the options, which must be in the help of the command's program, and the
-files, which must exist, are checked. Exit code 1: a command does not do what the page says.
+Each command must end with exit code 0, or with another code that rules.py permits. For a command that cannot be
+run here, rules.py gives the reason. Of such a command, two things are checked: its options must be in the help of
+its program, and its files must exist. Exit code 1: a command does not do what the page says.
 """
 
 import os
@@ -22,13 +22,14 @@ from pages import Command, commands_of  # noqa: E402
 from rules import PLACEHOLDERS, PREPARED, Rule, rule_of  # noqa: E402
 
 LONGEST_S = 120
-# What a run in real time prints if the host stalled the target, which has no CPU of its own here. The command is repeated: a defect shows each time.
+# In this test no CPU is reserved for the target, so a busy host can stall the target. A run in real time then prints one of these. The command is
+# repeated, because a real defect occurs in every repetition.
 STALLED = re.compile(r"target silent|FAIL +(output_period|latency|heartbeat) ")
 WRITTEN_TO = ("docs", "dbc")  # copied, because commands write to them; all other folders are linked
 
 
 def scratch_tree(source: Path, build: Path, scratch: Path) -> None:
-    """A folder that looks like a clone in which canhil was built."""
+    """Makes a folder that looks like a clone of the project in which canhil was built."""
     shutil.rmtree(scratch, ignore_errors=True)
     scratch.mkdir(parents=True)
     for entry in source.iterdir():
@@ -41,7 +42,7 @@ def scratch_tree(source: Path, build: Path, scratch: Path) -> None:
 
 
 class Session:
-    """The shell of a user who types the commands of a page: keeps the working directory between commands."""
+    """The shell of a user who types the commands of a page: each command starts in the working directory that the one before left."""
 
     def __init__(self, scratch: Path, build: Path):
         self.root = self.folder = scratch
@@ -61,13 +62,13 @@ class Session:
         return ended.returncode, ended.stdout
 
     def unknown_words(self, text: str) -> list[str]:
-        """Complaints: options that are not in the help of their program, and files that do not exist."""
+        """A complaint for each option that is not in the help of its program, and for each file that does not exist."""
         unknown = []
         for call in re.split(r"[;|&]+|\$\(|\|\|", re.sub(r"'[^']*'|\"[^\"]*\"", "QUOTED", text)):
             words = call.replace("[", " ").replace("]", " ").split()
             while words and (words[0] == "sudo" or "=" in words[0]):
                 words.pop(0)
-            for word in words:  # files of the project
+            for word in words:  # complains about files of the project that do not exist
                 if re.match(r"(bench|dbc|docs|target|tests|packaging)/", word) and not re.search(r"[*A-Z]", word) and not (self.root / word).exists():
                     unknown.append(f"{word} is not there")
             scripts = [self.root / word for word in words[:2] if word.endswith(".py") and (self.root / word).is_file()]
@@ -92,7 +93,7 @@ class Session:
 
 
 def attempt(command: Command, rule: Rule, session: Session) -> str:
-    """The complaint about a command; empty: none."""
+    """Runs a command. Returns the complaint about it, or an empty text."""
     wrong = session.unknown_words(command.text) if rule.why_not else []
     if wrong or rule.why_not:
         return "; ".join(wrong)

@@ -9,7 +9,7 @@ FENCED = re.compile(r"^```.*?^```", re.S | re.M)
 
 
 def anchors(page):
-    """The names that a Markdown page's headings get on GitHub and GitLab."""
+    """The link targets (anchors) that GitHub and GitLab make from the headings of a Markdown page."""
     headings = re.findall(r"^#+ +(.*)$", FENCED.sub("", page.read_text()), re.M)
     return [re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-") for heading in headings]
 

@@ -60,7 +60,7 @@ def check(page, build, write):
     """The complaints about a page. With `write` the page is updated, and only failed commands remain as complaints."""
     text = page.read_text()
     complaints, pieces, end = [], [], 0
-    # Not in /tmp: tests/vcan/run.sh may run a command in a guest, which has a /tmp of its own.
+    # The folder must not be in /tmp: tests/vcan/run.sh may run a command in a guest system, which has a /tmp of its own.
     with tempfile.TemporaryDirectory(prefix="canhil-docs-", dir="/var/tmp") as name:
         folder = Path(name)
         scratch_tree(folder, build)

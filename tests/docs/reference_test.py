@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The reference of scenario and campaign files: reference_test.py HIL_BENCH SOURCE.
+"""Tests the reference of the keys of scenario and campaign files: reference_test.py HIL_BENCH SOURCE.
 
-Checks that the page in the documentation equals what hil-bench prints, that each key has a meaning, and that
-the reference contains each key of the project's scenario and campaign files.
+Checks that docs/scenario-reference.md equals the output of hil-bench reference, that the reference explains the
+meaning of each key, and that the reference contains each key of the project's scenario and campaign files.
 """
 
 import json
@@ -20,11 +20,11 @@ def printed(*options: str) -> str:
     return subprocess.run([hil_bench, "reference", *options], check=True, capture_output=True, text=True).stdout
 
 
-# The page equals what hil-bench prints.
+# The page docs/scenario-reference.md must equal the output of hil-bench reference.
 if not page.exists() or page.read_text() != printed():
     wrong.append(f"{page}: is not what the program prints, make it again by: hil-bench reference > docs/scenario-reference.md")
 
-# Each key has a meaning.
+# The reference must explain the meaning of each key.
 parts = {part["title"]: part["tables"] for part in json.loads(printed("--json"))["parts"]}
 keys = {(title, table["name"]): [key["key"] for key in table["keys"]] for title, tables in parts.items() for table in tables}
 count = sum(map(len, keys.values()))
@@ -35,7 +35,7 @@ if count < 500:
     wrong.append(f"{count} keys, expected hundreds")
 
 
-# The reference contains each key of the project's files.
+# The reference must contain each key of the project's scenario and campaign files.
 def is_known(key: str, title: str, *tables: str) -> bool:
     known = [name for table in tables for name in keys.get((title, table), [])]
     stems = [name.removesuffix("_UNIT") for name in known if name.endswith("_UNIT")]

@@ -59,7 +59,7 @@ RULES = (
     Rule(r"hil-bench doctor .*can\d", codes=(0, 1), says="nocan0", instead=((r"--cpu \d", "--cpu 0"), (r" --seconds \d+", ""), (r"$", " --seconds 1"))),
     Rule(r"^sha256sum ", why_not="of the reports of a run on hardware"),
     Rule(r"^hil-(bench|target) .*\bv?can\d", codes=(2,), says=NO_INTERFACE, instead=((r"--cpu \d", "--cpu 0"),)),
-    # Commands that do not end by themselves; they run as long as a test may take.
+    # Commands that would not end by themselves, would take too long, or have another exit code than 0.
     Rule(r"hil-bench run .*--live\b", codes=PASSES, instead=(ANY_PORT, *IN_VIRTUAL_TIME)),
     Rule(r"hil-bench campaign .*--live\b", codes=BARS, instead=((r"\bFILE\b", "bench/monte_carlo/quick.toml"), ANY_PORT, *FEW_RUNS)),
     Rule(r"hil-bench bus ", codes=(124,), instead=((r"^", "timeout -s INT -k 5 1 "), (r"local:\w+", "local:documented"))),

@@ -1,4 +1,5 @@
-// Baro-inertial height behind the bus: groups SlaveImu and Barometer in, group Height out.
+// Connects the baro-inertial height filter to the bus: receives the groups SlaveImu and Barometer, sends the
+// group Height.
 #include <array>
 #include <optional>
 
@@ -71,7 +72,7 @@ class BaroInertialAdapter final : public TunedAdapter<baro_inertial::Settings> {
       const At<double> fix{unwrap_us(measured.time_of_validity_us, context.now_us), counter,
                            measured.height_m};
       if (fix.t_us < imu_.now_us()) {
-        ++context.losses.late;  // kept simple: no history, so a late fix is lost
+        ++context.losses.late;  // this simple adapter stores no earlier states, so it drops a late fix
       } else if (fix.t_us == imu_.now_us()) {
         return answer(fix, context);
       } else if (!pending_.push(fix)) {

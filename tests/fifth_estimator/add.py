@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Creates a copy of the project with a fifth estimator: python3 tests/fifth_estimator/add.py FOLDER
 
-This file contains all changes outside tests/fifth_estimator that the estimator needs: one line in each registry, and the additions to the DBC, which
-contract.dbc lists. The estimator's sensor and one of its checks are the examples of docs/adding-a-node.md and docs/adding-a-check.md: the copy has
-their code from the pages, so its tests fail if a page is out of date.
+This file makes all changes outside tests/fifth_estimator that the estimator needs: one line in each registry, and the additions to the DBC, which
+contract.dbc lists. The estimator's sensor and one of its checks are the examples of docs/adding-a-node.md and docs/adding-a-check.md. Their code is
+taken from these two pages, so the tests of the copy fail if a page is out of date.
 """
 import pathlib
 import re
@@ -29,7 +29,7 @@ def block(page: str, above: str) -> str:
     return found[1]
 
 
-# Files of the pages: each follows a line that begins with its name.
+# Source files that two pages of docs contain: the text of each file is the code block below the line that begins with the file's name.
 FROM_PAGES = {name: block(page, f"`{name}`").encode() + b"\n" for page, name in [
     ("adding-a-node", "bench/nodes/barometer.hpp"), ("adding-a-node", "bench/nodes/barometer.cpp"),
     ("adding-a-check", "bench/checks/kinds/spread.hpp"), ("adding-a-check", "bench/checks/kinds/spread.cpp")]}
@@ -46,7 +46,7 @@ LINES = [
      "std::unique_ptr<Adapter> make_baro_inertial_adapter();"),
     ("target/device/adapters.hpp", "  adapters.push_back(make_wind_adapter());",
      "  adapters.push_back(make_baro_inertial_adapter());"),
-    # Before the other tests: its campaign lasts longest.
+    # This folder is added before the other tests, because the campaign in its tests lasts longest.
     ("tests/CMakeLists.txt", "add_compile_options(${canhil_not_numerical})", "add_subdirectory(fifth_estimator)"),
 ]
 LAST_ESTIMATOR, ONE_MORE = '4 "wind"', '5 "baro_inertial" '
@@ -63,7 +63,7 @@ def with_lines(name: str, text: str) -> str:
 
 
 def contract(text: str) -> str:
-    """Adds the nodes to BU_, the estimator to the lists of estimators, and the rest at the end."""
+    """Adds the parts of contract.dbc to the text of the DBC: the nodes to BU_, the estimator to the lists of estimators, the rest at the end."""
     own = (ROOT / HERE / "contract.dbc").read_text()
     nodes, rest = own.split("\n", 1)
     for line in block("adding-a-node", "## 1. The DBC").splitlines():

@@ -1,4 +1,4 @@
-// Baro-inertial height: the target answers each barometric height with one sample of the estimate.
+// The estimator of baro-inertial height: the target answers each barometric height with one estimate.
 #pragma once
 
 #include "bench/checks/estimator.hpp"

@@ -51,7 +51,7 @@ TEST(FifthEstimator, ItsQuantitiesAreDrawnAndExported) {
 }
 
 TEST(FifthEstimator, ItsDefectsFail) {
-  // A gate that rejects everything: heights are answered but not used.
+  // With a gate that rejects every height, the target answers the heights but does not use them.
   const Ended gated = hil_bench(
       fmt::format("run {} --bus in-process", with("fix_noise_vertical_m = 2.0", "gate_nis = 1e-9")));
   EXPECT_EQ(gated.code, 1) << gated.out;

@@ -1,4 +1,4 @@
-// Quantities that only a baro-inertial height filter reports.
+// Quantities that only the estimator of baro-inertial height reports.
 #pragma once
 
 #include "bench/quantities/list.hpp"

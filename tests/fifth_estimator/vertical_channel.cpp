@@ -35,7 +35,7 @@ void VerticalChannel::propagate(const strapdown::ImuIncrement& imu, const Settin
 
 Outcome VerticalChannel::update(double height, const Settings& settings) {
   const double R = settings.barometer_sigma * settings.barometer_sigma;
-  const double innovation = nav_.height - height;  // estimated - measured height, which measures the error dh
+  const double innovation = nav_.height - height;  // estimated minus measured height: a measurement of dh
   const double S = P_(height_error, height_error) + R;
   nis_ = innovation * innovation / S;
   if (settings.gate > 0 && nis_ > settings.gate) return Outcome::gated;
@@ -43,7 +43,7 @@ Outcome VerticalChannel::update(double height, const Settings& settings) {
   nav_.height -= K(height_error) * innovation;
   nav_.v_eb_n.z() -= K(velocity_error) * innovation;
   bias_ -= K(bias_error) * innovation;
-  // Joseph's form stays symmetric and positive in spite of rounding.
+  // With Joseph's form, P stays symmetric and positive definite in spite of rounding errors.
   Eigen::Matrix3d left = Eigen::Matrix3d::Identity();
   left.col(height_error) -= K;
   P_ = left * P_ * left.transpose() + K * R * K.transpose();

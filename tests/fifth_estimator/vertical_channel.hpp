@@ -1,5 +1,5 @@
-// The vertical channel of an INS, aided by a barometric height: Kalman filter of three errors, fed back into
-// the INS.
+// The vertical channel of an INS, aided by barometric heights: a Kalman filter estimates three errors, and
+// the estimates correct the INS.
 //
 // Errors (estimated - true) of height h, velocity down v and the bias b of the accelerometer along body z:
 //   d(dh)/dt = -dv      d(dv)/dt = -(2 g0 / R) dh - C_zz db + noise      d(db)/dt = 0
@@ -27,15 +27,15 @@ enum class Outcome : bool { gated, used };
 class VerticalChannel {
  public:
   void start(const strapdown::NavState& nav, const Settings& settings);
-  /// Propagates INS and covariance over one sample.
+  /// Propagates INS and covariance over one IMU sample.
   void propagate(const strapdown::ImuIncrement& imu, const Settings& settings);
-  /// Corrects INS and bias with a height at the time of the INS [m].
+  /// Corrects INS and bias with a barometric height [m] that is valid at the time of the INS.
   Outcome update(double height, const Settings& settings);
 
   [[nodiscard]] const strapdown::NavState& nav() const { return nav_; }
-  [[nodiscard]] double bias() const { return bias_; }            ///< of body z [m/s^2]
+  [[nodiscard]] double bias() const { return bias_; }            ///< accelerometer along body z [m/s^2]
   [[nodiscard]] double nis() const { return nis_; }              ///< of the last height, 1 degree of freedom
-  [[nodiscard]] const Eigen::Matrix3d& P() const { return P_; }  ///< of dh, dv, db
+  [[nodiscard]] const Eigen::Matrix3d& P() const { return P_; }  ///< covariance of dh, dv, db
   [[nodiscard]] bool finite() const { return nav_.v_eb_n.allFinite() && P_.allFinite(); }
 
  private:

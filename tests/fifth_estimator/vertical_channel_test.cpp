@@ -9,13 +9,14 @@ namespace {
 
 constexpr double g = 9.80665, radius = 6'371'000;
 
-// The increments of a level IMU at rest on the equator, on the ellipsoid.
+// The increments of a level IMU that is at rest on the equator, at height 0 above the ellipsoid.
 strapdown::ImuIncrement at_rest(double dt) {
   constexpr double earth_rate = 7.292115e-5, gravity_of_equator = 9.7803253359;
   return {.delta_theta = {earth_rate * dt, 0, 0}, .delta_v = {0, 0, -gravity_of_equator * dt}, .dt = dt};
 }
 
-// Without aiding, a height error grows as cosh(sqrt(2 g / R) t), in the INS and in the covariance.
+// Without aiding, a height error grows in proportion to cosh(sqrt(2 g / R) t). The error of the INS and the
+// sigma in its covariance must both grow so.
 TEST(VerticalChannel, DivergesWithoutAidAsGravitySays) {
   VerticalChannel channel;
   const Settings settings{.height_sigma_0 = 100};
@@ -27,7 +28,8 @@ TEST(VerticalChannel, DivergesWithoutAidAsGravitySays) {
   EXPECT_NEAR(channel.nav().height / 100, growth, 0.01);
 }
 
-// The filter estimates the bias from the heights: tests sign and size of all three errors.
+// The filter estimates the accelerometer bias from the heights. The test checks sign and size of all three
+// errors.
 TEST(VerticalChannel, FindsTheBias) {
   VerticalChannel channel;
   const Settings settings{

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Runs a command of this project on a machine with nothing installed: a minimal Debian 12 in a chroot, a fresh clone in it.
+# Runs a command of this project on a machine with nothing installed: a minimal Debian 12 in a chroot, with a fresh clone of the project.
 #   sudo bash tests/fresh_machine/run.sh [--keep] COMMAND...        e.g.  bash tests/run.sh
-# To be run by hand before a release. It first installs all packages, then runs the command.
-# The chroot uses the package sources of the host: apt's sources, keys, proxies and credentials are copied.
+# To be run by hand before a release. The command must install the packages that it needs; tests/run.sh does.
+# The chroot uses the package sources of the host: the configuration of the host's apt (sources, keys, proxies, credentials) is copied into it.
 # Uncommitted changes are not tested. Exit code: that of COMMAND; 2 if the chroot could not be made.
 set -euo pipefail
 
@@ -65,7 +65,7 @@ pass_on=()
 for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
   if [[ -n "${!name:-}" ]]; then pass_on+=("$name=${!name}"); fi
 done
-# Separate mount and process namespaces: at the end, the kernel unmounts and ends everything in them.
+# The command has its own mount and process namespaces: at its end, the kernel removes all its mounts and ends all its processes.
 code=0
 unshare --mount --pid --fork --kill-child bash -euc '
   machine=$1; shift

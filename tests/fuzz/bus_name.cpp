@@ -1,5 +1,5 @@
-// Reads any text as the name of a bus (`--bus`). It must return settings within their limits, or one error
-// line that states what was expected.
+// Tests the functions that read the name of a bus (`--bus`). For any text, they must return settings within
+// their limits, or one error line that states what was expected.
 #include <cstdint>
 
 #include "bench/drive/buses.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace canhil;
 
-// The error message must contain the name exactly as typed.
+// The error message must contain the bus name exactly as it was typed.
 void expect_one_line(const Error& error, std::string_view name) {
   fuzz::expect(error.message.find(name) != std::string::npos &&
                error.message.find("expected") != std::string::npos);
@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     expect_one_line(bus.wire.error(), bus.text);
   } else {
     check(*bus.wire);
-    // A bus in this process needs nothing else to be opened.
+    // A bus within this process can be opened here, because it needs no hub and no interface.
     if (bus.in_process) {
       const auto opened = drive::open_buses(bus, {}, size % 2 == 0 ? BusFormat::classic : BusFormat::fd);
       fuzz::expect(opened && opened->port->name() == bus.text);

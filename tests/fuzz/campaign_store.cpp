@@ -1,7 +1,7 @@
-// Reads any file as the results of a campaign. It must print a report, or reject the file with one line.
-// There are two kinds of input. The first is a list of changes to the bytes of a valid file. The changed file
-// must give the original report or be rejected. The second is runs with arbitrary samples. They must
-// be stored, and then give a report or an error message.
+// Tests the code that reads a file with the results of a campaign. There are two kinds of input. The first is
+// a list of changes to the bytes of a valid file: the changed file must give the original report or be
+// rejected with an error message. The second is runs with arbitrary samples: the store must accept them, and
+// reading them must give a report or an error message.
 #include <unistd.h>
 
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t runs = 2;
 
-// Metrics of four kinds, all of which judge the arbitrary runs.
+// The campaign file. Its metrics are of four kinds; all of them judge the runs with arbitrary samples.
 constexpr std::string_view asked = R"(title = "Two"
 runs = 2
 seed = 3
@@ -55,7 +55,7 @@ kind = "consistency"
 quantity = "innovation.nis"
 mean_between = [2.6, 3.4]
 )";
-// A folder of this process, in memory if possible.
+// A temporary folder for this process, in memory if possible.
 class Folder {
  public:
   Folder() { fs::create_directories(path_); }
@@ -134,7 +134,8 @@ Sound make_sound(const fs::path& file) {
   return sound;
 }
 
-// Applies changes to the file: two bytes for the position, one for the length, then the bits to flip.
+// Changes the file as the input says. For each change, the input has two bytes for the position, one for the
+// length, then the bits to flip.
 void damage(const fs::path& file, const Sound& sound, std::span<const std::uint8_t> script) {
   std::string bytes = sound.bytes;
   while (script.size() >= 4) {
@@ -151,8 +152,8 @@ void damage(const fs::path& file, const Sound& sound, std::span<const std::uint8
   fuzz::expect(*report == sound.report);
 }
 
-// Stores four runs. Input for each: outcome and number of samples, then the values as bytes; many byte values
-// mean NaN or infinity.
+// Stores four runs. The input for each run has its outcome, the number of its samples, and the values of the
+// samples. The input can select NaN and infinity with one byte.
 void fill(const fs::path& file, const Sound& sound, std::span<const std::uint8_t> script) {
   const auto byte = [&]() -> std::uint8_t {
     if (script.empty()) return 0;

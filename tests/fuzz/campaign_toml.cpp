@@ -1,6 +1,6 @@
-// Reads any text as a campaign whose scenario is always the short scenario. It must return a Campaign, or one
-// error line that names the file. The input also covers the settings that variants and sweeps put into a
-// scenario.
+// Tests the code that reads a campaign file. For any text, it must return a Campaign, or one error line that
+// names the file. The text may also contain settings by which variants and sweeps change a scenario; the
+// scenario itself is always the short scenario.
 #include <cstdint>
 
 #include "bench/campaign/campaign.hpp"
@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect_one_line(campaign.error().message, "fuzz.toml:");
     return 0;
   }
-  // The stored text of a campaign reads as the same campaign.
+  // The store of a campaign contains the texts of its files. Reading them must give the same campaign.
   const auto again = campaign::parse_campaign(campaign->sources);
   fuzz::expect(again && again->hash == campaign->hash && again->variants.size() == campaign->variants.size());
   for (const campaign::Metric& metric : campaign->metrics) {

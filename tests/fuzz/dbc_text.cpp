@@ -1,5 +1,5 @@
-// Reads any text as a DBC with both readers, the strict and the lenient one. Each must return a Database that
-// the codec can use, or one error line that contains the place.
+// Tests the two DBC readers, the strict and the lenient one. For any text, each must return a Database that
+// the codec can use, or one error line that states the place of the error in the text.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
@@ -16,7 +16,7 @@ void expect_one_line(const canhil::Error& error) {
   if (!error.message.starts_with("fuzz.dbc:") || error.message.find('\n') != std::string::npos) std::abort();
 }
 
-/// The sanitizers detect accesses outside the data.
+/// Decodes and encodes each message. If the codec accesses bytes outside the frame, a sanitizer detects this.
 void expect_usable(const Database& database) {
   for (const Message& message : database.messages) {
     const MessagePlan plan(message);

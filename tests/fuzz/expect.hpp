@@ -12,7 +12,8 @@ inline void expect(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Expects a non-empty error message. It may quote text of the file unchanged, line breaks included.
+/// Expects a non-empty error message. The message may have line breaks, because it may quote text of the
+/// file.
 inline void expect_words(std::string_view message, std::string_view begins_with = "") {
   expect(!message.empty() && message.starts_with(begins_with));
 }

@@ -1,5 +1,6 @@
-// Frames of an FD bus. Frames unpacked from a container must give the same container when packed again;
-// classic frames packed into containers must come out in their order.
+// Tests the packing of classic frames into CAN FD containers. If a container is unpacked and its frames are
+// packed again, the result must be the same container. If frames are packed and unpacked, their order must
+// stay the same.
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -23,7 +24,7 @@ std::vector<Frame> packed(std::span<const Frame> frames) {
   canhil::FdPacker packer;
   std::vector<Frame> wire;
   for (const Frame& frame : frames) packer.pack(frame, [&](const Frame& out) { wire.push_back(out); });
-  // A frame that belongs to no container causes the started containers to be sent.
+  // A frame that belongs to no container makes the packer send the containers that it has begun to fill.
   packer.pack({.id = canhil::max_standard_id, .size = 1}, [&](const Frame& out) { wire.push_back(out); });
   wire.pop_back();
   return wire;
@@ -40,7 +41,7 @@ std::vector<Frame> unpacked(std::span<const Frame> wire) {
 
 }  // namespace
 
-// For each frame: a byte for its kind, two bytes that select its id and size, and its data.
+// The input has for each frame: a byte for its kind, two bytes that select its id and size, and its data.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   enum Kind : std::uint8_t { any_id = 1, fd = 2, any_size = 4, extended = 8 };
   std::span<const std::uint8_t> rest(data, size);
@@ -60,11 +61,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto taken = rest.first(std::min<std::size_t>(frame.size, rest.size()));
     std::ranges::copy(taken, frame.data.begin());
     rest = rest.subspan(taken.size());
-    // Bytes after the last slot are not unpacked.
+    // Bytes after the last slot are not unpacked, so they must be 0 for the comparison below.
     if (kind == fd) std::fill(frame.data.begin() + container.count * 8, frame.data.end(), std::uint8_t{0});
     if (!canhil::can_carry(frame, true)) continue;
     if (frame.fd) wire.push_back(frame);
-    if (is_empty(frame)) continue;  // an empty slot: the message is not in the container
+    if (is_empty(frame)) continue;  // in a container, such a frame means that the slot has no message
     if (!frame.fd) classic.push_back(frame);
     if (kind == fd) containers.push_back(frame);
   }
@@ -73,7 +74,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto again = packed(unpacked({&container, 1}));
     expect(again.size() == 1 && again.front() == container);
   }
-  // In one stream, as a bus delivers them, the frames are the same again.
+  // All CAN FD frames of the input in one stream, as a bus delivers them: packing and unpacking must not
+  // change the frames inside.
   auto inside = unpacked(wire);
   std::erase_if(inside, is_empty);
   expect(unpacked(packed(inside)) == inside);

@@ -1,6 +1,7 @@
-// Peers of the embedded bus's hub that send anything. The hub forwards valid frames byte by byte and drops
-// peers that send anything else. Every frame that a correct node receives was sent by a peer or the host.
-// Input: for each step, one byte that selects a peer and an action, then the data of the action.
+// Tests the hub of the embedded bus against peers (connected programs) that send arbitrary bytes. The hub
+// must forward valid frames unchanged, and disconnect peers that send anything else. A correct node must
+// receive no frame that neither a peer nor the host has sent. The input has for each step one byte that
+// selects a peer and an action, then the data of the action.
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -27,7 +28,7 @@ using namespace canhil;
 using fuzz::Script;
 using local::Datagram;
 
-// A folder for the buses of this process.
+// A temporary folder for the sockets of this process's buses.
 class Folder {
  public:
   Folder() {
@@ -47,7 +48,7 @@ class Folder {
       std::filesystem::temp_directory_path() / ("canhil-fuzz-" + std::to_string(::getpid()));
 };
 
-// Peers 0 to 2; their connections come and go.
+// The peers 0 to 2. The input decides when they connect and disconnect.
 class Peers {
  public:
   explicit Peers(bool fd) : place_(fd ? local::Format::fd : local::Format::classic) {}

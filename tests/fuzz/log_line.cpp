@@ -1,5 +1,6 @@
-// Reads any line or packet of a log, and any lines of an ASC file in turn. A line must give an entry or one
-// error line, and an entry that is written must be read back as the same frame.
+// Tests the code that reads logs: lines of candump logs, packets of captures, and the lines of an ASC file
+// one after the other. A candump line must give an entry or one error line; an entry, written and read again,
+// must give the same frame.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

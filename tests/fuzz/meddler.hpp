@@ -1,5 +1,6 @@
-// A bus with a target that sends anything. The target is a Device; the fuzzer's input says which answers of
-// the Device are damaged, dropped, repeated, delayed or extended. Time is simulated; waiting advances it.
+// A bus with a target that may send anything. The target is a Device. The fuzzer's input decides which frames
+// of the Device are damaged, dropped, repeated or delayed, and which are followed by another frame. Time is
+// simulated: waiting advances the time.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +65,8 @@ class Meddler final : public Port {
     return first;
   }
 
-  // Each act has two bytes (number of answers to wait, kind of act) and its parameters.
+  // Reads the next act from the input: after how many frames it occurs (one byte), its kind (one byte). The
+  // act itself reads its parameters.
   void next_act() {
     left_ = script_.empty() ? -1 : byte();
     act_ = byte();
@@ -93,16 +95,16 @@ class Meddler final : public Port {
 
   void meddle(Frame frame) {
     switch (act_ % 10) {
-      case 0:  // lost
+      case 0:  // the frame is lost
         return;
-      case 1:  // another value, with a valid checksum
+      case 1:  // one byte is changed, with a valid checksum (1) or without (2)
       case 2: {
         const std::size_t place = 1 + byte() % 7;
         frame.data[place] ^= byte();
         if (act_ % 10 == 1) protect(frame);
         return say(frame);
       }
-      case 3:  // all bits of the signals
+      case 3:  // all bytes of the signals get the same value
         std::fill(frame.data.begin() + 2, frame.data.begin() + 8, byte());
         protect(frame);
         return say(frame);
@@ -111,7 +113,7 @@ class Meddler final : public Port {
         return say(frame);
       case 5:
         return say(frame, std::int64_t{byte()} * 1'000'000);
-      case 6: {  // additionally, any message
+      case 6: {  // an additional frame with any message of the DBC
         say(frame);
         const MessageInfo& message = messages::all_messages[byte() % messages::all_messages.size()];
         Frame other{.id = message.id, .size = message.size};
@@ -119,14 +121,14 @@ class Meddler final : public Port {
         if (act_ < 200) protect(other);
         return say(other);
       }
-      case 7:  // a frame that is not in the DBC
+      case 7:  // an additional frame with any id, which need not be in the DBC
         say(frame);
         frame.error = (act_ & 0x10U) != 0;
         frame.extended = (act_ & 0x20U) != 0;
         frame.id = byte() * 8U;
         frame.size = static_cast<std::uint8_t>(byte() % 9);
         return say(frame);
-      case 8:  // silent for a while
+      case 8:  // the target is silent for a while
         left_ = byte();
         now_ns_ += std::int64_t{byte()} * 2'000'000;
         return;

@@ -1,11 +1,12 @@
-// The device and its estimators under any input. The first bytes select estimators, algorithm and parameters;
-// the harness plays the handshake and starts. Each further step either advances the time or sends a
-// frame that the input defines. While the time advances, sensors report a plausible flight; the input delays,
-// drops or repeats their frames, or inverts bits in them. So inputs get past counters, CRCs and groups, and
-// most of their bytes have an effect. A custom mutator that repairs checksums would have to do so after every
-// mutation, and could not keep the sensors of a hundred steps plausible.
+// Tests the device and its estimators with any input. The first bytes of the input select estimators,
+// algorithm and parameters; then the fuzzer performs the handshake and starts the estimators. Each further
+// step either advances the time or sends a frame that the input defines. While the time advances, sensors
+// report a plausible flight; the input delays, drops or repeats the sensors' frames, or inverts bits in them.
+// Therefore the device accepts most frames (counters and CRCs are valid, groups are complete), and most bytes
+// of the input have an effect. (A custom mutator, the usual alternative, would have to repair checksums after
+// every mutation, and could not keep sensors plausible over a hundred steps.)
 //
-// Conditions: the device survives; it answers with complete groups of its own frames, with consecutive
+// Conditions: the device does not crash; it sends only complete groups of its own messages, with consecutive
 // counters; its attitude is always a valid rotation; after a reset it gives the same answers to the same
 // frames, bit for bit.
 #include <cstdlib>
@@ -52,7 +53,7 @@ constexpr std::array choices{
     Choice{Estimator::wind, Algorithm::adaptive_q, 20'000},
 };
 
-// Answers, each checked against the DBC and the answers before it.
+// The answers of the device. Each answer is checked against the DBC and against the answers before it.
 class Answers {
  public:
   void take(std::span<const Frame> answers) {
@@ -63,7 +64,8 @@ class Answers {
       expect(answer.data[0] == canhil::e2e::crc(answer.payload(), message->e2e_data_id));
       const std::uint8_t counter = canhil::e2e::counter(answer.payload());
       std::uint8_t& last = last_[static_cast<std::size_t>(message - all_messages.begin())];
-      expect(counter == 0 || counter == canhil::e2e::next(last));  // 0 is also allowed after a reset or start
+      expect(counter == 0 ||
+             counter == canhil::e2e::next(last));  // counters begin at 0 after a reset or start
       last = counter;
       if (answer.id == AlignAttitude::info.id)
         expect_pitch(canhil::from_frame<AlignAttitude>(answer).pitch_deg);
@@ -75,9 +77,9 @@ class Answers {
   [[nodiscard]] const std::vector<Frame>& all() const { return all_; }
 
  private:
-  // NaN must not reach the bus: packing converts it to the smallest angle of the message, -180 deg.
+  // The device must not send NaN. Packing would convert NaN to the smallest angle of the signal, -180 deg.
   static void expect_pitch(double pitch_deg) { expect(std::abs(pitch_deg) < 90.01); }
-  // All messages of a group are sent equally often; they are adjacent in the directory.
+  // All messages of a group must have been sent equally often. They are neighbours in the list all_messages.
   void expect_whole_groups() const {
     for (std::size_t i = 1; i < all_messages.size(); ++i) {
       const bool together = all_messages[i].sender == "Target" && !all_messages[i].sample_group.empty() &&
@@ -90,7 +92,7 @@ class Answers {
   std::vector<Frame> all_;
 };
 
-// A parameter of the estimator, mostly within its range.
+// Sets a parameter of the estimator to a value that is usually within the parameter's range.
 void set_parameter(auto& bench, const canhil::target::Device& device, Estimator estimator, Script& script) {
   struct Known {
     Parameter parameter;
@@ -110,7 +112,7 @@ void set_parameter(auto& bench, const canhil::target::Device& device, Estimator 
   }();
   const std::uint8_t which = script.byte(), how = script.byte();
   const auto& list = known[static_cast<std::size_t>(estimator)];
-  if (which == 0xFF || list.empty()) {  // any parameter with any value
+  if (which == 0xFF || list.empty()) {  // sets any parameter to any value
     float value = 0;
     const auto bytes = script.bytes(sizeof value);
     std::memcpy(&value, bytes.data(), bytes.size());
@@ -124,7 +126,7 @@ void set_parameter(auto& bench, const canhil::target::Device& device, Estimator 
   bench.set(parameter, value);
 }
 
-// Passes a frame that the input defines completely.
+// Sends the device a frame that the input defines completely.
 void feed_any(auto& bench, std::array<std::uint8_t, all_messages.size()>& counters, Script& script) {
   enum : std::uint8_t { unprotected = 1, foreign_id = 2, shortened = 4, is_fd = 8 };
   const std::size_t index = script.byte() % all_messages.size();
@@ -165,14 +167,15 @@ void run(canhil::target::Device& device, Script& script, std::vector<Frame>& fed
   bench.command(Command::start, chosen[0].estimator, chosen[0].algorithm);
 
   std::array<std::uint8_t, all_messages.size()> counters{};
-  constexpr int most_samples = 150;  // limits an execution to a few milliseconds
+  constexpr int most_samples = 150;  // so that an execution takes only a few milliseconds
   for (int samples = 0; !script.over() && samples < most_samples;) {
     const std::uint8_t what = script.byte();
     const Choice& of = chosen[(what >> 3U) % running];
     switch (what % 8) {
       case 0:
       case 1:
-      case 2: {  // the flight continues: first with faults, then without
+      case 2: {  // the flight continues: the first sample is changed as the input says, the others are
+                 // unchanged
         constexpr std::array repeats{1, 4, 16, 64};
         const int count = repeats[(what >> 4U) % 4];
         const bool aided = what % 8 != 0;
@@ -191,7 +194,7 @@ void run(canhil::target::Device& device, Script& script, std::vector<Frame>& fed
         }
         break;
       }
-      case 3: {  // an early or late aiding sensor
+      case 3: {  // an aiding measurement that is valid before or after the present time
         const std::int64_t lead_us = static_cast<std::int8_t>(script.byte()) * std::int64_t{10'000};
         bench.aid(of.estimator, what < 0x80 ? Spoil{} : Spoil::read(script), bench.t_us + lead_us,
                   (header & gps) != 0);
@@ -236,7 +239,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::uint8_t header = script.byte();
   run(device, script, fed, answers, header);
   if (header < 0x80) return 0;
-  // The first frame is the reset.
+  // Feeds the same frames again. The first of them is the reset.
   std::size_t next = 0;
   for (const Frame& frame : fed) {
     for (const Frame& answer : device.receive(frame)) expect(answer == answers.all()[next++]);

@@ -1,6 +1,6 @@
-// The bench's side of the reception fuzzer: the handshake, and sensors on a plausible flight whose frames the
-// input can change. The frames are correct by construction: the project's own code packs, counts and protects
-// them.
+// The part of the reception fuzzer that takes the place of the bench: it performs the handshake and sends the
+// samples of sensors on a plausible flight. The input can change the sensors' frames. Unchanged frames are
+// always correct, because the project's own code packs them and adds counter and CRC.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,14 @@
 
 namespace canhil::fuzz {
 
-/// Changes of the messages of one group on their way.
+/// How the input changes the messages of one group before the device receives them.
 struct Spoil {
   enum Flag : std::uint8_t { lose_one = 1, wrong_crc = 2, twice = 4 };
 
   std::uint8_t flags = 0;
-  std::uint8_t which = 0;  ///< index in the group, modulo the number of messages
+  std::uint8_t which = 0;  ///< index of the changed message in the group, modulo the number of messages
   std::uint8_t place = 0;  ///< index of the changed byte, modulo the number of bytes
-  std::uint8_t bits = 0;   ///< these bits are inverted before counter and CRC are written
+  std::uint8_t bits = 0;   ///< bits to invert in this byte, before counter and CRC are written
 
   static Spoil read(Script& script) {
     const std::uint8_t first = script.byte();
@@ -79,8 +79,8 @@ class Bench {
     send(spoil, messages::TargetInitRate{}, messages::TargetInitAirVelocity{.air_velocity_x_mps = speed});
   }
 
-  /// Sends a sample of the sensor that drives the estimator: valid at t_us, `interval_us` after the previous
-  /// sample.
+  /// Sends a sample of the estimator's main sensor (IMU, seeker or navigation). The sample is valid at t_us,
+  /// and `interval_us` is the time since the previous sample.
   void drive(messages::Estimator estimator, const Spoil& spoil, std::int64_t interval_us) {
     switch (estimator) {
       case messages::Estimator::transfer_alignment:
@@ -94,7 +94,7 @@ class Bench {
         break;
     }
   }
-  /// Sends the estimator's aiding measurement, valid at another time.
+  /// Sends the estimator's aiding measurement (master INS, fix or fins), which is valid at `valid_us`.
   void aid(messages::Estimator estimator, const Spoil& spoil, std::int64_t valid_us, bool gps) {
     switch (estimator) {
       case messages::Estimator::transfer_alignment:
@@ -180,7 +180,7 @@ class Bench {
   }
   void glider(const Spoil& spoil, std::int64_t valid_us) {
     using namespace messages;
-    alternating_ = -alternating_;  // navigation without any change counts as stale
+    alternating_ = -alternating_;  // the device treats a navigation solution that never changes as stale
     send(spoil, GliderNavVelocityNE{.velocity_north_mps = speed + alternating_, .height_m = height},
          GliderNavAttitude{.pitch_deg = 1.7, .navigation_validity = valid}, GliderNavRates{},
          GliderNavVelocityD{.velocity_down_mps = 0, .time_of_validity_us = wrap_us(valid_us)});

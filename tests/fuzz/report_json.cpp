@@ -1,7 +1,7 @@
-// Reads any JSON as the report of a run. It must give a page and a comparison, or one line with the missing
-// key. The input is either the text of a file, or a list of changes (remove, move, replace values) to the
-// report of a run that is flown at the start. Changing bytes of that report, 30 kB, would soon give invalid
-// JSON.
+// Tests the code that reads the report of a run. Any JSON must give a page and a comparison, or one line with
+// the missing key. The input is either the text of a report, or a list of changes (remove, move, replace
+// values) to the report of a run that is flown at the start. The fuzzer does not change single bytes of that
+// report (30 kB), because this would soon give invalid JSON.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -63,7 +63,8 @@ class Changes {
     return first;
   }
 
-  // Walks down from the root, at each step to one of the members. `above` is set to the parent.
+  // Selects a value of the JSON document: begins at the root and goes down, at each step to one of the
+  // members. Sets `above` to the parent of the selected value.
   Json* walk(Json& root, Json*& above, std::size_t& place) {
     Json* at = &root;
     for (int steps = byte() % 8; steps > 0 && at->is_structured() && !at->empty(); --steps) {
@@ -112,7 +113,7 @@ class Changes {
       case 1:
         above->erase(std::next(above->begin(), static_cast<std::ptrdiff_t>(place)));
         break;
-      case 2: {  // one value in place of another
+      case 2: {  // replaces a value by a copy of another value
         Json* other_above = nullptr;
         Json copy = *walk(root, other_above, place);
         if (copy.dump(-1, ' ', true, Json::error_handler_t::replace).size() < 20'000) *at = std::move(copy);

@@ -1,5 +1,6 @@
-// Reads any text as a scenario. It must return a Scenario, or one error line that names the file. A short
-// scenario is then prepared as for a run: its truth, its nodes and their first transmissions.
+// Tests the code that reads a scenario. For any text, it must return a Scenario, or one error line that names
+// the file. If the flight is short, the scenario is then prepared for a run: its truth, its nodes and their
+// first transmissions.
 #include <cstdint>
 
 #include "bench/drive/contract.hpp"

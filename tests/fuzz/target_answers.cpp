@@ -1,6 +1,6 @@
-// The bench against a target that sends anything: handshake, run, verdict, reports, and the samples that a
-// campaign would store. The input changes the answers of a correct device. Most answers stay unchanged, so
-// that runs reach their end and changed answers meet unchanged ones.
+// Tests the bench with a target that may send anything: handshake, run, verdict, reports, and the samples
+// that a campaign would store. The input changes the answers of a correct device. Most answers stay
+// unchanged, so that runs reach their end and the bench receives changed and unchanged answers together.
 #include <atomic>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -43,7 +43,7 @@ Prepared prepare() {
   return {std::move(*scenario), std::move(*truth)};
 }
 
-// Assembles the observations as a session does.
+// Collects the observations of the run, as the session of hil-bench does.
 checks::Observations collected(observe::Monitor& monitor, const observe::BusWatch& bus,
                                const observe::Intruders& intruders, const observe::LoadMeter& load,
                                const drive::Link& link) {
@@ -56,8 +56,8 @@ checks::Observations collected(observe::Monitor& monitor, const observe::BusWatc
   return seen;
 }
 
-// Writes all reports of a run. The JSON report must be complete and give a page, because the bench must be
-// able to read its own reports.
+// Writes all reports of a run. The JSON report must be complete, and the bench must be able to make a page
+// from it.
 void report_all(const scenario::Scenario& scenario, const drive::Run& run) {
   fuzz::expect(!report::text(scenario, run).empty());
   fuzz::expect(!report::junit(scenario, run).empty());
@@ -71,7 +71,8 @@ void report_all(const scenario::Scenario& scenario, const drive::Run& run) {
 }
 
 void fly(const Prepared& prepared, std::uint8_t how, std::span<const std::uint8_t> script) {
-  enum : std::uint8_t { lockstep = 1, samples = 2, reports = 0xE0 };  // reports take far longer than the run
+  // The input selects reports rarely, because they take far longer than the run.
+  enum : std::uint8_t { lockstep = 1, samples = 2, reports = 0xE0 };
   const auto& [scenario, truth] = prepared;
   static const std::atomic<bool> never = false;
   auto flight = drive::make_flight(scenario, truth, 0);

@@ -3,10 +3,10 @@
 
   python3 tests/mutants/false_alarms.py [--seeds N] [--from SEED] [--json FILE]
 
-Only the campaigns depend on a seed: single flights are compared with a reference of the same seed, and a dialogue has no seed. A device in
-process gives bit for bit the same samples as the program behind a bus (campaign_programs.Target.*), in a tenth of the time.
-Prints one line for each metric that failed, with its seed. The last lines contain the number of failed seeds, limits and figures.
-Exit code: 0 at most 1 % of the seeds failed, 1 more failed, 2 wrong usage or a campaign that cannot be flown.
+Of an acceptance suite, only the campaigns are flown: single flights are compared with a reference of the same seed, and the dialogues have no seed.
+The target in process gives bit for bit the same samples as the program hil-target on a bus (campaign_programs.Target.*), in a tenth of the time.
+Prints one line for each metric that failed, with its seed. The last line has the number of seeds that failed and the number of figures beyond a limit.
+Exit code: 0 if at most 1 % of the seeds failed, 1 if more failed, 2 for wrong usage or a campaign that cannot be flown.
 """
 import argparse
 import json
@@ -23,7 +23,7 @@ SUITES = sorted(file.parent for file in (ROOT / "bench/acceptance").glob("*/camp
 
 
 def failed_metrics(suite, seed, folder):
-    """([metric: measured; expected], number of metrics with a limit) of a suite's campaign with this seed."""
+    """Flies a suite's campaign with this seed. Returns ([text about each failed metric], number of metrics with a limit)."""
     copy = Path(folder, "acceptance", suite.name)
     shutil.rmtree(copy, ignore_errors=True)
     shutil.copytree(suite, copy, ignore=shutil.ignore_patterns("reference"))

@@ -1,7 +1,7 @@
 """Builds a target with one file replaced: compiles all sources that read the file, and links them with the existing objects.
 
-build(folder, name, file, text) returns the path of the program. All information comes from the build folder: `ninja -t deps` lists the objects
-that read the file, `ninja -t compdb` how they are compiled, `ninja -t commands` how the target is linked.
+build(folder, name, file, text) returns the path of the program. All information comes from the build folder: `ninja -t deps` lists the object files
+whose compilation reads the file, `ninja -t compdb` lists their compiler commands, `ninja -t commands` lists the command that links the target.
 """
 import functools
 import json
@@ -24,8 +24,8 @@ def ask(folder, *words):
 
 @functools.lru_cache(maxsize=None)
 def readers(folder):
-    """{file: objects of the target that read it}. Ninja records absolute names and names relative to the
-    build folder, depending on the compiler and its cache; the keys are absolute."""
+    """{file: object files of the target whose compilation reads this file}. The keys are absolute. (Ninja records
+    absolute names, or names relative to the build folder; this depends on the compiler and on ccache.)"""
     found, name = {}, None
     for line in ask(folder, "deps").splitlines():
         if line and not line.startswith(" "):
@@ -40,7 +40,7 @@ def readers(folder):
 
 @functools.lru_cache(maxsize=None)
 def compilations(folder):
-    """{object: command}"""
+    """{object file: compiler command}"""
     return {entry["output"]: entry["command"] for entry in json.loads(ask(folder, "compdb")) if entry["output"].endswith(".o")}
 
 
@@ -52,8 +52,8 @@ def linking(folder):
 
 
 def source_again(place, file, source):
-    """The file to compile in place of `source`: the changed file in `place`, or, if sources are compiled as one, a changed
-    list that names it."""
+    """The file to compile in place of `source`. If `source` is the changed file, this is the changed copy in `place`. If `source` includes
+    several files to compile them as one, this is a version of `source` that includes the changed copy."""
     if Path(source) == ROOT / file:
         return place / file
     if "/Unity/" not in source:
@@ -69,7 +69,7 @@ def source_again(place, file, source):
 
 
 def compile_again(folder, place, file, name):
-    """Compiles the object `name` with the changed file in `place`; returns the path of the new object."""
+    """Compiles the object file `name` again, with the changed file in `place`; returns the path of the new object file."""
     words, again = shlex.split(compilations(folder)[name]), place / name
     again.parent.mkdir(parents=True, exist_ok=True)
     kept, skip = [], 0
@@ -81,7 +81,7 @@ def compile_again(folder, place, file, name):
         elif word != "-MD":
             kept.append(str(source_again(place, file, word)) if word.endswith((".cpp", ".cxx")) else word)
     first = next(i for i, word in enumerate(kept) if word.startswith("-I"))
-    kept[first:first] = [f"-I{place}"]  # searched before the project's own folders
+    kept[first:first] = [f"-I{place}"]  # the compiler searches `place` before the project's own folders
     finished = subprocess.run([*kept, "-o", str(again)], cwd=folder, capture_output=True, text=True)
     if finished.returncode != 0:
         lines = [line for line in finished.stderr.splitlines() if re.search(r"\berror\b", line)]
@@ -90,7 +90,7 @@ def compile_again(folder, place, file, name):
 
 
 def linked(folder, place, file):
-    """Builds the target in `place`, with the changed file from there in place of the project's file."""
+    """Builds the target in the folder `place`, with the changed file of this folder instead of the project's file."""
     names = sorted(readers(folder).get(ROOT / file, ()))
     if not names:
         raise DoesNotBuild(f"{file}: no object of the target reads it")
@@ -99,7 +99,7 @@ def linked(folder, place, file):
     words = [str(again.pop(word)) if word in again else word for word in words]
     target = place / "hil-target"
     at = words.index("-o")
-    # The recompiled objects precede the libraries with the old ones, because the linker uses the first definition.
+    # The recompiled object files precede the libraries, which contain the old object files: the linker uses the first definition.
     words[at:at + 2] = [str(one) for one in again.values()] + ["-o", str(target)]
     finished = subprocess.run(words, cwd=folder, capture_output=True, text=True)
     if finished.returncode != 0:

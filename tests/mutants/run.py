@@ -5,19 +5,19 @@
 
 The defects are in tests/mutants/*.toml, one file per family; seeded.py describes their format. The sources of the project are not changed.
 build/default must be built; it defines how the target is compiled and linked. overlaid.py compiles the changed file from a copy and links it with
-the existing objects. A suite ends at the first requirement that is not met; the suite of the defect's family is flown first. Before that, the
-unchanged target must pass all suites.
+the existing objects. A suite ends at the first requirement that is not met. The suites `several` and that of the defect's family are flown first.
+Before all mutants, the unchanged target must pass all suites.
 
 A mutant is caught if a requirement is not met. It survives if all requirements are met or not measured.
 
 --only          mutants whose FAMILY.NAME contains a match of the regular expression
---dozen         twelve mutants, at least one of each family, the same ones for the same seed (today: the current date)
+--dozen         twelve mutants, at least one of each family; the same SEED selects the same mutants (SEED `today`: the current date)
 --target-passes skips the flights of the unchanged target, for callers that have flown them
 --list          lists the mutants and flies nothing
 --jobs          the number of parallel flights (1: timing can be measured too)
 
 Prints one line per mutant and a table by family; --json writes them to FILE. Mutants that equivalent.toml lists as equivalent are not flown.
-Exit code: 0 all caught, 1 one survived or does not build, 2 wrong usage, or the unchanged target does not pass.
+Exit code: 0 all mutants were caught, 1 a mutant survived or does not build, 2 wrong usage, or the unchanged target does not pass.
 """
 import argparse
 import concurrent.futures
@@ -39,23 +39,23 @@ import seeded  # noqa: E402
 
 BUILD = ROOT / "build/default"
 BENCH = BUILD / "hil-bench"
-LONGEST_S = 900  # all suites together
+LONGEST_S = 900  # time limit of one call of hil-bench accept
 
 CAUGHT, SURVIVED, NO_BUILD = "caught", "survived", "does not build"
 
-# The fastest suites come first. Timing suites come last and run alone.
+# Families of requirements in three stages. The fastest requirements come first. Those about timing come last and run alone.
 SINGLE_FLIGHTS = ("algorithms", "parameters", "flags and states", "protocol")
 CAMPAIGNS = ("errors", "honesty")
 TIMES = ("timing",)
-SUITES = ("several", "transfer_alignment", "inflight_alignment", "los_rate", "wind")  # the first takes a second
+SUITES = ("several", "transfer_alignment", "inflight_alignment", "los_rate", "wind")  # the suite `several` takes only a second
 
 
 class Failure(Exception):
-    """A reason, in one line, why no mutant can be judged."""
+    """Raised if no mutant can be judged; its text is the reason, in one line."""
 
 
 class Progress:
-    """Shows the progress in one line of a terminal; without a terminal it prints nothing."""
+    """Shows the progress in one line of the terminal. Shows no progress if standard output is not a terminal."""
 
     def __init__(self):
         self.shown = sys.stdout.isatty()
@@ -70,7 +70,8 @@ class Progress:
 
 
 def run(command, longest_s=None, **more):
-    """(exit code, output); exit code None: time limit exceeded. Kills all processes of the command."""
+    """Runs a command and, at its end or at the time limit, kills all its processes. Returns (exit code, output); exit code None: time limit
+    exceeded."""
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                errors="replace", start_new_session=True, **more)
     try:
@@ -87,8 +88,8 @@ def run(command, longest_s=None, **more):
 
 
 def accept(target, estimator, families, folder):
-    """(requirement, observation) of the first requirement that the target violates; None: it violates no
-    measured requirement."""
+    """Flies one suite. Returns (requirement, observation) for the first requirement that the target violates, or
+    None if the target violates no requirement that was measured."""
     report = Path(folder, "report.json")
     report.unlink(missing_ok=True)
     wanted = [word for family in families for word in ("--family", family)]
@@ -109,8 +110,8 @@ def accept(target, estimator, families, folder):
 
 
 def fly_suites(target, first, stages):
-    """Runs accept() for all suites, stage by stage. The quick suite is first, then that of the mutant's
-    family."""
+    """Calls accept() for all suites, stage by stage, until the target violates a requirement. In each stage the quick
+    suite `several` comes first, then the suite `first`."""
     with tempfile.TemporaryDirectory() as folder:
         for families in stages:
             for estimator in sorted(SUITES, key=lambda name: (name != SUITES[0], name != first)):
@@ -121,7 +122,7 @@ def fly_suites(target, first, stages):
 
 
 def outcome_of(mutant, stages):
-    """The result for a mutant, as its entry in the JSON file."""
+    """Builds and flies a mutant. Returns its result as the entry for the JSON file."""
     entry = {"family": mutant.family, "name": mutant.name, "file": mutant.file, "what": mutant.what}
     try:
         target = overlaid.build(BUILD, mutant.full_name, mutant.file, mutant.applied((ROOT / mutant.file).read_text()))
@@ -151,7 +152,7 @@ def counts_of(entries):
 
 
 def table_of(entries):
-    """By family, and the total: {family: counts}"""
+    """{family: counts of its mutants}, with the key "total" for all families together"""
     families = {}
     for entry in entries:
         families.setdefault(entry["family"], []).append(entry)
@@ -165,8 +166,8 @@ def print_table(table):
 
 
 def chosen(mutants, only, seed):
-    """The mutants that --only selects. With a seed, a dozen of them are drawn: one of each family, then any. Mutants that only timing
-    can reveal are not drawn, because other tests running at the same time disturb timing."""
+    """The mutants that --only selects. With a seed, twelve of these are drawn: one of each family, then any. Mutants that only timing
+    can reveal are not drawn, because other tests that run at the same time disturb timing."""
     left = [mutant for mutant in mutants if only.search(mutant.full_name)]
     if seed is None:
         return left
@@ -214,8 +215,8 @@ def prepare(progress):
 
 
 def fly(mutants, jobs, target_passes):
-    """Tests several mutants at once in virtual time. The survivors are then tested for timing one after the other, because in real
-    time they would disturb each other."""
+    """Tests `jobs` mutants at a time with the families that run in virtual time. The mutants that survive are then tested for timing one after
+    the other, because in real time they would disturb each other."""
     progress = Progress()
     start = time.monotonic()
     if not target_passes:

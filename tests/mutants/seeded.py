@@ -1,7 +1,7 @@
 """Reads the seeded defects of the target from the files in this folder: one file per family, one table [[mutant]] per defect.
 
-Keys of a mutant: `name`; `file`; `was`, the original text, which occurs once in the file; `is`, the text that replaces it; `what`, a description of
-the defect; `real_time = true` for a defect that only affects timing.
+Keys of a mutant: `name`; `file`; `was`, the original text, which occurs once in the file; `is`, the text that replaces `was`; `what`, a description
+of the defect; `real_time = true` for a defect that affects only timing.
 """
 import pathlib
 import tomllib
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 HERE = pathlib.Path(__file__).resolve().parent
 KEYS = {"name", "file", "was", "is", "what"}
 
-# The least number of mutants in each family.
+# The families, and the smallest permitted number of mutants in each family.
 FAMILIES = {"strapdown": 12, "imu_stream": 6, "transfer_alignment": 18, "inflight_alignment": 22, "los_rate": 14, "wind": 14,
             "device": 12, "timing": 4}
 AT_LEAST = 95
@@ -53,7 +53,7 @@ def mutants_of(family, text):
 
 
 def equivalents():
-    """{full name: proof} of those that equivalent.toml proves to be equivalent."""
+    """{full name: proof} of the mutants that equivalent.toml lists as equivalent to the original."""
     read = tomllib.loads((HERE / "equivalent.toml").read_text())
     return {one["name"]: " ".join(one["proof"].split()) for one in read["equivalent"]}
 

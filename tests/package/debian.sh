@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # debian.sh BUILD: makes the Debian package of a finished build and installs it, with its dependencies, in a
-# minimal Debian 12 (debootstrap). The commands are those of the last stage of packaging/Containerfile. Then
-# it flies the demo there as the package's user, with bench and target over the embedded bus. Needs root and
-# the network.
+# minimal Debian 12 (debootstrap). The commands of the installation are read from the last stage of
+# packaging/Containerfile. Then the demo is flown in this Debian over the embedded bus, as the user that the
+# Containerfile creates. Needs root and the network.
 set -euo pipefail
 build=$(realpath "$1")
 for tool in debootstrap dpkg-shlibdeps; do
@@ -36,7 +36,7 @@ done
 user=$(sed -n 's/^USER //p' <<<"$last_stage")
 as_user() { chroot --userspec="$user" "$work/root" env -i PATH=/usr/bin:/bin HOME="/home/$user" bash -c 'cd && exec "$@"' bash "$@"; }
 
-# Exit code 3: the outputs pass, but timing cannot be measured in virtual time.
+# The expected exit code is 3 (not measured): the outputs pass, but timing cannot be measured in virtual time.
 code=0
 as_user hil-bench run /usr/share/canhil/flights/transfer_alignment.toml --lockstep --log run.pcap >"$work/run.txt" || code=$?
 cat "$work/run.txt"

@@ -1,4 +1,4 @@
-"""The installed tree: usage install_test.py CMAKE BUILD SOURCE."""
+"""Tests the installed files. Usage: install_test.py CMAKE BUILD SOURCE."""
 import glob
 import os
 import re

@@ -1,4 +1,4 @@
-// The acceptance limits ('bars') of a campaign as a test.
+// Tests that a campaign meets its acceptance limits ('bars').
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,8 +15,9 @@
 
 namespace canhil::papers {
 
-/// Flies a campaign file (path from the root of the project), with the number of runs in the file or with
-/// `runs`. Expects exactly `bars` limits, all met. Returns the results.
+/// Flies the campaign `file` (a path from the root of the project) with `runs` runs or, without this
+/// argument, with as many as the file states. Expects that the campaign has exactly `bars` limits and meets
+/// all of them. Returns the results.
 inline std::vector<campaign::Answer> expect_bars_met(const std::string& file, std::size_t bars,
                                                      std::optional<std::uint64_t> runs = {}) {
   auto campaign = campaign::read_campaign(SOURCE_DIR "/" + file);

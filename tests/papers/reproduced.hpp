@@ -1,4 +1,4 @@
-// A reproduction with two runs per variant: every campaign is read and run, every figure is drawn.
+// Reproduces a paper with two runs per variant: reads and runs every campaign, draws every figure.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ struct Written {
   std::string html, text;
 };
 
-/// Reproduces into a new folder.
+/// Reproduces the paper and writes its page to a new folder. Returns the page and the text.
 inline Written reproduced(const Request& asked) {
   std::filesystem::remove_all(asked.folder);
   const auto reproduced = reproduce(asked, go_on);

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Builds and runs every benchmark of tests/perf, prints the figures, and stores them with a description of the machine.
 #   bash tests/perf/run.sh [BENCHMARK OPTIONS...]        e.g.  --benchmark_filter=unpack --benchmark_repetitions=5
-# Files in build/perf/DATE/: PROGRAM.json of each *_benchmark, whose "context" contains processor, kernel, compiler and commit;
-# machine.txt with the same; NAME.txt of each other program and of the instruction counts.
-# There is no verdict: exit code 1 only if something did not build or run.
+# Files in build/perf/DATE/: PROGRAM.json of each *_benchmark (its "context" contains processor, kernel, compiler and commit);
+# machine.txt with the same description of the machine; NAME.txt of each other program and of the instruction counts.
+# The figures are not judged: the exit code is 1 only if something did not build or run.
 set -euo pipefail
 exec </dev/null
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -36,12 +36,12 @@ as_text() { # as_text NAME COMMAND...
   local name=$1
   shift
   printf '\n== %s\n' "$name"
-  "$@" 2>&1 | tee "$records/$name.txt" || [[ $? == 3 ]] || failed "$name" # 3: not measured, for the reason printed
+  "$@" 2>&1 | tee "$records/$name.txt" || [[ $? == 3 ]] || failed "$name" # 3: not measured; the program printed the reason
 }
 while read -r program; do
   name=${program##*/}
   case $name in
-    *_instructions | vcan_node | run_turnaround) ;; # for callgrind, on vcan, or in real time: see below
+    *_instructions | vcan_node | run_turnaround) ;; # started below: with callgrind, on vcan, or with real-time priority
     *_benchmark)
       printf '\n== %s\n' "$name"
       "$program" --benchmark_context="${context%,}" --benchmark_out="$records/$name.json" --benchmark_out_format=json "$@" ||
@@ -52,8 +52,8 @@ while read -r program; do
   esac
 done < <(find "$build/tests/perf" -type f -perm -u+x | LC_ALL=C sort)
 as_text ports_vcan tests/vcan/run.sh /usr/bin/python3 tests/perf/ports/vcan.py "$build/tests/perf/ports/vcan_node"
-# Uses real-time priority if permitted. All processes share one CPU: otherwise the time to wake another CPU
-# would hide the cost of the target.
+# Measures the turnaround with real-time priority, if permitted. In the first measurement all processes share one CPU:
+# otherwise the time in which another CPU wakes up would hide the time that the target needs.
 real_time=(chrt -f 30)
 "${real_time[@]}" true 2>/dev/null || real_time=()
 last_cpu=$(taskset -cp $$ | sed 's/.*[ ,-]//')

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that this project needs. If all are installed it does nothing and needs no root rights.
 #   install.sh build       packages for building and running the programs (the default)
-#   install.sh tests       build, and the packages for tests/run.sh
-#   install.sh coverage    tests, and the packages for tests/run.sh --coverage
+#   install.sh tests       the set build, and the packages for tests/run.sh
+#   install.sh coverage    the set tests, and the packages for tests/run.sh --coverage
 #   install.sh tidy        packages for tests/run.sh --tidy and --analyse
-#   install.sh package     build, and the packages for tests/package/debian.sh
+#   install.sh package     the set build, and the packages for tests/package/debian.sh
 #   install.sh docs        packages for the API pages (target api), and the pictures and figures in docs
 #   install.sh full        all packages for tests/run.sh --full and tests/perf/run.sh
 #   install.sh list SET    prints the package names of a set
@@ -15,14 +15,14 @@ build_packages=(
   g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libboost1.81-dev libgeographiclib-dev libfmt-dev libexpected-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev libsqlitecpp-dev libkainjow-mustache-dev libpcap-dev libssl-dev
-  libjs-chart.js libncurses-dev # the live view: charts of its page, built in; its terminal
-  libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev # CMake configures the tests too
+  libjs-chart.js libncurses-dev # for the live view: the charts of its page (compiled into hil-bench), and its display in a terminal
+  libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev # every build needs these, because CMake configures the tests too
 )
 test_packages=(
   clang-format
-  python3 python3-can python3-canmatrix tshark # an independent CAN node, DBC reader and reader of captures
-  python3-yaml # pipelines in docs/examples
-  can-utils iproute2 kmod busybox user-mode-linux # vcan where the kernel has none
+  python3 python3-can python3-canmatrix tshark # independent programs for comparison: a CAN node, a DBC reader, a reader of captures
+  python3-yaml # reads the pipelines in docs/examples
+  can-utils iproute2 kmod busybox user-mode-linux # for tests on vcan; user-mode Linux provides vcan if the machine's kernel has no vcan
 )
 paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper, which refuses to run without it
 tidy_packages=(clang clang-tidy)
@@ -31,9 +31,9 @@ picture_packages=(chromium fonts-dejavu-core) # pictures of the report page
 package_packages=(dpkg-dev file debootstrap help2man) # builds a Debian package and tests it in a fresh system
 full_packages=(
   rt-tests valgrind libclang-rt-14-dev
-  qemu-system-x86 make gcc-12 libelf1 # two CAN controllers with the kernel's driver, in an emulated PC; its kernel is not installed
+  qemu-system-x86 make gcc-12 libelf1 # an emulated PC with two CAN controllers; the PC's kernel is only unpacked, not installed
   chromium chromium-driver python3-selenium # tests the live view's page in a browser
-  help2man systemd # manual pages for a package; systemd-analyze checks the package's unit without starting it
+  help2man systemd # help2man makes the manual pages of the package; systemd-analyze checks the package's unit without starting it
   slurm-wlm munge # a cluster of one machine, for campaigns as job arrays; started by the test itself, never as a service
 )
 
@@ -86,7 +86,7 @@ trap 'progress_stop; rm -f "$log"' EXIT
 echo "install.sh: installing ${missing[*]}"
 "${as_root[@]}" true # sudo asks for a password before the progress line starts
 progress_start packages "$log"
-# Without package lists, or with old ones, the first attempt fails within a second; only then fetch them.
+# Without package lists, or with old lists, the first attempt fails within a second; only then new lists are fetched.
 if ! apt install --no-install-recommends "${missing[@]}" >"$log" 2>&1; then
   progress_stop
   echo "install.sh: fetching package lists"

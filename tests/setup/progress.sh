@@ -1,8 +1,8 @@
 # Shows the progress of a long command whose output goes to a log. Source this file.
 #   progress_start WHAT LOG   starts to print "WHAT: 120 of 180 (1:05)": one updated line on a terminal, else a line every 30 s
-#   progress_stop             stops that; removes the line from a terminal
-#   progress_rest LOG         prints the log without progress lines: failures, and CTest's summary
-# It reads the log for Ninja's [n/m], CTest's cases and apt's packages, and prints to stdout, which must be the same for both calls.
+#   progress_stop             stops printing; removes the line from a terminal
+#   progress_rest LOG         prints the log without its progress lines, so that failures and CTest's summary remain
+# The progress is read from the log: Ninja's [n/m], CTest's cases, apt's packages. progress_start and progress_stop must have the same stdout.
 progress_interval_s=30
 progress_watcher=
 export NINJA_STATUS='[%f/%t] ' # overrides the user's setting

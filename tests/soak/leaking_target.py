@@ -1,4 +1,4 @@
-"""A target with a leak, which the soak must detect: every half second it keeps one more descriptor, or more memory.
+"""A target with a leak, which the soak must detect: every half second the target opens one more descriptor, or allocates more memory.
 
     leaking_target.py descriptors|memory HIL_TARGET [OPTIONS OF HIL_TARGET...]
 """

@@ -3,11 +3,11 @@
     python3 tests/soak/soak.py PROGRAMS [--minutes 60] [--seed 1] [--target COMMAND]
 
 PROGRAMS is the folder of hil-bench and hil-target. Each run is a new bench process on one permanent embedded bus (hil-bench bus). Lockstep and real
-time alternate. The verdicts of the checks do not count, because faults make checks fail. Exit code 0 means that
+time alternate. The outcomes of the checks are ignored, because faults make checks fail. Exit code 0 means that
 
 * every run came to its end;
-* memory and descriptors of the target, of the bus and of the bench (its peaks) do not grow with the number of runs;
-* neither do the files that the programs leave. Their folders for temporary files belong to this program alone.
+* memory and number of descriptors do not grow with the number of runs: of the target, of the bus, and (the peak of each run) of the bench;
+* the files that the programs leave do not grow in number or size. For this, the programs get folders for temporary files that nobody else uses.
 """
 
 import argparse
@@ -28,25 +28,25 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENARIOS = ["transfer_alignment_quick", "inflight_quick", "los_quick", "wind_quick"]
-LONGEST_S = {"lockstep": 12, "real time": 3}  # longest flight
-# A busy host can suspend the target for 0.4 s, which looks like a silent target in real time, or the bench for 0.25 s, and then the bus
-# drops it. Such a flight is repeated unchanged. A target with a real defect is silent in every repetition.
+LONGEST_S = {"lockstep": 12, "real time": 3}  # duration of the longest flight
+# A busy host can suspend the target for 0.4 s; in real time, the bench then reports a silent target. A busy host can also suspend the bench for
+# 0.25 s; then the bus disconnects the bench. Such a flight is repeated unchanged. A target with a real defect is silent in every repetition.
 MOST_FLIGHTS = {"lockstep": 1, "real time": 4}
 # Faults that act on a stretch of time rather than on single samples (docs/faults.md).
 STRETCHES = ["silent", "slow", "clock_step", "clock_drift", "restart", "stranger", "flood"]
-PATIENCE_S = 60  # a run that takes longer hangs
+PATIENCE_S = 60  # a run that takes longer is killed
 
 
 class Contract:
     """Messages and signals of the emulated nodes, from the DBC; kinds of faults, from the bench."""
 
     def __init__(self, bench, folder):
-        self.messages = {}  # by node: {message: [(signal, least, most)]}
+        self.messages = {}  # {node: {message: [(signal, smallest value, largest value)]}}
         fields = None
         for line in (ROOT / "dbc/canhil.dbc").read_text().splitlines():
             if found := re.match(r"BO_ \d+ (\w+): \d+ (\w+)", line):
                 fields = []
-                if found[2] not in ("Bench", "Target"):  # these are not emulated nodes
+                if found[2] not in ("Bench", "Target"):  # these two nodes are not emulated
                     fields = self.messages.setdefault(found[2].lower(), {}).setdefault(found[1], [])
             elif found := re.match(r" SG_ (\w+) :.*\[([^|]+)\|([^\]]+)\]", line):
                 if not found[1].startswith("e2e_"):
@@ -145,7 +145,7 @@ def tree(pid):
             for task in os.listdir(f"/proc/{one}/task"):
                 found += [int(p) for p in Path(f"/proc/{one}/task/{task}/children").read_text().split()]
         except OSError:
-            continue  # it has ended
+            continue  # the process has ended
     return found
 
 
@@ -160,7 +160,7 @@ def of_tree(pid, count):
         try:
             total += count(one)
         except (OSError, TypeError):
-            continue  # it has ended
+            continue  # the process has ended
     return total
 
 
@@ -169,7 +169,7 @@ def descriptors(pid):
 
 
 def fly(command, environment, log):
-    """Exit code, standard error, peak resident memory [KiB], largest number of open descriptors."""
+    """Runs the bench. Returns exit code, standard error, peak resident memory [KiB], largest number of open descriptors."""
     bench = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                              stderr=subprocess.PIPE, text=True)
     most, ended = [0], threading.Event()
@@ -196,7 +196,7 @@ def fly(command, environment, log):
 
 
 class Course:
-    """A number taken after each run, with the kind of the run. Tests whether it grows with the runs."""
+    """A series of values, one taken after each run, with the kind of that run. Tests whether the value grows from run to run."""
 
     def __init__(self, name, unit, most_growth, why):
         self.name, self.unit, self.most_growth, self.why = name, unit, most_growth, why
@@ -206,8 +206,8 @@ class Course:
         self.values.append((sort, value))
 
     def settled(self):
-        """(index, value minus the median of its kind of run), without the first quarter of the runs, in which
-        code is executed for the first time."""
+        """[(index of the run, value minus the median value of this kind of run)]. Leaves out the first quarter of the
+        runs, because in these runs code is executed for the first time."""
         medians = {sort: statistics.median(v for s, v in self.values if s == sort) for sort, _ in self.values}
         all_of_them = [(i, value - medians[sort]) for i, (sort, value) in enumerate(self.values)]
         return all_of_them[len(all_of_them) // 4:]
@@ -261,7 +261,7 @@ def soak(arguments):
     host = subprocess.Popen([bench, "bus", bus], env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
     time.sleep(0.5)
     target = subprocess.Popen([*target_program, "--bus", bus], env=environment, stdin=subprocess.DEVNULL)
-    time.sleep(0.5)  # time for python to start, if the target is a script that starts the program
+    time.sleep(0.5)  # if the target is a Python script that starts hil-target, Python needs this time to start
     end = time.monotonic() + 60 * arguments.minutes
     line = time.monotonic() + 60 * arguments.minutes / 10
     runs = silent = 0

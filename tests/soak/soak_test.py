@@ -1,4 +1,4 @@
-"""Tests the verdict of the soak on artificial courses of memory and descriptors."""
+"""Tests the verdict of the soak on artificial series of memory sizes and numbers of descriptors."""
 
 import random
 import sys

@@ -1,6 +1,6 @@
 """A copy of the project that can be changed and built separately.
 
-Unchanged files of the copy are not written again, so that its build is incremental.
+Files of the copy that have not changed are not written again, so that the copy is built incrementally.
 """
 import pathlib
 
@@ -9,7 +9,7 @@ PARTS = ("CMakeLists.txt", "CMakePresets.json", "README.md", "bench", "cmake", "
 
 
 def write(file, content):
-    """Writes the file unless it has this content. Returns the file."""
+    """Writes the file, unless the file already has this content. Returns the file."""
     if not file.exists() or file.read_bytes() != content:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_bytes(content)
@@ -19,8 +19,9 @@ def write(file, content):
 def copy_tree(target, changed=lambda name, content: content, made=(), added=None):
     """Copies the project into the folder `target`. The content of each file is changed(name, content).
 
-    Deletes files of the copy that the project does not have. `made` are files that the build of the copy
-    generates: they are copied only if they do not exist. `added` are the contents of further files, by name."""
+    Deletes files of the copy that the project does not have. `made`: names of files that the build of the copy
+    generates; such a file is copied only if the copy does not have it yet. `added`: {name: content} of further
+    files for the copy."""
     names = set(added or ())
     for part in PARTS:
         path = ROOT / part
@@ -37,4 +38,4 @@ def copy_tree(target, changed=lambda name, content: content, made=(), added=None
     for part in PARTS:
         for file in (target / part).rglob("*"):
             if file.is_file() and file.relative_to(target).as_posix() not in names:
-                file.unlink()  # the project does not have this file
+                file.unlink()  # neither the project nor `added` has this file

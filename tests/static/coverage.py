@@ -1,7 +1,7 @@
 """Prints the share of the lines of dbc, target and bench that the programs of a build folder have run: coverage.py BUILD_FOLDER
 
-The build needs --coverage. A line counts if the compiler generated code for it, and is covered if any object ran it. Headers count like sources;
-generated files do not count. All lines of objects that never ran count as not covered.
+The build needs --coverage. All lines for which the compiler generated code are included, in headers and in sources, but not in generated files. A line
+is covered if it was executed in at least one object file. If no program ran an object file, none of its lines is covered by this object file.
 """
 
 import concurrent.futures
@@ -17,7 +17,7 @@ PARTS = ("dbc", "target", "bench")
 
 
 def lines_of(notes):
-    """[(file, line, whether it ran)] of one object, by gcov."""
+    """[(file, line, whether the line was executed)] of one object file, as gcov reports them; `notes`: its .gcno file."""
     ended = subprocess.run(["gcov", "--json-format", "--stdout", notes], capture_output=True, cwd=notes.parent)
     if ended.returncode != 0:
         sys.exit(f"coverage.py: {notes}: gcov ended with {ended.returncode}: {ended.stderr.decode(errors='replace').strip()}")
@@ -31,8 +31,8 @@ def lines_of(notes):
 
 
 def table(files):
-    """Lines of text, one for each folder below a part, each part, and all: the covered share, the number of
-    covered lines, and of all lines."""
+    """The rows of the printed table: a row for each folder below a part (dbc, target, bench), a row for each
+    part, and a total. Each row has the covered share, the number of covered lines and the number of all lines."""
     sums = defaultdict(lambda: [0, 0])
     for name, lines in files.items():
         part, folder, *_ = name.split("/")
@@ -52,7 +52,7 @@ def main():
         sys.exit(f"coverage.py: {build}: no program counted anything, expected a build with --coverage whose tests ran")
     files = defaultdict(dict)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        whole = [notes for notes in build.rglob("*.gcno") if notes.with_suffix(".o").exists()]  # complete ones
+        whole = [notes for notes in build.rglob("*.gcno") if notes.with_suffix(".o").exists()]  # whose compilation succeeded
         for found in pool.map(lines_of, whole):
             for name, line, ran in found:
                 files[name][line] = files[name].get(line, False) or ran

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Lists the C++ files that do not follow .clang-format, and fails if there are any; format.sh --fix formats them.
+# Lists the C++ files whose format differs from .clang-format, and fails if there are any; format.sh --fix formats them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 each_file() { find dbc target bench tests \( -name '*.hpp' -o -name '*.cpp' \) -print0 | xargs -0 -r -P "$(nproc)" -n 1 "$@"; }

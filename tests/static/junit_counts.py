@@ -1,4 +1,4 @@
-"""Prints "passed failed" of a JUnit file written by ctest. A case that did not run has not passed."""
+"""Prints two numbers: the passed and the failed cases of a JUnit file that ctest wrote. A case that did not run counts as failed."""
 
 import sys
 import xml.etree.ElementTree as ElementTree

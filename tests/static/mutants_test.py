@@ -1,4 +1,4 @@
-"""The seeded defects of tests/mutants: each can be inserted into the target. Also tests the code that reads and selects them."""
+"""Tests that each seeded defect of tests/mutants can be inserted into the target, and tests the code that reads and selects the defects."""
 
 import re
 import sys
@@ -109,7 +109,7 @@ PAGE = """{"suites": [{"requirements": [
 
 
 class Judging(unittest.TestCase):
-    """Replaces the bench by a program that writes a given report and ends with a given exit code."""
+    """Tests run.accept() with a replacement for the bench: a program that writes a given report and ends with a given exit code."""
 
     def judged(self, code, page=None):
         with tempfile.TemporaryDirectory() as folder:
@@ -140,7 +140,7 @@ class Judging(unittest.TestCase):
 
 
 class Overlaying(unittest.TestCase):
-    """The file that is compiled in place of a source, with sources compiled one by one and as one."""
+    """Tests which file is compiled in place of a source, if each source is compiled separately and if several are compiled as one."""
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()

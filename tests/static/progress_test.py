@@ -1,4 +1,4 @@
-"""Runs tests/setup/progress.sh with a pipe and with a terminal behind it."""
+"""Runs tests/setup/progress.sh with a pipe and with a terminal as its standard output."""
 
 import os
 import pty
@@ -56,7 +56,7 @@ class Progress(unittest.TestCase):
         try:
             while block := os.read(terminal, 65536):
                 out += block
-        except OSError:  # the other end is closed
+        except OSError:  # the program has closed its end of the terminal
             pass
         os.close(terminal)
         shown, end = out.decode().split("end ")

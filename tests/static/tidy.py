@@ -4,8 +4,8 @@ clang-tidy spends most of its time in headers (Eigen, Boost): half a minute for 
 of the tree, and the headers are read only once. A source that does not compile together with the others (because of a local name that exists
 twice) goes into the next such file. The static analyser does not analyse joined sources; --each checks every source separately, with the analyser.
 
-A clean source is not checked again until its text, an included header, its flags or the rules change: BUILD_FOLDER/tidy/ contains one empty file for
-each clean state, named by its hash. The list of included headers comes from Ninja.
+A clean source is not checked again until its text, an included header, its compiler flags or the rules of clang-tidy change: BUILD_FOLDER/tidy/ contains
+an empty file for each clean state, whose name is the hash of the state. The list of included headers comes from Ninja.
 """
 
 import concurrent.futures
@@ -21,7 +21,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 LONGEST_S = 900
-PARTS = ("bench/", "dbc/", "target/", "tests/unit/", "tests/")  # a source belongs to the first match
+PARTS = ("bench/", "dbc/", "target/", "tests/unit/", "tests/")  # a source belongs to the first part with which its path begins
 ANALYSER = {True: "clang-analyzer-*", False: "-clang-analyzer-*"}
 
 
@@ -30,7 +30,7 @@ class Source:
         self.file = entry["file"]
         self.name = os.path.relpath(self.file, ROOT)
         self.object = None
-        self.flags = []  # tuples: an option, or an option and its value
+        self.flags = []  # tuples: (option,) or (option, value)
         words = iter(shlex.split(entry["command"]))
         for word in words:
             if word == "-o":
@@ -43,11 +43,11 @@ class Source:
 
 
 def sources_of(build):
-    """The sources of the project in the compile commands, each once, without generated ones."""
+    """The project's sources that compile_commands.json lists, each once; generated sources are left out."""
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         files = [entry["file"]]
-        if Path(files[0]).parent.name == "Unity":  # several test files, compiled as one
+        if Path(files[0]).parent.name == "Unity":  # a generated file that includes several sources, to compile them as one
             files = re.findall(r'^#include "(/.*)"$', Path(files[0]).read_text(), re.MULTILINE)
         for name in files:
             file = Path(name)
@@ -57,7 +57,7 @@ def sources_of(build):
 
 
 def recorded_includes(build):
-    """{object file: [files it was built from]}, for objects whose record in Ninja is up to date."""
+    """{object file: [files that it was built from]}, for the object files whose dependencies Ninja lists as valid."""
     text = subprocess.run(["ninja", "-C", build, "-t", "deps"], capture_output=True, text=True, check=True).stdout
     found = {}
     for block in text.split("\n\n"):
@@ -84,8 +84,8 @@ class Cache:
         return self.hashes[path]
 
     def state_of(self, source):
-        """A file that exists if this version of the source was found clean before; None: the source is not
-        built."""
+        """The path of a file that exists if this version of the source was found clean before. None if the source
+        has not been compiled."""
         files = self.includes.get(source.object)
         if files is None:
             return None
@@ -118,8 +118,8 @@ def flags_of(sources):
 
 
 def write_joined(file, sources):
-    """Writes a file that includes the sources, three lines for each. Renames every main() except the first,
-    because a file can have only one."""
+    """Writes a file that includes the sources, with three lines for each source. Renames every main() except
+    the first, because one file can define main() only once."""
     text, mains = "", 0
     for source in sources:
         mains += re.search(r"^int main\(", Path(source.file).read_text(), re.MULTILINE) is not None
@@ -130,7 +130,8 @@ def write_joined(file, sources):
 
 
 def wrong_ones(file, sources, output):
-    """The sources with compiler errors in themselves, or in a header that no source before them included."""
+    """The sources that caused compiler errors: an error is in the source itself, or in a header that no earlier
+    source included."""
     found, number = set(), None
     for line in output.splitlines():
         stack = re.match(rf"In file included from {re.escape(str(file))}:(\d+):", line)
@@ -142,7 +143,7 @@ def wrong_ones(file, sources, output):
 
 
 def join(file, sources):
-    """Writes a file that includes the sources which can be compiled as one; returns these sources."""
+    """Writes a file that includes those of the sources that can be compiled together; returns these sources."""
     held, macros = [], {}
     for source in sources:
         if all(macros.setdefault(name, flag) == flag for name, flag in source.macros.items()):
@@ -153,7 +154,7 @@ def join(file, sources):
         wrong = wrong_ones(file, held, output)
         rest = [source for source in held if source.file not in wrong] or held[:1]
         if compiles or len(rest) == len(held):
-            return held  # if they still do not compile, clang-tidy reports why
+            return held  # if these sources still do not compile, clang-tidy reports why
         held = rest
 
 

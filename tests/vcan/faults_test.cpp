@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::EndsWith;
 
-/// Receives in a loop, as every user of a port does, until the interface has disappeared or returned.
+/// Receives in a loop, as every user of a port does, until the interface is up (`up`) or down (not `up`).
 void wait_until(Port& port, bool up) {
   const std::int64_t deadline = in_seconds(5);
   while (port.up() != up && clock_ns(CLOCK_MONOTONIC) < deadline) {
@@ -25,7 +25,7 @@ void wait_until(Port& port, bool up) {
   ASSERT_EQ(port.up(), up);
 }
 
-/// Counts the iterations of a waiting loop in a tenth of a second.
+/// Sends and waits in a loop for a tenth of a second. Returns the number of iterations.
 int rounds(Port& port, WaitFor what) {
   const std::int64_t deadline = clock_ns(CLOCK_MONOTONIC) + 100'000'000;
   int count = 0;
@@ -114,8 +114,8 @@ TEST(SocketCan, AWaitWithoutDeadlineSeesTheReturn) {
   }
 }
 
-/// An interface that was removed and created again has a new index; sockets bound to the old index receive
-/// nothing.
+/// An interface that was removed and created again has a new index. Sockets that are bound to the old index
+/// receive nothing, so the port must bind again.
 TEST(SocketCan, BindsToAnInterfaceThatWasMadeAnew) {
   const Interface interface("canhil7", 72);
   const auto a = open("canhil7", {.fd = true, .own_echo = true});
@@ -185,7 +185,8 @@ TEST(SocketCan, AnFdPortDoesNotGoOnWithAClassicInterface) {
   EXPECT_FALSE(port->up());
 }
 
-/// A wire of 100 kbit/s behind a queue of some bytes on vcan1.
+/// Slows vcan1 down with the traffic control of the kernel: frames wait in a queue of some bytes and are sent
+/// at 100 kbit/s.
 class SlowWire : public ::testing::Test {
  protected:
   static void slow_down(int queue_bytes, const std::string& rate = "100kbit") {
@@ -196,7 +197,7 @@ class SlowWire : public ::testing::Test {
   static void send_and_receive(int frames) {
     const auto a = open("vcan1");
     const auto b =
-        open("vcan1", {.only_ids = {2}});  // frames that filled the queue have id 1 and may still arrive
+        open("vcan1", {.only_ids = {2}});  // leaves out frames with id 1, which filled the queue before
     int full = 0;
     for (int n = 0; n < frames; ++n) {
       const Frame frame = numbered(2, static_cast<std::uint32_t>(n));
@@ -213,12 +214,12 @@ class SlowWire : public ::testing::Test {
 };
 
 TEST_F(SlowWire, FillsTheSocketFirst) {
-  slow_down(100'000, "1kbit");  // 8 frames per second, so none is sent while the test fills the queue
+  slow_down(100'000, "1kbit");  // only 8 frames per second, so none leaves the queue while the test fills it
   const auto port = open("vcan1");
   while (port->send(frame_of(1)) == SendOutcome::sent)
     ASSERT_LT(port->counters().sent, 1000U) << "no slow wire";
   EXPECT_EQ(port->room_wait().events, POLLOUT);
-  // The burst lets 6 frames of 16 bytes pass at once.
+  // The `burst` of 100 bytes lets the first 6 frames, of 16 bytes each, pass at once.
   EXPECT_LE(port->counters().sent, 6U + 10U) << "more than an interface's queue holds";
   slow_down(100'000);
   send_and_receive(100);

@@ -1,4 +1,5 @@
-// CAN FD and classic programs on one interface, as a user sees it, and an interface that is classic only.
+// What a user sees if programs for CAN FD and programs for classic CAN use the same interface, or if an
+// interface supports only classic CAN.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <linux/can.h>

@@ -1,6 +1,6 @@
 """filters.py BUILD: fails if a pattern of a --gtest_filter in the CTest cases of BUILD matches no test of its program.
 
-A renamed test would otherwise drop out of the tests over vcan without a sign."""
+Otherwise, if a test is renamed, nobody would notice that it no longer runs over vcan."""
 
 import json
 import subprocess

@@ -1,4 +1,4 @@
-// Ports and interfaces for the tests on vcan.
+// Helper functions for the tests on vcan: ports, frames and interfaces.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ inline std::string why_not(const std::string& interface, const PortOptions& opti
 
 inline void run(const std::string& command) { ASSERT_EQ(std::system(command.c_str()), 0) << command; }
 
-/// Sends, waiting for room.
+/// Sends the frame. While the transmit queue is full, waits and tries again.
 inline SendOutcome send_all(Port& port, const Frame& frame) {
   SendOutcome outcome = port.send(frame);
   while (outcome == SendOutcome::queue_full && wait(port, WaitFor::room, in_seconds(5)))
@@ -33,7 +33,7 @@ inline SendOutcome send_all(Port& port, const Frame& frame) {
   return outcome;
 }
 
-/// A test's own interface, which is removed at its end.
+/// A virtual interface for one test. It is created by the constructor and removed by the destructor.
 class Interface {
  public:
   Interface(std::string name, int mtu) : name_(std::move(name)), mtu_(mtu) { make(); }

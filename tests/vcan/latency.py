@@ -3,10 +3,10 @@
 
   tests/vcan/run.sh /usr/bin/python3 tests/vcan/latency.py HIL_BENCH CANHIL.dbc SCENARIO...
 
-Flies each scenario in real time over vcan0 while candump records it. From this log and the DBC alone (read by canmatrix), it pairs the last frame of
-every sample group with its answers by the time of validity that both carry. Nearest-rank p50 and p99 of every answer message must agree with those
-of --json within 2 us (candump truncates its stamps to whole us, and the bench's buckets are 1 us wide). The counts must be equal. Prints the table;
-exit code 1 and one line for each disagreement.
+Flies each scenario in real time over vcan0 while candump records the bus. Uses only this log and the DBC (read by canmatrix): it pairs the last frame
+of every sample group with its answers by the time of validity, which group and answer contain. For every answer message, the nearest-rank p50 and p99
+must agree with those in the report (--json) within 2 us: candump truncates its stamps to whole us, and the bench's buckets are 1 us wide. The counts
+must be equal. Prints a table, and one line for each disagreement; with a disagreement, the exit code is 1.
 """
 
 import collections
@@ -23,14 +23,14 @@ import canmatrix.formats  # noqa: E402
 
 
 def limit_us(t_us):
-    """The largest difference [us]: half of the bucket of the bench's histogram (bench/checks/histogram.hpp), and 1.5 for the stamps, which candump
-    rounds to microseconds."""
+    """The largest permitted difference [us]: half the width of the bucket of the bench's histogram (bench/checks/histogram.hpp), plus 1.5 us,
+    because candump truncates its stamps to whole microseconds."""
     width = 1 if t_us < 10e3 else 10 if t_us < 100e3 else 100 if t_us < 1e6 else 1000
     return width / 2 + 1.5
 
 
 class Contract:
-    """For each CAN id of the DBC: its sample group, the groups that it answers, and how to decode it."""
+    """For each message of the DBC, by its CAN id: its sample group, the groups that it answers, and how to decode its frames."""
 
     def __init__(self, dbc):
         matrix = next(iter(canmatrix.formats.loadp(dbc).values()))
@@ -61,9 +61,9 @@ def frames_of(log):
 
 
 def latencies_us(log, contract):
-    """{answer message: latencies, each from the last frame of its stimulus}"""
-    stimulus_us = {}  # (group, time of validity): stamp of the last frame of the group
-    group_so_far = collections.defaultdict(list)  # group of answers: [(message, stamp)] that have arrived
+    """{answer message: its latencies [us]}. A latency begins at the last frame of the stimulus."""
+    stimulus_us = {}  # {(group, time of validity): stamp of the last frame of the group}
+    group_so_far = collections.defaultdict(list)  # {group of an answer: [(message, stamp)] of the messages that have arrived}
     latencies = collections.defaultdict(list)
     for t_us, identifier, data in frames_of(log):
         if identifier not in contract.frames or not contract.group[identifier]:
@@ -71,7 +71,7 @@ def latencies_us(log, contract):
         group = contract.group[identifier]
         if group in contract.answered:
             valid = contract.value(identifier, data, "time_of_validity_us")
-            if valid is not None:  # only the last frame of a group carries it
+            if valid is not None:  # only the last message of a group has this signal
                 stimulus_us[group, valid] = t_us
         elif contract.answers[identifier]:
             group_so_far[group].append((contract.frames[identifier].name, t_us))
@@ -94,14 +94,14 @@ def listeners():
 
 
 def fly(bench, scenario, folder):
-    """Log of candump and the bench's report."""
+    """Flies the scenario. Returns the log of candump and the bench's report."""
     report, log = f"{folder}/report.json", f"{folder}/candump.log"
     with open(log, "wb") as out:
         candump = subprocess.Popen(["candump", "-L", "-r", "4000000", "vcan0"], stdout=out, stdin=subprocess.DEVNULL)
         deadline = time.monotonic() + 20
         while listeners() == 0 and time.monotonic() < deadline:
             time.sleep(0.01)
-        time.sleep(0.1)  # the kernel enables stamping a moment after the request
+        time.sleep(0.1)  # the kernel begins to stamp frames a moment after candump requested stamps
         run = subprocess.run([bench, "run", scenario, "--bus", "vcan0", "--json", report],
                              capture_output=True, text=True, timeout=200, stdin=subprocess.DEVNULL)
         candump.send_signal(signal.SIGINT)

@@ -1,5 +1,5 @@
-// Faults of the bus during a run, as a user sees them: the verdict, the reports, the messages of the target.
-// They are produced on vcan0 by error frames that a program writes, and by the interface itself.
+// Faults of the bus during a run, and what a user sees of them: the verdict, the reports, the messages of the
+// target. Two things cause faults on vcan0: error frames that a program sends, and changes of the interface.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -35,7 +35,8 @@ struct Outcome {
   }
 };
 
-/// A run over vcan0 in real time; the fault begins when the run is under way.
+/// Flies over vcan0 in real time. During the run, executes the shell command `trouble`, which causes the
+/// fault.
 Outcome run_with(const std::string& trouble, const std::string& more_checks = "") {
   std::ofstream(scratch("outage.toml")) << read(scenario("transfer_alignment_quick")) << more_checks;
   const std::string json = scratch("outage.json");
@@ -130,7 +131,8 @@ TEST(Outages, TheBenchMakesThemByItselfWhereAScenarioSaysSo) {
   EXPECT_THAT(ended.err, HasSubstr("hil-target: vcan0: 9 error frames (bus off 1, restarted 1"));
 }
 
-/// A wire on vcan0 that carries a third of the frames, for half a second, behind a queue of some bytes.
+/// A shell command that slows vcan0 down for half a second: frames wait in a queue of some bytes, and the bit
+/// rate is enough for only a third of them.
 std::string slow_wire(int queue_bytes) {
   return fmt::format(
       "tc qdisc add dev vcan0 root tbf rate 20kbit burst 100 limit {} && sleep 0.5 && "

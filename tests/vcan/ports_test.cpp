@@ -1,5 +1,5 @@
-// The SocketCAN port on vcan0 and vcan1 of a real kernel (tests/vcan/run.sh provides them), and together with
-// can-utils.
+// The SocketCAN port on vcan0 and vcan1 of a real kernel (tests/vcan/run.sh provides them), alone and with
+// can-utils on the same interface.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <linux/net_tstamp.h>
@@ -47,7 +47,7 @@ TEST(SocketCan, CarriesClassicFrames) {
   EXPECT_EQ(b->counters().received, 3U);
 }
 
-// The system call with which the port waits has a much shorter time-out.
+// The system call in which the port waits has a much shorter time-out, so the port must call it again.
 TEST(SocketCan, AWaitThatHearsNothingLastsToItsDeadline) {
   const auto port = open("vcan0");
   const std::int64_t deadline_ns = clock_ns(CLOCK_MONOTONIC) + 200'000'000;
@@ -72,7 +72,7 @@ TEST(SocketCan, CarriesFdFramesOfEverySize) {
 TEST(SocketCan, GivesTheKernelsStamps) {
   const auto a = open("vcan0");
   const auto b = open("vcan0");
-  bool stamping = false;  // the kernel enables it a moment after the request
+  bool stamping = false;  // the kernel begins to stamp frames a moment after the request
   for (const std::int64_t deadline = in_seconds(5); !stamping && clock_ns(CLOCK_MONOTONIC) < deadline;) {
     a->send(frame_of(1));
     stamping = next_frame(*b)->source == StampSource::kernel;
@@ -150,7 +150,7 @@ TEST(SocketCan, ExplainsWhatItCannotOpen) {
   EXPECT_TRUE(open("canhil8"));
 }
 
-/// A program of can-utils that listens on vcan1, with its output in a file.
+/// Runs candump (of can-utils), which listens on vcan1 and writes a log.
 class Candump {
  public:
   Candump(int frames, const std::string& arguments) : path_("/tmp/candump-test.log") {
@@ -166,7 +166,7 @@ class Candump {
   ~Candump() {
     if (started_.joinable()) started_.join();
   }
-  std::string path() {  // valid when it has received all frames
+  std::string path() {  // waits until candump has received all frames; returns the path of its log
     started_.join();
     return path_;
   }
@@ -195,7 +195,7 @@ std::vector<LogEntry> read_log(const std::string& path) {
   return entries;
 }
 
-/// The lines of a log without stamps and directions.
+/// The lines of a log. The stamp and the direction (R, T) of each line are left out.
 std::vector<std::string> contents(const std::string& path) {
   std::vector<std::string> lines;
   std::ifstream file(path);

@@ -4,7 +4,7 @@
 #   1. this kernel has vcan: a network namespace of its own, so that it does not disturb other runs or an existing vcan0;
 #   2. user-mode Linux: a kernel as a process, with this machine's files (Debian: user-mode-linux kmod iproute2 busybox gcc).
 #      /tmp, /run and /dev are private to the guest; one CPU.
-# CANHIL_VCAN_WAY=kernel or uml selects one of them. CANHIL_VCAN_TIMEOUT_S (600) is the time limit of user-mode Linux.
+# CANHIL_VCAN_WAY selects a way: kernel or uml. CANHIL_VCAN_TIMEOUT_S (default 600) is the time limit of user-mode Linux.
 set -u
 here=$(dirname "$(readlink -f "$0")")
 
@@ -44,16 +44,16 @@ in_uml() {
   printf '#!/bin/sh\nexec sh %q %q %q\n' "$here/uml_init.sh" "$dir" "$PWD" >"$dir/init"
   chmod +x "$dir/init"
 
-  # The guest makes its descriptors non-blocking. It gets its own pipes, so the caller's stdout stays
-  # blocking.
+  # User-mode Linux makes its descriptors non-blocking. Therefore it gets pipes of its own, and the caller's stdout
+  # stays blocking.
   mkfifo "$dir/out" "$dir/err"
   cat "$dir/out" & out=$!
   cat "$dir/err" >&2 & err=$!
   limit=${CANHIL_VCAN_TIMEOUT_S:-600}
   say "user-mode Linux"
-  # The guest is one kernel for both programs: on a busy host without real-time priority it would stall for
-  # longer than a target may be silent. It is pinned to one processor, because the guest has only one: its
-  # processes hand over to each other with every system call.
+  # Bench and target run in this one guest system. Without real-time priority, a busy host would stall the guest for
+  # longer than a target may be silent. The guest is pinned to one processor of the host: it has only one itself, so
+  # with every system call one of its host processes continues and another one waits.
   realtime="taskset -c $((RANDOM % $(nproc))) chrt -f 10"
   $realtime true 2>/dev/null || realtime="chrt -f 10"
   $realtime true 2>/dev/null || realtime=
@@ -63,7 +63,7 @@ in_uml() {
   uml=$!
   wait $uml
   ended=$?
-  kill -KILL -- -$uml 2>/dev/null # one host process for each process of the guest, if it did not end by itself
+  kill -KILL -- -$uml 2>/dev/null # if the guest did not end by itself: each process of the guest is a process of the host
   wait $out $err
   if [ -s "$dir/status" ]; then exit "$(cat "$dir/status")"; fi
   if [ $ended = 124 ] || [ $ended = 137 ]; then say "given up after $limit s (CANHIL_VCAN_TIMEOUT_S): $*"; exit 124; fi

@@ -1,9 +1,9 @@
-// Hours of traffic through the port: two processes on one interface, every frame counted.
+// Sends frames through the port for up to hours, from one process to another on the same interface.
 //   soak INTERFACE SECONDS [FRAMES_PER_S]
-// The sender keeps its rate with absolute deadlines of a millisecond; if the host stalls it, the deadlines
-// slip. The sender receives its echo, as the bench does. Sender and receiver check that no number is missing
-// or out of order. The program prints ten lines on the way, then the result. It ends with 0 only if nothing
-// was lost or reordered and the resident anonymous memory did not grow.
+// The sender has an absolute deadline for each millisecond; after a stall of the host, the deadlines are
+// moved. The sender receives the echo of its own frames, as the bench does. Sender and receiver check that no
+// frame number is missing or out of order. The program prints ten lines of progress, then the result. It ends
+// with 0 only if no frame was lost or reordered and the resident anonymous memory did not grow.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,10 +26,10 @@ constexpr std::int64_t tick_ns = 1'000'000;
 constexpr std::int64_t catch_up_ns = 100 * tick_ns;
 constexpr std::int64_t patience_ns = 20 * ns_per_s;
 constexpr std::uint32_t numbered_id = 0x123;
-constexpr std::uint32_t last_id = 0x124;  // carries the number of frames sent
+constexpr std::uint32_t last_id = 0x124;  // the last frame; it contains the number of frames that were sent
 constexpr std::int64_t flat_kib =
-    128;                          // a leak of one byte per frame, at 8000 frames/s, exceeds this within 17 s
-constexpr int warm_up_part = 10;  // memory is compared after a tenth of the duration
+    128;  // at 8000 frames/s, a leak of one byte per frame exceeds this limit within 17 s
+constexpr int warm_up_part = 10;  // the warm-up is the first tenth of the duration
 
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 
@@ -76,7 +76,7 @@ class Tally {
   std::uint64_t reordered_ = 0;
 };
 
-/// Resident memory after the warm-up, and its maximum since then.
+/// The resident memory at the end of the warm-up, and the largest resident memory since then.
 class Memory {
  public:
   void look(bool warm) {
@@ -157,7 +157,8 @@ int send(Port& port, std::int64_t duration_ns, std::int64_t rate) {
     }
     const std::int64_t late_ns = now_ns() - due_ns;
     latest_ns = std::max(latest_ns, late_ns);
-    if (late_ns > catch_up_ns) due_ns += late_ns;  // no bus could carry the backlog of a stalled host
+    if (late_ns > catch_up_ns)
+      due_ns += late_ns;  // moves the deadlines: the bus could not catch up after such a stall
     for (const auto due = static_cast<std::uint64_t>(tick * rate * tick_ns / ns_per_s); sent < due; ++sent)
       send(port, numbered_id, sent);
     drain();

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The first process in user-mode Linux: uml_init.sh DIR CWD. Creates the interfaces, runs DIR/command, writes its exit status to DIR/status.
+# The first process in user-mode Linux: uml_init.sh DIR CWD. Creates the interfaces, runs DIR/command, writes the exit status of this command to DIR/status.
 dir=$1
 cwd=$2
 die() { echo "canhil: cannot $*" >/dev/console; busybox poweroff -f; }
@@ -13,7 +13,7 @@ ln -s /proc/self/fd /dev/fd
 mount -t tmpfs tmpfs /run
 mkdir "$dir/tmp" && mount --bind /tmp "$dir/tmp"
 mount -t tmpfs tmpfs /tmp
-case $cwd in /tmp/*) # the caller works below /tmp: keep that folder visible
+case $cwd in /tmp/*) # if the caller's working directory is below /tmp, the guest must still see this directory
   top=${cwd#/tmp/}
   top=${top%%/*}
   mkdir "/tmp/$top" && mount --bind "$dir/tmp/$top" "/tmp/$top" || die "show $cwd"
@@ -22,7 +22,7 @@ esac
 
 modules=/usr/lib/uml/modules/$(uname -r)/kernel
 for module in drivers/net/can/dev/can-dev net/can/can net/can/can-raw net/can/can-bcm net/can/can-gw drivers/net/can/vcan \
-  net/sched/sch_tbf; do # the last module makes a slow wire, for tests of full queues
+  net/sched/sch_tbf; do # sch_tbf slows an interface down, for tests of full queues
   insmod "$modules/$module.ko" || die "load $modules/$module.ko"
 done
 ip link set lo up
@@ -31,7 +31,7 @@ for i in vcan0 vcan1; do
 done
 
 for line in /dev/ttyS0 /dev/ttyS1; do stty raw -echo <$line; done
-# The output goes through pipes, so that the command has no terminal unless its caller has one.
+# The output of the command goes through pipes, because the serial lines are terminals and the command must not see a terminal.
 mkfifo /run/out /run/err
 cat /run/out >/dev/ttyS0 &
 cat /run/err >/dev/ttyS1 &
@@ -39,7 +39,7 @@ setsid bash -c '. "$1/environment"; . "$1/command"' bash "$dir" </dev/null >/run
 command=$!
 wait $command
 status=$?
-kill -s KILL -- -$command 2>/dev/null # processes that the command left running keep the pipes open
+kill -s KILL -- -$command 2>/dev/null # ends processes that the command left running: they would keep the pipes open
 wait
 echo $status >"$dir/status"
 busybox poweroff -f

@@ -1,7 +1,7 @@
-// For LD_PRELOAD into user-mode Linux (6.1). User-mode Linux saves 2696 bytes of the extended registers of a process, enough for CPUs up to AVX-512 and
-// PKRU. PTRACE_SETREGSET accepts only the complete set. On a CPU with more registers (AMX: 11008 bytes), the first process therefore dies with
-// "ptrace set fp regs failed, errno = 14". This library fills the missing part with the current registers of the process. Programs in the guest then
-// cannot use AMX; all other registers are preserved.
+// A library for LD_PRELOAD into user-mode Linux (6.1). User-mode Linux saves 2696 bytes of the extended registers of a process. This is enough for CPUs
+// up to AVX-512 and PKRU. However, PTRACE_SETREGSET accepts only the complete set of registers. Therefore, on a CPU with more registers (AMX: 11008 bytes),
+// the first process dies with "ptrace set fp regs failed, errno = 14". This library fills the missing part with the current registers of the process.
+// Programs in the guest then cannot use AMX; all other registers are preserved.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <elf.h>

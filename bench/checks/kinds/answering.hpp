@@ -12,7 +12,8 @@ struct Answering {
       "Passes when answers and heartbeats come without a gap while no fault is active, all values are "
       "numbers, and no frame of the target is damaged.";
   std::vector<Subject> judged;  ///< quantities that are reported with every answer
-  /// Windows of the scenario's faults: answers may be missing, because the target may receive no input.
+  /// The windows of the scenario's faults. In these windows answers may be missing, because the target may
+  /// receive no input.
   std::vector<scenario::Window> excused;
 
   static Answering read(scenario::Section& section, const scenario::CheckContext& context);

@@ -9,8 +9,8 @@ namespace canhil::checks {
 struct Answers {
   static constexpr std::string_view kind = "answers";
   static constexpr std::string_view meaning =
-      "Passes when the answers with a mark meet the limits; at least one limit is needed. MARK stands for a "
-      "mark of the estimator (scenarios.md).";
+      "Passes when the number and the times of the answers that have a mark meet the limits. At least one "
+      "limit is needed. In the name of a key, MARK stands for a mark of the estimator (scenarios.md).";
   struct Count {
     std::string mark;  ///< one of the estimator's marks
     std::optional<std::int64_t> at_least{}, at_most{};
@@ -19,7 +19,7 @@ struct Answers {
   std::string estimator;
   scenario::Window window;
   std::vector<Count> counts;
-  bool one_of_several{};  ///< several estimators run
+  bool one_of_several{};  ///< more than one estimator runs
 
   static Answers read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const;

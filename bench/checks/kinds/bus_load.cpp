@@ -36,11 +36,11 @@ BusLoad BusLoad::read(scenario::Section& section, const scenario::CheckContext& 
     section.reject("bitrate_kbitps", "is faster than CAN", fmt::format("kbit/s, at most {}", fastest));
   rule.data_bitrate =
       section
-          .optional_integer(
-              {"data_bitrate_kbitps", fmt::format("Bit rate of the data phase of CAN FD frames, from "
-                                                  "`bitrate_kbitps` to {}. Default: as `bitrate_kbitps`.",
-                                                  fastest_data)},
-              1)
+          .optional_integer({"data_bitrate_kbitps",
+                             fmt::format("Bit rate of the data phase of CAN FD frames, from `bitrate_kbitps` "
+                                         "to {}. Default: the value of `bitrate_kbitps`.",
+                                         fastest_data)},
+                            1)
           .value_or(0) *
       kilo;
   if (rule.data_bitrate != 0 &&
@@ -48,9 +48,10 @@ BusLoad BusLoad::read(scenario::Section& section, const scenario::CheckContext& 
     section.reject("data_bitrate_kbitps", fmt::format("is {}", rule.data_bitrate / kilo),
                    fmt::format("from bitrate_kbitps to {}", fastest_data));
   }
-  rule.below = section.plain_number({"below_percent", "The load of each whole second must be below this."},
-                                    Limits::above(0, 100)) /
-               100;
+  rule.below =
+      section.plain_number({"below_percent", "The load of each whole second must be below this value."},
+                           Limits::above(0, 100)) /
+      100;
   return rule;
 }
 
@@ -61,7 +62,8 @@ std::string BusLoad::subject() const {
 Finding BusLoad::judge(const Evidence& evidence) const {
   const Observations& seen = evidence.seen;
   std::vector<wire::BitRates> buses{{.nominal = bitrate, .data = data_bitrate}};
-  // If the run's own bus is slower than the rule's, it may be full although the rule's bus would not be.
+  // If the run's own bus is slower than the bus of the rule, the run's bus may be full although a bus with
+  // the rates of the rule would not be full.
   if (seen.bit_rates.nominal > 0 && !equally_fast(seen.bit_rates, buses.front(), seen))
     buses.push_back(seen.bit_rates);
   Finding finding{.outcome = Outcome::pass, .measured = {}, .expected = {}};

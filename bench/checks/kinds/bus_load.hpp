@@ -5,7 +5,8 @@
 
 namespace canhil::checks {
 
-/// Judged for the bit rates of the rule, and also for the run's own bus if its rates differ.
+/// The load is judged at the bit rates of the rule, and also at the bit rates of the run's own bus if these
+/// differ.
 struct BusLoad {
   static constexpr std::string_view kind = "bus_load";
   static constexpr std::string_view meaning =

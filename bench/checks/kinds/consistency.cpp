@@ -10,8 +10,8 @@
 namespace canhil::checks {
 namespace {
 
-// The sum of n independent chi-squares of k degrees of freedom is chi-square of n k; the mean is this sum
-// divided by n.
+// The sum of n independent chi-squared values with k degrees of freedom each is chi-squared with n k degrees
+// of freedom; the mean is this sum divided by n.
 std::pair<double, double> interval(const Consistency& rule, std::size_t count) {
   if (const auto* between = std::get_if<MeanBetween>(&rule.bound)) return {between->low, between->high};
   const double probability = std::get<Probability>(rule.bound).value;
@@ -30,8 +30,8 @@ Consistency Consistency::read(scenario::Section& section, const scenario::CheckC
       section, context, [](const quantities::Quantity& quantity) { return quantity.degrees_of_freedom > 0; });
   rule.window = scenario::read_window(section, context.duration_us);
   if (!section.has("probability")) {
-    const auto [low, high] =
-        section.interval({"mean_between", "The mean must lie between these."}, scenario::Limits::at_least(0));
+    const auto [low, high] = section.interval({"mean_between", "The mean must lie between these two values."},
+                                              scenario::Limits::at_least(0));
     rule.bound = MeanBetween{.low = low, .high = high};
     section.optional("probability");
     return rule;

@@ -13,7 +13,8 @@ struct MeanBetween {
   double low = 0;
   double high = 0;
 };
-/// The mean lies in the central chi-square interval of this probability: for white statistics (NIS).
+/// The mean lies in the central chi-square interval of this probability. Permitted only for white statistics
+/// (NIS).
 struct Probability {
   double value = 0;
 };

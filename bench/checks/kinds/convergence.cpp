@@ -18,8 +18,8 @@ Convergence Convergence::read(scenario::Section& section, const scenario::CheckC
       read_bar(section, "within", "Bound of |estimated - true|.", *rule.judged.quantity);
   rule.before_us = scenario::read_time(section,
                                        {"before_s",
-                                        "Time before which |estimated - true| must come within the bound. "
-                                        "After that it must stay there until the end of the run."},
+                                        "Before this time, |estimated - true| must come within the bound, "
+                                        "and then stay within the bound until the end of the run."},
                                        scenario::Limits::above(0), context.duration_us);
   rule.end_us = context.duration_us;
   return rule;

@@ -15,11 +15,16 @@ Counters Counters::read(scenario::Section& section, const scenario::CheckContext
       .frames_lost_at_most = section.optional_integer(
           {"frames_lost_at_most", "Maximum number of frames that the target counts as lost."}, 0),
       .bad_crc_at_most = section.optional_integer(
-          {"bad_crc_at_most", "Maximum number of frames that the target counts as having a wrong CRC."}, 0),
+          {"bad_crc_at_most",
+           "Maximum number of frames that the target counts as having a wrong CRC or a wrong size."},
+          0),
       .bad_group_at_most = section.optional_integer(
-          {"bad_group_at_most", "Maximum number of groups that the target counts as incomplete."}, 0),
-      .late_at_most = section.optional_integer(
-          {"late_at_most", "Maximum number of groups that the target counts as late."}, 0)};
+          {"bad_group_at_most", "Maximum number of groups that the target counts as incomplete or unusable."},
+          0),
+      .late_at_most = section.optional_integer({"late_at_most",
+                                                "Maximum value of the target's count `late`, which counts "
+                                                "late groups and frames with a repeated counter."},
+                                               0)};
   if (!rule.frames_lost_at_most && !rule.bad_crc_at_most && !rule.bad_group_at_most && !rule.late_at_most)
     section.reject("frames_lost_at_most", "is missing, as are all other limits", "at least one limit");
   return rule;

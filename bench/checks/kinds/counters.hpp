@@ -1,4 +1,4 @@
-// Checks the counters that the target reports last (TargetCounters).
+// Checks the last values of the counters that the target reports (TargetCounters).
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace canhil::checks {
 
-/// Limits; an absent limit is not judged.
+/// Limits of the counters; a counter without a limit is not judged.
 struct Counters {
   static constexpr std::string_view kind = "counters";
   static constexpr std::string_view meaning =
@@ -20,10 +20,11 @@ struct Counters {
 
 struct CountLimit {
   std::string_view what;
-  std::optional<std::int64_t> at_most;  ///< none: not judged
+  std::optional<std::int64_t> at_most;  ///< none: the count is not judged
   std::uint64_t value = 0;
 };
-/// Passes if all limits are kept: "bad CRC 0, late 2", expected "bad CRC <= 0, late <= 3".
+/// Passes if no count exceeds its limit. The texts of the finding: measured "bad CRC 0, late 2", expected
+/// "bad CRC <= 0, late <= 3".
 Finding within_limits(std::span<const CountLimit> limits);
 
 }  // namespace canhil::checks

@@ -40,12 +40,15 @@ CountsMatch CountsMatch::read(scenario::Section& section, const scenario::CheckC
     return section.optional_integer({key, meaning}, 0).value_or(0);
   };
   return {.frames_lost_slack =
-              slack("frames_lost_slack", "Tolerance of the count of lost frames; 0 if not given."),
+              slack("frames_lost_slack", "Tolerance for the count of lost frames; 0 if not given."),
           .bad_crc_slack =
-              slack("bad_crc_slack", "Tolerance of the count of frames with a wrong CRC; 0 if not given."),
-          .bad_group_slack =
-              slack("bad_group_slack", "Tolerance of the count of incomplete groups; 0 if not given."),
-          .late_slack = slack("late_slack", "Tolerance of the count of late groups; 0 if not given.")};
+              slack("bad_crc_slack",
+                    "Tolerance for the count of frames with a wrong CRC or a wrong size; 0 if not given."),
+          .bad_group_slack = slack(
+              "bad_group_slack", "Tolerance for the count of incomplete or unusable groups; 0 if not given."),
+          .late_slack = slack(
+              "late_slack",
+              "Tolerance for the count of late groups and frames with a repeated counter; 0 if not given.")};
 }
 
 Finding CountsMatch::judge(const Evidence& evidence) const {
@@ -67,7 +70,8 @@ Finding CountsMatch::judge(const Evidence& evidence) const {
     if (one.reported < one.least || one.reported > one.most) finding.outcome = Outcome::fail;
   }
   finding.expected += ", as the bench withheld and damaged";
-  // Frames lost on the bus were not withheld by the bench.
+  // If an outage of the bus lost frames, the target counts these frames too, although the bench did not
+  // withhold them.
   const std::uint64_t outages = seen.bus.downs + seen.bus.errors.bus_off;
   if (finding.outcome == Outcome::fail && outages > 0) {
     finding.outcome = Outcome::not_measured;

@@ -15,7 +15,8 @@ DelayBelow DelayBelow::read(scenario::Section& section, const scenario::CheckCon
     return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
   });
   rule.window = scenario::read_window(section, context.duration_us);
-  rule.below_us = section.time_us({"below_ms", "The delay must be below this."}, scenario::Limits::above(0));
+  rule.below_us =
+      section.time_us({"below_ms", "The delay must be below this value."}, scenario::Limits::above(0));
   return rule;
 }
 

@@ -8,8 +8,8 @@ namespace canhil::checks {
 struct DetectedWithin {
   static constexpr std::string_view kind = "detected_within";
   static constexpr std::string_view meaning =
-      "Passes when the target gives a sign within `within_s` of the onset of the fault (scenarios.md: "
-      "signs).";
+      "Passes when the target reports a sign of trouble within `within_s` after the onset of the fault "
+      "(scenarios.md defines the signs).";
   Disturbance disturbance;
   std::int64_t within_us = 0;
   std::vector<std::string> by;  ///< names of signs; empty: any new sign

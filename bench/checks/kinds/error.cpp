@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> statistics{"max", "rms", "mean", "final"};
 
-// The value that is compared with the limit, in the order of the enumeration.
+// For each statistic, in the order of the enumeration: the value that is compared with the limit.
 constexpr std::array<std::string_view, 4> asked{"|error|", "RMS", "mean |error|",
                                                 "|error| of the last answer"};
 
@@ -36,7 +36,7 @@ Error Error::read(scenario::Section& section, const scenario::CheckContext& cont
                                      statistics, Statistic::max);
   rule.stretch = read_stretch(section, context, rule.judged);
   std::tie(rule.below, rule.unit) =
-      read_bar(section, "below", "The statistic must be below this.", *rule.judged.quantity);
+      read_bar(section, "below", "The statistic must be below this value.", *rule.judged.quantity);
   return rule;
 }
 

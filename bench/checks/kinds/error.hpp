@@ -11,7 +11,7 @@ struct Error {
   static constexpr std::string_view meaning =
       "Passes when the statistic of |estimated - true| in the window is below `below_UNIT`.";
   enum class Statistic : std::uint8_t { max, rms, mean, final };
-  Subject judged;  ///< if the quantity has parts, the norm of the parts
+  Subject judged;  ///< if the quantity has parts, the norm of the parts is judged
   Statistic statistic = Statistic::max;
   Stretch stretch;
   double below = 0;  ///< [SI]

@@ -14,11 +14,14 @@ Heartbeat Heartbeat::read(scenario::Section& section, const scenario::CheckConte
   if (context.contract.foreign != nullptr) {
     std::vector<std::string> own;
     for (const auto& [message, sender] : context.contract.sent_by) own.push_back(message);
-    rule.message = section.one_of(
-        {"message", "Only with a mapping, and required there: the message that serves as heartbeat."}, own);
+    rule.message = section.one_of({"message",
+                                   "Message that serves as heartbeat. With a mapping this key is required; "
+                                   "without a mapping it is not allowed."},
+                                  own);
   }
-  rule.silent_at_most_us = section.time_us({"silent_at_most_s", "Longest time from a heartbeat to the next."},
-                                           scenario::Limits::above(0));
+  rule.silent_at_most_us =
+      section.time_us({"silent_at_most_s", "Longest permitted time from one heartbeat to the next."},
+                      scenario::Limits::above(0));
   return rule;
 }
 

@@ -1,5 +1,5 @@
-// Checks that no gap between heartbeats (or another message that shows that the target is alive) is longer
-// than a limit, up to the end of the run.
+// Checks that no gap between heartbeats is longer than a limit, up to the end of the run. For a mapped
+// target, the scenario names the message that serves as heartbeat.
 #pragma once
 
 #include "bench/checks/rule.hpp"

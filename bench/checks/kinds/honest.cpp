@@ -25,13 +25,15 @@ Honest Honest::read(scenario::Section& section, const scenario::CheckContext& co
                    "another kind");
   section.optional("estimator");
   if (section.has("estimator")) {
-    rule.named = section.one_of({"estimator", "Estimator to judge; by default all that run."}, names);
+    rule.named =
+        section.one_of({"estimator", "Estimator to judge; by default all estimators that run."}, names);
     std::erase_if(rule.estimators, [&](const estimators::Estimator* one) { return one->name != rule.named; });
   }
-  rule.over_sigma = section.plain_number({"over_sigma",
-                                          "Largest ratio of error to sigma in a trusted answer. A trusted "
-                                          "answer has neither the mark `degraded` nor the mark `blind`."},
-                                         scenario::Limits::above(0), rule.over_sigma);
+  rule.over_sigma =
+      section.plain_number({"over_sigma",
+                            "Largest permitted ratio of error to sigma in a trusted answer. A trusted answer "
+                            "has neither the mark `degraded` nor the mark `blind`."},
+                           scenario::Limits::above(0), rule.over_sigma);
   return rule;
 }
 

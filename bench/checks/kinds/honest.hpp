@@ -8,9 +8,10 @@ namespace canhil::checks {
 struct Honest {
   static constexpr std::string_view kind = "honest";
   static constexpr std::string_view meaning =
-      "Passes when no trusted answer has an error of more than `over_sigma` times its sigma (honesty.md).";
+      "Passes when no trusted answer has an error of more than `over_sigma` times the sigma that the answer "
+      "reports (honesty.md).";
   std::vector<const estimators::Estimator*> estimators;
-  std::string named;      ///< the estimator of the check; empty: all that run
+  std::string named;      ///< the estimator that the check names; empty: all estimators that run
   double over_sigma = 5;  ///< upper limit of the quantity trusted.over_sigma
 
   static Honest read(scenario::Section& section, const scenario::CheckContext& context);

@@ -31,8 +31,8 @@ Latency Latency::read(scenario::Section& section, const scenario::CheckContext& 
   Latency rule;
   rule.message = read_answer(section, context);
   rule.window = scenario::read_window(section, context.duration_us);
-  rule.below_us =
-      section.time_us({"below_ms", "The quantile of the latencies must be below this."}, Limits::above(0));
+  rule.below_us = section.time_us({"below_ms", "The quantile of the latencies must be below this value."},
+                                  Limits::above(0));
   rule.quantile =
       section.number({"quantile", "Quantile of the latencies that is judged; 1: the largest latency."},
                      Limits::above(0, 1), 1);

@@ -1,4 +1,4 @@
-// Timing: the time from the last frame of the stimulus to the message that answers it.
+// Timing: the time from the last frame of a stimulus to the message that answers this stimulus.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -20,7 +20,7 @@ LatencyGrowth LatencyGrowth::read(scenario::Section& section, const scenario::Ch
   rule.last = {.from_us = window.to_us - third_us, .to_us = window.to_us};
   rule.ratio_below = section.number({"ratio_below",
                                      "The median latency of the last third of the window, divided by that of "
-                                     "the first third, must be below this."},
+                                     "the first third, must be below this value."},
                                     Limits::above(1));
   return rule;
 }
@@ -37,8 +37,8 @@ Finding LatencyGrowth::judge(const Evidence& evidence) const {
     return {Outcome::fail, "no answers", expected};
   const double before_s = early->latency.quantile_ns(median) * 1e-9;
   const double after_s = late->latency.quantile_ns(median) * 1e-9;
-  // If the host slows down, both programs do. The target is judged only if the growth of the bench's own
-  // lateness is small compared with the limit.
+  // If the host slows down, both bench and target slow down. The target is judged only if the growth of the
+  // bench's own lateness is small compared with the limit.
   const double host_s = (late->lateness.quantile_ns(median) - early->lateness.quantile_ns(median)) * 1e-9;
   if (host_s > lateness_share * (ratio_below - 1) * before_s)
     return {Outcome::not_measured,

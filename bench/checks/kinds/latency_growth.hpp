@@ -1,4 +1,4 @@
-// Timing: whether answers become slower during a run, as when computing time or a queue grows.
+// Timing: whether answers become slower during a run, for example because computing time or a queue grows.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -9,7 +9,8 @@ namespace canhil::checks {
 struct LatencyGrowth {
   static constexpr std::string_view kind = "latency_growth";
   static constexpr std::string_view meaning =
-      "Timing check. Passes when the latencies do not grow from the first third of the window to the last.";
+      "Timing check. Passes when the median latency grows by less than the factor `ratio_below` from the "
+      "first third of the window to the last third.";
   std::string message;
   scenario::Window first, last;
   double ratio_below = 0;

@@ -25,10 +25,10 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
     section.reject("fault", "names a fault, but the scenario has none", "a [[fault]] beside it, or times");
     return Disturbance{};
   }
-  const std::string name = section.given_name(
-      {"fault",
-       "Name of a `[[fault]]` of the scenario. The onset and end of this fault replace the keys for times."},
-      names);
+  const std::string name = section.given_name({"fault",
+                                               "Name of a `[[fault]]` of the scenario. The onset and end of "
+                                               "this fault are used in place of the keys for times."},
+                                              names);
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
   if (found->window.from_us >= context.duration_us)
@@ -44,11 +44,12 @@ Disturbance read_disturbance(scenario::Section& section, const scenario::CheckCo
     section.refuse("from_s", "has no effect beside fault", "one of the two");
     return *fault;
   }
-  const std::int64_t t_us = scenario::read_time(section,
-                                                {"from_s",
-                                                 "Time of an event that is not a `[[fault]]`, in place of "
-                                                 "`fault`. This time is both the onset and the end."},
-                                                scenario::Limits::at_least(0), context.duration_us);
+  const std::int64_t t_us =
+      scenario::read_time(section,
+                          {"from_s",
+                           "Time of an event that is not a `[[fault]]`, in place of `fault`. This time is "
+                           "both the onset and the end of the event."},
+                          scenario::Limits::at_least(0), context.duration_us);
   return {.fault = {}, .window = {.from_us = t_us, .to_us = t_us}, .valid_from_us = t_us};
 }
 
@@ -66,9 +67,10 @@ std::int64_t read_within(scenario::Section& section, const scenario::CheckContex
 std::vector<std::string> read_signs(scenario::Section& section, const scenario::CheckContext& context) {
   section.optional("by");
   if (!section.has("by")) return {};
-  return section.some_of(
-      {"by", "Signs that count; by default each sign that was absent in the 5 s before the onset."},
-      sign_names(running(context)));
+  return section.some_of({"by",
+                          "Names of the signs that the check considers. Default: every sign that was absent "
+                          "in the 5 s before the onset."},
+                         sign_names(running(context)));
 }
 
 std::vector<Sign> signs_of(const Evidence& evidence, const Disturbance& of,
@@ -102,7 +104,7 @@ std::string silence_of(const Evidence& evidence, const std::vector<Subject>& sub
                        const scenario::Window& window) {
   for (const Subject& subject : subjects) {
     for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity)) {
-      // Up to the end of the flight: no answers are expected after it.
+      // The stretch ends with the flight at the latest, because no answers are expected after the flight.
       const Stretch stretch{.window = {window.from_us, std::min(window.to_us, track->answers_end_us)}};
       if (static_cast<double>(stretch.window.to_us - stretch.window.from_us) <= track->longest_wait_us)
         continue;

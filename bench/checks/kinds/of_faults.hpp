@@ -21,8 +21,8 @@ struct Disturbance {
   [[nodiscard]] std::string to_text() const;  ///< "fault 'NAME'", "10 s"
 };
 
-/// The fault that the key `fault` names; none: the key is absent. Error: an unknown name; the message lists
-/// the known names.
+/// The fault whose name is the value of the key `fault`; none: the key is absent. Error: an unknown name; the
+/// message lists the known names.
 std::optional<Disturbance> read_fault(scenario::Section& section, const scenario::CheckContext& context);
 
 /// Reads `fault`, or the time of a disturbance, `from_s`.
@@ -40,7 +40,7 @@ std::vector<std::string> read_signs(scenario::Section& section, const scenario::
 std::vector<Sign> signs_of(const Evidence& evidence, const Disturbance& of,
                            const std::vector<std::string>& names);
 
-/// The known estimators that run.
+/// The estimators that run in this scenario and that the bench knows.
 std::vector<const estimators::Estimator*> running(const scenario::CheckContext& context);
 
 /// The quantities that every answer reports (no norms, innovations, NEES or NIS): their tracks show whether
@@ -48,7 +48,8 @@ std::vector<const estimators::Estimator*> running(const scenario::CheckContext& 
 std::vector<Subject> always_reported(const estimators::Estimator& estimator);
 
 /// Reports the first quantity that has no answers in a part of the window, and this part. Empty: there is no
-/// such quantity. A window no longer than the longest regular wait for an answer contains no silence.
+/// such quantity. If the window is at most as long as the longest regular wait for an answer, missing answers
+/// do not count as silence.
 std::string silence_of(const Evidence& evidence, const std::vector<Subject>& subjects,
                        const scenario::Window& window);
 

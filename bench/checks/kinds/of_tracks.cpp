@@ -31,7 +31,7 @@ bool lies_in(const std::pair<double, double>& to_go_s, double value) {
   return value >= to_go_s.first && value < to_go_s.second;
 }
 
-// The unit of the key that begins with the stem.
+// The unit of the key that consists of the stem and a unit.
 quantities::Unit read_unit(scenario::Section& section, std::string_view stem, const Quantity& quantity) {
   if (quantity.unit.name != quantities::mrad.name) return quantity.unit;
   const std::string mrad = key_of(stem, quantities::mrad), degrees = key_of(stem, quantities::degrees);
@@ -72,7 +72,7 @@ Subject read_subject(scenario::Section& section, const scenario::CheckContext& c
   const std::vector<std::string> names = reported_by(*quantity);
   constexpr std::string_view meaning =
       "Estimator to judge; it must report the quantity. Required only if several estimators of the scenario "
-      "report it.";
+      "report the quantity.";
   Subject subject{.estimator = names.empty() ? "" : read_estimator(section, names, meaning),
                   .quantity = quantity,
                   .text = std::string(quantity->name)};

@@ -13,7 +13,7 @@
 namespace canhil::checks {
 
 /// Reads `quantity`, and `estimator` if several running estimators report the quantity. Error: no running
-/// estimator reports it, or this kind of check cannot use it.
+/// estimator reports the quantity, or this kind of check cannot use the quantity.
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
                      const std::function<bool(const quantities::Quantity&)>& wanted);
 /// Reads `estimator`, which may be absent if there is only one candidate. Returns the name of the estimator.
@@ -24,7 +24,8 @@ std::string read_estimator(scenario::Section& section, const std::vector<std::st
 Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& context,
                      const Subject& subject);
 
-/// The value of a key STEM_UNIT, in SI, and its unit; angles in mrad or deg.
+/// The value, converted to SI, of a key STEM_UNIT, and the unit of this key. For an angle the unit may be
+/// mrad or deg.
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
                                              std::string_view meaning, const quantities::Quantity& quantity);
 
@@ -37,7 +38,7 @@ std::pair<std::pair<double, double>, quantities::Unit> read_range(scenario::Sect
 /// The parts of a quantity, or the quantity itself if it has none.
 std::vector<const quantities::Quantity*> parts_of(const quantities::Quantity& quantity);
 
-/// The number of decimals for figures in this unit.
+/// The number of decimals with which values in this unit are shown.
 int digits_of(const quantities::Unit& unit);
 
 /// "from 1 to 2 s", "from 3 to 2 s to go".

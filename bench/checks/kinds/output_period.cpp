@@ -30,8 +30,8 @@ OutputPeriod OutputPeriod::read(scenario::Section& section, const scenario::Chec
       section.one_of({"message", "Name of a message that the target sends."}, context.contract.messages);
   expect_sent(section, context, rule.message);
   rule.window = scenario::read_window(section, context.duration_us);
-  rule.within =
-      section.number({"within_percent", "Largest deviation, as a share of the period."}, Limits::above(0));
+  rule.within = section.number({"within_percent", "Largest permitted deviation, as a share of the period."},
+                               Limits::above(0));
   rule.quantile =
       section.number({"quantile", "Quantile of the deviations that is judged; 1: the largest deviation."},
                      Limits::above(0, 1), 1);
@@ -47,7 +47,7 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
     return {Outcome::not_measured, std::move(why), expected};
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
   if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
-  // If the stimuli of the bench already exceed the limit, the answers are not the target's fault.
+  // If the bench's own stimuli come too irregularly, irregular answers are not the target's fault.
   if (const double off_s = timed->stimulus_deviation.quantile_ns(quantile) * 1e-9;
       off_s > lateness_share * nominal * within) {
     return {Outcome::not_measured, fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3),

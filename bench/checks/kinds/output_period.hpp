@@ -1,4 +1,5 @@
-// Timing: the time between successive frames of a message stays within a fraction of its period.
+// Timing: the time between successive frames of a message differs from the period of the message by at most a
+// given fraction of this period.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -1,5 +1,5 @@
-// Timing: the times that the target reports itself (TargetTiming), compared with the latency that the bench
-// measures.
+// Timing: compares the times that the target measures itself and reports (TargetTiming) with the latency that
+// the bench measures.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -1,4 +1,5 @@
-// Counter and checksum errors in a target's messages, as the bench received them, stay within limits.
+// Checks that the counter and checksum errors that the bench finds in the target's messages stay within
+// limits.
 #pragma once
 
 #include "bench/checks/kinds/counters.hpp"

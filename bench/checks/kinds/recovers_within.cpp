@@ -19,7 +19,7 @@ RecoversWithin RecoversWithin::read(scenario::Section& section, const scenario::
     section.reject("fault", fmt::format("'{}' lasts to the end of the run", rule.disturbance.fault),
                    "one that ends");
   rule.within_us = read_within(section, context, rule.disturbance.window.to_us,
-                               "Longest time from the end of the fault to the last sign.");
+                               "Longest permitted time from the end of the fault to the last sign.");
   rule.by = read_signs(section, context);
   section.optional("quantity");
   section.optional("estimator");
@@ -28,8 +28,8 @@ RecoversWithin RecoversWithin::read(scenario::Section& section, const scenario::
       return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
     });
     std::tie(rule.below, rule.unit) = read_bar(section, "below",
-                                               "|estimated - true| must be below this at all times later "
-                                               "than `within_s` after the end of the fault.",
+                                               "|estimated - true| must be below this value at all times "
+                                               "later than `within_s` after the end of the fault.",
                                                *rule.error->quantity);
   }
   for (const estimators::Estimator* one : running(context)) {

@@ -10,15 +10,15 @@ namespace canhil::checks {
 struct RecoversWithin {
   static constexpr std::string_view kind = "recovers_within";
   static constexpr std::string_view meaning =
-      "Passes when the signs of the fault stop within `within_s` of its end, and answers come from then on "
-      "(scenarios.md: signs).";
+      "Passes when the signs of the fault stop within `within_s` after the end of the fault, and answers "
+      "come after this time (scenarios.md defines the signs).";
   Disturbance disturbance;
   std::int64_t within_us = 0;
   std::vector<std::string> by;     ///< names of signs; empty: any sign that was absent before the fault
   std::optional<Subject> error{};  ///< the quantity whose error must be below `below` again
   double below = 0;                ///< [SI]
   quantities::Unit unit{};
-  std::vector<Subject> answering;  ///< these quantities must be answered: silence is not recovery
+  std::vector<Subject> answering;  ///< the answers must contain these quantities: silence is not recovery
 
   static RecoversWithin read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const;

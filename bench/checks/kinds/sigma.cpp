@@ -17,7 +17,7 @@ Sigma Sigma::read(scenario::Section& section, const scenario::CheckContext& cont
   });
   rule.stretch = read_stretch(section, context, rule.judged);
   const auto [range, unit] =
-      read_range(section, "between", "Every sigma must lie between these.", *rule.judged.quantity);
+      read_range(section, "between", "Every sigma must lie between these two values.", *rule.judged.quantity);
   std::tie(rule.low, rule.high) = range;
   rule.unit = unit;
   return rule;

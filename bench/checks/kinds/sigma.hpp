@@ -11,7 +11,7 @@ namespace canhil::checks {
 struct Sigma {
   static constexpr std::string_view kind = "sigma";
   static constexpr std::string_view meaning =
-      "Passes when every answer of the window has a sigma of the quantity, and every such sigma lies between "
+      "Passes when every answer in the window has a sigma of the quantity, and every such sigma lies between "
       "the bounds.";
   Subject judged;
   Stretch stretch;

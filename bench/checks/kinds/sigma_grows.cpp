@@ -21,10 +21,10 @@ SigmaGrows SigmaGrows::read(scenario::Section& section, const scenario::CheckCon
   } else {
     rule.window = scenario::read_window(section, context.duration_us);
   }
-  rule.by = section.plain_number(
-      {"by",
-       "The last sigma of the window, divided by the last sigma before the window, must be more than this."},
-      scenario::Limits::at_least(1), 1);
+  rule.by = section.plain_number({"by",
+                                  "The last sigma of the window, divided by the last sigma before the "
+                                  "window, must be more than this value."},
+                                 scenario::Limits::at_least(1), 1);
   return rule;
 }
 

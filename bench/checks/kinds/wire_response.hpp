@@ -9,8 +9,8 @@ namespace canhil::checks {
 struct WireResponseRule {
   static constexpr std::string_view kind = "wire_response";
   static constexpr std::string_view meaning =
-      "Passes when the response time of every frame is within the bound of its message (report.md). Needs a "
-      "bus whose bit rate is known.";
+      "Passes when the response time of every frame is within the bound that the bench computes for the "
+      "message (report.md). Needs a bus whose bit rate is known.";
 
   static WireResponseRule read(scenario::Section& /*section*/, const scenario::CheckContext& /*context*/) {
     return {};

@@ -88,7 +88,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 
 // The longest time between answers to fixes that does not count as silence: several fixes in a row may go
 // unanswered. Computed from the median interval of the sent fixes, because the bench may withhold fixes on
-// purpose; with two sources the slower one counts.
+// purpose; with two sources, the interval of the slower source is used.
 double wait_for_fixes_us(const InflightAnswers& answers) {
   double period_us = 0;
   for (const messages::FixSource source : messages::enumerators<messages::FixSource>) {
@@ -158,9 +158,9 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   give_positions(answers, filters, truth, give);
 }
 
-// The marks are: all navigation answers, and those that bridged lost input; the fixes by outcome, the fixes
-// with which the count of covariance repairs rose, the degraded ones, and the fixes after which the heading
-// was resolved and fed back.
+// The marks are: all navigation answers; the navigation answers that bridged lost input; for each outcome,
+// the fixes with this outcome; the fixes at which the count of covariance repairs rose; the fixes whose
+// answers report `degraded`; the fixes after which the heading was resolved and fed back.
 std::vector<Mark> marks_of(const checks::Observations& seen) {
   const InflightAnswers& answers = seen.of<InflightAnswers>();
   std::vector<Mark> marks{
@@ -202,7 +202,7 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
 
 constexpr std::array closing{messages::FixVelocityD::info.name, messages::FixUpdate::info.name};
 
-// With two sources, the period of the slower one counts, because the filter may use that one only.
+// With two sources, the period of the slower source is used, because the filter may use only that source.
 Freshness freshness_of(const scenario::Scenario& scenario) {
   double longest_us = checks::longest_wait_us(0);
   for (const scenario::NodeSettings& node : scenario.nodes) {

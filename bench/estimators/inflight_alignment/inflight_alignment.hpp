@@ -1,5 +1,5 @@
-// In-flight alignment with position fixes: a sample is a used or gated fix, with the errors of the first
-// navigation answer that includes it.
+// In-flight alignment with position fixes. In a campaign, a sample is a fix that was used or gated, with the
+// errors of the first navigation answer after the update by this fix.
 #pragma once
 
 #include "bench/checks/estimator.hpp"

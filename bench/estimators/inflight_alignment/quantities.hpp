@@ -1,4 +1,4 @@
-// Quantities of in-flight alignment alone.
+// Quantities that only in-flight alignment has.
 #pragma once
 
 #include "bench/quantities/list.hpp"

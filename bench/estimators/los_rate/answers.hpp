@@ -25,7 +25,7 @@ struct LosAnswer {
 
 using LosAnswers = Spool<LosAnswer>;
 
-/// True if the sample corrected the filter; a prediction in place of a sample does not count.
+/// True if the sample corrected the filter; false if the filter only predicted.
 constexpr bool updated(messages::LosRateOutcome outcome) {
   return outcome == messages::LosRateOutcome::updated || outcome == messages::LosRateOutcome::start_up;
 }

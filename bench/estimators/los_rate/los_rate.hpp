@@ -1,4 +1,4 @@
-// Line-of-sight rate of a seeker: a sample summarises the answers in 20 ms of the time to go.
+// Line-of-sight rate of a seeker. In a campaign, a sample summarises the answers in 20 ms of the time to go.
 #pragma once
 
 #include "bench/checks/estimator.hpp"

@@ -13,7 +13,7 @@ namespace canhil::estimators {
 MissDistance MissDistance::read(scenario::Section& section, const scenario::CheckContext& context) {
   if (std::ranges::find(context.estimators, los_rate.name) == context.estimators.end())
     section.reject("kind", "needs an engagement to be judged", "estimator los_rate in the scenario");
-  return {.below = section.number({"below_m", "The closest approach must be below this."},
+  return {.below = section.number({"below_m", "The closest approach must be below this value."},
                                   scenario::Limits::above(0))};
 }
 

@@ -1,4 +1,4 @@
-// Quantities of transfer alignment alone.
+// Quantities that only transfer alignment has.
 #pragma once
 
 #include "bench/quantities/list.hpp"

@@ -1,4 +1,4 @@
-// Wind velocity of a glider: a sample is an answer of a running filter.
+// Wind velocity of a glider. In a campaign, a sample is an answer of a running filter.
 #pragma once
 
 #include "bench/checks/estimator.hpp"

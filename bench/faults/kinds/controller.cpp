@@ -8,9 +8,9 @@
 namespace canhil::faults {
 namespace {
 
-constexpr int passive_from = 128;  // ISO 11898-1, fault confinement
+constexpr int passive_from = 128;  // error count, from ISO 11898-1, fault confinement
 
-// Only vcan accepts error frames from programs; a controller's driver generates its own.
+// Only vcan accepts error frames from programs; the driver of a controller generates its own error frames.
 std::string needs_vcan(const Place& place) {
   switch (place.interface) {
     case Place::Interface::virtual_can:
@@ -37,7 +37,7 @@ class ReportedErrors final : public Repeated {
   RigControl* rig_;
 };
 
-// A state of the controller, and the state to which it returns.
+// Reports a state of the controller and, at the end of the fault, the state to which the controller returns.
 class ReportedState final : public Switched {
  public:
   ReportedState(const When& when, const InRun& run, const ControllerNews& begin, const ControllerNews& end)
@@ -62,7 +62,7 @@ class Downs final : public Switched {
 
 ErrorFrames ErrorFrames::read(scenario::Section& section, const scenario::FaultContext& context) {
   return {.when = read_when(section, context, Repeats::stretch),
-          .period_us = section.time_us({"period_ms", "Time from a reported error to the next."},
+          .period_us = section.time_us({"period_ms", "Time from one reported error to the next."},
                                        scenario::Limits::above(0))};
 }
 std::string ErrorFrames::cannot(const Place& place) const { return needs_vcan(place); }

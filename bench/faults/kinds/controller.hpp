@@ -5,7 +5,7 @@
 
 namespace canhil::faults {
 
-/// Periodic error frames: protocol errors that the controller detected.
+/// Periodic error frames, which report protocol errors that a controller would have detected.
 struct ErrorFrames {
   static constexpr std::string_view kind = "error_frame";
   static constexpr std::string_view meaning = "The driver reports an error on the bus every `period_ms`.";
@@ -17,12 +17,12 @@ struct ErrorFrames {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The controller becomes error passive, then error active again.
+/// The controller becomes error passive and, after the fault, error active again.
 struct ErrorPassive {
   static constexpr std::string_view kind = "error_passive";
   static constexpr std::string_view meaning =
-      "The driver reports that the controller is error passive, and after `for_s` that it is error active. "
-      "Needs `for_s`.";
+      "The driver reports that the controller is error passive and, after `for_s`, that the controller is "
+      "error active again. Needs `for_s`.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   static ErrorPassive read(scenario::Section& section, const scenario::FaultContext& context);
@@ -30,12 +30,12 @@ struct ErrorPassive {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The controller goes bus-off, then is restarted.
+/// The controller goes bus-off and, after the fault, is restarted.
 struct BusOff {
   static constexpr std::string_view kind = "bus_off";
   static constexpr std::string_view meaning =
-      "The driver reports that the controller is bus-off, and after `for_s` that it restarted. Needs "
-      "`for_s`.";
+      "The driver reports that the controller is bus-off and, after `for_s`, that the controller has "
+      "restarted. Needs `for_s`.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   static BusOff read(scenario::Section& section, const scenario::FaultContext& context);
@@ -43,11 +43,11 @@ struct BusOff {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The interface is set down, then up again.
+/// The interface is set down and, after the fault, up again.
 struct InterfaceDown {
   static constexpr std::string_view kind = "interface_down";
   static constexpr std::string_view meaning =
-      "The interface is set down, and after `for_s` up again. Needs `for_s`.";
+      "The interface is set down and, after `for_s`, set up again. Needs `for_s`.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   static InterfaceDown read(scenario::Section& section, const scenario::FaultContext& context);

@@ -27,7 +27,7 @@ class DamagedFrames final : public OfFrames {
  private:
   void put(Own& own, const Frame& frame, std::int64_t /*t_us*/, std::vector<Frame>& left) override {
     Frame& damaged = left.emplace_back(frame);
-    damaged.unrounded = false;  // the unrounded values must not bypass the damaged bytes
+    damaged.unrounded = false;  // else the receiver would use the unrounded values, not the bytes
     if (!bits_) {
       damaged.data[std::min<std::size_t>(3, frame.size - 1)] ^= 0x10U;
       return;

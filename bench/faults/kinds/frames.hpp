@@ -14,7 +14,7 @@ struct Frames {
   [[nodiscard]] std::string subject() const { return of.text; }
 };
 
-/// A kind that changes each frame independently of the others, by `Kind::change`.
+/// A kind that changes each frame by `Kind::change`, independently of the other frames.
 template <class Kind>
 struct EachFrame : Frames {
   static Kind read(scenario::Section& section, const scenario::FaultContext& context) {
@@ -69,8 +69,8 @@ struct ForeignFormat : EachFrame<ForeignFormat> {
 struct Damaged : Frames {
   static constexpr std::string_view kind = "damaged";
   static constexpr std::string_view meaning =
-      "A bit of the payload is flipped, and the CRC is not recomputed.";
-  std::optional<std::int64_t> bits{};  ///< how many random bits; none: a fixed bit in byte 3, or in the last
+      "One or more bits of the payload are flipped, and the CRC is not recomputed.";
+  std::optional<std::int64_t> bits{};  ///< number of random bits; none: one fixed bit
   static Damaged read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };

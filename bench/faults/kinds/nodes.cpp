@@ -21,7 +21,7 @@ using scenario::FaultContext;
 using scenario::NodeSettings;
 using scenario::Section;
 
-// Excludes mappings, which send samples at their own times.
+// Rejects a target with a mapping, because a mapping sends samples at its own times.
 std::string needs_contract(const Place& place) {
   return place.mapped ? "has no effect on a mapping, which plays samples by its own times, expected a target "
                         "that speaks canhil's contract"
@@ -63,7 +63,7 @@ class SilentNode final : public FaultyNode {
     }
   }
   When when_;
-  bool restarts_;  // a restart is still to come
+  bool restarts_;  // true: the counters must still restart
   Recount recount_;
 };
 
@@ -91,7 +91,7 @@ class LateNode final : public FaultyNode {
   std::int64_t by_us_;
   Occasions occasions_;
   std::deque<std::pair<std::int64_t, std::vector<Frame>>>
-      waiting_;  // in order of time, because all have the same delay
+      waiting_;  // ordered by time, because all samples have the same delay
 };
 
 class SlowNode final : public FaultyNode {
@@ -100,7 +100,8 @@ class SlowNode final : public FaultyNode {
       : FaultyNode(std::move(node), settings, run), when_(kind.when), longer_(kind.longer) {}
 
  private:
-  // The k-th sample after the first sample of the fault is due k longer periods after that first sample.
+  // During the fault, transmissions are due at multiples of the longer period, counted from the first sample.
+  // A sample that comes before the next due time is not sent.
   void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
     if (frames.empty() || !is_own(frames.front())) return;
     if (!when_.holds(t_us)) {
@@ -135,14 +136,14 @@ class SlowNode final : public FaultyNode {
   }
   When when_;
   double longer_;
-  double ticks_us_ = 0;                      // time of the next transmission; 0: unaffected
-  std::map<std::string_view, double> kept_;  // increments of samples that were not sent, by signal
+  double ticks_us_ = 0;                      // time when a transmission is next due; 0: not active
+  std::map<std::string_view, double> kept_;  // by signal: sum of the increments that were not sent
   Recount recount_;
 };
 
 class WrongClock final : public FaultyNode {
  public:
-  /// The reported time is t + by + rate (t - from).
+  /// The node reports the time t + by + rate * (t - from).
   WrongClock(std::unique_ptr<Node> node, const NodeSettings& settings, const InRun& run, const When& when,
              std::int64_t by_us, double rate)
       : FaultyNode(std::move(node), settings, run), when_(when), by_us_(by_us), rate_(rate) {}
@@ -234,7 +235,7 @@ std::unique_ptr<Node> Slow::wrap(std::unique_ptr<Node> node, const NodeSettings&
 
 ClockStep ClockStep::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<ClockStep>(section, context);
-  kind.by_us = section.time_us({"by_ms", "Size of the step: it is added to the times of validity."}, {});
+  kind.by_us = section.time_us({"by_ms", "Size of the step, which is added to the times of validity."}, {});
   return kind;
 }
 std::string ClockStep::cannot(const Place& place) const { return needs_contract(place); }

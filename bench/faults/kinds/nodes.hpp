@@ -1,5 +1,5 @@
-// Faults of a node as a whole: its values are right, but its transmission times, its counters or its reported
-// times are wrong.
+// Faults of a node as a whole: the measured values are correct, but the transmission times, the counters or
+// the reported times are wrong.
 #pragma once
 
 #include "bench/faults/read.hpp"
@@ -22,19 +22,20 @@ struct OfNode {
   }
 };
 
-/// The node sends nothing, and its counters stand still.
+/// The node sends nothing, and its counters do not advance.
 struct Silent : OfNode<Silent> {
   static constexpr std::string_view kind = "silent";
   static constexpr std::string_view meaning =
-      "The node sends nothing; afterwards its counters continue where they stopped. The increments of that "
-      "time are lost.";
+      "The node sends nothing; afterwards its counters continue where they stopped. The increments of the "
+      "silent time are lost.";
   static Silent read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
                                                   const scenario::NodeSettings& settings,
                                                   const InRun& run) const;
 };
 
-/// The node is silent for a time; then its counters restart at 0. The measurements of that time are lost.
+/// The node is silent for a time; then its counters restart at 0. The measurements of the silent time are
+/// lost.
 struct NodeRestart : OfNode<NodeRestart> {
   static constexpr std::string_view kind = "restart";
   static constexpr std::string_view meaning =
@@ -45,10 +46,10 @@ struct NodeRestart : OfNode<NodeRestart> {
                                                   const InRun& run) const;
 };
 
-/// The node's samples are sent late, but with the right time of validity.
+/// The node's samples are sent late, but with the correct time of validity.
 struct Late : OfNode<Late> {
   static constexpr std::string_view kind = "late";
-  static constexpr std::string_view meaning = "The sample is sent later; its time of validity is right.";
+  static constexpr std::string_view meaning = "The sample is sent later. Its time of validity stays correct.";
   static constexpr Stage stage = Stage::sensor;
   std::int64_t by_us = 0;
   static Late read(scenario::Section& section, const scenario::FaultContext& context);
@@ -58,14 +59,14 @@ struct Late : OfNode<Late> {
                                                   const InRun& run) const;
 };
 
-/// The node sends less often: each time its newest sample, with the sum of the increments since the previous
-/// transmission.
+/// The node sends less often. Each time it sends its newest sample, with the sum of the increments since the
+/// previous transmission.
 struct Slow : OfNode<Slow> {
   static constexpr std::string_view kind = "slow";
   static constexpr std::string_view meaning =
-      "The node's period is longer. It sends its newest sample each time; the increments include those of "
-      "the samples that were left out.";
-  double longer = 0;  ///< additional period as a fraction of the right period
+      "The node sends samples with a longer period. Each time, the node sends the newest sample; its "
+      "increments include those of the samples that were not sent.";
+  double longer = 0;  ///< additional period as a fraction of the correct period
   static Slow read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
   [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
@@ -76,7 +77,8 @@ struct Slow : OfNode<Slow> {
 /// The times that the node reports have an offset.
 struct ClockStep : OfNode<ClockStep> {
   static constexpr std::string_view kind = "clock_step";
-  static constexpr std::string_view meaning = "The times of validity of the node are wrong by `by_ms`.";
+  static constexpr std::string_view meaning =
+      "All times of validity that the node sends are wrong by `by_ms`.";
   std::int64_t by_us = 0;
   static ClockStep read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
@@ -85,13 +87,13 @@ struct ClockStep : OfNode<ClockStep> {
                                                   const InRun& run) const;
 };
 
-/// The node's clock runs too fast or too slow, which also affects the intervals that the node reports.
+/// The clock of the node runs too fast or too slow. This also affects the intervals that the node reports.
 struct ClockDrift : OfNode<ClockDrift> {
   static constexpr std::string_view kind = "clock_drift";
   static constexpr std::string_view meaning =
       "The clock of the node runs at a wrong rate. If the clock is too fast, the node's times of validity "
-      "get more and more ahead of the true times, and the intervals that it sends are too long. If the clock "
-      "is too slow, the opposite.";
+      "get more and more ahead of the true times, and the intervals that the node sends are too long. If the "
+      "clock is too slow, the opposite is true.";
   double rate = 0;
   static ClockDrift read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;

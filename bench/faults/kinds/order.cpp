@@ -25,7 +25,7 @@ class DelayedFrames final : public OfFrames {
     ++tally().overtaken;
   }
   std::int64_t by_us_;
-  std::deque<std::pair<std::int64_t, Frame>> waiting_;  // in order of time, because all have the same delay
+  std::deque<std::pair<std::int64_t, Frame>> waiting_;  // by time, because all have the same delay
 };
 
 class ReorderedFrames final : public OfFrames {
@@ -33,7 +33,7 @@ class ReorderedFrames final : public OfFrames {
   using OfFrames::OfFrames;
 
  private:
-  // Swaps two successive frames: the second one is not held, even if it is affected.
+  // Swaps two successive frames of a message. The second frame is not held, even if the fault affects it too.
   void put(Own& own, const Frame& frame, std::int64_t /*t_us*/, std::vector<Frame>& left) override {
     if (own.held) return pass(own, frame, left);
     own.held = frame;

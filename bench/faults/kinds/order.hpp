@@ -5,7 +5,7 @@
 
 namespace canhil::faults {
 
-/// The frame is delayed by a time; unaffected frames overtake it.
+/// The frame is delayed by a constant time; frames that are not affected overtake it.
 struct Delayed : Frames {
   static constexpr std::string_view kind = "delayed";
   static constexpr std::string_view meaning = "The frame is sent later.";

@@ -53,11 +53,11 @@ class FloodFrames final : public Repeated {
 Stranger Stranger::read(scenario::Section& section, const scenario::FaultContext& context) {
   Stranger kind;
   kind.when = read_when(section, context, Repeats::stretch);
-  kind.period_us = section.time_us({"period_ms", "Time from a frame to the next."}, Limits::above(0));
+  kind.period_us = section.time_us({"period_ms", "Time from one frame to the next."}, Limits::above(0));
   kind.id = max_standard_id;
   while (kind.id > 0 && is_known(context, kind.id)) --kind.id;
   if (const auto id =
-          section.optional_integer({"id", "Id of the frames; by default the highest unused one."}, 0)) {
+          section.optional_integer({"id", "Id of the frames; by default the highest unused id."}, 0)) {
     kind.id = static_cast<std::uint32_t>(std::min<std::int64_t>(*id, max_standard_id));
     if (*id > max_standard_id || is_known(context, kind.id))
       section.reject("id", fmt::format("{} is used by the DBC, or has more than 11 bits", *id),
@@ -74,7 +74,7 @@ Flood Flood::read(scenario::Section& section, const scenario::FaultContext& cont
   Flood kind;
   kind.when = read_when(section, context, Repeats::stretch);
   kind.period_us =
-      section.optional_time_us({"period_us", "Time from a frame to the next."}, Limits::above(0));
+      section.optional_time_us({"period_us", "Time from one frame to the next."}, Limits::above(0));
   if (kind.period_us)
     section.refuse("load_percent", "is given beside period_us", "one of the two");
   else

@@ -20,14 +20,14 @@ struct Stranger {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// Frames of the highest priority: they precede all others.
+/// Frames of the highest priority: they win arbitration against all other frames.
 struct Flood {
   static constexpr std::string_view kind = "flood";
   static constexpr std::string_view meaning = "The bench sends extra frames of the highest priority.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   std::optional<std::int64_t> period_us{};
-  double load = 0;  ///< used without a period: the fraction of the bus's bit rate that the frames occupy
+  double load = 0;  ///< without `period_us`: the fraction of the bit rate that the frames occupy
   static Flood read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;

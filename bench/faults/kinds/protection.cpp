@@ -8,7 +8,8 @@
 namespace canhil::faults {
 namespace {
 
-// Requires canhil's own protection: in other messages, the positions of counter and CRC are unknown.
+// Requires messages with canhil's own protection: in other messages, the positions of counter and CRC are
+// unknown.
 template <class Kind>
 Kind read_protected(scenario::Section& section, const scenario::FaultContext& context) {
   Kind kind;
@@ -70,7 +71,7 @@ std::unique_ptr<Injector> CounterStuck::injector(const InRun& run) const {
 CounterJump CounterJump::read(scenario::Section& section, const scenario::FaultContext& context) {
   auto kind = read_protected<CounterJump>(section, context);
   kind.by = section.integer(
-      {"by", "Number that is added to the counter; less than a whole turn of the counter, so at most 14."},
+      {"by", "Number that is added to the counter. At most 14, because the counter repeats after 15 frames."},
       1);
   if (kind.by >= e2e::counter_period)
     section.reject("by", fmt::format("{} is a whole turn of the counter or more", kind.by),

@@ -1,4 +1,4 @@
-// Frames with right values but wrong protection.
+// Frames with correct values but a wrong counter or CRC.
 #pragma once
 
 #include "bench/faults/kinds/frames.hpp"
@@ -8,24 +8,24 @@ namespace canhil::faults {
 /// The CRC is wrong.
 struct WrongCrc : Frames {
   static constexpr std::string_view kind = "wrong_crc";
-  static constexpr std::string_view meaning = "The payload is right, the CRC is not.";
+  static constexpr std::string_view meaning = "The payload is correct, the CRC is wrong.";
   static WrongCrc read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// All affected frames have the counter of the first affected frame; the CRC is right.
+/// All affected frames have the counter of the first affected frame; the CRC is correct.
 struct CounterStuck : Frames {
   static constexpr std::string_view kind = "counter_stuck";
   static constexpr std::string_view meaning =
-      "The counter keeps the value of the first frame that the fault affects. The CRC is right.";
+      "The counter keeps the value of the first frame that the fault affects. The CRC is correct.";
   static CounterStuck read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The counter is too high; the CRC is right.
+/// The counter is too high; the CRC is correct.
 struct CounterJump : Frames {
   static constexpr std::string_view kind = "counter_jump";
-  static constexpr std::string_view meaning = "The counter is too high by `by`. The CRC is right.";
+  static constexpr std::string_view meaning = "The counter is too high by `by`. The CRC is correct.";
   std::int64_t by = 1;
   static CounterJump read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;

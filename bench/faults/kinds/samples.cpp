@@ -65,7 +65,8 @@ std::vector<Measured> flags_of(const MessageInfo& message) {
   return flags;
 }
 
-// The validity flags in this message. If it has none, those in the other messages of its sample group.
+// The validity flags in this message. If the message has none, the validity flags in the other messages of
+// its sample group.
 std::vector<Measured> flags_for(const MessageInfo& message) {
   std::vector<Measured> flags = flags_of(message);
   if (!flags.empty()) return flags;
@@ -81,10 +82,11 @@ std::vector<Measured> flags_for(const MessageInfo& message) {
 
 Swapped Swapped::read(scenario::Section& section, const scenario::FaultContext& context) {
   Swapped kind;
-  const mapping::Stimulus* one =
-      read_quantity(section, context, {"quantity", "Quantity, measured by a node (faults.md)."});
-  const mapping::Stimulus* other =
-      read_quantity(section, context, {"with", "The other quantity; it must have the same node and unit."});
+  const mapping::Stimulus* one = read_quantity(
+      section, context, {"quantity", "First of the two quantities that are exchanged (faults.md)."});
+  const mapping::Stimulus* other = read_quantity(
+      section, context,
+      {"with", "Second of the two quantities. It must have the same node and unit as the first."});
   kind.when = read_when(section, context, Repeats::each);
   if (one == nullptr || other == nullptr) return kind;
   if (one == other || one->si != other->si || one->node != other->node || one->over != other->over)
@@ -119,9 +121,8 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
     }
   } else {
     section.optional("node");
-    const mapping::Stimulus* stimulus =
-        read_quantity(section, context,
-                      {key, "Quantity, measured by a node, whose validity flags say invalid (faults.md)."});
+    const mapping::Stimulus* stimulus = read_quantity(
+        section, context, {key, "Measured quantity whose validity flags are set to invalid (faults.md)."});
     if (stimulus != nullptr) {
       kind.text = stimulus->name;
       kind.flags = flags_for(*stimulus->message);

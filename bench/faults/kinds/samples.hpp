@@ -1,4 +1,4 @@
-// Samples with wrong content in which each number is plausible.
+// Samples whose content is wrong, although each number by itself is plausible.
 #pragma once
 
 #include "bench/faults/read.hpp"
@@ -24,7 +24,7 @@ struct Swapped {
 /// The sample is flagged invalid.
 struct Invalid {
   static constexpr std::string_view kind = "invalid";
-  static constexpr std::string_view meaning = "The validity flags of the sample say invalid.";
+  static constexpr std::string_view meaning = "The validity flags of the sample are set to invalid.";
   static constexpr Stage stage = Stage::sensor;
   std::vector<Measured> flags{};
   std::string text{};

@@ -32,7 +32,7 @@ class Pauses final : public Switched {
   [[nodiscard]] bool silences() const override { return true; }
 };
 
-// Restarts the target at a Sync. The new process receives this Sync first, as at the start of a run.
+// Restarts the target when a Sync is due. The new process receives this Sync first, as at the start of a run.
 class Restarts final : public Injector {
  public:
   Restarts(const When& when, const InRun& run) : rig_(run.hands), tally_(run.tally), from_us_(when.from_us) {}

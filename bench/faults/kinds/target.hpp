@@ -9,7 +9,7 @@ namespace canhil::faults {
 struct Paused {
   static constexpr std::string_view kind = "paused";
   static constexpr std::string_view meaning =
-      "The target's process is stopped (SIGSTOP), and after `for_s` continued. Needs `for_s`.";
+      "The target's process is stopped (SIGSTOP) and, after `for_s`, continued. Needs `for_s`.";
   static constexpr Stage stage = Stage::target;
   When when{};
   static Paused read(scenario::Section& section, const scenario::FaultContext& context);
@@ -17,7 +17,7 @@ struct Paused {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The process gets only a fraction of the CPU time: in each period it is stopped for the remaining fraction.
+/// The process gets only a fraction of the CPU time: it is stopped for the rest of each period.
 struct Slowed {
   static constexpr std::string_view kind = "slowed";
   static constexpr std::string_view meaning =
@@ -31,13 +31,14 @@ struct Slowed {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The process is killed, started again and initialised with the state at that time. Until the new process
-/// has been initialised, the bench sends nothing else.
+/// The process is killed, started again and initialised with the state at the time of the restart. Until the
+/// new process has been initialised, the bench sends nothing else.
 struct Restarted {
   static constexpr std::string_view kind = "restarted";
   static constexpr std::string_view meaning =
       "The target's process is killed and started again. The bench then repeats the handshake. The initial "
-      "state is the true state at that time, with the same initial errors as at the start.";
+      "state that the bench sends is the true state at the time of the restart, with the same initial errors "
+      "as at the start of the run.";
   static constexpr Stage stage = Stage::target;
   When when{};
   static Restarted read(scenario::Section& section, const scenario::FaultContext& context);

@@ -1,5 +1,5 @@
-// Wrong measurements of a sensor: the sample is sent in time, with a valid counter and CRC. A value belongs
-// either to a quantity, in SI, or to a signal, in its unit.
+// Wrong measurements of a sensor: the sample is sent in time, with a valid counter and CRC. A value is either
+// the value of a quantity, in SI, or the value of a signal, in the unit of the signal.
 #pragma once
 
 #include <functional>
@@ -10,16 +10,16 @@
 
 namespace canhil::faults {
 
-/// A value of a sample in a run.
+/// What the wrong value may depend on, besides the correct value.
 struct Sampled {
-  std::int64_t since_us = 0;    ///< from the start of the fault
-  std::optional<double>& held;  ///< for kinds that remember a value: reset when the fault is not active
+  std::int64_t since_us = 0;    ///< time since the start of the fault
+  std::optional<double>& held;  ///< a value that the kind remembers; empty again when the fault is not active
   world::Stream& noise;
 };
 using Becomes = std::function<double(double value, const Sampled& sample)>;
 
-/// Wraps the node so that these values change; returns the node itself if it has none of them. `exactly`:
-/// the rounding remainders of increments are not added.
+/// Wraps the node so that the values `of` change; returns the node itself if it sends none of them.
+/// `exactly`: the rounding remainder of an increment is not added to the next increment.
 std::unique_ptr<nodes::Node> with_values(std::unique_ptr<nodes::Node> node,
                                          const scenario::NodeSettings& settings, const InRun& run,
                                          const OfValues& of, const When& when, Becomes becomes,
@@ -57,7 +57,7 @@ struct EachValue {
 struct Changed : EachValue<Changed> {
   static constexpr std::string_view kind = "changed", stem = "value", size_meaning = "New value.";
   static constexpr std::string_view meaning =
-      "The sensor's value is replaced by `value_UNIT`, a flag by 0 or 1.";
+      "The sensor's value is replaced by `value_UNIT`. A flag is replaced by 0 or 1.";
   static constexpr scenario::Limits limits{};
   static constexpr bool exactly = true;
   void check(scenario::Section& section) const;
@@ -88,13 +88,13 @@ struct Drift : EachValue<Drift> {
 struct Spike : EachValue<Spike> {
   static constexpr std::string_view kind = "spike", stem = "by", size_meaning = "Offset.";
   static constexpr std::string_view meaning =
-      "As `bias`, but for single samples: needs `every` above 1 or `percent` below 100.";
+      "As `bias`, but only single samples are changed. Needs `every` above 1 or `percent` below 100.";
   static constexpr scenario::Limits limits{};
   void check(scenario::Section& section) const;
   static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
 };
 
-/// The value remains as it was at the start of the fault.
+/// The value stays as it was at the start of the fault.
 struct Stuck : EachValue<Stuck> {
   static constexpr std::string_view kind = "stuck";
   static constexpr std::string_view meaning = "The sensor's value stays as it was at the start of the fault.";
@@ -120,7 +120,7 @@ struct Noise : EachValue<Noise> {
   }
 };
 
-/// The sign is wrong.
+/// The sign of the value is reversed.
 struct Reversed : EachValue<Reversed> {
   static constexpr std::string_view kind = "reversed";
   static constexpr std::string_view meaning = "The sign of the sensor's value is reversed.";

@@ -132,7 +132,7 @@ void add_tables(Names& names, const Results& results) {
 }
 
 // Adds comparisons in which the H2 filter is expected not to be better than the Kalman filter. The page must
-// not present them as a gain. Returns whether the expectation holds in all of them.
+// not present these comparisons as a gain. Returns whether the expectation holds in all of them.
 bool add_guards(Names& names, const Results& results) {
   bool all = true;
   const auto add = [&](std::string name, double kf, double h2, const char* unit) {

@@ -32,7 +32,8 @@ bool diverged(const Times& times);
 /// "14.7", or "never".
 std::string time_words(double t_s);
 
-/// Whether a curve over `runs` runs agrees with the times of the reference, a simulation of 150 runs.
+/// Whether the times of a curve agree with those of the reference, a simulation of 150 runs. `runs`: the
+/// number of runs from which the curve was computed.
 bool agrees(std::span<const CurvePoint> curve, const Times& reference, std::uint64_t runs);
 
 /// The sampling spread of the times of each variant, as text: the smallest and the largest time over ten

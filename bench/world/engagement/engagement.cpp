@@ -25,7 +25,7 @@ Planes<double> error_angles(const Vector3& los_a) {
   return {.pitch = std::atan2(-los_a.z(), los_a.x()), .yaw = std::atan2(los_a.y(), los_a.x())};
 }
 
-// Rate of the line of sight, perpendicular to it: omega = r x v / r^2.
+// Rate vector of the line of sight, without rotation about the line of sight itself: omega = r x v / r^2.
 Vector3 los_rate(const Vector3& r, const Vector3& v) { return r.cross(v) / r.squaredNorm(); }
 
 double side(Stream& stream) { return stream.uniform() < 0.5 ? -1.0 : 1.0; }
@@ -38,7 +38,7 @@ const EngagementTruth* EngagementRecord::at(std::int64_t t_us) const {
 }
 
 Engagement::Engagement(const EngagementPlan& plan, Stream stream) : plan_(plan) {
-  // Takes ten numbers of the stream, whatever the plan is.
+  // Takes ten numbers from the stream, whatever the plan is.
   const Planes<double> heading{.pitch = stream.normal(), .yaw = stream.normal()};
   const Planes<double> pointing{.pitch = stream.normal(), .yaw = stream.normal()};
   const Planes<double> sides{.pitch = side(stream), .yaw = side(stream)};

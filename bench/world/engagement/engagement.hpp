@@ -1,5 +1,5 @@
-// One flight of an engagement. It is computed on demand, because in closed loop it depends on the target's
-// answers.
+// One flight of an engagement. The flight is computed on demand, because in closed loop it depends on the
+// answers of the device under test. In this file, 'target' is the object that the missile flies to.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,11 +22,11 @@ struct EngagementTruth {
   Planes<double> missile{};               ///< missile acceleration along z and y [m/s^2]
   Vector3 relative_n = Vector3::Zero();   ///< target position relative to the missile [m]
   Vector3 velocity_n = Vector3::Zero();   ///< target velocity relative to the missile [m/s]
-  Vector3 omega_los_n = Vector3::Zero();  ///< rate of the line of sight, perpendicular to it [rad/s]
+  Vector3 omega_los_n = Vector3::Zero();  ///< rate vector, perpendicular to the line of sight [rad/s]
   Matrix3 C_na = Matrix3::Identity();     ///< transforms from antenna axes to n
 
   /// Time to the closest approach [s] if missile and target no longer accelerate. Except in the last metres,
-  /// it equals range over closing speed.
+  /// this time equals range over closing speed.
   [[nodiscard]] double time_to_go() const { return range * closing_speed / velocity_n.squaredNorm(); }
 };
 
@@ -43,9 +43,9 @@ struct EngagementRecord {
   std::optional<Vector3>
       miss_n;                   ///< target relative to missile at the closest approach [m]; none: not reached
   std::int64_t passage_us = 0;  ///< time of the closest approach
-  std::size_t late_commands = 0;  ///< commands whose effective time had already passed
+  std::size_t late_commands = 0;  ///< number of commands that came after their effective time
 
-  /// The epoch at a time, or null.
+  /// The truth at a time; null: no epoch has this time.
   [[nodiscard]] const EngagementTruth* at(std::int64_t t_us) const;
 };
 
@@ -57,8 +57,8 @@ class Engagement {
   void fly_to(std::int64_t t_us);
 
   /// Commands the acceleration a = N vc omega x v/|v| from an LOS rate in n [rad/s] and a closing speed
-  /// [m/s]. The acceleration is held from a time [us] until the next command. Commands must be in order of
-  /// time. False: the flight had already passed that time, so the command takes effect now.
+  /// [m/s]. The acceleration is held from the time from_us until the next command takes effect. Commands must
+  /// be in order of time. False: the flight has already passed from_us, so the command takes effect at once.
   bool command(std::int64_t from_us, const Vector3& omega_los_n, double closing_speed);
 
   [[nodiscard]] EngagementTruth truth() const;

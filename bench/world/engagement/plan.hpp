@@ -1,8 +1,8 @@
 // The plan of an engagement: a missile flies by proportional navigation at a target that may manoeuvre, and
 // the antenna of its seeker follows the line of sight. Defaults: head-on at 900 m/s from 5 km.
 //
-// Axes n do not rotate: x along the line of sight at the start, y right, z down. Gravity is left out,
-// because it acts on missile and target alike. The antenna's axes a: x forward, y right, z down.
+// Axes n do not rotate: x along the line of sight at the start, y right, z down. Gravity is omitted, because
+// gravity acts on missile and target alike. The antenna's axes a: x forward, y right, z down.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct Manoeuvre {
   std::optional<double> at_time_to_go = 1;  ///< start when range over closing speed falls to this value [s]
 };
 
-/// The source of the LOS rate for the guidance.
+/// The source of the LOS rate for the guidance. target: the answers of the device under test.
 enum class Guidance : std::uint8_t { truth, target };
 /// The planes in which heading error and manoeuvre act. Noise always acts in both planes.
 enum class ActivePlanes : std::uint8_t { both, pitch, yaw };
@@ -53,7 +53,7 @@ struct EngagementPlan {
   double servo_gain = 12;                                    ///< antenna rate per error angle [1/s]
   double roll_rate = 0;                                      ///< roll rate of the antenna [rad/s]
   Guidance guidance = Guidance::truth;
-  std::int64_t guidance_delay_us = 10'000;  ///< from transmission of a sample to the command by its answer
+  std::int64_t guidance_delay_us = 10'000;  ///< from sending a sample to the command that uses its answer
   bool guidance_predicts = false;           ///< extrapolates the answer to the time of the command
 };
 

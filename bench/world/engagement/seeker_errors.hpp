@@ -23,7 +23,7 @@ struct SeekerErrorModel {
   RandomValue gyro_bias{.value = 0, .sigma = 0.5e-3};  ///< of each axis [rad/s]
   double accel_noise = 0.3;                            ///< [m/s^2]
   RandomValue accel_bias{.value = 0, .sigma = 0.2};    ///< of each axis [m/s^2]
-  double range_noise = 5;  ///< beyond `full_errors_beyond`; below it, proportional to range [m]
+  double range_noise = 5;  ///< beyond `full_errors_beyond`; at shorter range, proportional to range [m]
   RandomValue range_bias{.value = 0, .sigma = 15};         ///< varies with range as range_noise does [m]
   double full_errors_beyond = 1000;                        ///< [m]
   double closing_speed_noise = 3;                          ///< [m/s]
@@ -47,7 +47,7 @@ class ErroneousSeeker {
  public:
   ErroneousSeeker(const SeekerErrorModel& model, Stream stream);
 
-  /// Takes thirteen numbers of the stream, whatever the sigmas are.
+  /// Takes thirteen numbers from the stream, whatever the sigmas are.
   SeekerMeasurement measure(const EngagementTruth& truth, const SeekerIncrement& increment);
 
  private:

@@ -65,7 +65,7 @@ std::array<double, coefficient_count> coefficients(const Flow& flow, const Vecto
                  Vector3(d.p, d.q, d.r).dot(reduced),
                  compressibility * Vector3(d.elevator, d.aileron, d.rudder).dot(fins)};
   };
-  // The drag uses the nominal lift, not the true one, so that only the factors of the drag change it.
+  // The drag uses the nominal lift, not the true lift, so that only the factors of the drag change the drag.
   const Parts lift = parts(lift_table);
   const double nominal_lift = sum(lift, nominal[0]);
   const double wave = 0.03 * (1 + std::tanh((flow.mach - 0.92) / 0.04));

@@ -11,7 +11,7 @@
 
 namespace canhil::world::glide {
 
-/// How n changes with time.
+/// How the random number n of a coefficient's error changes with time.
 enum class ErrorKind : std::uint8_t {
   white,    ///< drawn at every step of the truth
   held,     ///< drawn every `time_us`, then held
@@ -34,7 +34,7 @@ class CoefficientErrors {
 
   /// The current factors.
   [[nodiscard]] const Factors& now() const { return factors_; }
-  /// Advances to t_us, dt_us after the previous time.
+  /// Advances to t_us, which is dt_us after the time of the previous call.
   void advance(std::int64_t t_us, std::int64_t dt_us);
 
  private:

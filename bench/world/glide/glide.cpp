@@ -109,7 +109,7 @@ GlideTruth truth(const State& x, std::int64_t t_us, const GlidePlan& plan, const
   return now;
 }
 
-// Whether the glider is above the ground and not faster than the tables cover.
+// Whether the state is finite, the glider is above the ground, and its speed over ground is below 1000 m/s.
 bool flies(const State& x, const GlidePlan& plan) {
   constexpr double fastest = 1000;  // [m/s]
   return x.allFinite() && three(x, velocity_at).norm() < fastest && height_of(x, plan) > 0;

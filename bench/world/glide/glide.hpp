@@ -1,5 +1,5 @@
-// The truth of an unpowered glider in the wind: six degrees of freedom over a flat, non-rotating Earth. This
-// is the model of the published estimator.
+// The truth of an unpowered glider in the wind: six degrees of freedom over a flat, non-rotating Earth. The
+// published estimator uses the same model of the Earth.
 //
 // States: position and ground velocity (NED), attitude quaternion, rates, fins, and the autopilot's integral.
 // The air velocity is not a state, so the equations differ from those of any wind filter. The wind acts on

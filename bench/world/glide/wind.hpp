@@ -44,7 +44,7 @@ class Gusts {
   Gusts(const GustModel& model, Stream stream);
   /// The current gust, NED [m/s].
   [[nodiscard]] const Vector3& now() const { return now_; }
-  /// Advances by dt [s]. Takes three numbers of the stream.
+  /// Advances by dt [s]. Takes three numbers from the stream.
   void advance(double dt);
 
  private:

@@ -35,9 +35,9 @@ struct SPath {
 
 Kinematics kinematics(const SPath& motion, double t);
 
-/// Straight legs joined by half turns to the right: a leg, a half turn, a leg, ... The rate of a turn rises
-/// and falls smoothly, pi / turn (1 - cos(2 pi tau / turn)), and so does the roll. So acceleration and rate
-/// have no jumps.
+/// Straight legs joined by half turns to the right: a leg, a half turn, a leg, ... The rate of a turn,
+/// pi / turn (1 - cos(2 pi tau / turn)), and the roll rise and fall smoothly. So acceleration and rate have
+/// no jumps.
 struct Racetrack {
   double speed = 0;    ///< constant, along the nose [m/s]
   double heading = 0;  ///< of the first leg [rad]

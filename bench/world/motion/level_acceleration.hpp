@@ -11,7 +11,7 @@ namespace canhil::world {
 struct LevelAcceleration {
   double heading = 0;          ///< [rad]
   double speed = 0;            ///< at the start [m/s]
-  std::int64_t cruise_us = 0;  ///< the acceleration begins here
+  std::int64_t cruise_us = 0;  ///< time at which the acceleration begins
   double acceleration = 0;     ///< [m/s^2]
 };
 

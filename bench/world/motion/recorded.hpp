@@ -3,10 +3,10 @@
 // Velocity and the attitude quaternion are natural cubic splines through the samples. So acceleration and
 // angular rate are continuous, and they integrate back to the recorded velocity and attitude at every sample.
 // Position is the integral of velocity. A spline through recorded positions would be worse: at 50 Hz,
-// positions rounded to a centimetre cause 25 m/s^2 of acceleration, velocities rounded to a millimetre per
-// second 0.05 m/s^2. To limit the drift from the recorded positions over a long flight, the velocity is
-// corrected by the rate of the position difference, averaged over `averaged_s`. The additional acceleration
-// is negligible.
+// positions rounded to a centimetre cause acceleration errors of 25 m/s^2, velocities rounded to a millimetre
+// per second cause errors of only 0.05 m/s^2. To limit the drift from the recorded positions over a long
+// flight, the velocity is corrected by the rate of the position difference, averaged over `averaged_s`. The
+// additional acceleration is negligible.
 //
 // The quaternion's components are splined and the result is normalised. The interpolation error is of fourth
 // order in the rotation angle between two samples. Unlike Euler angles, the quaternion has no singularity and

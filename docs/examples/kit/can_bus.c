@@ -79,7 +79,7 @@ static int open_can(const char* name) {
   return bind(s, (const struct sockaddr*)&address, sizeof address) != 0 ? -1 : s;
 }
 
-/* ---- both ---- */
+/* ---- both kinds of bus ---- */
 
 bool can_bus_open(can_bus* b, const char* name) {
   b->local = strncmp(name, "local:", 6) == 0;
@@ -118,7 +118,7 @@ void can_bus_send(void* context, const canhil_frame* frame) {
     if (sent >= 0 || (errno != EAGAIN && errno != ENOBUFS && errno != EINTR)) return;
     room.fd = b->socket;
     poll(&room, 1, 1);
-    if (errno == ENOBUFS) usleep(1000); /* the interface's queue is full; poll() does not wait for it */
+    if (errno == ENOBUFS) usleep(1000); /* the interface's queue is full; poll() does not wait until this queue has room */
   }
 }
 

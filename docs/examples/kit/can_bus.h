@@ -1,4 +1,4 @@
-/* A CAN bus for a Linux process: SocketCAN, or the embedded bus local:NAME of hil-bench. Classic frames with 11-bit ids. */
+/* Access of a Linux process to a CAN bus: SocketCAN, or the embedded bus local:NAME of hil-bench. Only classic frames with 11-bit ids. */
 #ifndef CANHIL_CAN_BUS_H
 #define CANHIL_CAN_BUS_H
 
@@ -14,12 +14,12 @@ typedef struct {
 
 /* Opens can0, vcan0 or local:NAME. On failure returns false and sets errno. */
 bool can_bus_open(can_bus* b, const char* name);
-/* Sends a frame; b is a can_bus. A frame is lost if the bus has no room for 50 ms. */
+/* Sends a frame; b points to a can_bus. If the bus accepts no frame for 50 ms, the frame is lost. */
 void can_bus_send(void* b, const canhil_frame* frame);
-/* Returns 1: a frame, with its stamp [ns]; 0: no frame waits; -1: the bus has ended. A frame of another kind gets the id 0xFFFF, which no
- * message has. */
+/* Receives a frame and its stamp [ns]. Returns 1 if there was one, 0 if no frame is waiting, -1 if the bus has ended. A frame that is not a
+ * classic frame with an 11-bit id gets the id 0xFFFF, which no message has. */
 int can_bus_receive(can_bus* b, canhil_frame* frame, int64_t* stamp_ns);
-/* Now [ns]. */
+/* The present time of this clock [ns]. */
 int64_t can_bus_clock_ns(clockid_t clock);
 
 #endif

@@ -5,8 +5,8 @@
 #include <string.h>
 
 enum { NO_COUNTER = 0xFF, COUNTERS = 15 };
-static const int64_t lead_limit_us = 100000;  /* a sample further ahead of the time base is rejected */
-static const int64_t silence_limit_us = 500000; /* a longer silence of the sensor is reported */
+static const int64_t lead_limit_us = 100000;  /* a sample whose time is further ahead of the time base is rejected */
+static const int64_t silence_limit_us = 500000; /* the target reports a longer silence of the sensor */
 static const uint32_t bench_silent_ms = 2 * CANHIL_HEARTBEAT_MS, bench_gone_ms = 2000;
 
 /* ---- frames ---- */
@@ -71,7 +71,7 @@ static void values_of(const canhil_target* target, unsigned group, double* value
   }
 }
 
-/* Sends all messages of a group in the order of their ids; the last one carries the time. */
+/* Sends all messages of a group in the order of their ids. The last message contains the time. */
 static void send_group(canhil_target* target, unsigned group, const double* values) {
   unsigned m, s;
   for (m = 0; m < canhil_groups[group].messages; ++m) {
@@ -112,7 +112,7 @@ static void send_counters(canhil_target* target) {
   v[CANHIL_TARGET_COUNTERS_BAD_CRC] = target->bad_crc;
   v[CANHIL_TARGET_COUNTERS_BAD_GROUP] = target->bad_group;
   v[CANHIL_TARGET_COUNTERS_LATE] = target->late;
-  send_group(target, CANHIL_GROUP_TARGET_COUNTERS, v); /* a count beyond the signal's range stays at its end */
+  send_group(target, CANHIL_GROUP_TARGET_COUNTERS, v); /* a count beyond the signal's range is sent as the largest value */
 }
 
 static void enter(canhil_target* target, uint8_t state) {
@@ -122,7 +122,7 @@ static void enter(canhil_target* target, uint8_t state) {
 
 /* ---- commands ---- */
 
-/* Restores the state after program start, except the clock of canhil_target_poll(). */
+/* Restores the state that the target has after program start. Keeps the clock of canhil_target_poll(). */
 static void forget(canhil_target* target) {
   const canhil_target fresh = {0};
   canhil_target old = *target;
@@ -156,7 +156,7 @@ static void reset(canhil_target* target, uint8_t estimator, uint8_t algorithm) {
 static void start(canhil_target* target) {
   const bool again = target->state == CANHIL_TARGET_STATE_RUNNING && target->untouched;
   if (target->state == CANHIL_TARGET_STATE_READY || again) {
-    memset(target->next, 0, sizeof target->next); /* so that a repeated command changes nothing */
+    memset(target->next, 0, sizeof target->next); /* with these resets, a repeated start command has the same effect as a single one */
     memset(target->answered, 0, sizeof target->answered);
     memset(target->seen, 0, sizeof target->seen);
     target->untouched = true;
@@ -188,7 +188,7 @@ static void on_command(canhil_target* target, const double* v) {
       return;
     case CANHIL_COMMAND_NONE:
       break;
-    default: /* add: this target runs one estimator */
+    default: /* unknown commands, and add: this target can run only one estimator */
       target->command = true;
   }
   send_heartbeat(target);
@@ -208,7 +208,7 @@ static void on_parameter(canhil_target* target, const double* request) {
       ack[CANHIL_PARAM_ACK_STATUS] = CANHIL_PARAMETER_STATUS_WRONG_STATE;
     } else if (!(value >= parameter->minimum && value <= parameter->maximum) ||
                (parameter->whole && nearbyint(value) != value)) {
-      ack[CANHIL_PARAM_ACK_STATUS] = CANHIL_PARAMETER_STATUS_OUT_OF_RANGE; /* NaN too */
+      ack[CANHIL_PARAM_ACK_STATUS] = CANHIL_PARAMETER_STATUS_OUT_OF_RANGE; /* also for NaN */
     } else {
       ack[CANHIL_PARAM_ACK_STATUS] = CANHIL_PARAMETER_STATUS_ACCEPTED;
       target->parameters[i] = value;
@@ -249,7 +249,7 @@ static void on_sync(canhil_target* target, const double* v) {
   }
 }
 
-/* Unwraps a time that was sent modulo 2^length steps: takes the one nearest to now. */
+/* Unwraps a time that was sent modulo 2^length steps: returns the possible time that is nearest to the present time. */
 static int64_t unwrapped_us(const canhil_target* target, unsigned group, double value) {
   const canhil_group* g = &canhil_groups[group];
   const canhil_message* last = &canhil_messages[g->first_message + g->messages - 1];
@@ -286,7 +286,7 @@ static bool on_sample(canhil_target* target, unsigned which, const double* value
   }
   if (pair->answer == CANHIL_GROUPS) return false;
   if (canhil_groups[pair->answer].cause_time >= 0)
-    answer[canhil_groups[pair->answer].cause_time] = (double)(uint32_t)t_us; /* it wraps every 71.6 minutes */
+    answer[canhil_groups[pair->answer].cause_time] = (double)(uint32_t)t_us; /* this time wraps every 71.6 minutes */
   if (canhil_groups[pair->answer].cause_counter >= 0)
     answer[canhil_groups[pair->answer].cause_counter] = target->group_counter[pair->input];
   send_group(target, pair->answer, answer);
@@ -295,7 +295,8 @@ static bool on_sample(canhil_target* target, unsigned which, const double* value
 
 /* ---- frames to groups ---- */
 
-/* Stores a message. Returns true if its group is complete. A message with another counter discards the incomplete group before it. */
+/* Stores a message. Returns true if its group is now complete. If the message has another counter than the incomplete group so far, this
+ * group is discarded. */
 static bool completes(canhil_target* target, unsigned index, const uint8_t* data) {
   const unsigned group = canhil_messages[index].group;
   const unsigned place = index - canhil_groups[group].first_message;
@@ -357,7 +358,7 @@ bool canhil_target_receive(canhil_target* target, const canhil_frame* frame) {
     target->bench_heard = true;
   before = target->received[index];
   target->received[index] = counter;
-  /* A restarted bench can send the same counter again, so commands are always obeyed. */
+  /* Commands are always obeyed, because a restarted bench can send the same counter again. */
   if (before == counter && canhil_messages[index].group != CANHIL_GROUP_TARGET_COMMAND) {
     ++target->late;
     return false;
@@ -370,7 +371,7 @@ bool canhil_target_receive(canhil_target* target, const canhil_frame* frame) {
   return dispatch(target, index, frame->data);
 }
 
-/* ---- the process around it ---- */
+/* ---- the functions that the process calls ---- */
 
 void canhil_target_init(canhil_target* target, const canhil_estimator* estimator, canhil_send send, void* bus) {
   memset(target, 0, sizeof *target);
@@ -404,8 +405,8 @@ static void send_timing(canhil_target* target) {
   target->queue_sum_us = target->compute_sum_us = 0;
 }
 
-/* In a run the target sends no heartbeat by its own clock, so that a replay produces the same frames. It starts again when the bench is
- * gone. */
+/* In a run the target sends no heartbeat by its own clock, so that a replay produces the same frames. The target does so again when the
+ * bench is gone. */
 void canhil_target_poll(canhil_target* target, uint32_t now_ms) {
   if (!target->polled) {
     target->polled = true;

@@ -1,6 +1,6 @@
-"""A target for the canhil bench without the estimator: state machine, protection of frames, sample groups, parameters, heartbeat and
-counts of lost frames, with the buses local:NAME and SocketCAN. It needs only Python's standard library. docs/own-target.md describes
-the protocol.
+"""A target for the canhil bench; only the estimator is missing. It contains the state machine, the protection of frames, sample groups,
+parameters, the heartbeat, counts of lost frames, and the buses local:NAME and SocketCAN. It needs only Python's standard library.
+docs/own-target.md describes the protocol.
 
     class MyFilter: ...                      # see Estimator
     sys.exit(canhil_target.serve(MyFilter(), bus))
@@ -20,13 +20,13 @@ from canhil_messages import ANSWERS, CYCLE_MS, DBC_HASH24, FROM_TARGET, GROUPS, 
 
 COUNTERS = 15  # E2E profile 11 counts from 0 to 14
 HEARTBEAT_US = round(CYCLE_MS["TargetHeartbeat"] * 1000)
-LEAD_LIMIT_US = 100_000  # a sample further ahead of the time base is rejected
-SILENCE_LIMIT_US = 500_000  # a longer silence of the sensor is reported
+LEAD_LIMIT_US = 100_000  # a sample whose time is further ahead of the time base is rejected
+SILENCE_LIMIT_US = 500_000  # the target reports a longer silence of the sensor
 BENCH_SILENT_S, BENCH_GONE_S = 2e-6 * HEARTBEAT_US, 2.0
 
 
 class Parameter(NamedTuple):
-    """A parameter, in the unit of its name."""
+    """A parameter. Its values are in the unit that its name contains."""
     initial: float
     minimum: float
     maximum: float
@@ -35,20 +35,21 @@ class Parameter(NamedTuple):
 
 
 class Estimator:
-    """The user derives from this. The values of a group are a dictionary by signal name. A signal with a value table in the DBC has a name
-    as its value."""
+    """The user derives a class from this one. The values of a group are a dictionary {name of the signal: value}. If a signal has a value table in
+    the DBC, its value is a name from this table."""
     estimator = "none"  # a name from the value table Estimator
     algorithms = ()  # names from the value table Algorithm
-    answers = {}  # input group: the group of the answer, or None
-    parameters = {}  # name: Parameter
+    answers = {}  # {input group: the group of the answer, or None}
+    parameters = {}  # {name: Parameter}
 
     def start(self, algorithm, parameters, initial):
-        """Starts from the beginning. parameters: {name: value}, which may change later; initial: the values of group TargetInit."""
+        """Starts the estimator from the beginning. parameters: {name: value}; the kit may change the values during the run. initial: the values of
+        group TargetInit."""
 
     def sample(self, group, values, t_us):
-        """Processes one complete sample, newer than the one before. t_us: its time of validity in the bench's time base, unwrapped. Returns the
-        values of the answer; missing values are 0, and the kit adds cause_time_us and cause_counter. Raises ArithmeticError if the filter cannot
-        continue."""
+        """Processes one complete sample that is newer than the sample before. t_us: its time of validity in the bench's time base, unwrapped. Returns
+        the values of the answer; a missing value is sent as 0, and the kit adds cause_time_us and cause_counter. Raises ArithmeticError if the
+        filter cannot continue."""
         raise NotImplementedError
 
 
@@ -78,7 +79,7 @@ def decode(data, signals):
 
 
 def encode(size, signals, values):
-    """Rounds half to even and clamps to the signal's range. NaN becomes the lowest value; a missing value is 0."""
+    """Packs the values of signals into a frame. Rounds half to even and clamps to the signal's range. NaN becomes the lowest value; a missing value is 0."""
     word = 0
     for name, start, length, kind, scale, offset, lowest, highest, table in signals:
         value = values.get(name, 0)
@@ -96,29 +97,29 @@ HEARTBEAT_ID = GROUPS["TargetHeartbeat"][0][1]
 
 
 class Target:
-    """Takes frames and calls `send(id, data)` for each frame that it sends. Has no clock and no bus."""
+    """The target without clock and bus: receive() processes a frame; for each frame that the target sends, it calls `send(id, data)`."""
 
     def __init__(self, estimator, send):
         self.estimator, self.send = estimator, send
         self.forget()
 
     def forget(self):
-        """Restores the state after program start."""
+        """Restores the state that the target has after program start."""
         self.state, self.selected, self.algorithm = "idle", "none", 0
         self.errors = dict.fromkeys(("dbc_mismatch", "not_initialised", "input_lost", "input_silent", "numeric", "command"), False)
         self.losses = dict.fromkeys(("frames_lost", "bad_crc", "bad_group", "late"), 0)
         self.untouched = self.lockstep = False
         self.parameters = {name: one.initial for name, one in self.estimator.parameters.items()}
         self.initial = {}
-        self.received, self.next = {}, {}  # counters by id
-        self.pending = {}  # group: (counter, {place: values})
+        self.received, self.next = {}, {}  # {id: counter}: last received, and for the next transmission
+        self.pending = {}  # incomplete groups: {group: (counter, {index of the message: values})}
         self.now_us = self.heartbeat_due_us = self.heard_us = 0
         self.answered_us = {}
 
     # -- status messages --
 
     def send_group(self, group, values):
-        """Sends all messages of a group in the order of their ids; the last one carries the time."""
+        """Sends all messages of a group in the order of their ids. The last message contains the time."""
         for _, identifier, data_id, size, signals in GROUPS[group]:
             data = encode(size, signals, values)
             counter = self.next.get(identifier, 0)
@@ -142,7 +143,8 @@ class Target:
     # -- frames to groups --
 
     def receive(self, identifier, data):
-        """Processes a frame. Returns 'sample' if it completed a sample that was answered, 'bench' if only a bench sends it, otherwise ''."""
+        """Processes a frame. Returns 'sample' if the frame completed a sample that was answered, 'bench' if only a bench sends such frames,
+        otherwise ''."""
         if identifier not in MESSAGES or MESSAGES[identifier][0] in FROM_TARGET:
             return ""
         group, place, (_, _, data_id, size, signals) = MESSAGES[identifier]
@@ -153,7 +155,7 @@ class Target:
             return ""
         before = self.received.get(identifier)
         self.received[identifier] = counter
-        if before == counter and group != "TargetCommand":  # a restarted bench can send the same counter again
+        if before == counter and group != "TargetCommand":  # commands are always obeyed: a restarted bench can send the same counter again
             self.losses["late"] += 1
             return ""
         lost = 0 if before in (None, counter) else (counter - before - 1) % COUNTERS
@@ -184,7 +186,8 @@ class Target:
         return False
 
     def completed(self, group, place, counter, values):
-        """Returns the values of a complete group, otherwise None. A message with another counter discards the incomplete group before it."""
+        """Returns the values of the group if it is now complete, otherwise None. If the message has another counter than the incomplete group so
+        far, this group is discarded."""
         before, parts = self.pending.pop(group, (counter, {}))
         if before != counter:
             self.losses["bad_group"] += 1
@@ -209,7 +212,7 @@ class Target:
             self.enter("idle" if self.state == "running" else self.state)
         elif command["command"] == "none":
             self.send_heartbeat()
-        else:  # add: this target runs one estimator
+        else:  # unknown commands, and add: this target can run only one estimator
             self.refuse("command")
 
     def reset(self, estimator, algorithm):
@@ -222,7 +225,7 @@ class Target:
         self.enter("idle")
 
     def start(self):
-        if self.state == "ready" or (self.state == "running" and self.untouched):  # a repeated command changes nothing
+        if self.state == "ready" or (self.state == "running" and self.untouched):  # untouched: a repeated start command changes nothing
             self.next, self.pending, self.answered_us = {}, {}, {}
             self.untouched, self.heard_us = True, self.now_us
             self.estimator.start(self.algorithm, self.parameters, self.initial)
@@ -238,7 +241,7 @@ class Target:
             status = "unknown"
         elif self.state == "running" and not parameter.while_running:
             status = "wrong_state"
-        elif not parameter.minimum <= value <= parameter.maximum or (parameter.whole and value != round(value)):  # NaN too
+        elif not parameter.minimum <= value <= parameter.maximum or (parameter.whole and value != round(value)):  # also for NaN
             status = "out_of_range"
         else:
             self.parameters[name] = value
@@ -261,12 +264,12 @@ class Target:
         if self.now_us >= self.heartbeat_due_us:
             self.heartbeat_due_us = (self.now_us // HEARTBEAT_US + 1) * HEARTBEAT_US
             self.send_heartbeat()
-            self.send_group("TargetCounters", self.losses)  # a count beyond the signal's range stays at its end
+            self.send_group("TargetCounters", self.losses)  # a count beyond the signal's range is sent as the largest value
         if self.lockstep:
             self.send_group("StepDone", {"step": sync["step"]})
 
     def unwrapped_us(self, group, value):
-        """Unwraps a time that was sent modulo 2^length steps: takes the one nearest to now."""
+        """Unwraps a time that was sent modulo 2^length steps: returns the possible time that is nearest to the present time."""
         _, _, length, _, scale, *_ = next(s for m in GROUPS[group] for s in m[4] if s[0] == "time_of_validity_us")
         period = round(2**length * scale)
         return self.now_us + (round(value) - self.now_us + period // 2) % period - period // 2
@@ -297,7 +300,7 @@ class Target:
 # ---- buses ----
 
 class LocalBus:
-    """The embedded bus local:NAME. Its format is in docs/own-target.md."""
+    """The embedded bus local:NAME. docs/own-target.md describes the format of its datagrams."""
     stamp_clock = time.CLOCK_MONOTONIC
 
     def __init__(self, name):
@@ -311,11 +314,11 @@ class LocalBus:
         folder = f"{runtime}/canhil" if private else f"/tmp/canhil-uid-{os.geteuid()}"
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.socket.connect(f"{folder}/{name}.classic")
-        # magic "CHH1", echo of own frames, only some ids, a bit for each of them, the name of the node
+        # The fields: magic "CHH1"; echo of own frames; whether only some ids are wanted; a bit for each wanted id; the name of the node.
         self.socket.send(struct.pack("<IBB256s66s", 0x31484843, 0, 0, b"", b"kit"))
 
     def receive(self):
-        """Returns (id, data, stamp [ns]), or None at the end of the bus. id is None for all but classic frames with an 11-bit id."""
+        """Returns (id, data, stamp [ns]), or None if the bus has ended. The id is None if the frame is not a classic frame with an 11-bit id."""
         try:
             datagram = self.socket.recv(80)
         except ConnectionResetError:
@@ -349,7 +352,7 @@ class SocketCan:
             if kind == self.SO_TIMESTAMPNS:
                 seconds, nanoseconds = struct.unpack("qq", data)
                 stamp = seconds * 1_000_000_000 + nanoseconds
-        return (identifier if identifier < 0x800 else None), frame[8:8 + size], stamp  # the flags are above the 11 bits of the id
+        return (identifier if identifier < 0x800 else None), frame[8:8 + size], stamp  # flags of other kinds of frames are bits above 0x7FF
 
     def send(self, identifier, data):
         self.socket.send(struct.pack("=IB3x8s", identifier, len(data), data))
@@ -373,16 +376,16 @@ class Process:
         self.timing = []
 
     def send(self, identifier, data):
-        """A frame is lost if the bus has no room for 20 ms; the bench detects this by the counters."""
+        """If the bus accepts no frame for 20 ms, the frame is lost; the bench detects this by the counters."""
         try:
             self.bus.send(identifier, data)
         except (TimeoutError, OSError):
             pass
 
     def take(self, received):
-        """Returns False if another target is on this bus."""
+        """Processes a received frame. Returns False if another target is on this bus."""
         identifier, data, stamp_ns = received
-        if not self.established:  # before its first frame it listens for 1.25 heartbeat periods
+        if not self.established:  # before its first frame, the target listens to the bus for 1.25 heartbeat periods
             return identifier != HEARTBEAT_ID
         if identifier is None:
             return True
@@ -395,8 +398,8 @@ class Process:
         return True
 
     def look_at_clock(self):
-        """In a run the target sends no heartbeat by its own clock, so that a replay produces the same frames. It starts again when the bench
-        is gone."""
+        """In a run the target sends no heartbeat by its own clock, so that a replay produces the same frames. The target does so again when the
+        bench is gone."""
         now = time.monotonic()
         self.established = self.established or now - self.begun >= 1.25e-6 * HEARTBEAT_US
         if not self.established or now - self.report < 1e-6 * HEARTBEAT_US:

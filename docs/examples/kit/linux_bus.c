@@ -26,7 +26,7 @@ static uint32_t microseconds(int64_t ns) { return ns < 0 ? 0 : (uint32_t)(ns / 1
 int canhil_serve(const canhil_estimator* estimator, int argc, char** argv) {
   static canhil_target target;
   static can_bus b;
-  const int64_t listen_ns = (int64_t)CANHIL_HEARTBEAT_MS * 1250000; /* 1.25 heartbeat periods, to find out whether the bus already has a target */
+  const int64_t listen_ns = (int64_t)CANHIL_HEARTBEAT_MS * 1250000; /* listens for 1.25 heartbeat periods: is there already a target on the bus? */
   int64_t begun_ns;
   const char* name = NULL;
   bool established = false;
@@ -48,7 +48,7 @@ int canhil_serve(const canhil_estimator* estimator, int argc, char** argv) {
     int left;
     waiting.fd = b.socket;
     poll(&waiting, 1, 20);
-    for (left = 256; left > 0; --left) { /* if frames come without a pause, check the clock after 256 of them */
+    for (left = 256; left > 0; --left) { /* checks the clock after 256 frames, even if further frames are waiting */
       canhil_frame frame;
       int64_t stamp_ns, start_ns;
       const int got = can_bus_receive(&b, &frame, &stamp_ns);

@@ -1,4 +1,4 @@
-/* An example of the kit, the line-of-sight rate of a seeker by an alpha-beta-gamma filter:
+/* An example of the kit: an alpha-beta-gamma filter that estimates the line-of-sight rate of a seeker.
  *   cc -std=c99 -O2 -ffp-contract=off -o los_rate los_rate.c canhil_target.c linux_bus.c can_bus.c -lm
  *   hil-bench run bench/flights/los_quick.toml --target ./los_rate
  * los_rate.py is the same filter in Python; its answers are bit for bit the same. */
@@ -21,11 +21,11 @@ static const canhil_parameter parameters[PARAMETERS] = {
 };
 static const uint8_t algorithms[] = {CANHIL_ALGORITHM_COMBINED, CANHIL_ALGORITHM_LOW_PASS};
 static const canhil_answer answers[] = {{CANHIL_GROUP_SEEKER, CANHIL_GROUP_LOS_RATE}};
-static const double least_range_m = 50; /* shorter ranges make no sense geometrically */
+static const double least_range_m = 50; /* a shorter measured range is replaced by this one, because the filter divides by the range */
 
 /* One plane of the seeker. */
 typedef struct {
-  double error, rate, target; /* angle of the LOS to the antenna [rad], inertial LOS rate [rad/s], target acceleration [m/s2] */
+  double error, rate, target; /* angle from the antenna to the LOS [rad], inertial LOS rate [rad/s], acceleration of the seeker's target [m/s2] */
   double sigma, nis;
 } plane;
 
@@ -38,11 +38,11 @@ typedef struct {
   bool timed;
 } filter;
 
-/* Processes the n-th sample: measured error angle, rotation of the antenna, acceleration of the missile; noise [rad], agility [m/s2].
- * rate' = (2 closing rate + target - missile) / range. */
+/* Processes the n-th sample. measured: error angle; turned: rotation of the antenna; missile: acceleration of the missile; reach: range; noise
+ * [rad]; agility [m/s2]. The model: d(rate)/dt = (2 closing rate + target - missile) / range. */
 static void step(plane* p, double measured, double turned, double missile, double dt, double reach, double closing, double noise,
                  double agility, double n) {
-  /* Gains from Kalata's tracking index: the ratio of target manoeuvre to measurement noise (IEEE AES-20 (1984), 174). */
+  /* The gains follow from Kalata's tracking index, the ratio of target manoeuvre to measurement noise (IEEE AES-20 (1984), 174). */
   const double index = agility / reach * dt * dt / noise;
   const double root = (4 + index - sqrt(8 * index + index * index)) / 4;
   double alpha = 1 - root * root, beta = 2 * (2 - alpha) - 4 * root;
@@ -50,7 +50,7 @@ static void step(plane* p, double measured, double turned, double missile, doubl
   double innovation;
   p->error += p->rate * dt - turned;
   p->rate += (2 * closing * p->rate + p->target - missile) / reach * dt;
-  if (n > 1) { /* at the beginning: a straight line through the samples so far, while its gains are larger */
+  if (n > 1) { /* the gains of a straight line through the first n samples are used as long as they are larger */
     alpha = fmax(alpha, fmin(2 * (2 * n - 1) / (n * (n + 1)), 0.99));
     beta = fmax(beta, 6 / (n * (n + 1)));
   } else {

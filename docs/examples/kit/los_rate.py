@@ -11,27 +11,27 @@ import sys
 import canhil_target
 from canhil_target import Parameter
 
-LEAST_RANGE_M = 50.0  # shorter ranges make no sense geometrically
+LEAST_RANGE_M = 50.0  # a shorter measured range is replaced by this one, because the filter divides by the range
 
 
 class Plane:
-    """One plane of the seeker: angle of the LOS to the antenna [rad], inertial LOS rate [rad/s], target acceleration [m/s2]."""
+    """One plane of the seeker: angle from the antenna to the LOS [rad], inertial LOS rate [rad/s], acceleration of the seeker's target [m/s2]."""
 
     def __init__(self):
         self.error = self.rate = self.target = self.sigma = self.nis = 0.0
 
     def step(self, measured, turned, missile, dt, reach, closing, noise, agility, n):
-        """Processes the n-th sample: measured error angle, rotation of the antenna, acceleration of the missile; noise [rad], agility [m/s2].
-        rate' = (2 closing rate + target - missile) / range."""
+        """Processes the n-th sample. measured: error angle; turned: rotation of the antenna; missile: acceleration of the missile; reach: range; noise
+        [rad]; agility [m/s2]. The model: d(rate)/dt = (2 closing rate + target - missile) / range."""
         self.error += self.rate * dt - turned
         self.rate += (2 * closing * self.rate + self.target - missile) / reach * dt
-        # Gains from Kalata's tracking index: the ratio of target manoeuvre to measurement noise (IEEE AES-20 (1984), 174).
+        # The gains follow from Kalata's tracking index, the ratio of target manoeuvre to measurement noise (IEEE AES-20 (1984), 174).
         index = agility / reach * dt * dt / noise
         root = (4 + index - math.sqrt(8 * index + index * index)) / 4
         alpha = 1 - root * root
         beta = 2 * (2 - alpha) - 4 * root
         gamma = beta * beta / alpha
-        if n > 1:  # at the beginning: a straight line through the samples so far, while its gains are larger
+        if n > 1:  # the gains of a straight line through the first n samples are used as long as they are larger
             alpha, beta = max(alpha, min(2 * (2 * n - 1) / (n * (n + 1)), 0.99)), max(beta, 6 / (n * (n + 1)))
         else:
             alpha, beta = 0.99, 0.0

@@ -30,7 +30,7 @@ static double word(int part, int at, double scale, double offset) {
   return (ecu.parts[part][at] | ecu.parts[part][at + 1] << 8) * scale + offset;
 }
 
-/* Integrates the rates [rad/s] and levels slowly by the specific force [g]. */
+/* Integrates the rates [rad/s] and corrects roll and pitch slowly by the specific force [g]. */
 static void sample(double p, double q, double r, double forward, double left, double up) {
   const double roll = atan2(left, up), pitch = atan2(-forward, hypot(left, up)), share = DT / LEVELLING_S;
   const double at = ecu.started ? ecu.roll : roll, up_at = ecu.started ? ecu.pitch : pitch;
@@ -47,7 +47,7 @@ static bool receive(const canhil_frame* in, canhil_frame* out) {
   if (in->id < IMU || in->id > IMU + 2 * IMU_STEP || (in->id - IMU) % IMU_STEP || in->size != 8 || crc(in->data, 7) != in->data[7])
     return false;
   memcpy(ecu.parts[part], in->data, 8);
-  if (part != 2 || (ecu.parts[0][6] & 0xF) != c || (ecu.parts[1][6] & 0xF) != c) return false; /* not the same sample */
+  if (part != 2 || (ecu.parts[0][6] & 0xF) != c || (ecu.parts[1][6] & 0xF) != c) return false; /* the sample is not complete */
   sample(word(1, 0, rate, rate_0), word(2, 0, rate, rate_0), word(0, 0, rate, rate_0), word(1, 2, force, force_0),
          word(0, 2, force, force_0), word(2, 2, force, force_0));
   roll = (int)lround(ecu.roll * 18000 / PI), pitch = (int)lround(ecu.pitch * 18000 / PI);

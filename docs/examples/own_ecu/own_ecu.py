@@ -27,7 +27,7 @@ def crc(data):
 
 
 class Ecu:
-    """Integrates the rates and levels slowly by the specific force. Axes: forward, left, up."""
+    """Integrates the rates and corrects roll and pitch slowly by the specific force. Axes: forward, left, up."""
 
     def __init__(self):
         self.parts, self.counter, self.angles = {}, 0, None
@@ -47,7 +47,7 @@ class Ecu:
             return None
         self.parts[identifier] = data
         if identifier != IMU[2] or len({self.parts.get(one, b"")[6:7] for one in IMU}) != 1:
-            return None  # the three frames are not of the same sample
+            return None  # the sample is not complete: three frames with the same counter are needed
         words = [[int.from_bytes(self.parts[one][at:at + 2], "little") for one in IMU] for at in (0, 2)]
         yaw, roll, pitch = (word * RATE[0] + RATE[1] for word in words[0])
         left, forward, up = (word * FORCE[0] + FORCE[1] for word in words[1])

@@ -19,8 +19,8 @@ struct Block {
 template <auto pattern, int N>
 Matrix<N, N> propagate_covariance_blocks(const Matrix<N, N>& P, const Matrix<N, N>& G) {
   static_assert(N % 3 == 0);
-  // By columns (contiguous): X = P + P G', then, as P is symmetric, P+ = X' + X' G'; its lower triangle
-  // suffices.
+  // By columns (contiguous): X = P + P G', then P+ = X' + X' G', because P is symmetric. Only the lower
+  // triangle of P+ is computed.
   Matrix<N, N> X = P;
   const auto right = [&]<std::size_t I>() {
     constexpr int i = 3 * pattern[I].row, j = 3 * pattern[I].column;
@@ -44,9 +44,9 @@ Matrix<N, N> propagate_covariance_blocks(const Matrix<N, N>& P, const Matrix<N, 
   return next;
 }
 
-/// (I + G) P (I + G)' for symmetric P [N x N] when only the first K states change, i.e. all rows of G after
-/// the K-th are zero. times_Gt(M) returns M G' [rows x K] for any M [rows x N] and may exploit more zeros of
-/// G.
+/// (I + G) P (I + G)' for symmetric P [N x N] for a G that changes only the first K states: all rows of G
+/// after the K-th are zero. times_Gt(M) returns M G' [rows x K] for any M [rows x N] and may exploit more
+/// zeros of G.
 template <int K, int N, class TimesGt>
 Matrix<N, N> propagate_covariance_moving(const Matrix<N, N>& P, const TimesGt& times_Gt) {
   const auto rows = padded(P);

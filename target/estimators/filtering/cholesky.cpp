@@ -14,7 +14,7 @@ struct Factor {
 };
 
 // Column c of P minus the contribution of the first `done` columns of L. Computes the last `rows` rows, which
-// begin at row c or one row above it. P is not padded if N is odd.
+// begin at row c or at row c - 1. P is not padded if N is odd.
 template <int rows>
 Vector<rows> column_left(const Factor& of, const double* L, int c, int done) {
   const int first = of.stride - rows;
@@ -47,7 +47,7 @@ void store_rest(const Factor& of, const double* L, int columns, int c, double* r
   std::copy_n(left.data() + (c - first), of.N - c, rest + (c - columns) * (of.N - columns + 1));
 }
 
-// Calls apply.operator()<rows>() for the rows from c (or one above it) down.
+// Calls apply.operator()<rows>(), where `rows` is the number of rows from row c (or row c - 1) to the last.
 template <class Apply>
 auto with_rows(const Factor& of, int c, const Apply& apply) {
   switch (of.stride - (c - c % 2)) {

@@ -17,8 +17,8 @@ void cholesky_rest(const double* P, int N, const double* L, int columns, double*
 
 }  // namespace detail
 
-/// The first K columns of the lower Cholesky factor of P [N x N] (reads the lower triangle), with one row of
-/// padding if N is odd; false: P's leading K x K block is not positive definite, or not finite.
+/// The first K columns of the lower Cholesky factor of P [N x N] (only the lower triangle of P is read), with
+/// one row of padding if N is odd. False: P's leading K x K block is not positive definite, or not finite.
 template <int K, int N>
 bool cholesky_columns(const Matrix<N, N>& P, Matrix<even_rows(N), K>& L) {
   static_assert(K <= N && N <= detail::most_cholesky_rows);
@@ -36,8 +36,8 @@ Matrix<N - K, N - K> cholesky_rest(const Matrix<N, N>& P, const Matrix<even_rows
   return rest;
 }
 
-/// True if a symmetric matrix (reads the lower triangle) is finite and positive definite: every NaN or
-/// infinity reaches a pivot.
+/// True if a symmetric matrix is finite and positive definite. Only the lower triangle is read. A NaN or an
+/// infinity in any element is detected, because it reaches a pivot.
 template <int N>
 bool is_positive_definite(const Matrix<N, N>& P) {
   Matrix<even_rows(N), N> L;

@@ -1,8 +1,8 @@
 #pragma once
-// Applies late measurements. Keeps the last increments and, for each increment, the part of the state that
-// increments change, as it was before the increment. A measurement valid at an earlier epoch is applied at
-// that epoch, and the later increments are repeated. The result equals the result without the delay, bit for
-// bit.
+// Applies late measurements. Keeps the last increments. Increments change only a part of the state
+// (State::ins); for each increment, the value of this part before the increment is kept too. A measurement
+// that is valid at an earlier epoch is applied at that epoch, and then the later increments are processed
+// again. The result is bit-identical to the result without a delay.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +11,15 @@
 namespace canhil::filtering {
 
 /// Keeps the increments of the last `longest_us`, at most `Capacity`. Epochs are the ends of increments, in
-/// integer microseconds of the measurements' time base. Every step and update of a State must go through its
-/// History. The Model defines:
+/// integer microseconds of the measurements' time base. Every step and update of a State must be made by the
+/// same History. The Model defines:
 ///   types State (with a member `ins`: the part that an increment changes), Increment, Measurement, Settings,
 ///     UpdateResult with a member `outcome` of enum Outcome (ok, not_reached, out_of_order,
 ///     older_than_history, ...)
 ///   step(state, increment, settings)
-///   update(state, earlier, share, measurement, settings): applies a measurement. If earlier == nullptr, it
-///     is valid at the state's epoch. Otherwise it is older, by the fraction `share` of the last increment,
-///     at whose start the ins was `*earlier`
+///   update(state, earlier, share, measurement, settings): applies a measurement. If earlier == nullptr, the
+///     measurement is valid at the state's epoch. Otherwise the measurement is older by the fraction `share`
+///     of the last increment, and `*earlier` is the value of State::ins at the start of this increment
 ///   keep_refusal(state, tried): copies from the tried state the members that a refused update changes
 ///   applied_at(t_us, now_us, settings): the epoch at which to apply a measurement valid at t_us
 /// For a filter that also predicts between measurements, Predictions > 0 is the largest number of predictions
@@ -48,7 +48,7 @@ class History {
     forgotten_us_ = std::numeric_limits<std::int64_t>::min();
   }
 
-  /// Steps over an increment that ends at t_us, and stores it.
+  /// Advances the state by an increment that ends at t_us, and stores the increment.
   void propagate(State& state, const Increment& increment, std::int64_t t_us, const Settings& settings) {
     while (count_ == Capacity || (count_ > 0 && now_us_ - at(0).before_us > longest_us_)) {
       first_ = (first_ + 1) % Capacity;
@@ -59,10 +59,10 @@ class History {
     step(state, increment, t_us, settings);
   }
 
-  /// Applies a measurement valid at valid_us. Between two epochs, applies it at the later epoch; the Model
-  /// then interpolates linearly the quantity that the measurement is compared with. Refuses a measurement,
-  /// without a change of the state, as not_reached, out_of_order (before the last update) or
-  /// older_than_history.
+  /// Applies a measurement that is valid at valid_us. If this time is between two epochs, applies the
+  /// measurement at the later epoch; the Model then interpolates linearly the quantity that is compared with
+  /// the measurement. A measurement that is refused as not_reached, out_of_order (valid before the last
+  /// update) or older_than_history does not change the state.
   UpdateResult update(State& state, const Measurement& measurement, std::int64_t valid_us,
                       const Settings& settings) {
     if (valid_us > now_us_) return refused(Outcome::not_reached);
@@ -85,7 +85,7 @@ class History {
       return result;
     }
     last_update_us_ = epoch_us(epoch);
-    prediction_count_ = 0;  // earlier predictions are out of reach, later ones are repeated below
+    prediction_count_ = 0;  // earlier predictions are not needed again, later ones are repeated below
     for (std::size_t i = epoch; i < count_; ++i) {
       at(i).before = then.ins;
       step(then, at(i).increment, epoch_us(i + 1), settings);
@@ -137,7 +137,7 @@ class History {
   }
 
   // The state at an epoch: `ins` has its value at that epoch, the other members have their values from just
-  // before the first prediction after it.
+  // before the first prediction after that epoch.
   State state_at(const State& now, std::size_t epoch) {
     const State* then = &now;
     for (std::size_t i = prediction_count_; i > 0 && predictions_[i - 1].t_us > epoch_us(epoch); --i)

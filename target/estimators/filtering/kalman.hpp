@@ -48,9 +48,10 @@ Matrix<N, N> propagate_covariance(const Matrix<N, N>& P, const Matrix<N, N>& Phi
   return next;
 }
 
-/// The inverse of symmetric S by its Cholesky factor L (reads the lower triangle): S = L L', then L Y = I,
-/// L' X = Y. False if S is not positive definite or not finite. Written by hand: Eigen's triangular solver
-/// includes its product for large matrices, which adds more than a second to every compilation.
+/// The inverse of a symmetric S, of which only the lower triangle is read, by its Cholesky factor L:
+/// S = L L', then L Y = I, L' X = Y. False if S is not positive definite or not finite. Written by hand:
+/// Eigen's triangular solver would also instantiate Eigen's product of large matrices, which adds more than a
+/// second to every compilation.
 template <int M>
 bool invert_positive_definite(const Matrix<M, M>& S, Matrix<M, M>& inverse) {
   Matrix<M, M> L = S;
@@ -101,8 +102,8 @@ template <int N, int M>
 using Padded = Matrix<even_rows(N), M>;
 
 // Joseph form (I - K H) P (I - K H)' + K R K'. The caller provides the products with H: PHt = P H', and
-// times_Ht(W) = W H' for a W padded to even rows. W = (I - K H) P; P+ = W + (K R - W H') K', where the
-// bracket vanishes for the optimal K.
+// times_Ht(W) = W H' for a W that is padded to an even number of rows. W = (I - K H) P; P+ = W + (K R - W H')
+// K', where the bracket vanishes for the optimal K.
 template <int N, int M, class TimesHt>
 Correction<N, M> joseph(const Matrix<N, N>& P, const Matrix<N, M>& PHt, const Matrix<M, M>& HPHt,
                         const Matrix<M, M>& R, const Vector<M>& innovation, TimesHt times_Ht) {

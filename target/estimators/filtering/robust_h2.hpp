@@ -1,7 +1,7 @@
 #pragma once
 // Robust H2 filtering for an uncertain A + L Delta N, |Delta| <= 1 (Yang, Shim, Park 2001, after eq. (16)).
 // With Phi = I + (A + P N'N/beta) dt the Riccati equation has two more terms, 2 P N'N P/beta and beta L L'.
-// Their sum bounds the uncertainty's effect from above for any beta > 0.
+// For any beta > 0, the sum of these two terms is an upper bound of the effect of the uncertainty.
 #include <Eigen/Core>
 #include <cmath>
 
@@ -10,8 +10,8 @@
 
 namespace canhil::filtering {
 
-/// beta = sqrt(2 lmax(P N'N P) / lmax(L L')), which minimises 2 lmax(P N'N P)/beta + beta lmax(L L');
-/// 0 if either eigenvalue vanishes (or overflows): then both terms must be omitted, as they are undefined.
+/// beta = sqrt(2 lmax(P N'N P) / lmax(L L')), which minimises 2 lmax(P N'N P)/beta + beta lmax(L L'); 0 if
+/// one of these eigenvalues is zero or beta overflows. The two terms are then undefined and must be omitted.
 inline double h2_beta(double lambda_PNNP, double lambda_LL) {
   const double beta = std::sqrt(2 * lambda_PNNP / lambda_LL);
   const bool usable = lambda_PNNP > 0 && lambda_LL > 0 && std::isnormal(beta) && std::isnormal(1 / beta);

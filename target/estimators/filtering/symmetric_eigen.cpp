@@ -19,8 +19,8 @@ struct Tridiagonal {
   }
 
   // The coefficients of the reflections. Eigen sums in an order that depends on whether the result begins at
-  // a multiple of 16 bytes. Here it has the same alignment as in a fixed-size SelfAdjointEigenSolver, so that
-  // the bits are the same.
+  // a multiple of 16 bytes. Here the result has the same alignment as in a fixed-size SelfAdjointEigenSolver,
+  // so that its bits are the same too.
   Eigen::VectorBlock<ColumnVector> coefficients() {
     const Eigen::Index n = packed.rows();
     return storage.segment((n + 1) % 2, n - 1);
@@ -46,8 +46,9 @@ struct Tridiagonal {
 
 }  // namespace
 
-// The steps of Eigen::SelfAdjointEigenSolver, with the same bits. The solver itself also instantiates block
-// reflections for more than 48 rows, which take far longer to compile than all the rest.
+// The steps of Eigen::SelfAdjointEigenSolver, with bit-identical results. Eigen's solver would also
+// instantiate block reflections for more than 48 rows; their compilation takes far longer than that of
+// everything else here.
 SymmetricEigen symmetric_eigen(const SquareMatrix& symmetric) {
   using Solver = Eigen::SelfAdjointEigenSolver<SquareMatrix>;
   Tridiagonal T(symmetric);

@@ -17,7 +17,7 @@ struct SymmetricEigen {
   SquareMatrix vectors;  // columns of length 1
 };
 
-/// For a symmetric matrix with at least 2 rows; reads the lower triangle.
+/// Computes both for a symmetric matrix with at least 2 rows. Only the lower triangle is read.
 SymmetricEigen symmetric_eigen(const SquareMatrix& symmetric);
 
 namespace detail {

@@ -1,8 +1,8 @@
 #pragma once
 // The unscented transform (Julier, Uhlmann 2004) of a map that changes only the first K of N states. Sigma
-// points: x, and x +- sqrt(spread) times the columns of a root of P; weights: 1/(2 spread) each, the rest for
-// the centre. Moments are computed relative to the image of the centre, so the centre does not contribute;
-// each pair of points contributes by its even and odd part.
+// points: the centre x, and x +- sqrt(spread) times each column of a root of P. The centre has the weight
+// 1 - N/spread, every other point 1/(2 spread). Moments are computed relative to the image of the centre, so
+// the centre does not contribute; each pair of points contributes by its even and odd part.
 #include <cmath>
 
 #include "target/estimators/filtering/kalman.hpp"
@@ -19,8 +19,9 @@ Matrix<N, N> symmetric_root(const Matrix<N, N>& P) {
   return scaled.lazyProduct(vectors.transpose());
 }
 
-/// For the images of x + d and x - d under a map: half of their sum minus the centre's image, and half of
-/// their difference; only the K states that change.
+/// For the images of x + d and x - d under a map. `even`: half of the sum of the two images, minus the image
+/// of the centre. `odd`: half of the difference of the two images. Both contain only the K states that
+/// change.
 template <int K>
 struct Parts {
   Vector<K> even, odd;

@@ -19,7 +19,7 @@ using filtering::Matrix;
 using filtering::Vector;
 using strapdown::Interval;
 
-/// Positions of the states in a filter with N states.
+/// Indices of the states in a filter with N states.
 template <int N>
 struct Layout {
   static_assert(N == 15 || N == 16 || N == 18 || N == 19);
@@ -35,7 +35,7 @@ template <int N>
 struct Errors {
   Vector<N> x = Vector<N>::Zero();
   Matrix<N, N> P = Matrix<N, N>::Zero();
-  SinCosForm form = SinCosForm::levelled;  // of sin_cos
+  SinCosForm form = SinCosForm::levelled;  // used only by sin_cos
 };
 
 /// The gravity error of an INS per metre of position error dR, NED: dg = gravity_error_per_m() o dR [m/s^2]

@@ -64,7 +64,7 @@ Errors<N> initial_errors(const Settings& settings) {
   return errors;
 }
 
-// Returns the number of repairs of P.
+// Predicts the errors over the interval. Returns how often P was repaired.
 template <int N>
 int predict_errors(Errors<N>& errors, const Interval& interval, const Settings& settings) {
   if (!(interval.duration > 0)) return 0;
@@ -127,8 +127,8 @@ void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
     feed_back<N>(state, errors, C_pc, SensorBiases::fed_back);
     errors.x.template segment<3>(6).setZero();
     if (!platform) return;
-    // The errors that remain are small angles relative to the corrected platform. P is converted to them by
-    // the rotation axes of the old angles.
+    // The errors that remain are small angles relative to the corrected platform. The rotation axes of the
+    // old angles convert P to these small angles.
     const Matrix3d axes = rotation_axes(psi);
     errors.P.template middleRows<3>(6) = (axes * errors.P.template middleRows<3>(6)).eval();
     errors.P.template middleCols<3>(6) = (errors.P.template middleCols<3>(6) * axes.transpose()).eval();

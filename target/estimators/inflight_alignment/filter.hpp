@@ -33,7 +33,7 @@ struct State {
   Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();    // estimate, subtracted from fixes, NED [m]
   std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of the INS; N from the settings
   std::uint32_t updated_at = 0;                                         // step of the last update
-  std::uint32_t rejected = 0;                                           // fixes gated in a row
+  std::uint32_t rejected = 0;                                           // number of consecutive gated fixes
   std::uint32_t repairs = 0;    // how often P lost its positive definiteness
   bool to_be_levelled = false;  // sin_cos: the first IMU sample levels the INS
   bool handed_over = false;     // sin_cos: tilt and heading were fed back at the last fix
@@ -45,7 +45,7 @@ enum class Outcome : std::uint8_t {
   gated,                  // NIS above the gate
   no_interval,            // no IMU sample since the last update
   non_finite,             // a NaN or infinity in the fix or in the result
-  not_positive_definite,  // innovation covariance or P's diagonal
+  not_positive_definite,  // the innovation covariance, or P has a negative variance
   not_reached,            // from History: fix valid after the newest IMU epoch
   out_of_order,           // from History: fix valid before the last update
   older_than_history,     // from History: fix valid before the oldest stored epoch
@@ -54,9 +54,9 @@ enum class Outcome : std::uint8_t {
 /// The result of an update. Unless outcome is ok, the update changed only the count of gated fixes.
 struct UpdateResult {
   Outcome outcome = Outcome::no_interval;
-  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // INS - fix, minus its predicted value, NED [m]
+  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // INS - fix, minus its prediction, NED [m]
   Eigen::Matrix3d innovation_covariance = Eigen::Matrix3d::Zero();  // [m^2]
-  double nis = 0;                                                   // chi-squared of 3 if consistent
+  double nis = 0;                                                   // chi-squared, 3 degrees of freedom
   GeodeticPosition position;  // best estimate at the fix's time of validity
   bool gate_opened = false;   // accepted despite a NIS above the gate
   int repairs = 0;            // how often this call repaired P

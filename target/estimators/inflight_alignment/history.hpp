@@ -14,7 +14,7 @@ struct HistoryModel {
   using UpdateResult = inflight_alignment::UpdateResult;
   using Outcome = inflight_alignment::Outcome;
 
-  /// Steps over an IMU increment.
+  /// Advances the state by an IMU increment.
   static void step(State& state, const Increment& imu, const Settings&) { mechanise(state, imu); }
   /// See inflight_alignment::prediction_is_due().
   static bool prediction_is_due(const State& state, const Settings& settings) {

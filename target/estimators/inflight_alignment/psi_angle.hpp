@@ -12,16 +12,17 @@ namespace canhil::inflight_alignment {
 /// C_pc of psi [rad] (eq. (7); corrected: -sin psi_z in row 1, column 2).
 Eigen::Matrix3d platform_to_computer(const Eigen::Vector3d& psi);
 
-/// The axes a_i, in c, about which C_pc turns with psi_x, psi_y, psi_z: d(C_pc v)/dpsi_i = a_i x C_pc v. The
-/// matrix also converts small errors of the angles at psi to a rotation vector in c.
+/// The axes a_i, in the computer frame c, about which C_pc turns when psi_x, psi_y or psi_z changes:
+/// d(C_pc v)/dpsi_i = a_i x C_pc v. The matrix also converts small errors of the angles at psi to a rotation
+/// vector in c.
 Eigen::Matrix3d rotation_axes(const Eigen::Vector3d& psi);
 
 /// x after the interval; N = 15 or 18.
 template <int N>
 Vector<N> predicted(const Vector<N>& x, const Interval& interval);
 
-/// The Jacobian of predicted() at x, minus I, with E = I as in the published runs: E - I is of the order of
-/// the tilts and multiplies rates of the order of the earth's rate.
+/// The Jacobian of predicted() at x, minus I. E is replaced by I, as in the published runs: E - I is of the
+/// order of the tilts, and it multiplies rates of the order of the earth's rate.
 template <int N>
 Transition<3> transition(const Vector<N>& x, const Interval& interval);
 

@@ -32,8 +32,8 @@ class PsiMap {
   /// About x; `interval` must outlive the map.
   PsiMap(const Vector<15>& x, const Interval& interval);
 
-  /// The specific force's contribution to dV [m/s]. moved() computes the image of x from it and
-  /// attitude_increment().
+  /// The specific force's contribution to dV [m/s]. moved() computes the image of x from this contribution
+  /// and from attitude_increment().
   [[nodiscard]] Eigen::Vector3d force_increment() const { return interval_.delta_v_n - terms_.force; }
   /// The increment of psi over the interval [rad].
   [[nodiscard]] const Eigen::Vector3d& attitude_increment() const { return terms_.rates; }

@@ -8,10 +8,10 @@ namespace {
 
 constexpr double spread = 3;  // N + kappa
 
-// Adds, in closed form, the sigma points of those columns of the lower root that follow psi. These points
-// differ from the centre only in the biases, and for a given psi the map is linear in the biases. Let
-// `rest` be the covariance of these columns, and G_c the derivative of the map with respect to the biases.
-// The points then add rest G_c' and G_c rest G_c' to the second moments.
+// Adds, in closed form, the sigma points of those columns of the lower root that come after the columns of
+// psi. These points differ from the centre only in the biases, and for a given psi the map is linear in the
+// biases. Let `rest` be the covariance of these columns, and G_c the derivative of the map with respect to
+// the biases. The points then add rest G_c' and G_c rest G_c' to the second moments.
 template <int N>
 void add_points_of_biases(const PsiMap& centre, filtering::Moments<N, 9>& moments,
                           const Matrix<N - 9, N - 9>& rest) {
@@ -29,8 +29,8 @@ void add_points_of_biases(const PsiMap& centre, filtering::Moments<N, 9>& moment
       attitude_gyro.lazyProduct(added.template middleRows<3>(3));
 }
 
-// The moments over all sigma points; for a lower root the columns that follow psi are added in closed form.
-// Counts the repairs of P.
+// The moments over all sigma points; for a lower root, the columns after those of psi are added in closed
+// form. Adds the number of repairs of P to `repairs`.
 template <int N>
 filtering::Moments<N, 9> moments_about(const PsiMap& centre, Matrix<N, N>& P, UkfRoot kind, int& repairs) {
   const auto parts = [&centre](const auto& d) { return centre.parts(d.template head<15>()); };

@@ -12,8 +12,8 @@ inline constexpr double standard_gravity = 9.80665;
 /// One degree [rad].
 inline constexpr double rad_per_deg = std::numbers::pi / 180;
 
-/// sin_cos: sine and cosine of the heading error are states; the model is linear in these states, so any
-/// start heading works. ekf, ukf: the paper's filters, with psi angles as states.
+/// sin_cos: sine and cosine of the heading error are states; the model is linear in these states, so the
+/// heading error at the start may have any size. ekf, ukf: the paper's filters, with psi angles as states.
 enum class Algorithm : std::uint8_t { ekf, ukf, sin_cos };
 
 /// The source of fixes. ssbl: fixes have a constant bias, which adds three states.
@@ -67,7 +67,7 @@ struct Settings {
   double start_acceleration_sigma = 1;  // levelled: vehicle's acceleration at the start, each axis [m/s^2]
   double accel_bias_sigma_0 = 1000e-6 * standard_gravity;  // each axis [m/s^2]
   double gyro_bias_sigma_0 = 1 * rad_per_deg / 3600;       // each axis [rad/s]
-  double fix_bias_sigma_0 = 3.1622776601683795;            // sqrt(1 + 3^2): SSBL, ship [m]
+  double fix_bias_sigma_0 = 3.1622776601683795;            // sqrt(1^2 + 3^2) of SSBL and ship [m]
 };
 
 }  // namespace canhil::inflight_alignment

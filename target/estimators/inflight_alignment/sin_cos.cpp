@@ -14,9 +14,9 @@ using Eigen::Vector3d;
 
 constexpr int sine = 8, cosine = 9;       // states s and k
 constexpr double smallest_radius = 0.01;  // least |(s, 1 - k)|, which is near 0 for an unknown heading
-constexpr double circle_tolerance = 0.4;  // for a resolved heading |(s, 1 - k)| is near 1
+constexpr double circle_tolerance = 0.4;  // largest | |(s, 1 - k)| - 1 | of a resolved heading
 
-// sin and cos of the heading error, and the interval's quantities turned by it.
+// sin and cos of the heading error, and the interval's quantities after rotation by the heading error.
 struct Turned {
   double s, c;
   Vector3d force;  // Rz S

@@ -64,9 +64,9 @@ void turn_biases_back(Errors<N>& errors);
 template <int N>
 Eigen::Matrix3d take_out_tilt(Errors<N>& errors);
 
-/// Removes tilts and heading from x, returns C_pc for the INS, and maps their covariance: the new s is
-/// s cos psi_z + k sin psi_z, the new k is 0, as it now depends on s. Biases: see turn_biases_back(). After
-/// the removal of the estimates the remaining rotation is
+/// Removes tilts and heading from x, returns C_pc for the INS, and maps the covariance of the attitude
+/// states: the new s is s cos psi_z + k sin psi_z; the new k is 0, because k now follows from s. Biases: see
+/// turn_biases_back(). After the removal of the estimates the remaining rotation is
 ///   exp([phi x]) Rz(dpsi) exp([-phi_hat x]) = exp([phi' x]) Rz(dpsi),   phi' = phi - Rz(dpsi) phi_hat,
 /// so dphi' = dphi - dpsi e_z x phi_hat, a first-order term. The published form omits it.
 template <int N>

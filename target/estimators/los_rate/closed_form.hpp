@@ -13,15 +13,15 @@ double sample_variance(const Noise& noise, double range);
 
 /// P-bar of 0 = A P + P A' - P C'C P/s2 + q B B' with A = [3v/2 1 0; 0 5v/2 1; 0 0 v/2], B = [0 0 1]',
 /// C = [1 0 0]: the stabilising solution (Na and Lee, eqs. (6)-(8), for the sign of yaw). v >= 0, q >= 0,
-/// s2 > 0. The paper's thermal table has v = vc and s2 = thermal^2 Ts, its glint table v = 0, s2 = glint^2
-/// Ts.
+/// s2 > 0. The paper's table for thermal noise has v = vc and s2 = thermal^2 Ts; its table for glint has v =
+/// 0 and s2 = glint^2 Ts.
 Covariance riccati(double q, double s2, double v);
 
 /// The noise of the displacement: its PSD R_y [m^2 s] and the rate nu [1/s].
 struct DisplacementNoise {
   double R_y, nu;
 };
-/// The sum of thermal, glint and constant noise at `at`, with a sample every Ts [s].
+/// The sum of thermal, glint and constant noise for the geometry `at`, with a sample every Ts [s].
 DisplacementNoise displacement_noise(const Noise& noise, Geometry at, double Ts);
 
 /// The steady state for noise (R_y, nu): covariance of y, and the continuous gain d = P_y(1,:)/R_y. Exact for

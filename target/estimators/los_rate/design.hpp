@@ -19,14 +19,15 @@ struct Sigma {
 /// The square roots of the diagonal.
 inline Sigma sigma_of(const Covariance& P) { return {std::sqrt(P.ee), std::sqrt(P.ww), std::sqrt(P.aa)}; }
 
-/// A closed gain, i.e. a steady-state gain (discrete, for x) that needs no covariance recursion, and its
-/// 1-sigmas.
+/// A closed gain, i.e. a steady-state gain (discrete, for x) that needs no covariance recursion, and the
+/// 1-sigma uncertainty of an update with this gain.
 struct ClosedGain {
   Gain K;
   Sigma sigma;
 };
 
-/// P-bar (Na and Lee, eqs. (6)-(8)): for thermal noise as a table over the closing speed, and for glint.
+/// P-bar (Na and Lee, eqs. (6)-(8)): for thermal noise as a table over the closing speed, for glint as a
+/// single value.
 struct PBarTable {
   static constexpr int nodes = 33;
   std::array<Covariance, nodes> thermal;  // at closing_speed_max * i / (nodes - 1)
@@ -38,14 +39,14 @@ struct PBarTable {
 };
 
 /// Pole-matched gain and steady sigmas for the sum of the noises, over range (equal logarithmic steps) and
-/// closing speed. The entries are chosen so that they vary little or in proportion to the bandwidth, for
-/// linear interpolation.
+/// closing speed. The entries are chosen so that they vary little or in proportion to the bandwidth.
+/// Therefore linear interpolation is accurate.
 struct CombinedTable {
   static constexpr int ranges = 128, speeds = 9;
   /// One entry of the table.
   struct Node {
     double alpha, root_beta, root_gamma;  // gain for y = [alpha, root_beta^2, root_gamma^3]
-    Sigma sigma;                          // error and rate times range
+    Sigma sigma;                          // error and rate are multiplied by the range
   };
   std::array<std::array<Node, speeds>, ranges> node;
   double log2_range_min = 0, nodes_per_octave = 0, nodes_per_speed = 0;
@@ -60,7 +61,7 @@ struct LowPass {
 /// The settings and what follows from them; made once, at start-up.
 struct Design {
   Settings settings;
-  bool equal_noise = true;  // then only the pitch member of each pair of tables is computed
+  bool equal_noise = true;  // true: of each pair of tables only `pitch` is computed
   Planes<PBarTable> p_bar;
   Planes<CombinedTable> combined;
   LowPass low_pass;
@@ -70,7 +71,8 @@ struct Design {
 /// start-up). Noise, jerk density, sample period, bandwidth and the ends of the tables must be positive.
 Design make_design(const Settings& settings);
 
-/// The range [m] below which guidance must hold its command; transition and gain clamp the range to it.
+/// The range [m] below which guidance must hold its command; transition and gain limit the range to at least
+/// this value.
 double least_range(const Settings& settings, double closing_speed);
 
 /// Steady continuous-time covariance of x in the algorithm's own model: the initial P of a coast or of a

@@ -18,8 +18,8 @@ bool finite(const State& state) {
          (!state.covariance || (finite(state.P.pitch) && finite(state.P.yaw)));
 }
 
-// Evaluates function(plane) for pitch, and for yaw only if its noise differs. `plane` is a function that
-// selects the member pitch or yaw of a pair.
+// Evaluates function(plane) for pitch; evaluates it for yaw only if the noise of yaw differs from that of
+// pitch. `plane` is a function that selects the member pitch or yaw of a pair.
 template <class Function>
 auto of_planes(const Design& design, Function function) {
   auto pitch = function([](auto& pair) -> auto& { return pair.pitch; });
@@ -29,10 +29,10 @@ auto of_planes(const Design& design, Function function) {
 
 // A sample's inputs in the complex plane, and which of them are missing.
 struct Sample {
-  double gap, interval;  // duration of the lost samples before it, and its own interval [s]
+  double gap, interval;  // of the lost samples before this sample; of this sample [s]
   Plane error, antenna_increment;
   double roll_increment;
-  Motion motion;  // over its interval; a missing value is replaced by its last measurement
+  Motion motion;  // over `interval`; a missing value is replaced by its last measurement
   bool error_ok, antenna_ok, acceleration_ok;  // antenna_ok: over the whole step
   bool motion_known;                           // over its interval
   Fault fault;                                 // the first fault
@@ -100,8 +100,8 @@ void start(State& state, Plane error, const Design& design, UpdateResult& result
   result.outcome = Outcome::started;
 }
 
-// Predicts P over a leg and adds the variances of unmeasured motion, from its sigmas: `turn` [rad] of the
-// antenna, `pull` [m/s] of the missile.
+// Predicts P over a leg and adds the variances of motion that was not measured. The sigmas of this motion:
+// `turn` [rad] of the antenna, `pull` [m/s] of the missile.
 void predict_covariance(State& state, Geometry end, double dt, double turn, double pull,
                         const Design& design) {
   const double w = pull / end.range;
@@ -212,8 +212,8 @@ void advance(State& state, const Measurement& m, const Sample& sample, bool rang
   const bool low_pass = settings.algorithm == Algorithm::low_pass;  // uses neither range nor acceleration
   const bool measured =
       sample.error_ok && sample.antenna_ok && (low_pass || (sample.acceleration_ok && range_ok));
-  // A closed gain is valid for one nominal step from its steady state. After a gap or a coast P is larger, so
-  // the update uses a Kalman gain.
+  // A closed gain is valid only for one nominal step that begins in the steady state. After a gap or a coast
+  // P is larger, so the update uses a Kalman gain.
   const bool uneven = !low_pass && (sample.gap > 0 || state.coasted_s > 0);
   const bool kalman = settings.algorithm == Algorithm::kalman || state.start_up_s > 0 || uneven;
   if (!state.covariance && (!measured || kalman)) {
@@ -245,8 +245,8 @@ State initial() { return {}; }
 void predict(State& state, Geometry end, double dt, Plane antenna_increment, Plane missile_acceleration,
              double roll_increment) {
   const Transition phi = transition(end, dt);
-  // A roll rate p turns each state c by c' = j p c. The states turn by the whole roll; inputs are measured in
-  // mid-turn, so they are first turned back by half of it.
+  // A roll rate p turns each state c by c' = j p c. The states are turned by the whole roll. The inputs are
+  // given in the axes at mid-roll, so they are first turned back by half of the roll.
   const Plane half = std::polar(1.0, roll_increment / 2), whole = half * half;
   antenna_increment *= std::conj(half);
   missile_acceleration *= std::conj(half);

@@ -12,7 +12,7 @@ namespace canhil::los_rate {
 /// One sample of the seeker, with increments over the `interval` that ends at it.
 struct Measurement {
   double dt = 0;                       // since the last step [s]
-  double interval = 0;                 // shorter than dt: samples were lost before; 0: equal to dt [s]
+  double interval = 0;                 // [s]; less than dt: samples were lost before; 0: equal to dt
   Planes<double> error{};              // LOS off the antenna's axis [rad]
   Planes<double> antenna_increment{};  // antenna's inertial rotation about y, z [rad]
   double roll_increment = 0;           // about x [rad]
@@ -27,10 +27,10 @@ struct State {
   Plane error, rate, acceleration;  // of the LOS and the target
   Motion motion;                    // the last measurement of each component
   bool motion_known = false;        // the last sample contained all components that the algorithm uses
-  Planes<Covariance> P;             // while `covariance` is set; only pitch if the noises are equal
+  Planes<Covariance> P;             // valid if `covariance`; only pitch if the noises are equal
   RangeTrack track;
   double start_up_s = 0;  // remaining time of the Kalman filter
-  double coasted_s = 0;   // since the last update
+  double coasted_s = 0;   // time since the last update
   bool started = false;
   bool covariance = false;  // P is propagated: Kalman filter or coasting
 };
@@ -39,9 +39,9 @@ struct State {
 enum class Outcome : std::uint8_t {
   waiting,     // no usable range and error angle yet
   started,     // the first sample: its error angle starts the estimate
-  updated,     // by the algorithm's own gain; after a gap or a coast by a Kalman gain
-  start_up,    // by the Kalman filter before the closed gain
-  coasting,    // predicted only; `fault` says why
+  updated,     // with the algorithm's own gain; after a gap or a coast with a Kalman gain
+  start_up,    // updated by the Kalman filter that runs before the closed gain
+  coasting,    // predicted only; `fault` is the reason
   bad_step,    // dt not positive, not finite or too long: ignored
   non_finite,  // the result would not be finite: ignored
 };
@@ -53,9 +53,9 @@ struct UpdateResult {
   bool blind = false;         // below the least range: range is clamped, guidance must hold its command
   Planes<double> innovation;  // [rad]
   Planes<double> innovation_variance{1, 1};  // [rad^2]
-  double nis = 0;       // of both planes: chi-squared of 2 if consistent; 0 without an update
-  Planes<Sigma> sigma;  // after the step
-  Geometry used;        // range (clamped) and closing speed in gain and transition
+  double nis = 0;                            // of both planes (2 degrees of freedom); 0 without an update
+  Planes<Sigma> sigma;                       // after the step
+  Geometry used;                             // in gain and transition: range (clamped) and closing speed
 };
 
 /// LOS error angle [rad], LOS rate [rad/s] about y and z, target acceleration [m/s^2] along z and y.
@@ -72,16 +72,17 @@ UpdateResult step(State& state, const Measurement& measurement, const Design& de
 
 /// The sigmas to report for a step. Those of Algorithm::combined include the lag after a sudden turn of the
 /// target, which white jerk does not model. The rate lags by up to 0.885 a/(Om r) (third-order Butterworth
-/// poles of bandwidth Om, a step of the acceleration); the lag for a = acceleration_sigma_0 counts as 3
+/// poles of bandwidth Om, a step of the acceleration); the lag for a = acceleration_sigma_0 is taken as 3
 /// sigma.
 Planes<Sigma> reported_sigma(const UpdateResult& result, const Design& design);
 
 /// The estimate of a state, with the signs of pitch and yaw.
 Estimate estimate(const State& state);
 
-/// Predicts the three states over one step; `end` is the geometry at its end. Error angle and rate follow
-/// transition() with the input a - a_m; the antenna increment is subtracted from the error angle; then the
-/// states are turned by the roll increment. Inputs are given in the axes at mid-roll, so they turn by half.
+/// Predicts the three states over one step; `end` is the geometry at the end of the step. Error angle and
+/// rate follow transition() with the input a - a_m; the antenna increment is subtracted from the error angle;
+/// then the states are turned by the roll increment. Inputs are given in the axes at mid-roll, so they are
+/// turned by half of the roll.
 void predict(State& state, Geometry end, double dt, Plane antenna_increment, Plane missile_acceleration,
              double roll_increment);
 

@@ -26,8 +26,8 @@ Fault judge(RangeTrack& track, const RangeSample& sample, double dt, const Setti
   track.agreeing = consistent ? std::min(track.agreeing + 1, settings.relock_samples) : 0;
   track.raw = measured;
   if (track.unchanged_s > settings.range_unchanged_limit) return Fault::range_stale;
-  // A sensor that is slower than this filter repeats its range. So the range is extrapolated by the time
-  // since its last change.
+  // A sensor that is slower than this filter repeats its range. So the measured range is extrapolated over
+  // the time since this range last changed.
   const Geometry current = reckoned(measured, track.unchanged_s);
   if (track.known && !agrees(current, track.now, settings) && track.agreeing < settings.relock_samples)
     return Fault::range_jump;

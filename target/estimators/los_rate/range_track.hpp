@@ -1,5 +1,6 @@
 #pragma once
-// Checks range and closing speed sample by sample, and extrapolates them while they are implausible.
+// Checks range and closing speed of each sample, and extrapolates the last accepted values while the samples
+// are implausible.
 #include <cstdint>
 
 #include "target/estimators/los_rate/covariance.hpp"
@@ -7,7 +8,7 @@
 
 namespace canhil::los_rate {
 
-/// What was wrong with a sample.
+/// The reason why a sample, or a part of it, was not used.
 enum class Fault : std::uint8_t {
   none,
   error_angle,           // invalid or not finite
@@ -26,7 +27,7 @@ struct RangeSample {
   bool range_valid = false, closing_speed_valid = false;
 };
 
-/// The accepted range and closing speed, and the state of the checks of the samples.
+/// The accepted range and closing speed, and what the checks need to know about earlier samples.
 struct RangeTrack {
   Geometry now;            // the current estimate
   Geometry raw;            // the last sample that was finite and positive
@@ -36,8 +37,8 @@ struct RangeTrack {
 };
 
 /// Processes one sample, dt [s] after the last. Accepts a plausible sample; otherwise extrapolates by
-/// range -= vc dt and returns the fault. Accepts samples that contradict the track once enough of them agree
-/// with one another (relock_samples).
+/// range -= vc dt and returns the fault. Samples that contradict the track are also accepted, as soon as
+/// enough of them (relock_samples) agree with one another.
 Fault follow(RangeTrack& track, const RangeSample& sample, double dt, const Settings& settings);
 
 }  // namespace canhil::los_rate

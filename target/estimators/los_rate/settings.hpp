@@ -6,7 +6,7 @@ namespace canhil::los_rate {
 
 /// How the gain is computed.
 enum class Algorithm : std::uint8_t {
-  switched_table,  // the paper's: P-bar tables for thermal and glint noise, switched where the two cross
+  switched_table,  // the paper's: P-bar tables for thermal and glint noise, switched where both are equal
   combined,        // one gain for the sum of all noises, tabulated in range and closing speed
   kalman,          // the full time-varying Kalman filter: the reference
   low_pass,        // classical: second order, fixed bandwidth, antenna rate added
@@ -46,11 +46,11 @@ struct Settings {
 
   double range_max = 10'000;           // end of the combined table [m]
   double closing_speed_max = 2000;     // end of both tables [m/s]
-  double blind_range = 50;             // lower limit of least_range(), below which guidance must hold [m]
+  double blind_range = 50;             // lower limit of least_range() [m]
   double range_sigma = 15;             // of the range, bias included, near the blind range [m]
   double range_gate = 100;             // a larger deviation from the extrapolation is a jump [m]
   double closing_speed_gate = 100;     // likewise for the closing speed [m/s]
-  int relock_samples = 10;             // a jump is accepted after this many consecutive samples agree
+  int relock_samples = 10;             // a jump is accepted after this many agreeing samples in a row
   double range_unchanged_limit = 0.1;  // a range that does not change for longer is stale [s]
 
   double field_of_view = 0.15;              // largest error angle off the antenna's axis [rad]

@@ -1,6 +1,6 @@
 #pragma once
-// The strapdown solution between two updates of a filter, as integrals. They stay valid if the specific force
-// steps between the updates.
+// The strapdown solution between two updates of a filter, as integrals. The integrals stay valid even if the
+// specific force changes abruptly between the updates.
 #include <Eigen/Core>
 
 #include "target/estimators/strapdown/mechanization.hpp"

@@ -8,9 +8,9 @@
 namespace canhil::strapdown {
 namespace {
 
-// Trapezoidal position from the velocities at both ends, with radii and height of the start (Groves 2013,
-// eq. 5.56); the rate of the longitude has the
-// radius of the circle of latitude at the start (share_of_end 0) or at the end (1) of the step.
+// Trapezoidal position from the velocities at both ends, with radii and height of the start (Groves 2013, eq.
+// 5.56). The rate of the longitude is computed with the radius of the circle of latitude at the start
+// (share_of_end 0) or at the end (share_of_end 1) of the step.
 void advance_position(NavState& nav, const NavState& from, const LocalEarth& earth, double dt,
                       double share_of_end = 0) {
   const Eigen::Vector3d mean = 0.5 * (from.v_eb_n + nav.v_eb_n);

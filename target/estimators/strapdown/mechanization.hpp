@@ -27,22 +27,24 @@ struct MechanizationStep {
 /// The mechanisation, see mechanize().
 enum class Mechanization : std::uint8_t { reference, two_sample, one_sample };
 
-/// Assumes constant rate and specific force over the sample, and earth terms frozen at its start, as in
-/// the published test vectors. C1 = exp(-[w_in dt x]) C exp([dtheta x]), V1 = V + (C + C1)/2 dv + (g - (2w_ie
-/// + w_en) x V) dt. Requires dt > 0.
+/// Assumes that rate and specific force are constant over the sample, and that the earth terms keep their
+/// values of the start of the sample, as in the published test vectors.
+/// C1 = exp(-[w_in dt x]) C exp([dtheta x]), V1 = V + (C + C1)/2 dv + (g - (2w_ie + w_en) x V) dt. Requires
+/// dt > 0.
 MechanizationStep mechanize_reference(const NavState& nav, const ImuIncrement& imu);
 
-/// Assumes rate and specific force linear over this sample and the previous one: coning and sculling to
-/// second order, rotation to third, earth terms at the middle of the sample (Savage 1998, parts 1 and 2, for
-/// unequal sample times). `previous.dt` = 0 means that there is no previous sample; terms that need it are
-/// omitted. Requires dt > 0.
+/// Assumes that rate and specific force are linear over this sample and the previous one. Coning and sculling
+/// are computed to second order, the rotation to third order, and the earth terms at the middle of the sample
+/// (Savage 1998, parts 1 and 2, for unequal sample times). `previous.dt` = 0 means that there is no previous
+/// sample; the terms that need a previous sample are omitted. Requires dt > 0.
 MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& previous,
                                        const ImuIncrement& imu);
 
-/// Turns the specific force by half of the sample's rotation, with earth terms frozen at the start, as in
-/// the published test vectors of in-flight alignment: C1 = C exp([(dtheta - C' w_in dt) x]), V1 = V +
-/// C (dv + dtheta x dv/2) + (g - (2w_ie + w_en) x V) dt, gravity proportional to 1 - 2h/a, the rate
-/// of the longitude with the radius of the circle of latitude at the end. Requires dt > 0.
+/// Turns the specific force by half of the sample's rotation. The earth terms keep their values of the start
+/// of the sample, as in the published test vectors of in-flight alignment:
+/// C1 = C exp([(dtheta - C' w_in dt) x]), V1 = V + C (dv + dtheta x dv/2) + (g - (2w_ie + w_en) x V) dt.
+/// Gravity is proportional to 1 - 2h/a. The rate of the longitude uses the radius of the circle of latitude
+/// at the end. Requires dt > 0.
 MechanizationStep mechanize_one_sample(const NavState& nav, const ImuIncrement& imu);
 
 /// A step of the given kind; only two_sample uses `previous`.

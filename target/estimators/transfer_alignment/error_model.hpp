@@ -19,14 +19,15 @@ inline constexpr int state_count = 12;
 using StateVector = Eigen::Matrix<double, state_count, 1>;
 using Covariance = Eigen::Matrix<double, state_count, state_count>;
 
-/// The first of the three states of each error.
+/// The index of the first of the three states of each error.
 enum Index : int { velocity_state = 0, attitude_state = 3, accel_bias_state = 6, gyro_bias_state = 9 };
 
 using strapdown::Interval;  // since the last update
 
-/// The non-zero blocks of G = A dt; the H2 term adds P N'N/beta, which fills the attitude column.
+/// The non-zero blocks of G = A dt; the H2 term adds P N'N/beta dt, after which every block of the attitude
+/// column is non-zero.
 inline constexpr std::array<filtering::Block, 5> kalman_blocks{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 3}}};
-/// The same with the H2 term.
+/// The non-zero blocks with the H2 term.
 inline constexpr std::array<filtering::Block, 7> h2_blocks{
     {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 3}, {2, 1}, {3, 1}}};
 

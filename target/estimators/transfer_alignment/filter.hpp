@@ -11,8 +11,8 @@
 
 namespace canhil::transfer_alignment {
 
-/// The slave INS: the part of the state that an IMU sample changes. Copy it for a snapshot, assign to
-/// restore.
+/// The slave INS: the part of the state that an IMU sample changes. A copy of an Ins is a snapshot of the
+/// INS; the assignment of the copy restores this state.
 struct Ins {
   strapdown::NavState nav;
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  // estimate, subtracted from the IMU [m/s^2]
@@ -26,7 +26,7 @@ struct State {
   Ins ins;
   Covariance P;                // posterior of the last update
   StateVector x;               // estimated errors of ins at the last update; zero in a closed loop
-  std::uint32_t rejected = 0;  // velocities gated in a row
+  std::uint32_t rejected = 0;  // number of consecutive gated velocities
 };
 
 /// The outcome of an update by a velocity of the master.
@@ -35,7 +35,7 @@ enum class Outcome : std::uint8_t {
   gated,                  // NIS above the gate
   no_interval,            // no IMU sample since the last update
   non_finite,             // a NaN or infinity in the measurement or in the result
-  not_positive_definite,  // innovation covariance or P's diagonal
+  not_positive_definite,  // the innovation covariance, or P has a negative variance
   not_reached,            // from History: velocity valid after the newest IMU epoch
   out_of_order,           // from History: velocity valid before the last update
   older_than_history,     // from History: velocity valid before the oldest stored epoch
@@ -46,7 +46,7 @@ struct UpdateResult {
   Outcome outcome = Outcome::no_interval;
   Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // V_slave - V_master, minus x in an open loop [m/s]
   Eigen::Matrix3d innovation_covariance = Eigen::Matrix3d::Zero();  // [(m/s)^2]
-  double nis = 0;                                                   // chi-squared of 3 if consistent
+  double nis = 0;                                                   // chi-squared, 3 degrees of freedom
   StateVector dx = StateVector::Zero();                             // K innovation: the correction
   double alpha = 0;                                                 // H2 [m/s^2]
   double beta = 0;                                                  // H2; 0: a Kalman step without H2 terms

@@ -14,7 +14,7 @@ struct HistoryModel {
   using UpdateResult = transfer_alignment::UpdateResult;
   using Outcome = transfer_alignment::Outcome;
 
-  /// Steps over an IMU increment.
+  /// Advances the state by an IMU increment.
   static void step(State& state, const Increment& imu, const Settings& settings) {
     propagate(state, imu, settings);
   }

@@ -23,9 +23,10 @@ StateVector invariant_correction(const Eigen::Matrix<double, state_count, 3>& K,
 void turn_with_correction(Covariance& P, const Eigen::Vector3d& phi);
 
 /// The initial tilt variances [rad^2] for stated attitude variances [rad^2, NED] s_t^2 (tilts) and s_D^2
-/// (heading). For a tilt t, P turned with the corrections contains the information 1/s_D^2 + t't/s_t^2 about
-/// the heading, but the start provided only 1/s_D^2 + t't/(12 s_t^2): on average 11/6 /rad^2 too much.
-/// Increasing the tilt variances by the factor 1 + 40 s_D^2 keeps this excess below 5 % of 1/s_D^2.
+/// (heading). For a tilt t, a P that is turned with the corrections contains the information 1/s_D^2 +
+/// t't/s_t^2 about the heading. But the start provided only 1/s_D^2 + t't/(12 s_t^2). The excess is 11/6
+/// /rad^2 on average. Increasing the tilt variances by the factor 1 + 40 s_D^2 keeps this excess below 5 % of
+/// 1/s_D^2.
 Eigen::Vector2d initial_tilt_variance(const Eigen::Vector3d& stated);
 
 }  // namespace canhil::transfer_alignment

@@ -27,10 +27,10 @@ enum class H2Case : std::uint8_t { one = 1, two, three, four };
 /// the unknown dC).
 enum class AlphaRule : std::uint8_t { cov_df, constant };
 
-/// How an update uses its correction. open: stored separately from the INS. published: applied to the INS; P
-/// is not rotated with it. invariant: the correction of an invariant error (invariant.hpp) is applied to the
-/// INS, and P is rotated with it; a Kalman step replaces an H2 step that would make P too large (NOTES.md);
-/// velocities beyond the gate are refused.
+/// How an update uses its correction. open: the correction is stored separately from the INS. published: the
+/// correction is applied to the INS, but P is not rotated with the INS. invariant: the correction of an
+/// invariant error (invariant.hpp) is applied to the INS, and P is rotated with the INS; a Kalman step
+/// replaces an H2 step that would make P too large (NOTES.md); velocities beyond the gate are refused.
 enum class Loop : std::uint8_t { open, published, invariant };
 
 /// The settings of the filter.
@@ -45,8 +45,8 @@ struct Settings {
   strapdown::Mechanization mechanization = strapdown::Mechanization::two_sample;
 
   // Loop::invariant: the gate refuses velocities with a larger NIS; 0: no gate. Velocities in a turn must
-  // pass the gate even with a heading error of three sigmas (90 deg), far beyond first order. With a gate of
-  // 250, one run of 200 became inconsistent (NEES).
+  // pass the gate even with a heading error of three sigmas (90 deg), for which the first-order model is far
+  // from valid. With a gate of 250, one run of 200 became inconsistent (NEES).
   double gate_nis = 2000;
   std::uint32_t gate_recovery = 5;  // the gate refuses at most this many velocities in a row
 

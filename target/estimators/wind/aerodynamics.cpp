@@ -155,8 +155,8 @@ LoadsJacobian loads_jacobian(const Flow& f, const Coefficients& c, const Vector3
   force_flow.col(0) += (2 / V) * Vector3d(c.lift * sa - c.drag * ca, c.side, -c.lift * ca - c.drag * sa);
   moment_flow.col(0) += (2 / V) * Vector3d(b * c.roll, airframe.chord * c.pitch, b * c.yaw);
 
-  // Derivatives of V, alpha, beta with respect to u, v, w; zero where clamped. The floor of 0.1 m/s keeps
-  // them finite far below the range.
+  // Derivatives of V, alpha, beta with respect to u, v, w; zero where clamped. The lower limit of 0.1 m/s
+  // keeps the derivatives finite at speeds far below the model's range.
   const double s = std::max(std::hypot(v_a.x(), v_a.z()), 0.1), V_true = std::max(v_a.norm(), 0.1);
   Matrix3d flow_v_a = Matrix3d::Zero();
   if (!f.outside.speed && !f.outside.mach) flow_v_a.row(0) = v_a.transpose() / V_true;

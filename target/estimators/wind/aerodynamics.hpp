@@ -8,7 +8,7 @@
 
 namespace canhil::wind {
 
-/// The quantities outside the model's range.
+/// One flag for each quantity: true if the quantity is outside the model's range.
 struct RangeFlags {
   bool alpha = false, beta = false, speed = false, mach = false, altitude = false, pitch = false;
   /// True if any quantity is outside.
@@ -17,7 +17,8 @@ struct RangeFlags {
   bool operator==(const RangeFlags&) const = default;
 };
 
-/// The flow, which selects the coefficients in the table; clamped to the table's range.
+/// The air flow relative to the body. Its values are clamped to the range of the table; they select the
+/// coefficients.
 struct Flow {
   double speed = 0, alpha = 0, beta = 0, mach = 0;  // V = |v_a|, atan2(w, u), asin(v/V), V/a
   double sin_alpha = 0, cos_alpha = 1;
@@ -41,8 +42,8 @@ inline constexpr int force_part_count = 9;  ///< the parts of lift, drag and sid
 inline constexpr int part_count = 18;       ///< all parts
 
 /// The contribution of each part to the specific force [m/s^2] and to the moment [N m], body axes, beginning
-/// with the parts of lift. The sums over all parts equal loads(). The induced drag, which depends on the
-/// whole lift, belongs to the flow part.
+/// with the parts of lift. The sums over all parts equal loads(). The induced drag depends on the whole lift;
+/// all of it belongs to the flow part of the drag.
 struct LoadsByPart {
   Eigen::Matrix<double, 3, force_part_count> specific_force;
   Eigen::Matrix<double, 3, part_count - force_part_count> moment;

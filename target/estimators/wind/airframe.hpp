@@ -40,7 +40,7 @@ struct Airframe {
   Lateral side, roll, yaw;                    // CY, Cl, Cn
   Drag drag;                                  // CD
   double mach_squared = 0;                    // compressibility
-  // Beyond these three ranges the model is clamped and the estimate flagged.
+  // Beyond these three ranges the model is clamped and the estimate is flagged.
   Range alpha, beta;  // [rad]
   Range speed;        // [m/s]
   double mach_most = 0;

@@ -26,7 +26,7 @@ inline constexpr Airframe airframe_table{
     .mach_most = 1.0,
     .altitude = {-500, 20'000},
     .pitch_most = 1.48,             // 85 deg
-    .deflection_most = 0.367,       // the fins' limit of 20 deg and 1 deg of rigging
+    .deflection_most = 0.367,       // fin limit of 20 deg plus rigging error of 1 deg
 };
 // clang-format on
 

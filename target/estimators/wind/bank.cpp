@@ -91,7 +91,7 @@ Bank initial(const Start& start, const BankDesign& design) {
 
 UpdateResult step(Bank& bank, const Navigation& navigation, const FinHistory& fins,
                   const BankDesign& design) {
-  // Filters that were enabled since the last sample start as copies of the first one.
+  // Filters that were enabled since the last sample start as copies of the first filter.
   for (; bank.count < design.count; ++bank.count) {
     bank.states[bank.count] = bank.states[0];
     bank.surprise[bank.count] = bank.surprise[0];

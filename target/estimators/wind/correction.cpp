@@ -15,7 +15,7 @@ using ByShare = Eigen::Matrix<double, 1, part_count>;
 // residual = innovation - h dx.
 void absorb(Correction& c, int index, const StateVector& Ph, double S, double residual) {
   const double scale = 1 / std::sqrt(S);
-  const StateVector q = scale * Ph;  // both factors of q q' are one vector: P stays exactly symmetric
+  const StateVector q = scale * Ph;  // the factors of q q' are the same vector, so P stays exactly symmetric
   const double normalised = scale * residual;
   c.P.noalias() -= q.lazyProduct(q.transpose());
   c.dx += normalised * q;
@@ -65,8 +65,8 @@ double capped_theta(double theta, double cap, const Covariance& P, double rate_w
   filtering::Vector<6> root_S;
   root_S << 1, 1, 1, filtering::Vector<3>::Constant(std::sqrt(rate_weight));
   const Matrix6 B = root_S.asDiagonal() * P.topLeftCorner<6, 6>() * root_S.asDiagonal();
-  // A Cholesky factor of (cap/theta) I - B exists if and only if theta lambda_max < cap, so that eigenvalues
-  // are computed only if theta must be lowered.
+  // A Cholesky factor of (cap/theta) I - B exists if and only if theta lambda_max < cap, so eigenvalues need
+  // only be computed if theta must be lowered.
   const Matrix6 margin = (cap / theta) * Matrix6::Identity() - B;
   if (Eigen::LLT<Matrix6>(margin).info() == Eigen::Success) return theta;
   return cap / filtering::largest_eigenvalue<6>(B);
@@ -76,8 +76,8 @@ void inflate(Correction& c, double theta, double rate_weight) {
   for (int j = 0; j < 6; ++j) {
     const double weight = theta * (j < 3 ? 1 : rate_weight);
     if (!(weight > 0)) continue;
-    // A scalar update with the negative noise variance -1/weight: S = P_jj - 1/weight < 0, so the root is
-    // that of -S.
+    // A scalar update with the negative noise variance -1/weight: S = P_jj - 1/weight is negative, so the
+    // square root of -S is used.
     const StateVector p = c.P.col(j);
     const double scale = 1 / std::sqrt(1 / weight - p(j));
     const StateVector q = scale * p;

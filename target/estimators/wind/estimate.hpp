@@ -15,11 +15,11 @@ struct Estimate {
   double alpha = 0, beta = 0;  // [rad]
 };
 
-/// 1-sigma values. Along track: the component of the wind along the horizontal air velocity, which has nearly
-/// all of the error. Cross track: the horizontal component to the right of it.
+/// 1-sigma values. Along track: the component of the wind along the horizontal air velocity; nearly all of
+/// the error is in this component. Cross track: the horizontal component to the right of the air velocity.
 struct Uncertainty {
   StateVector state;
-  double wind_speed = 0, wind_from = 0;     // [m/s], [rad]; an unknown direction has pi/sqrt(3)
+  double wind_speed = 0, wind_from = 0;     // [m/s], [rad]; pi/sqrt(3) if the direction is unknown
   double along_track = 0, cross_track = 0;  // [m/s]
 };
 

@@ -31,7 +31,8 @@ Fault judged(const Navigation& n, const Observation& y, const Design& design) {
   return Fault::none;
 }
 
-// True if navigation has not changed in any bit for too long: its source has stopped.
+// True if the navigation samples have been bit-identical for too long, which means that their source has
+// stopped.
 bool is_stale(State& state, const Observation& y, double gap, const Settings& settings) {
   state.unchanged_s = y == state.last ? state.unchanged_s + gap : 0;
   state.last = y;
@@ -93,7 +94,7 @@ double reckoned_altitude(const State& state, double dt) {
   return state.altitude - down * dt;
 }
 
-// Advances by one part of a step, with the mean deflections over it.
+// Advances by one part of a step, with the mean deflections over this part.
 void advance(State& state, double dt, const ActingFins& acting, const Design& design, Flags& flags) {
   const Range& range = design.airframe.altitude;
   RangeFlags outside;
@@ -265,7 +266,7 @@ UpdateResult step(State& state, const Navigation& navigation, const FinHistory& 
     state = next;
     return result;
   }
-  // If the previous state is finite, it is kept; forget() then leaves only its wind in use.
+  // A previous state that is finite is kept, but after forget() only its wind is used.
   result.outcome = Outcome::non_finite;
   if (!is_sound(state)) state = initial(design);
   forget(state);

@@ -43,8 +43,8 @@ enum class Outcome : std::uint8_t {
   waiting,  // not started, and this sample is not usable
   started,  // the filter started from attitude, rates and velocity of the sample, and from the previous wind
   updated,
-  coasting,      // predicted only; `fault` says why
-  out_of_order,  // before the last sample, or at its time if it was used: ignored
+  coasting,      // predicted only; `fault` is the reason
+  out_of_order,  // valid before the last sample, or at the time of a last sample that was used: ignored
   non_finite,    // the result would not be finite and positive definite: restarts with the next sample
 };
 
@@ -61,8 +61,8 @@ enum class Fault : std::uint8_t {
 
 /// Reasons why the estimate is less reliable.
 struct Flags {
-  RangeFlags outside;              // the range of the aerodynamic model, the atmosphere or the Euler angles
-  bool fins_late = false;          // a deflection is missing or too old
+  RangeFlags outside;      // outside the range of the aerodynamic model, the atmosphere or the Euler angles
+  bool fins_late = false;  // a deflection is missing or too old
   bool fins_missing = false;       // no deflection for so long that the model is unreliable
   bool fins_not_physical = false;  // the last frame of the fins was refused
   bool theta_capped = false;       // H-infinity: theta was lowered
@@ -77,7 +77,7 @@ struct UpdateResult {
   Flags flags;
   Observation innovation = Observation::Zero();  // ground velocity, rates, Euler angles
   Observation normalised = Observation::Zero();  // innovation, whitened (correction.hpp)
-  double nis = 0;                                // chi-squared of 9 if consistent; 0 without an update
+  double nis = 0;                                // 9 degrees of freedom; 0 without an update
   double surprise = 0;                           // nis + ln det S; 0 without an update
   double theta = 0;                              // H-infinity, as used
 };
@@ -96,7 +96,7 @@ struct Start {
   double altitude = 0;           // [m]
 };
 
-/// The state before a start, with only a wind [m/s, NED] that has the sigma settings.wind_sigma_0.
+/// The state before a start. It contains only a wind [m/s, NED] with the sigma settings.wind_sigma_0.
 State initial(const Design& design, const Eigen::Vector3d& wind = Eigen::Vector3d::Zero());
 
 /// The state at release, sigmas from the settings; wind = v_eb_n - C_bn v_a.

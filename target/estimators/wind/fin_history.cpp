@@ -20,7 +20,7 @@ FinOutcome FinHistory::push(std::int64_t t_us, const Deflection& d, double limit
   if (last_refused_) return FinOutcome::not_physical;
   const std::optional<Sample> before = std::exchange(out_of_order_, std::nullopt);
   if (count_ > 0 && t_us <= back(0).t_us) {
-    constexpr std::int64_t overtaken_us = 100'000;  // the largest delay by which a bus reorders frames
+    constexpr std::int64_t overtaken_us = 100'000;  // the longest time by which a bus may reorder frames
     if (!before || t_us <= before->t_us || t_us >= back(0).t_us - overtaken_us) {
       out_of_order_ = {t_us, d};
       return FinOutcome::out_of_order;
@@ -39,10 +39,11 @@ ActingFins FinHistory::over(std::int64_t from_us, std::int64_t to_us) const {
   if (count_ == 0) return acting;
   acting.known = true;
   const std::size_t kept = std::min(count_, samples_.size());
-  // Integrates backwards from the interval's end: `later` is the end of a piece, `at` the deflection there.
+  // Integrates backwards from the interval's end: `later` is the end of a piece, `at` is the deflection at
+  // this end.
   std::size_t age = 0;
   while (age + 1 < kept && back(age).t_us >= to_us && back(age + 1).t_us >= to_us) ++age;
-  // Interpolates between sample `newer` and the one before it.
+  // Interpolates between sample `newer` and the sample before it.
   const auto between = [&](std::size_t newer, std::int64_t t) {
     const Sample& b = back(newer);
     if (newer + 1 >= kept) return b.deflection;

@@ -20,7 +20,7 @@ enum class FinOutcome : std::uint8_t {
 /// The mean deflection over an interval.
 struct ActingFins {
   Deflection mean;
-  std::int64_t gap_us = 0;    // the longest time without a sample that overlaps the interval
+  std::int64_t gap_us = 0;    // the longest of the gaps between samples that overlap the interval
   bool known = false;         // false: no sample at all; mean is zero
   bool not_physical = false;  // the last frame was refused
 };
@@ -29,9 +29,9 @@ struct ActingFins {
 class FinHistory {
  public:
   /// Adds deflections [rad] valid at t_us, each at most `limit`. Times must ascend; an earlier sample is
-  /// refused as out of order. Two samples in a row that are out of order, but ascend and are more than 0.1 s
-  /// before the newest, show that the newest had a wrong time. The history then restarts with these two
-  /// samples.
+  /// refused as out of order. If two consecutive samples are out of order, but the second is later than the
+  /// first and more than 0.1 s earlier than the newest, the newest had a wrong time. The history then
+  /// restarts with these two samples.
   FinOutcome push(std::int64_t t_us, const Deflection& deflection, double limit);
 
   /// The mean over [from, to] of the deflections, linearly interpolated between samples; constant after the

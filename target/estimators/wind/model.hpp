@@ -50,7 +50,7 @@ struct Linearisation {
 Linearisation linearise(const StateVector& x, const Inputs& inputs, const Design& design,
                         RangeFlags& outside);
 
-/// x after dt by one Runge-Kutta step of fourth order; `f` is x' at its start.
+/// x after dt by one Runge-Kutta step of fourth order; `f` is x' at the start of the step.
 StateVector predicted(const StateVector& x, const StateVector& f, double dt, const Inputs& inputs,
                       const Design& design, RangeFlags& outside);
 

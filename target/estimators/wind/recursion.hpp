@@ -4,7 +4,7 @@
 
 namespace canhil::wind {
 
-/// The densities, each raised to at least its value in `least`.
+/// Each density, or its value in `least` if that is larger.
 Densities raised(Densities density, const Densities& least);
 
 /// Predicts x and P over dt [s] with constant inputs. `density` is the process noise; it is raised to

@@ -53,14 +53,14 @@ struct Settings {
 
   double theta_per_s = 1.5;    // H-infinity: theta of a sample, divided by its interval [1/(m/s)^2/s]
   double theta_cap_per_s = 2;  // bound of theta lambda_max, divided by the same interval [1/s]
-  double rate_weight = 1;      // of the rates in S; the air velocity has 1 [(m/s)^2/(rad/s)^2]
+  double rate_weight = 1;  // weight of the rates in S; the air velocity has the weight 1 [(m/s)^2/(rad/s)^2]
 
   double adaptation_time = 0.3;   // time constant of the adapted noise if NIS/9 is 2 [s]
   double adaptation_limit = 1e4;  // upper limit of the factor on the variance of the adapted noise
 
   double gust_noise = 4;        // of the wind, for the bank's gust filter [m/s/sqrt(s)]
   double memory = 1;            // of the bank's likelihoods [s]
-  double odds_of_gusts = 1e-3;  // prior weight of the gust filter relative to the other
+  double odds_of_gusts = 1e-3;  // prior weight of the gust filter relative to the other filter
 
   double air_velocity_sigma_0 = 1;              // of the air velocity that is known at the start [m/s]
   double velocity_sigma_0 = 0.1;                // ground velocity at the start [m/s]

@@ -4,11 +4,11 @@
 // reads and writes registers, and shows the driver the registers of a controller with errors. The driver, the kernel's CAN and everything above are
 // the real ones.
 //
-// Two controllers with different bit timings disturb each other. A controller whose partner is down or bus-off is alone.
-// Other states are set by /sys/module/canhil_wire/parameters/wire. (Load the module while the controllers are down: it reads their bit timings when
-// they are set up.)
+// Two controllers with different bit timings disturb each other. If one controller is down or bus-off, the other one has the state `alone` (see below).
+// Other states are set by /sys/module/canhil_wire/parameters/wire. Load the module while the controllers are down: it reads their bit timings when
+// the controllers are set up.
 //   echo can1 sound              QEMU's behaviour
-//   echo can1 held               nothing is sent until it is sound again (other nodes occupy the bus)
+//   echo can1 held               can1 sends nothing until its state is sound again, as if other nodes occupied the bus
 //   echo can1 slow US            each frame takes this time
 //   echo can1 broken             each frame ends with an error until the controller is bus-off
 //   echo can1 alone              no acknowledgement: error passive, endless retransmission
@@ -23,7 +23,7 @@
 MODULE_LICENSE("Dual MIT/GPL");
 MODULE_DESCRIPTION("A wire that can fail, for emulated SJA1000 controllers");
 
-// SJA1000 data sheet, PeliCAN mode.
+// Registers and bits of the SJA1000 in PeliCAN mode, from its data sheet.
 enum { MOD = 0, CMR = 1, SR = 2, IR = 3, IER = 4, BTR0 = 6, BTR1 = 7, ALC = 11, ECC = 12, RXERR = 14, TXERR = 15, REGS = 32 };
 enum { MOD_RESET = 0x01, CMR_TRANSMIT = 0x01, CMR_ABORT = 0x02, CMR_SELF_RECEPTION = 0x10 };
 enum { IR_WARNING = 0x04, IR_PASSIVE = 0x20, IR_ARBITRATION = 0x40, IR_BUS_ERROR = 0x80 };
@@ -40,20 +40,20 @@ struct controller {
 	const void *priv;
 	enum wire wire;
 	u32 frame_us;
-	u8 written[REGS]; // the last value the driver wrote
-	u8 seen[REGS];    // if not 0, replaces the value of the chip; SR and IR are or-ed
+	u8 written[REGS]; // the last value that the driver wrote to each register
+	u8 seen[REGS];    // simulated values that the driver reads; in SR and IR, combined with the chip's value by OR
 	u8 request;       // CMR bits of a transmission that waits
 	struct hrtimer timer;
 };
 static struct controller controllers[2];
 static struct kprobe on_write;
-static bool passing; // true while this module writes a register
+static bool passing; // true while this module itself writes a register
 
 static const u64 step_ns = 1000000; // interval between the stages of a fault
 
 static struct controller *controller_of(const void *priv)
 {
-	struct net_device *dev = ((const struct can_priv *)priv)->dev; // the first member of the driver's own
+	struct net_device *dev = ((const struct can_priv *)priv)->dev; // can_priv is the first member of the driver's own struct
 	int i;
 
 	for (i = 0; i < 2; ++i)
@@ -111,7 +111,7 @@ static void write_chip(struct controller *c, int reg, u8 value)
 	passing = false;
 }
 
-// A receiver of a frame with another bit rate counts errors too, but no receiver goes bus-off.
+// If a frame has another bit rate, its receiver counts errors too, but a receiver never becomes bus-off.
 static void disturb(struct controller *c, u8 ir, u8 rxerr)
 {
 	if (netif_running(c->dev) && !c->seen[TXERR] && c->seen[RXERR] < rxerr)
@@ -151,7 +151,7 @@ static enum hrtimer_restart next_stage(struct hrtimer *timer)
 			disturb(&controllers[c == &controllers[0]], IR_PASSIVE, 128);
 	} else if (wire == BROKEN) {
 		c->request = 0;
-		write_chip(c, MOD, MOD_RESET); // a bus-off chip also enters reset mode
+		write_chip(c, MOD, MOD_RESET); // the chip also enters reset mode when it becomes bus-off
 		raise(c, IR_WARNING | IR_BUS_ERROR, SR_WARNING | SR_BUS_OFF, ecc, 0, 255, 0);
 		return HRTIMER_NORESTART;
 	}
@@ -176,7 +176,7 @@ static int before_write(struct kprobe *probe, struct pt_regs *regs)
 		c->request = 0;
 	} else if (reg == CMR && (value & (CMR_TRANSMIT | CMR_SELF_RECEPTION)) && wire_of(c) != SOUND) {
 		c->request = value;
-		regs->dx = 0; // the chip gets no command; the timer sends the frame later
+		regs->dx = 0; // the chip gets no command now; the timer's function sends the frame later
 		hrtimer_start(&c->timer, ns_to_ktime(c->wire == SLOW ? c->frame_us * 1000ULL : step_ns), HRTIMER_MODE_REL);
 	}
 	return 0;
@@ -193,7 +193,7 @@ static int before_read(struct kretprobe_instance *instance, struct pt_regs *regs
 
 	reading->controller = controller_of((const void *)regs->di);
 	reading->reg = (unsigned int)regs->si;
-	return reading->controller && reading->reg < REGS ? 0 : 1; // 1: after_read() is not called
+	return reading->controller && reading->reg < REGS ? 0 : 1; // 1: the kernel does not call after_read()
 }
 
 static int after_read(struct kretprobe_instance *instance, struct pt_regs *regs)
@@ -205,7 +205,7 @@ static int after_read(struct kretprobe_instance *instance, struct pt_regs *regs)
 	switch (reading->reg) {
 	case IR:
 		value |= c->seen[IR];
-		c->seen[IR] = 0; // reading clears it
+		c->seen[IR] = 0; // reading this register clears it
 		break;
 	case SR:
 		value |= c->seen[SR];

@@ -1,5 +1,5 @@
-// A program outside the project that uses the installed libraries: it reads a recorded run, packs a message
-// of its own DBC, and uses the Earth model.
+// A program outside the project that uses the installed libraries. It reads a recorded run, packs a message
+// of another DBC (own.dbc, which belongs to this program), and uses the Earth model.
 #include <cstdio>
 
 #include "dbc/logs/log.hpp"

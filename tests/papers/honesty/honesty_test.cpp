@@ -1,6 +1,6 @@
-// Tests that the sigmas of the recommended filters match their errors, where these filters differ from the
-// papers. The tests fly the campaigns of bench/monte_carlo/honesty. These campaigns judge with 200 runs; here
-// they have as many runs as the time of CTest permits.
+// Tests that the errors of the recommended filters match the sigmas that these filters report. (The papers do
+// not have these filters.) The tests fly the campaigns of bench/monte_carlo/honesty. A full campaign has 200
+// runs; here it has only as many as the time limit of CTest permits.
 #include "tests/papers/bars.hpp"
 
 namespace canhil::papers {

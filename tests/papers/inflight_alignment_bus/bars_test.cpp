@@ -1,5 +1,5 @@
-// Acceptance limits ('bars') B and C of the paper on in-flight alignment over the bus, 40 runs. bars.toml
-// derives the limits.
+// Tests the acceptance limits ('bars') B and C for the paper on in-flight alignment, with 40 runs over the
+// bus. bars.toml explains how the limits are derived.
 #include "tests/papers/bars.hpp"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ TEST(InflightAlignmentPaperOverTheBus, MeetsTheBarsWith40Runs) {
     EXPECT_EQ(found->figures.front().first, "rms_deg");
     return found->figures.front().second.value_or(0);
   };
-  // Bar C requires 20 % with 400 runs. The runs are paired, so the ratio hardly depends on their number; here
-  // the limit is 30 %.
+  // Bar C: with 400 runs, the two RMS may differ by 20 %. Both variants have the same random numbers in each
+  // run, so their ratio hardly depends on the number of runs. Here the limit is 30 %.
   EXPECT_NEAR(rms_deg("gps_sincos_180") / rms_deg("gps_sincos_30"), 1, 0.3);
   EXPECT_NEAR(rms_deg("ssbl_sincos_180") / rms_deg("ssbl_sincos_30"), 1, 0.3);
 }

@@ -16,7 +16,7 @@ TEST(InflightPage, HasEveryFigureTableAndVerdictInOneFile) {
   for (const char* bar : {"bar B", "bar C", "bar D"}) EXPECT_THAT(html, HasSubstr(bar));
   for (const char* section : {"starts", "paths", "forms", "late", "losses", "settings"})
     EXPECT_THAT(html, HasSubstr(std::string("id=\"") + section + "\""));
-  EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
+  EXPECT_THAT(html, Not(HasSubstr("src=")));  // the page needs no other file
   EXPECT_THAT(html, Not(HasSubstr("url(")));
   EXPECT_THAT(text, HasSubstr("The limits are for 400 runs"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));

@@ -13,8 +13,9 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
-// Each figure is drawn twice, wide and narrow. Expects that the name of a curve ends inside both drawings,
-// with 0.63 of the font size per character, as in a wide sans-serif font.
+// The page has two drawings of each figure, a wide and a narrow one. Expects that the name of a curve does
+// not extend beyond the edge of either drawing. The width of a character is assumed to be 0.63 of the font
+// size, as in a wide sans-serif font.
 void expect_names_within(const std::string& html, const std::string& name) {
   const std::regex drawing("viewBox=\"0 0 ([0-9]+) [0-9]+\"");
   const std::regex label(
@@ -40,7 +41,7 @@ TEST(LosPage, HasEveryFigureTableAndVerdictInOneFile) {
   for (const char* section :
        {"open-loop", "closing-speed", "formulas", "closed-loop", "delays", "glint", "settings"})
     EXPECT_THAT(html, HasSubstr(std::string("id=\"") + section + "\""));
-  EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
+  EXPECT_THAT(html, Not(HasSubstr("src=")));  // the page needs no other file
   EXPECT_THAT(html, Not(HasSubstr("url(")));
   const std::string fig2 = html.substr(html.find("<figure id=\"fig2\">"));
   EXPECT_THAT(fig2.substr(0, fig2.find("</figure>")), HasSubstr("12 rad/s")) << "the best by miss";

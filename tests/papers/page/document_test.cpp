@@ -1,4 +1,4 @@
-// Reading the text of a page; errors in it are reported.
+// Tests the code that reads the text of a page, and how it reports errors in the text.
 #include "bench/papers/document.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-// An error in a template is reported with its place; nothing wrong is printed silently.
+// Tests that an error in a template is reported together with its place in the template, and that a page with
+// an error is never printed.
 #include "bench/papers/template.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 #pragma once
-// A Monte Carlo of the paper's flight on the filter itself: 20 s, IMU 100 Hz, master velocity 10 Hz. All
-// filters of a run have the same errors and noise.
+// A Monte Carlo simulation of the paper's flight with the filter alone, without a bus: 20 s, IMU of 100 Hz,
+// master velocity at 10 Hz. In each run, all filters have the same errors and the same noise.
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
@@ -27,13 +27,14 @@ struct Truth {
 inline constexpr int update_count = 200;
 inline constexpr double update_interval = 0.1, imu_interval = 0.01;
 
-/// One filter in one run: heading error after each update [rad], and mean NIS.
+/// The results of one filter in one run: heading error after each update [rad], and mean NIS.
 struct RunResult {
   std::array<double, update_count> heading_error;
   double mean_nis = 0;
 };
 
-/// Returns the results by filter and run. The same seed gives the same results.
+/// Flies `runs` runs with each filter. Returns the results: the first index is the filter, the second the
+/// run. The same seed gives the same results.
 inline std::vector<std::vector<RunResult>> monte_carlo(const std::vector<Settings>& filters,
                                                        const Truth& truth, int runs, std::uint64_t seed) {
   std::vector<std::vector<RunResult>> results(filters.size());
@@ -73,22 +74,22 @@ inline std::vector<std::vector<RunResult>> monte_carlo(const std::vector<Setting
   return results;
 }
 
-/// RMS over the runs of the heading error after update k.
+/// The RMS, over all runs, of the heading error after update k.
 inline double heading_rms(const std::vector<RunResult>& runs, int k) {
   double sum = 0;
   for (const RunResult& run : runs) sum += std::pow(run.heading_error[static_cast<std::size_t>(k)], 2);
   return std::sqrt(sum / static_cast<double>(runs.size()));
 }
 
-/// Time [s] of the first update after which the heading RMS stays below `threshold` [rad] to the end;
-/// infinity: never.
+/// The time [s] of the first update after which the RMS of the heading error is below `threshold` [rad] until
+/// the end; infinity if there is no such update.
 inline double convergence_time(const std::vector<RunResult>& runs, double threshold) {
   int k = update_count;
   while (k > 0 && heading_rms(runs, k - 1) < threshold) --k;
   return k == update_count ? std::numeric_limits<double>::infinity() : (k + 1) * update_interval;
 }
 
-/// The share of runs in which `a` has the smaller heading error at t [s].
+/// The share of runs in which filter `a` has a smaller heading error than filter `b` at the time t [s].
 inline double share_ahead(const std::vector<RunResult>& a, const std::vector<RunResult>& b, double t) {
   const auto k = static_cast<std::size_t>(std::lround(t / update_interval)) - 1;
   int ahead = 0;

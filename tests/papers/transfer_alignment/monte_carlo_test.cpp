@@ -1,8 +1,8 @@
-// The claims about the robust H2 filter against the Kalman filter (Yang, Shim, Park 2001), with the settings
-// that reproduce the paper's Table 2: P0 of the attitude 1 deg for true errors of 5 deg, R far above the
-// master's noise. 300 runs per test, a fixed seed. The limits are wider than the scatter of five seeds x 300
-// runs and of ten batches of 30 runs of the reference simulation. Seeds 1, 1000, 2000 and 5000 meet the
-// limits.
+// Tests the claims that compare the robust H2 filter with the Kalman filter (Yang, Shim, Park 2001). The
+// settings are those that reproduce the paper's Table 2: P0 of the attitude is 1 deg although the true errors
+// are 5 deg, and R is far above the master's noise. Each test has 300 runs and a fixed seed. The limits are
+// wider than two scatters: that of five seeds with 300 runs each, and that of ten batches of 30 runs of the
+// reference simulation. Seeds 1, 1000, 2000 and 5000 meet the limits.
 #include <gtest/gtest.h>
 
 #include "tests/papers/transfer_alignment/monte_carlo.hpp"
@@ -23,8 +23,8 @@ Settings filter(Algorithm algorithm, double sigma_0_deg) {
 const Settings kalman_1 = filter(Algorithm::kalman, 1), kalman_5 = filter(Algorithm::kalman, 5),
                h2_filter = filter(Algorithm::robust_h2, 1);
 
-// Time to converge to 3 / 2 / 1 mrad [s]. Paper: 14.4 / 15.6 / never; reference simulation: 14.7 / 16.2 /
-// never.
+// The time in which the filter converges to 3 / 2 / 1 mrad [s] is, in the paper, 14.4 / 15.6 / never, and in
+// the reference simulation 14.7 / 16.2 / never.
 TEST(TransferAlignmentPaper, KalmanFilterConfiguredWithOneDegreeIsSlow) {
   const auto runs = monte_carlo({kalman_1}, {}, run_count, first_seed).front();
   EXPECT_GT(convergence_time(runs, k3mrad), 13.8);
@@ -32,8 +32,9 @@ TEST(TransferAlignmentPaper, KalmanFilterConfiguredWithOneDegreeIsSlow) {
   EXPECT_GT(convergence_time(runs, k1mrad), 18.0);
 }
 
-// Paper: 11.4 / 11.7 / 12.9 s; reference simulation with the same alpha, which can be implemented: 12.3 /
-// 12.9 / 15.5 s.
+// The time in which the H2 filter converges to 3 / 2 / 1 mrad is, in the paper, 11.4 / 11.7 / 12.9 s, and in
+// the reference simulation 12.3 / 12.9 / 15.5 s. The test and the simulation use the same alpha, one that can
+// be implemented.
 TEST(TransferAlignmentPaper, H2IsFasterThanThatKalmanFilter) {
   const auto results = monte_carlo({h2_filter, kalman_1}, {}, run_count, first_seed);
   const auto &h2 = results[0], &kalman = results[1];
@@ -45,7 +46,7 @@ TEST(TransferAlignmentPaper, H2IsFasterThanThatKalmanFilter) {
   EXPECT_GE(share_ahead(h2, kalman, 12), 0.90);
 }
 
-// A correctly initialised Kalman filter is better than H2.
+// A Kalman filter with the correct P0 converges faster than the H2 filter.
 TEST(TransferAlignmentPaper, KalmanFilterConfiguredWithTheTruthIsFasterThanH2) {
   const auto results = monte_carlo({kalman_5, h2_filter}, {}, run_count, first_seed);
   const auto &kalman = results[0], &h2 = results[1];
@@ -55,9 +56,9 @@ TEST(TransferAlignmentPaper, KalmanFilterConfiguredWithTheTruthIsFasterThanH2) {
   EXPECT_GE(share_ahead(kalman, h2, 12), 0.88);
 }
 
-// With P0 of 1 deg and fading memory, the Kalman filter is as fast as the H2 filter. Reference simulation:
-// 12.0 / 12.4 / 13.6 s for P scaled by exp(2 a dt), a = 0.1 /s; 13.1 / 13.9 / 16.5 s for P scaled by exp(a
-// dt).
+// With P0 of 1 deg and fading memory, the Kalman filter is as fast as the H2 filter. In the reference
+// simulation it converges to 3 / 2 / 1 mrad in 12.0 / 12.4 / 13.6 s if P is multiplied by exp(2 a dt) with a
+// = 0.1 /s, and in 13.1 / 13.9 / 16.5 s if P is multiplied by exp(a dt).
 TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
   Settings fading = kalman_1;
   fading.fading_per_s = 0.1;
@@ -67,7 +68,8 @@ TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
   EXPECT_NEAR(convergence_time(runs, k1mrad), 13.6, 0.8);
 }
 
-// The master has noise. H2 with the true P0 (5 deg) diverges in some runs; its error is recorded, not judged.
+// The master's velocity has noise. The H2 filter with the true P0 (5 deg) diverges in some runs; the test
+// records the error of this filter without judging it.
 TEST(TransferAlignmentPaper, KalmanFilterConvergesWithMasterNoise) {
   Truth truth;
   truth.master_noise_sigma = 0.05;
@@ -79,9 +81,9 @@ TEST(TransferAlignmentPaper, KalmanFilterConvergesWithMasterNoise) {
                  std::to_string(1e3 * heading_rms(results[1], update_count - 1)));
 }
 
-// With true P0, Q and R the innovations are consistent: NIS 3. The standard error for 300 runs x 200 updates
-// of chi-square 3 is 0.01. The linearisation error, of the order of the square of 5 deg, affects only the
-// first updates.
+// With true P0, Q and R the innovations are consistent: the mean NIS is 3. The standard error of this mean is
+// 0.01 (300 runs with 200 updates each; chi-square with 3 degrees of freedom). The linearisation error, of
+// the order of the square of 5 deg, affects only the first updates.
 TEST(TransferAlignmentPaper, HonestKalmanFilterIsConsistent) {
   Truth truth;
   truth.master_noise_sigma = std::sqrt(kalman_5.velocity_noise_density / update_interval);

@@ -1,5 +1,5 @@
-// The paper's acceptance limits ('bars') over the bus: the codec with quantised frames, 40 runs. bars.toml
-// derives the limits.
+// Tests the acceptance limits ('bars') for the paper, with 40 runs over the bus, so that the values are
+// quantised. bars.toml explains how the limits are derived.
 #include "tests/papers/bars.hpp"
 
 namespace canhil::papers {

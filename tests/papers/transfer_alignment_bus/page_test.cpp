@@ -1,4 +1,5 @@
-// The complete reproduction with two runs per variant: every campaign is read and run, every figure is drawn.
+// The complete reproduction of the paper with two runs per variant: reads and runs every campaign, draws
+// every figure.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,10 +27,11 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
   EXPECT_THAT(html, HasSubstr("2 runs per curve, seed 20010101, frames quantised as on the bus"));
   EXPECT_THAT(html, HasSubstr("each through the codec with frames quantised as on the bus."));
   EXPECT_THAT(html, Not(HasSubstr("rounding (--unrounded)")));
-  EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
+  EXPECT_THAT(html, Not(HasSubstr("src=")));  // the page needs no other file
   EXPECT_THAT(html, Not(HasSubstr("url(")));
   EXPECT_THAT(text, HasSubstr("The limits are for 300 runs: with fewer they may fail by chance."));
-  // With two runs, the first paragraph must state no more than the verdicts below it.
+  // The first paragraph must agree with the verdicts below it: with two runs, these claims are not
+  // reproduced.
   EXPECT_THAT(html,
               HasSubstr("errors are 5 deg. Table 2, Kalman filter: does not reproduce; its heading enters"));
   EXPECT_THAT(html, HasSubstr("Table 2, H2 case 2 is faster: does not reproduce; its heading enters"));

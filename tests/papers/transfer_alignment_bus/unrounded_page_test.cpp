@@ -1,4 +1,4 @@
-// If a reproduction leaves out the bus's rounding, its page says that nothing was rounded.
+// If a reproduction is flown with unrounded frames, its page must state this.
 #include <gmock/gmock.h>
 
 #include "tests/papers/reproduced.hpp"

@@ -1,5 +1,5 @@
-// A paper's acceptance limits ('bars') can be missed: a figure just beyond each limit fails its claim and the
-// whole page.
+// Tests that each of a paper's acceptance limits ('bars') has an effect: if a figure is just beyond a limit,
+// the claim fails, and so does the whole page.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -12,8 +12,8 @@
 namespace canhil::papers {
 namespace {
 
-// One limit: `figure`, or the value of the quantity itself if `figure` is empty, must be at most or at least
-// `value`.
+// One limit: the figure named `figure` must be at most `value` or, if not `at_most`, at least `value`. If
+// `figure` is empty, the limit applies to the value of the quantity itself.
 struct Bar {
   std::string figure;
   double value = 0;  // in the unit of the report
@@ -76,7 +76,8 @@ double itself(const campaign::Variant& variant, const campaign::Answer& answer) 
 }
 
 // The claims of the papers on LOS rate and wind depend on figures that are proportional to the errors of a
-// variant. Just within each limit, its claim and the page pass; just beyond it, both fail.
+// variant. The test sets the errors so that a figure is just within its limit: claim and page must pass. Then
+// it sets them so that the figure is just beyond the limit: claim and page must fail.
 class FiguresBeyondABar : public testing::TestWithParam<int> {};
 
 TEST_P(FiguresBeyondABar, FailItsAnswerAndThePage) {
@@ -124,7 +125,7 @@ std::string name_of(const testing::TestParamInfo<int>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Papers, FiguresBeyondABar, testing::Values(2, 3), name_of);
 
-// For all four papers: every claim with a limit affects the verdict.
+// For all four papers: if any claim with a limit fails, the page must fail.
 class AMissedBar : public testing::TestWithParam<int> {};
 
 TEST_P(AMissedBar, FailsThePage) {

@@ -1,5 +1,5 @@
-// The page's statements about a paper's claims follow from the figures: tested on both sides of each
-// threshold.
+// Tests that the page's statements about a paper's claims agree with the figures, just below and just above
+// each threshold.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -27,8 +27,8 @@ class LosClaims : public testing::Test {
   MadeUp made_up_{papers.at(2)};
 };
 
-// The claim requires that in each window after the start-up the RMS is within 10 % of the Kalman filter's, to
-// either side.
+// The claim requires for each window after the start-up that the RMS of the filter differs from the RMS of
+// the Kalman filter by at most 10 %.
 TEST_F(LosClaims, AsGoodAsTheKalmanFilter) {
   for (const auto& [variant, claim] :
        {std::pair{"switched", "switched_as_good"}, std::pair{"combined", "combined_as_good"}}) {
@@ -129,7 +129,7 @@ TEST_F(WindClaims, NoneIsLostOnlyIfNoVariantLostARun) {
   }
 }
 
-// A campaign cannot contain these limits, because they compare two variants; the page judges them.
+// These limits compare two variants. A campaign cannot contain such limits; therefore the page judges them.
 TEST(InflightClaims, ThatAreBarsFailThePage) {
   MadeUp made_up(papers.at(1));
   const auto heading = [&](const char* campaign, const std::string& variant, const char* figure,
@@ -156,7 +156,7 @@ TEST(InflightClaims, ThatAreBarsFailThePage) {
   }
 }
 
-// With true settings for both filters, the H2 filter is not the better one.
+// The page must fail if the H2 filter is better than a Kalman filter that has true settings.
 TEST(TransferClaims, AnH2FilterAheadWhereItMustNotBeFailsThePage) {
   MadeUp made_up(papers.at(0));
   const auto at = [&](const std::string& variant, double mrad) {
@@ -171,7 +171,7 @@ TEST(TransferClaims, AnH2FilterAheadWhereItMustNotBeFailsThePage) {
   for (const std::string& kf : {std::string("kf_p5_sigma_0.05"), std::string("kf_p5_sigma_0.1"),
                                 std::string("kf_p5_sigma_0.3"), "kf_p1" + at_1_hz, std::string("kf_open")}) {
     EXPECT_TRUE(made_up.bars_met());
-    at(kf, 4);  // never within 3 mrad; the H2 filter always is
+    at(kf, 4);  // this Kalman filter never comes within 3 mrad; the H2 filter does
     EXPECT_FALSE(made_up.bars_met()) << kf;
     at(kf, 1);
   }

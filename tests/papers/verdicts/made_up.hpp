@@ -49,8 +49,8 @@ inline campaign::Campaign read(const Paper& paper, const report::EmbeddedFile& f
   return std::move(*campaign);
 }
 
-/// A run in which every quantity has the constant value `value`, given in the quantity's unit in the
-/// reports.
+/// A run in which every quantity is constant: its value is `value`, in the unit in which reports print the
+/// quantity.
 inline campaign::RunSeries run_at(const campaign::Variant& variant, std::uint64_t run, double value) {
   const quantities::Layout& layout = estimators::of(variant.scenario).layout;
   campaign::RunSeries series{.run = run, .ending = {}, .samples = quantities::Samples(layout)};
@@ -83,7 +83,8 @@ inline std::vector<campaign::Answer> answers_at(const campaign::Campaign& campai
   return std::move(evaluation->answers);
 }
 
-/// All campaigns of a paper, with every figure 1, no run missing and every limit met; tests change them.
+/// The results of all campaigns of a paper: every figure is 1, no run is missing, every limit is met. Tests
+/// change these results.
 class MadeUp {
  public:
   explicit MadeUp(const Paper& paper) : paper_(paper) {
@@ -99,10 +100,11 @@ class MadeUp {
       }
       results.campaigns.push_back(std::move(flown));
     }
-    // The page reads the curves of single runs from the campaigns' files.
+    // The files of these campaigns are needed, because the page reads the curves of single runs from them.
     for (const char* name : {"table2", "ssbl", "gps"})
       if (const Flown* flown = find(name)) store(*flown);
-    // A limit of the in-flight paper that belongs to no campaign: the UKF's median is smaller than the EKF's.
+    // The page on in-flight alignment has a limit that no campaign contains: the median error of the UKF must
+    // be smaller than that of the EKF. So the EKF gets 2, and the UKF keeps 1.
     for (const char* aid : {"ssbl", "gps"})
       if (find(aid) != nullptr) set(aid, "heading at 300 s", "ekf_90", "median_deg", 2);
   }

@@ -15,7 +15,7 @@ TEST(WindPage, HasEveryTableAndVerdictInOneFile) {
     EXPECT_THAT(html, HasSubstr(std::string("id=\"") + section + "\""));
   for (const char* figure : {"fig5", "fig6"})
     EXPECT_THAT(html, HasSubstr(std::string("<figure id=\"") + figure + "\">"));
-  EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
+  EXPECT_THAT(html, Not(HasSubstr("src=")));  // the page needs no other file
   EXPECT_THAT(html, Not(HasSubstr("url(")));
   EXPECT_THAT(text, HasSubstr("The limits are for 50 runs"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));

@@ -1,4 +1,5 @@
-// Time of the codecs in nanoseconds. Compare only within one run, because the machine is shared.
+// Time of the codecs in nanoseconds. Compare only figures of the same run, because other programs use the
+// machine too.
 #include <benchmark/benchmark.h>
 
 #include "dbc/parser/codec.hpp"
@@ -87,7 +88,7 @@ dbc::Message at_run_time(std::string_view name) {
   return *dbc::find_message(database.value(), name);
 }
 
-// Access by name: each frame compiles its own plan.
+// Decodes a frame to signals with names. Each call prepares the plan of the message again.
 void decode_by_name(benchmark::State& state) {
   const dbc::Message message = at_run_time("FourSignals");
   const std::array<std::uint8_t, 8> bytes{0x12, 0x34, 0x56, 0x78, 0x9A, 0x1C, 0x2E, 0x30};

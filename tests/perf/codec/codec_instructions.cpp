@@ -1,5 +1,5 @@
-// For callgrind: calls pack and unpack as often as the argument states. Each is in a separate function, whose
-// instructions callgrind counts.
+// A program for callgrind. It calls pack() and unpack() as often as the argument states. The two calls are in
+// separate functions, so that callgrind can count the instructions of each.
 #include <cstdlib>
 #include <span>
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Counts the instructions of one pack and one unpack by callgrind. Exit status 1 if a goal is missed: 30 instructions to unpack, 60 to pack a
-# message of four signals.
+# Counts the instructions of one pack() and of one unpack() with callgrind. The goals for a message with four signals: at most 30 instructions for
+# unpack(), at most 60 for pack(). Exit code 1 if a goal is missed.
 # usage: count_instructions.sh path/to/codec_instructions
 set -eu
 program=${1:?usage: count_instructions.sh path/to/codec_instructions}

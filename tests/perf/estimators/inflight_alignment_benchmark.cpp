@@ -1,4 +1,5 @@
-// Time of one IMU step, of one fix (prediction over its interval plus update), and of both together.
+// Time of one IMU step, of processing one fix (prediction since the fix before, and update), and of both
+// together.
 #include <benchmark/benchmark.h>
 
 #include "tests/perf/estimators/warm_inflight_filter.hpp"

@@ -1,5 +1,6 @@
-// For callgrind: each measured call is in its own function, which is called once; callgrind counts that
-// function's instructions. A fix is the prediction over its interval plus the update.
+// A program for callgrind. Each measured call is in a function of its own, which is called once; callgrind
+// counts the instructions of this function. Processing a fix includes the prediction since the fix before,
+// and the update.
 #include <cstdio>
 
 #include "tests/perf/estimators/warm_inflight_filter.hpp"

@@ -1,4 +1,5 @@
-// Time of one step of each algorithm (both planes, with roll), of the parts that differ, and of the start-up.
+// Time of one step of each algorithm (both planes, with roll), of the parts in which the algorithms differ,
+// and of the start-up.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -26,7 +27,8 @@ void copy_seeker_state(benchmark::State& bench) {
   }
 }
 
-// The gain of one plane, for comparison with the covariance of a Kalman filter.
+// The following functions measure the computation of one plane's gain by each algorithm. The range r
+// decreases a little with each call, so that no call repeats the one before.
 Geometry moving(double& r) {
   r = r > 1800 ? r - 1e-3 : 2000;
   return {r, 900};
@@ -54,7 +56,7 @@ void gain_kalman(benchmark::State& bench) {
     benchmark::DoNotOptimize(P);
   }
 }
-// The cost of the combined gain per sample without its table.
+// What the combined gain would cost per sample if it were computed each time, without its table.
 void gain_combined_solved(benchmark::State& bench) {
   const Settings settings;
   double r = 2000;

@@ -55,7 +55,8 @@ void predict_covariance(benchmark::State& bench) {
   }
 }
 
-// An update that arrives 200 ms late at 100 Hz: one update, and mechanisation of 20 increments again.
+// An update with a measurement that arrives 200 ms late. The IMU has 100 Hz, so after the update the
+// mechanisation processes 20 increments again.
 void late_update(benchmark::State& bench) {
   const WarmFilter warm = warm_filter(Algorithm::robust_h2, Mechanization::two_sample);
   History<32> history(0);

@@ -1,5 +1,5 @@
-// For callgrind: each measured call is in its own function, which is called once; callgrind counts that
-// function's instructions.
+// A program for callgrind. Each measured call is in a function of its own, which is called once; callgrind
+// counts the instructions of this function.
 #include <cstdio>
 
 #include "tests/perf/estimators/warm_filter.hpp"

@@ -7,7 +7,7 @@ namespace canhil::transfer_alignment {
 
 struct WarmFilter {
   Settings settings;
-  State state;  // one IMU interval after the last update
+  State state;  // 0.1 s after the last update
   strapdown::ImuIncrement imu;
   Eigen::Vector3d master_velocity;
 };

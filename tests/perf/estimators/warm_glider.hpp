@@ -1,5 +1,5 @@
 #pragma once
-// A wind filter in mid-flight, ready for one more sample of navigation.
+// A wind filter in the middle of a flight, ready for one more navigation sample.
 #include "target/estimators/wind/filter.hpp"
 
 namespace canhil::wind {
@@ -11,8 +11,8 @@ struct WarmGlider {
   Navigation navigation;
 };
 
-/// Filters five seconds at 50 Hz of a flight from 10 km with crosswind, simulated with the filter's own
-/// model.
+/// Runs the filter over five seconds of a flight, with 50 samples per second. The flight begins at a height
+/// of 10 km, has crosswind, and is simulated with the filter's own model.
 inline WarmGlider warm_glider(Algorithm algorithm, ProcessNoise noise = ProcessNoise::block_diagonal) {
   Settings settings;
   settings.algorithm = algorithm;

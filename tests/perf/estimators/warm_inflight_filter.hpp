@@ -1,6 +1,6 @@
 #pragma once
-// An in-flight alignment during its turn, ready for one more IMU sample or one more fix. The motion is
-// artificial; the settings are those of the published sensors.
+// An in-flight alignment during a turn of the vehicle, ready for one more IMU sample or one more fix. The
+// motion is artificial; the settings match the sensors of the paper.
 #include <cmath>
 
 #include "target/estimators/inflight_alignment/filter.hpp"

@@ -11,8 +11,9 @@ struct WarmSeeker {
   Measurement measurement;
 };
 
-/// The filter stops at `range` [m], above or below 1710 m, where thermal noise and glint are equal. Unequal
-/// noises in the planes require two gain sets.
+/// The filter processes samples until the range has decreased to `range` [m]. Above 1710 m, thermal noise is
+/// larger than glint; below, glint is larger. If not `equal`, the noise differs in the two planes, so the
+/// filter needs two sets of gains.
 inline WarmSeeker warm_seeker(Algorithm algorithm, double range = 2000, bool equal = true) {
   EngagementSetup setup;
   setup.settings.algorithm = algorithm;

@@ -1,5 +1,5 @@
-// For callgrind: each measured call is in its own function, which is called once; callgrind counts that
-// function's instructions.
+// A program for callgrind. Each measured call is in a function of its own, which is called once; callgrind
+// counts the instructions of this function.
 #include <cstdio>
 #include <memory>
 
@@ -10,7 +10,8 @@ using namespace canhil::wind;
 
 #define MEASURED extern "C" [[gnu::noinline]]
 
-// The recommended filter, starting from the state of the EKF after five seconds.
+// The recommended filter, a bank of filters. Each begins with the state that a single filter has after five
+// seconds.
 struct WarmBank {
   WarmGlider glider;
   BankDesign design = make_bank({});

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The roles of vcan_node with python-can, written as in its documentation: python_can_node.py ROLE INTERFACE COUNT."""
+"""The same roles as in vcan_node.cpp, here with python-can, used as its documentation shows: python_can_node.py ROLE INTERFACE COUNT."""
 import socket
 import sys
 import time

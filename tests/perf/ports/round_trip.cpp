@@ -1,9 +1,10 @@
-// Round trips between two processes: the embedded bus against a bare SOCK_SEQPACKET socketpair, in one run.
-//   round_trip [ROUNDS [LIMIT]]; prints p50, p99 and maximum of both and their ratio. With LIMIT it fails if
-//   the ratio of p50 is larger.
+// Compares, in one run, round trips between two processes over the embedded bus and over a bare
+// SOCK_SEQPACKET socketpair.
+//   round_trip [ROUNDS [LIMIT]]: prints p50, p99 and maximum of both ways, and the ratios. With LIMIT, the
+//   program fails if the ratio of the two p50 is larger than LIMIT.
 //
-// Both wait in the same way: they read the socket, and poll if it is empty. Their rounds alternate in blocks,
-// so that other load of the machine affects both equally.
+// Both ways wait in the same manner: they read the socket, and call poll() if it is empty. Blocks of rounds
+// over the one and the other way alternate, so that other load of the machine affects both equally.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -22,7 +23,7 @@ namespace canhil {
 namespace {
 
 constexpr int block = 1000;
-constexpr std::size_t bare_bytes = 24;  // size of a bus datagram with a full classic frame
+constexpr std::size_t bare_bytes = 24;  // as large as the embedded bus's datagram for a frame of 8 bytes
 
 Frame ping() {
   Frame frame;
@@ -101,14 +102,14 @@ int compare(int rounds, double limit) {
     while (bus_receive(**node)) (*node)->send(ping());
   });
   ::close(ends[1]);
-  bus_receive(host);  // waits for the node
+  bus_receive(host);  // waits until the node has connected and sent its first frame
 
   Times bare;
   Times local;
   for (int n = 0; n < rounds + block; n += block) {
     bare.measure([&] { bare_send(ends[0]), bare_receive(ends[0]); });
     local.measure([&] { host.send(ping()), bus_receive(host); });
-    if (n == 0) bare.ns.clear(), local.ns.clear();  // the first block warms up
+    if (n == 0) bare.ns.clear(), local.ns.clear();  // the first block is only a warm-up
   }
   for (const pid_t child : {bare_child, bus_child}) {
     ::kill(child, SIGKILL);

@@ -3,10 +3,10 @@
 
   tests/vcan/run.sh /usr/bin/python3 tests/perf/ports/vcan.py build/default/tests/perf/ports/vcan_node [ROUNDS]
 
-Round trip: one program sends a frame, another answers it. Every pair has an interface of its own. All pairs run from the beginning and take turns
-in short blocks of round trips, so that other load of the machine affects all of them equally.
-Throughput: a burst through a sender and a receiver whose queue can hold the whole burst. The result is the best of the rounds, minus the best time
-of a burst of one frame, which is the start-up time of the programs.
+Round trip: one program sends a frame, another program answers it. Every such pair has an interface of its own. All pairs are started at the beginning
+and take turns in short blocks of round trips, so that other load of the machine affects all of them equally.
+Throughput: a sender sends a burst to a receiver whose queue can contain the whole burst. The result is the shortest time of all rounds, minus the
+shortest time for a burst of one frame, which is mainly the start-up time of the programs.
 Prints figures and ratios without a verdict; fails if a program did not run.
 """
 import pathlib
@@ -26,7 +26,7 @@ def listeners():
 
 
 def start(command, **options):
-    """Starts a program that listens, and waits until it does."""
+    """Starts a program that receives frames, and waits until the program listens on its interface."""
     before = listeners()
     process = subprocess.Popen(command, text=True, **options)
     while listeners() <= before:
@@ -99,7 +99,8 @@ def round_trips(node, rounds):
 
 
 def chain(send, receive):
-    """Time [s] from the start of the sender to the end of the receiver, and how many frames were missed or mixed up."""
+    """Runs a sender and a receiver. Returns the time [s] from the start of the sender to the end of the receiver, and what the receiver printed: the
+    number of frames that it missed or received in the wrong order."""
     receiving = start(receive, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
     begin = time.monotonic()
     subprocess.run(send, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=True, timeout=120)

@@ -1,11 +1,11 @@
-// One end of a measurement on a CAN interface, through the port or through a plain raw socket. vcan.py pairs
-// such nodes with each other, with can-utils and with python-can.
+// One end of a measurement on a CAN interface, with the project's port or with a plain raw socket. The other
+// end is a second process of this program, a program of can-utils, or python-can (vcan.py).
 //   vcan_node ROLE port|raw INTERFACE COUNT
-//   ping: for each line on stdin, COUNT round trips, one at a time, to a node that answers each frame; prints
-//   their times in ns on one line. echo: answers COUNT frames of id 0x77 by 0x78, as canfdtest does. send:
-//   sends COUNT numbered frames as fast as possible. receive: receives COUNT frames; prints how many were
-//   lost or out of order.
-// Waits without a limit; vcan.py limits the time.
+//   ping: for each line on stdin, makes COUNT round trips, one after the other, to a node that answers each
+//   frame; prints the times of the round trips [ns] on one line. echo: answers COUNT frames with the id 0x77
+//   by frames with the id 0x78, as canfdtest does. send: sends COUNT numbered frames as fast as possible.
+//   receive: receives COUNT frames; prints how many were lost or out of order.
+// The program waits for frames without a time limit; vcan.py limits its time.
 #include <fmt/format.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>
@@ -30,14 +30,14 @@ namespace {
 
 constexpr std::uint32_t ping_id = 0x77;
 constexpr std::uint32_t echo_id = 0x78;
-constexpr int receive_bytes = 64 << 20;  // large enough to lose no frame
+constexpr int receive_bytes = 64 << 20;  // a receive queue of this size loses no frame
 
 [[noreturn]] void give_up(const std::string& why) {
   fmt::print(stderr, "vcan_node: {}\n", why);
   std::exit(1);
 }
 
-/// A way to send a frame and to wait for one.
+/// A way to send and to receive frames: the port or a raw socket.
 class Line {
  public:
   Line() = default;
@@ -78,7 +78,7 @@ class PortLine final : public Line {
   std::unique_ptr<Port> port_;
 };
 
-/// The minimum work of a program: blocking read() and write(), without stamps and checks.
+/// The least that a program must do: blocking read() and write(), without stamps and without checks.
 class RawLine final : public Line {
  public:
   explicit RawLine(const std::string& interface) : socket_(::socket(AF_CAN, SOCK_RAW, CAN_RAW)) {

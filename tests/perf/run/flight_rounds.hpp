@@ -1,4 +1,5 @@
-// A flight as pairs of frames and answers: the target's answer to every frame, computed in advance.
+// A flight as a list of rounds: the frames that the bench sends, and the target's answers to them, computed
+// in advance.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 
 namespace canhil {
 
-/// The frames up to and including an answered frame, and their answers.
+/// The frames from the bench up to and including one that the target answers, and the frames of the answer.
 struct Round {
   std::vector<Frame> stimulus;
   std::vector<Frame> answers;
@@ -44,7 +45,7 @@ class RecordingPort final : public Port {
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] const std::string& name() const override { return device_.name(); }
 
-  std::vector<Round> rounds{1};  // the last round has no answer yet
+  std::vector<Round> rounds{1};  // the last round is incomplete: it has no answer yet
 
  private:
   drive::InProcessPort device_{Rounding::as_on_the_bus};
@@ -52,8 +53,8 @@ class RecordingPort final : public Port {
   std::size_t next_ = 0;
 };
 
-/// Records the rounds of run `run_index` of a scenario, beginning with the reset of the target. `algorithm`
-/// replaces the scenario's algorithm. Error: one line.
+/// Flies run `run_index` of a scenario and records its rounds, beginning with the reset of the target.
+/// `algorithm` replaces the scenario's algorithm. In case of an error returns its message, one line.
 inline Result<std::vector<Round>> record_flight(const std::string& file, const std::string& algorithm,
                                                 std::uint64_t run_index) {
   auto scenario = scenario::read_file(file, drive::contract());

@@ -4,10 +4,11 @@
   jitter.py HIL_BENCH [ROUNDS]                                              over the embedded bus, with cyclictest alone
   tests/vcan/run.sh /usr/bin/python3 jitter.py HIL_BENCH [ROUNDS] vcan0     over a CAN interface, with all of them
 
-Lateness of hil-bench run --realtime (a scenario of 200 Hz): from each deadline until its first frame is written to the bus. Lateness of cyclictest:
-from the end of its sleep until it wakes up.
-Time between frames: the deviation from 5 ms of the kernel's receive stamps, which candump logs in the same way for all senders. The senders are
-hil-bench, `cangen -g`, `canplayer` with a log of the same frames at their due times, and the kernel's broadcast manager (BCM, TX_SETUP).
+Lateness of hil-bench run --realtime (a scenario of 200 Hz): the time from each deadline until the first frame of this deadline is written to the bus.
+Lateness of cyclictest: the time from the end of its sleep until it wakes up.
+Time between frames: how much the time between two of the kernel's receive stamps deviates from 5 ms. candump logs these stamps for all senders. The
+senders are hil-bench, `cangen -g`, `canplayer` with a log of the same frames at the times of their deadlines, and the kernel's broadcast manager (BCM,
+TX_SETUP).
 The senders take turns, one at a time, with the same priority, on the last CPU of this process. The target and candump run on other CPUs.
 Prints figures and ratios without a verdict; fails if a program did not run.
 """
@@ -26,7 +27,7 @@ import tempfile
 import time
 
 PERIOD_US = 5000
-SAMPLES = 1100  # about as many as the scenario has
+SAMPLES = 1100  # the number of cycles; about as many as the scenario has deadlines
 PRIORITY = 40
 FIRST = 0x70  # SeekerAntenna, the first frame of every deadline
 OF_BENCH = {0x70, 0x71, 0x72, 0x73, 0xA0}  # the seeker's frames and Sync
@@ -44,7 +45,7 @@ def run(command, codes=(0,)):
 
 
 def quantile(counts, q):
-    """Nearest rank of a Counter."""
+    """The q-quantile (nearest rank) of the values that a Counter counts."""
     rank, seen = math.ceil(q * counts.total()), 0
     for value in sorted(counts):
         seen += counts[value]
@@ -71,7 +72,7 @@ def bench_name(spin_us):
 
 
 class Observer:
-    """candump of an interface, while a sender sends."""
+    """Runs candump on an interface while a sender sends."""
 
     def __init__(self, interface, folder):
         self.interface, self.log = interface, f"{folder}/candump.log"
@@ -87,7 +88,7 @@ class Observer:
         self.out.close()
 
     def frames(self):
-        """(stamp [us], id, text of the frame)"""
+        """(stamp [us], id, text of the frame) of each frame in the log of candump"""
         for line in open(self.log, encoding="ascii"):
             stamp, _, frame = line.split()[:3]
             seconds, _, microseconds = stamp.strip("()").partition(".")
@@ -100,7 +101,7 @@ class Observer:
         return collections.Counter(abs(later - earlier - PERIOD_US) for earlier, later in zip(stamps, stamps[1:]))
 
     def write_schedule(self, path):
-        """The bench's frames at the times when they were due, for canplayer."""
+        """Writes a log for canplayer: the bench's frames, each at the time of its deadline."""
         frames = [(t, frame) for t, identifier, frame in self.frames() if identifier in OF_BENCH]
         start = next(t for t, identifier, _ in self.frames() if identifier == FIRST)
         with open(path, "w", encoding="ascii") as file:
@@ -117,7 +118,7 @@ def fly(bench, bus, spin_us, report, lateness):
         sys.exit(f"{bus}: the run ended: {page['ending']['detail']}")
     first = page["transmit_lateness_s"]["SeekerAntenna"]["handed_over"]
     for from_us, count in first["buckets_us"]:
-        lateness.rows[bench_name(spin_us)][from_us + 0.5] += count  # middle of a bucket of 1 us
+        lateness.rows[bench_name(spin_us)][from_us + 0.5] += count  # the middle of the bucket, which is 1 us wide
 
 
 def cyclictest(folder, lateness):

@@ -7,15 +7,16 @@ A round is one run with a client of the page and one without, in real time and, 
 priority; the order changes from round to round. The lateness of a frame is the time from its deadline until
 the bench writes it to the bus.
 
-In all runs a loop with the lowest priority keeps each CPU from its idle states, if that priority is
-permitted. Otherwise p99 is the time in which an idle CPU wakes up, above all in a virtual machine, whose
-hypervisor must schedule it first (cyclictest requests the same of /dev/cpu_dma_latency, which has no effect
-there). A round is left out, and another one flown, if other guests of the hypervisor took more than 0.25 % of
-the CPUs' time: p99 depends on the latest 1 % of the frames, and these would be theirs.
+In all runs, if the scheduler permits its lowest priority, a loop with this priority keeps each CPU out of its
+idle states. Without these loops, p99 would mainly be the time in which an idle CPU wakes up. This time is long
+in a virtual machine, because the hypervisor must first schedule the CPU. (cyclictest prevents idle states with
+/dev/cpu_dma_latency, which has no effect in a virtual machine.) If other guests of the hypervisor took more than
+0.25 % of the CPUs' time during a round, the round is left out and another one is flown: p99 depends on the latest
+1 % of the frames, and in such a round the other guests would have delayed these frames.
 
-Prints quantiles and maximum of both sides, their ratios, the 95 % range of the ratios of the quantiles
-(bootstrap over the rounds), the number of frames, and the number of frames that the view missed. There is no
-verdict. Exit code 3: two thirds of the rounds were left out.
+Prints quantiles and maximum with and without the page, their ratios, the 95 % range of the ratios of the
+quantiles (bootstrap over the rounds), the number of frames, and the number of frames that the view missed. There
+is no verdict. Exit code 3: two thirds of the rounds were left out.
 """
 
 import collections
@@ -45,9 +46,9 @@ QUANTILES = (0.5, 0.99)
 class Run:
     counts: collections.Counter = None  # number of frames per microsecond of lateness
     max_us: float = 0.0
-    frames: int = 0  # seen by the view
-    missed: int = 0  # by the view
-    messages: int = 0  # received by the page
+    frames: int = 0  # frames that the live view received
+    missed: int = 0  # frames that the live view missed
+    messages: int = 0  # messages that the page received
 
     def read(self, report):
         lateness = json.loads(report.read_text())["bench_lateness_s"]
@@ -55,7 +56,7 @@ class Run:
 
 
 def quantile_us(runs, q):
-    """Nearest rank, over the frames of all runs."""
+    """The q-quantile (nearest rank) of the lateness [us] of the frames of all runs."""
     counts = sum((run.counts for run in runs), collections.Counter())
     rank, seen = math.ceil(q * counts.total()), 0
     for value in sorted(counts):
@@ -66,20 +67,20 @@ def quantile_us(runs, q):
 
 
 def ratio(rounds, q):
-    """Of the quantiles with and without the page; 1 us is added to both, because the buckets are of 1 us."""
+    """The q-quantile with the page divided by the q-quantile without it. 1 us is added to each, because the buckets are 1 us wide."""
     without, with_page = zip(*rounds)
     return (quantile_us(with_page, q) + 1) / (quantile_us(without, q) + 1)
 
 
 def ratio_range(rounds, q, samples=500):
-    """95 % range of the ratio: rounds are drawn with replacement (Efron, Tibshirani 1993)."""
+    """The 95 % range of the ratio by bootstrap: rounds are drawn with replacement (Efron, Tibshirani 1993)."""
     draw = random.Random(1)
     ratios = sorted(ratio(draw.choices(rounds, k=len(rounds)), q) for _ in range(samples))
     return ratios[round(0.025 * (samples - 1))], ratios[round(0.975 * (samples - 1))]
 
 
 def look_on(port, run):
-    """Reads the live view to the end, as a page does."""
+    """Receives the messages of the live view until its end, as a page does."""
     view = WebSocket(port)
     while (message := view.message()) is not None:
         run.messages += 1
@@ -113,7 +114,7 @@ def permitted(*chrt):
 
 @contextlib.contextmanager
 def awake():
-    """Keeps all CPUs from their idle states. Yields their number; 0: not permitted."""
+    """Keeps all CPUs out of their idle states. Yields the number of these CPUs, or 0 if this is not permitted."""
     cpus = os.sched_getaffinity(0) if permitted("--idle", "0") else ()
     loops = [subprocess.Popen(["chrt", "--idle", "0", "taskset", "-c", str(cpu), "sh", "-c", "while :; do :; done"]) for cpu in cpus]
     try:
@@ -125,13 +126,13 @@ def awake():
 
 
 def cpu_ticks():
-    """(all, stolen) since the machine's start."""
+    """(all ticks of all CPUs, ticks that the hypervisor gave to others) since the machine's start."""
     ticks = [int(word) for word in pathlib.Path("/proc/stat").read_text().split("\n", 1)[0].split()[1:9]]
     return sum(ticks), ticks[7]
 
 
 def fly_rounds(number, fly_one):
-    """The rounds, each a pair of runs without and with the page, and the number of rounds that were left out."""
+    """Flies `number` rounds. Returns the rounds, each as a pair (run without the page, run with the page), and the number of rounds that were left out."""
     rounds, left_out = [], 0
     while len(rounds) < number:
         if left_out > 2 * number:

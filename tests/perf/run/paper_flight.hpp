@@ -1,4 +1,5 @@
-// The campaign whose runs are timed: Table 2 of the transfer-alignment paper, 20 s at 100 Hz.
+// The campaign whose runs are measured: Table 2 of the transfer-alignment paper, flights of 20 s with an IMU
+// of 100 Hz.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,5 @@
-// One run of 20 s at 100 Hz in process, including the bus path: the unit of work of a campaign.
+// The time of one run in process (20 s, IMU of 100 Hz), including packing and unpacking of frames. A campaign
+// consists of such runs.
 #include <benchmark/benchmark.h>
 
 #include "bench/drive/contract.hpp"

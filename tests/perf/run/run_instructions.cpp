@@ -1,4 +1,4 @@
-// Runs of the paper's flight, for callgrind: stages.py collects inside one_run().
+// Runs of the paper's flight, for callgrind: stages.py has callgrind count the instructions of one_run().
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace canhil;
 
-// The work of a campaign for one run, without storing it.
+// The work of a campaign for one run, except storing the results.
 [[gnu::noinline]] std::size_t one_run(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                       std::uint64_t index) {
   const auto finished = drive::run_in_process(scenario, truth, index);
@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   const campaign::Campaign campaign = paper_campaign();
   for (const campaign::Variant& variant : campaign.variants) {
     if (variant.name != wanted) continue;
-    const auto truth = drive::make_truth(variant.scenario);  // once per variant
+    const auto truth = drive::make_truth(variant.scenario);  // a campaign computes the truth once per variant
     if (!truth) break;
     for (std::uint64_t index = 0; index < 3; ++index) {
       if (one_run(variant.scenario, *truth, index) != 199) break;

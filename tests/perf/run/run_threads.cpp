@@ -1,5 +1,6 @@
-// Runs per second of the campaign engine, including the store, with one thread and with two. The two cases
-// alternate, so that other load of the machine affects both equally.
+// Measures the runs per second of the campaign engine with one thread and with two, including the time to
+// store results. Measurements with one and with two threads alternate, so that other load of the machine
+// affects both equally.
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,11 +22,11 @@ namespace {
 using namespace canhil;
 
 constexpr int repeats = 7;
-constexpr std::uint64_t runs = 150;  // runs per variant: about a second
+constexpr std::uint64_t runs = 150;  // runs per variant; they take about a second
 
 struct Rate {
   double runs_per_s = 0;
-  // CPU time of a run: shows how much the threads slow each other, independent of other load.
+  // CPU time of a run. It shows how much the threads slow each other down, and is independent of other load.
   double processor_ms = 0;
 };
 
@@ -71,7 +72,8 @@ int main() {
   std::vector<double> one, two, ratio, cost;
   for (int i = 0; i < repeats; ++i) {
     std::array<Rate, 2> rate{};
-    for (const int which : {i % 2, 1 - i % 2})  // the two cases alternate in coming first
+    for (const int which :
+         {i % 2, 1 - i % 2})  // 0: one thread, 1: two; the order changes with each repetition
       rate[static_cast<std::size_t>(which)] = measured(campaign, static_cast<unsigned>(which + 1));
     one.push_back(rate[0].runs_per_s);
     two.push_back(rate[1].runs_per_s);

@@ -1,7 +1,7 @@
 """Prints the instructions of a run of 20 s in process by stage: stages.py BUILD_FOLDER
 
-Callgrind counts instructions by source line; inlined code counts at its own source line. Each file of the project belongs to one stage. Instructions
-of libraries (Eigen, random numbers, memory, libm) count for the stage of the function that they were inlined into or called by.
+Callgrind counts instructions by source line; it attributes inlined code to the source line of that code. Each file of the project belongs to one stage.
+Instructions of libraries (Eigen, random numbers, memory, libm) are attributed to the stage of the function that calls or inlines the library's code.
 """
 
 import collections
@@ -16,8 +16,8 @@ SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, MONITOR = "sensor and truth", "pack", "wi
 LOOP = "device and run loop"
 STAGES = (SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, LOOP, MONITOR)
 GOALS = (("pack + wire + E2E + unpack", (PACK, WIRE, UNPACK), 10), (SENSOR, (SENSOR,), 25))
-# The first entry whose text occurs in the path of a source file gives its stage. None: the function that
-# contains the line decides between pack and unpack.
+# The stage of a source file is that of the first entry whose text occurs in the path of the file. None: the function
+# that contains the line decides whether the line belongs to pack or to unpack.
 FILES = (
     ("bench/world/", SENSOR), ("bench/nodes/", SENSOR),
     ("messages/canhil.hpp", None), ("dbc/wire/bits", None), ("dbc/wire/quantise", None), ("dbc/wire/message.hpp", None),
@@ -31,8 +31,8 @@ UNPACKS = {"unpack", "load_le", "load_be", "unsigned_bits", "signed_bits", "phys
 
 
 def here(file):
-    """The same file in this tree and build: an object from a compiler cache may name the files of another
-    tree."""
+    """The path of the same file in this source tree and build folder. (An object file from the compiler cache may
+    contain the paths of another source tree.)"""
     if "/build/" not in file:
         return pathlib.Path(file)
     below = file.split("/build/")[1].split("/", 1)[1]  # path below the build folder
@@ -51,7 +51,7 @@ def definitions(file):
 
 
 def stage_of(file, line):
-    """The stage of a line of the project; None: the file is not part of the project."""
+    """The stage to which a line of a source file belongs; None if the file is not part of the project."""
     for part, stage in FILES:
         if part in file:
             if stage:
@@ -62,7 +62,8 @@ def stage_of(file, line):
 
 
 def read(path):
-    """Self cost by (function, stage or None); calls {callee: {(caller, stage or None): inclusive cost}}; home file by function."""
+    """Reads callgrind's output. Returns three dictionaries: {(function, stage or None): own cost}, {called function: {(calling function, stage or
+    None): cost including callees}}, and {function: the file that defines it}."""
     names, homes, costs = {}, {}, collections.Counter()
     calls = collections.defaultdict(collections.Counter)
 
@@ -99,19 +100,19 @@ def read(path):
 
 
 def shares_of(costs, calls, homes):
-    """Self cost by stage."""
+    """{stage: own cost of the code that belongs to the stage}"""
 
     @functools.cache
     def split_of(function):
-        """{stage: share} of a library function's cost: all to the stage of its file, otherwise to the stages of its callers,
-        by the cost of each caller's calls."""
+        """{stage: share} of a function's cost. If the function's file belongs to a stage, this stage has all of the cost. For a function of a
+        library, the cost is divided among the stages of its callers, in proportion to the cost of their calls."""
         stage = stage_of(homes.get(function, ""), 0)
         if stage:
             return {stage: 1.0}
         found = collections.Counter()
         open_functions.add(function)
         for (caller, stage), cost in calls[function].items():
-            if caller not in open_functions:  # library functions may be recursive
+            if caller not in open_functions:  # without this test, recursive library functions would cause endless recursion here
                 for name, part in ({stage: 1.0} if stage else split_of(caller)).items():
                     found[name] += cost * part
         open_functions.discard(function)

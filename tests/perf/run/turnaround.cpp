@@ -1,12 +1,14 @@
-// The time from the last frame of a stimulus to the last frame of its answer, for the target and for an echo:
-// a process that computes nothing and sends the recorded answer to each stimulus.
+// Measures the time from the last frame of a stimulus to the last frame of its answer, for the target and for
+// an echo. The echo is a process that computes nothing: it sends the recorded answer to each stimulus.
 //   turnaround [--flights N] [--only NAME] [--bus BUS ECHO_BUS]
-// Without --bus it uses the embedded bus, otherwise two CAN interfaces of the same kind, so that neither
-// receives the frames of the other. It prints for every estimator and each last message of an answer: p50,
-// p99 and maximum of both, the missing answers, and the ratios.
+// Target and echo are on different buses, so that neither receives the frames of the other: on two embedded
+// buses or, with --bus, on two CAN interfaces of the same kind. For every estimator and each message that
+// ends an answer, the program prints p50, p99 and maximum of target and echo, the missing answers, and the
+// ratios.
 //
 // Target and echo take turns in blocks, so that other load of the machine affects both equally. The flight is
-// sent faster than real time, because the device knows only the time in the frames.
+// sent faster than real time, which is possible because the target uses only the time that the frames
+// contain.
 #include <fcntl.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>
@@ -34,8 +36,8 @@ namespace {
 constexpr std::size_t block = 200;  // rounds per block
 constexpr std::int64_t patience_ns = 1'000'000'000;
 constexpr int most_unanswered = 10;
-constexpr std::int64_t breath = 8;  // pauses for 1/8 of the time that it worked, because Linux stops
-                                    // real-time processes that use a whole CPU
+constexpr std::int64_t breath = 8;  // the pause after a block lasts 1/8 of the time of the block, because
+                                    // Linux stops real-time processes that use a whole CPU
 
 struct Estimator {
   std::string name;
@@ -59,7 +61,7 @@ int complain(const std::string& what) {
   return 2;
 }
 
-/// The echo reads and writes by one blocking call each, and does nothing else.
+/// The functions of the echo: one reads a frame, one writes a frame, each with a single blocking system call.
 struct Bare {
   std::function<void()> read;
   std::function<void(const Frame&)> write;
@@ -106,7 +108,7 @@ Bare bare_node(const std::string& bus) {
   ::_exit(0);
 }
 
-/// The times of the answers that end with one message.
+/// The turnaround times of all answers whose last frame is a certain message.
 struct Times {
   std::vector<std::int64_t> ns;
   int unanswered = 0;
@@ -167,7 +169,8 @@ void rest(std::int64_t since_ns) {
   ::usleep(static_cast<unsigned>((clock_ns(CLOCK_MONOTONIC) - since_ns) / breath / 1000));
 }
 
-/// Plays the rounds in alternating blocks; the first block of each side is a warm-up.
+/// Sends the rounds to both sides in blocks: each block first to the echo, then to the target. The first
+/// block is a warm-up.
 void alternate(const std::vector<Round>& rounds, Side& device, Side& bare) {
   for (std::size_t first = 0; first < rounds.size() && device.alive() && bare.alive(); first += block) {
     const std::size_t end = std::min(first + block, rounds.size());
@@ -181,7 +184,7 @@ void alternate(const std::vector<Round>& rounds, Side& device, Side& bare) {
 
 Result<void> fly(const std::vector<Round>& rounds, const std::vector<std::string>& buses, Side& device,
                  Side& bare) {
-  // Discards the frames of earlier processes, so that a new process does not receive them.
+  // Discards the frames of earlier processes that are still queued, so that nobody takes them for new frames.
   device.settle();
   bare.settle();
   const pid_t child = ::fork();

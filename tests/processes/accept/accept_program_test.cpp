@@ -71,7 +71,8 @@ class Accept : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_ + "/small");
     std::ofstream(folder_ + "/small/suite.toml") << suite;
-    // A flight of three seconds whose scenario has only one check; the suite has the requirements.
+    // A flight of three seconds. Its scenario has only one check, because the suite contains the
+    // requirements.
     std::string flight = read(scenario("transfer_alignment_quick"));
     flight.resize(flight.find("[[check]]"));
     std::ofstream(folder_ + "/small/flight.toml")
@@ -132,7 +133,7 @@ TEST_F(Accept, AMoveToTheOtherSideFails) {
 }
 
 TEST_F(Accept, AFaultThatDoesNotComeFails) {
-  change("suite.toml", "from_s = 1.0", "from_s = 2.95");  // too late to be detected as a silence
+  change("suite.toml", "from_s = 1.0", "from_s = 2.95");  // so late that the target cannot detect a silence
   ASSERT_EQ(accept("--family protocol").code, 0);
   const Ended ended = accept("--family 'flags and states'");
   EXPECT_EQ(ended.code, 1);
@@ -170,7 +171,8 @@ TEST_F(Accept, BadInputIsOneLine) {
   expect_one_line(accept("--record"), "small/suite.toml:7: key 'requirement[1].family'");
 }
 
-// Otherwise a full disk of the bench would be a defect of the target.
+// If the bench cannot store the results of a campaign, for example on a full disk, this is not a defect of
+// the target.
 TEST_F(Accept, ACampaignWhoseResultsCannotBeKeptIsNoFailureOfTheTarget) {
   std::ofstream(folder_ + "/small/suite.toml", std::ios::app) << "\n[[campaign]]\nfile = \"campaign.toml\"\n";
   std::ofstream(folder_ + "/small/campaign.toml") << R"(title = "Two flights"
@@ -194,12 +196,12 @@ at_most_mps = 100
   ASSERT_EQ(accept("--record").code, 0);
   const Ended kept = shell(flight);
   EXPECT_EQ(kept.code, 0) << kept.err;
-  EXPECT_THAT(kept.out, HasSubstr("(3 looked at)"));  // two of the flight, one of the campaign
+  EXPECT_THAT(kept.out, HasSubstr("(3 looked at)"));  // 3 results: two of the flight, one of the campaign
   expect_one_line(shell("TMPDIR=/no/such/folder " + flight), "environment TMPDIR: expected a folder");
   expect_one_line(shell("TMPDIR=/proc " + flight), "/proc/canhil-accept-");
 }
 
-// The unchanged target passes the families protocol and parameters of the suite of los_rate.
+// The unchanged target passes two families of requirements of the suite of los_rate: protocol and parameters.
 TEST(Suites, ProtocolAndStatesOfTheTargetPass) {
   const Ended ended = hil_bench("accept --family protocol --family parameters --estimator los_rate");
   EXPECT_EQ(ended.code, 0) << ended.out;

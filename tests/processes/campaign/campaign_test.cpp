@@ -1,4 +1,4 @@
-// hil-bench campaign: threads, shards and kills do not change the merged bytes; one line per error.
+// hil-bench campaign: neither threads nor shards nor kills change the merged file; an error is one line.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-/// Two variants of the quick flight, each with a sweep.
+/// A campaign file with two variants of the quick flight, each with a sweep.
 std::string campaign_file(int runs = 30) {
   std::string file = scratch(fmt::format("campaign{}.toml", runs));
   std::ofstream(file) << fmt::format(R"(title = "Short"
@@ -51,7 +51,7 @@ at_most_mrad = 200
   return file;
 }
 
-/// A new folder.
+/// Makes an empty folder and returns its path.
 std::string folder(const std::string& name) {
   std::string path = scratch(name);
   fs::remove_all(path);
@@ -67,7 +67,7 @@ std::string merged(const std::string& in, const std::string& arguments = "*.sqli
   return read(out);
 }
 
-/// The merged bytes of an undisturbed campaign on one thread.
+/// The content of the merged file of an undisturbed campaign on one thread.
 const std::string& undisturbed() {
   static const std::string bytes = [] {
     const std::string at = folder("undisturbed");
@@ -93,7 +93,8 @@ INSTANTIATE_TEST_SUITE_P(ShardsAndThreads, Divided,
                          testing::Values(std::pair{1, 1}, std::pair{1, 2}, std::pair{3, 1}, std::pair{3, 2},
                                          std::pair{7, 1}, std::pair{7, 2}));
 
-/// Starts hil-bench campaign and kills it after a while unless it has ended. Returns whether it was killed.
+/// Starts hil-bench campaign and kills it after this time, if it has not ended by then. Returns whether it
+/// was killed.
 bool start_and_kill(const std::string& file, const std::string& out, std::chrono::milliseconds after) {
   const pid_t child = fork();
   if (child == 0) {
@@ -115,7 +116,8 @@ TEST(Killed, AndResumedItLosesAndRepeatsNothing) {
   expect_done(hil_bench(fmt::format("campaign {} --out {}", file, calm)));
   const auto whole = std::chrono::steady_clock::now() - start;
 
-  // Kills spread over the whole duration of the campaign, including starts and commits.
+  // The kills are spread over the whole duration of the campaign, including its start and the commits of
+  // results.
   std::mt19937_64 random(20010101);
   int killed = 0;
   for (int i = 0; i < kills; ++i) {
@@ -125,17 +127,17 @@ TEST(Killed, AndResumedItLosesAndRepeatsNothing) {
   EXPECT_GT(killed, kills / 2) << "the campaign was over too early to be killed";
   expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));
   EXPECT_TRUE(merged(at) == merged(calm));
-  expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));  // all runs are done
+  expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));  // no run is left to do
 }
 
 TEST(Interrupted, KeepsWhatItHasAndSaysHowToGoOn) {
   const std::string at = folder("interrupted");
-  const auto after = [&](double time_s) {  // a signal before the first run only ends the program
+  const auto after = [&](double time_s) {  // a signal before the first run ends the program without a message
     return shell(fmt::format("timeout -s INT {} {} campaign {} --out {}; exit $?", time_s, HIL_BENCH,
                              campaign_file(2000), at));
   };
   Ended ended = after(0.4);
-  for (const double time_s : {2.0, 8.0}) {  // a slow host
+  for (const double time_s : {2.0, 8.0}) {  // on a slow host, the signal must come later
     if (ended.err.empty()) ended = after(time_s);
   }
   EXPECT_THAT(ended.err, HasSubstr("interrupted; --resume goes on"));
@@ -284,9 +286,8 @@ TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {
   expect_one_line(against("--unrounded --target " HIL_TARGET), "--unrounded");
 }
 
-// The runs are in process, because a target program takes ten times as long for the same bits. With a
-// sanitizer, two runs are enough to test memory; the limits of the metrics apply to the number of runs in the
-// file.
+// The runs are in process, because a run with a target program takes ten times as long and gives the same
+// bits. With a sanitizer, two runs are enough to test memory. With so few runs, metrics may fail.
 TEST(Acceptance, TheTargetIsWithinTheBarsOfEveryCampaign) {
 #ifdef CANHIL_SANITIZED
   constexpr int runs = 2, worst_code = 1;
@@ -415,7 +416,7 @@ TEST(CampaignBadInput, ReadOnlyFolderIsOneLineAndLeavesWhatIsThere) {
   const std::string stored = read(half);
   fs::permissions(at, fs::perms{0555});
   fs::permissions(half, fs::perms{0444});
-  // The modes of files hold for root only without these capabilities.
+  // Root may ignore the modes of files, unless the process drops these capabilities.
   const std::string bound_by_modes = without_capabilities("-dac_override,-dac_read_search") + HIL_BENCH;
   const auto campaign = [&](const std::string& out) {
     return shell(fmt::format("{} campaign {} --out {}", bound_by_modes, campaign_file(), out));

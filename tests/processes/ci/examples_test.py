@@ -1,9 +1,9 @@
 """Runs the pipelines of docs/examples/ci as their CI systems would: examples_test.py BUILD SOURCE.
 
 The shell lines of each step run in a folder that looks like a fresh checkout, but contains the finished
-build. Five programs are replaced: apt-get, cmake, curl (a folder replaces GitLab's artifacts),
-tests/setup/install.sh, and tests/vcan/run.sh (its replacement uses the embedded bus, because tests/vcan has
-tests of its own). Between the steps, this test does what the CI systems do themselves (caches, artifacts).
+build. Five programs are replaced: apt-get; cmake; curl (its replacement reads GitLab's artifacts from a folder);
+tests/setup/install.sh; tests/vcan/run.sh (its replacement uses the embedded bus, because other tests cover
+tests/vcan). Between the steps, this test does what the CI systems do themselves (caches, artifacts).
 """
 import json
 import os
@@ -67,7 +67,7 @@ class Pipeline(unittest.TestCase):
             os.chmod(path, 0o755)
 
     def run_steps(self, steps):
-        """(output, exit code) of the pipeline, which ends at the first step that fails."""
+        """Runs the steps until one of them fails. Returns (output of all steps, exit code of the last one)."""
         environment = {**os.environ, "PATH": f"{self.here}/bin:/usr/bin:/bin", "CI_API_V4_URL": "x", "CI_PROJECT_ID": "1",
                        "CI_DEFAULT_BRANCH": "main", "CI_JOB_TOKEN": "x"}
         output = ""
@@ -80,8 +80,8 @@ class Pipeline(unittest.TestCase):
         return output, 0
 
     def keep(self, change=None):
-        """Stores the reports as the CI systems do after a run of main: in the folders where their next runs
-        look."""
+        """Stores the reports as the CI systems do after a run on the branch main: in the folders from which the next
+        run reads the reports of the run before."""
         for folder in ("kept", "last_good"):
             os.makedirs(f"{self.here}/{folder}", exist_ok=True)
             for bus in ("local", "vcan"):
@@ -99,7 +99,7 @@ class Pipeline(unittest.TestCase):
             xml.etree.ElementTree.parse(f"{self.here}/reports/{bus}.xml")
             self.assertTrue(os.path.exists(f"{self.here}/reports/{bus}.html"))
         self.assertNotIn("no worse", output, "nothing to compare with yet")
-        # A second run with equal results is not worse. A run whose target fails a previously passed check is worse.
+        # A second run with equal results is 'no worse'. A run in which a check fails that passed before is worse.
         compare = [step for step in steps if "hil-bench compare" in step]
         self.assertEqual(len(compare), 1)
         self.keep()

@@ -1,6 +1,6 @@
 """Prints the first frames of a recorded run as text, one line per frame, for docs/own-target.md: annotate.py KIT_FOLDER LOG FRAMES.
 
-It omits the stamps, TargetTiming and all frames before the bench's first command, because they differ from run to run."""
+The text omits what differs from run to run: the stamps, TargetTiming, and all frames before the bench's first command."""
 
 import re
 import sys
@@ -48,7 +48,7 @@ def main():
         if "dbc_hash" in values:
             values["dbc_hash"] = f"{values['dbc_hash']:06x}"
         said = ", ".join(f"{signal} {shown(value)}" for signal, value in values.items()
-                         if value or name != "TargetHeartbeat")  # prints only the error flags that are set
+                         if value or name != "TargetHeartbeat")  # leaves out a heartbeat's signals that are 0
         side = "target" if group in FROM_TARGET else "bench "
         print(f"{side}  {identifier}#{data}  {name}: {said}")
         left -= 1

@@ -74,24 +74,23 @@ TEST_P(Defective, TargetIsNamedByItsRuleAlone) {
 
 INSTANTIATE_TEST_SUITE_P(
     Conformance, Defective,
-    testing::Values(Defect{"SlowBeat", {"P-BEAT"}}, Defect{"AnyContract", {"P-CONTRACT"}},
-                    Defect{"AnyEstimator", {"P-ESTIMATOR"}}, Defect{"UnknownCommand", {"P-COMMAND"}},
-                    // Both rules fail: a target that needs no initial state does not need a complete one
-                    // either.
-                    Defect{"NoStateNeeded", {"P-NO-STATE", "P-WHOLE-STATE"}},
-                    Defect{"HalfState", {"P-WHOLE-STATE"}}, Defect{"DeafToRepetition", {"P-REPEAT"}},
-                    Defect{"EarlyAnswers", {"P-BEFORE"}}, Defect{"NoStop", {"P-STOP"}},
-                    Defect{"Once", {"P-AGAIN"}}, Defect{"NewStateInFlight", {"P-IN-FLIGHT"}},
-                    Defect{"Unforgetting", {"P-RESET"}}, Defect{"NoCounters", {"P-BEAT-FLIGHT"}},
-                    Defect{"EarlyStepDone", {"P-STEP"}}, Defect{"WrongAnswerCrc", {"P-PROTECT"}},
-                    Defect{"Disorder", {"P-GROUP"}}, Defect{"OwnCause", {"P-CAUSE"}},
-                    Defect{"Chance", {"P-REPLAY"}}, Defect{"NoWrap", {"P-WRAP"}},
-                    // This target does not detect damaged frames, so it does not count them either.
-                    Defect{"AnyCrc", {"P-COUNT", "P-CRC"}}, Defect{"AnySize", {"P-SIZE"}},
-                    Defect{"Repetitions", {"P-TWICE"}}, Defect{"NoLosses", {"P-LOST"}},
-                    Defect{"HalfSamples", {"P-HALF"}}, Defect{"EightBits", {"P-COUNT"}},
-                    Defect{"Parrot", {"P-READ-BACK"}}, Defect{"AnyParameter", {"P-UNNAMED"}},
-                    Defect{"KeptParameters", {"P-INITIAL"}}),
+    testing::Values(
+        Defect{"SlowBeat", {"P-BEAT"}}, Defect{"AnyContract", {"P-CONTRACT"}},
+        Defect{"AnyEstimator", {"P-ESTIMATOR"}}, Defect{"UnknownCommand", {"P-COMMAND"}},
+        // Both rules fail: a target that starts without an initial state also starts with an
+        // incomplete one.
+        Defect{"NoStateNeeded", {"P-NO-STATE", "P-WHOLE-STATE"}}, Defect{"HalfState", {"P-WHOLE-STATE"}},
+        Defect{"DeafToRepetition", {"P-REPEAT"}}, Defect{"EarlyAnswers", {"P-BEFORE"}},
+        Defect{"NoStop", {"P-STOP"}}, Defect{"Once", {"P-AGAIN"}},
+        Defect{"NewStateInFlight", {"P-IN-FLIGHT"}}, Defect{"Unforgetting", {"P-RESET"}},
+        Defect{"NoCounters", {"P-BEAT-FLIGHT"}}, Defect{"EarlyStepDone", {"P-STEP"}},
+        Defect{"WrongAnswerCrc", {"P-PROTECT"}}, Defect{"Disorder", {"P-GROUP"}},
+        Defect{"OwnCause", {"P-CAUSE"}}, Defect{"Chance", {"P-REPLAY"}}, Defect{"NoWrap", {"P-WRAP"}},
+        // P-COUNT fails too: this target does not detect damaged frames, so it does not count them.
+        Defect{"AnyCrc", {"P-COUNT", "P-CRC"}}, Defect{"AnySize", {"P-SIZE"}},
+        Defect{"Repetitions", {"P-TWICE"}}, Defect{"NoLosses", {"P-LOST"}}, Defect{"HalfSamples", {"P-HALF"}},
+        Defect{"EightBits", {"P-COUNT"}}, Defect{"Parrot", {"P-READ-BACK"}},
+        Defect{"AnyParameter", {"P-UNNAMED"}}, Defect{"KeptParameters", {"P-INITIAL"}}),
     [](const auto& named) { return named.param.name; });
 
 TEST(Conformance, BadInputIsOneLine) {

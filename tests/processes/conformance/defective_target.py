@@ -1,4 +1,4 @@
-"""The kit's example with one defect of the protocol, or with none if DEFECT is `none`.
+"""The kit's example target, changed so that it breaks the protocol in one way (DEFECT), or unchanged if DEFECT is `none`.
 
 defective_target.py KIT_FOLDER DEFECT --bus BUS
 """
@@ -16,7 +16,7 @@ class Sound(canhil_target.Target):
 
 
 class SlowBeat(Sound):
-    """Sends a heartbeat every second while no bench is active."""
+    """Sends too few heartbeats while no bench is active: one a second."""
     beats = itertools.count()
 
     def send_heartbeat(self):
@@ -134,7 +134,7 @@ class Once(Sound):
 
 
 class NewStateInFlight(Sound):
-    """Ignores an initial state while it runs, but does not report the error."""
+    """Ignores an initial state that arrives in the state running, and does not report this error."""
 
     def dispatch(self, group, place, counter, data, signals):
         if group == "TargetInit" and self.state == "running":
@@ -160,7 +160,7 @@ class NoCounters(Sound):
 
 
 class EarlyStepDone(Sound):
-    """Sends the answers of a step after StepDone."""
+    """Sends the answers of a step after the StepDone of this step, not before it."""
 
     def __init__(self, estimator, send):
         self.late = []
@@ -198,7 +198,7 @@ class StandingCounter(Sound):
 
 
 class Disorder(Sound):
-    """The message with the time of the cause comes first."""
+    """Sends the message that carries the time of the cause first, not last."""
 
     def __init__(self, estimator, send):
         ids = [message[1] for message in canhil_target.GROUPS["LosRate"]]
@@ -240,7 +240,7 @@ class Chance(Sound):
 
 
 class NoWrap(Sound):
-    """Uses a time of validity unchanged, without unwrapping it."""
+    """Uses a time of validity as it is in the frame, without unwrapping it."""
 
     def unwrapped_us(self, group, value):
         return round(value)
@@ -267,7 +267,7 @@ class AnySize(Sound):
 
 
 class Repetitions(Sound):
-    """Does not detect that a frame is repeated."""
+    """Drops a repeated frame without counting it."""
 
     def receive(self, identifier, data):
         if canhil_target.MESSAGES.get(identifier, ("",))[0] == "Seeker" and self.received.get(identifier) == data[1] & 0x0F:

@@ -1,5 +1,5 @@
-// The kit for user-written targets: both examples give the same bits and a verdict, and the tables of the kit
-// match the DBC.
+// The kit for user-written targets: the examples in C and Python send the same bits, a run with each of them
+// comes to its verdict, and the tables of the kit match the DBC.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -62,14 +62,15 @@ TEST(Kit, CAndPythonAnswerWithTheSameBits) {
     const std::string log = scratch(fmt::format("kit{}.log", logs.size()));
     const Ended ended = hil_bench(
         fmt::format("run {} --lockstep --target '{}' --log {}", scenario("los_quick"), target, log));
-    EXPECT_EQ(ended.code, 3) << ended.out << ended.err;  // times are not measured in lockstep
+    EXPECT_EQ(ended.code, 3) << ended.out << ended.err;  // timing is not measured in lockstep
     EXPECT_GT(target_frames(log).size(), 1000U);
     logs += " " + log;
   }
   EXPECT_THAT(hil_bench("diverge" + logs).out, HasSubstr("same: "));
 }
 
-// The target receives its own arguments; a golden flight with other arguments differs.
+// The target receives the arguments in --target. With other arguments, its answers differ from the recorded
+// ones.
 TEST(Kit, ArgumentsReachTheTarget) {
   const std::string folder = scratch("kit_golden");
   shell("rm -rf " + folder);
@@ -85,7 +86,7 @@ TEST(Kit, ArgumentsReachTheTarget) {
 
 const std::string own_target = read(SOURCE_DIR "/docs/own-target.md");
 
-// On a stalled host the bench repeats commands; such a recording is repeated.
+// If the host stalls, the bench repeats commands. Then the test records the handshake again.
 TEST(Documentation, HandshakeIsThatOfARun) {
   const std::string log = scratch("handshake.log");
   Ended annotated;

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// A DBC of another maker, with two warnings and a note.
+/// A DBC of another maker, in which dbc lint finds two warnings and a note.
 std::string odd_file() {
   const std::string path = scratch("odd file.dbc");
   std::ofstream(path) << "BU_: A\nBO_ 291 Motion: 2 C\n SG_ speed : 0|12@1+ (0.5,0) [0|0] \"km/h\" A\n"

@@ -22,7 +22,8 @@ nlohmann::json line_of(const nlohmann::json& page, const std::string& subject) {
   return nullptr;
 }
 
-// A machine under load can be bad at timing: the exit code must match the findings.
+// On a loaded machine, the doctor may find bad timing. Therefore the test expects no particular exit code,
+// but one that matches the findings.
 void expect_code_of_its_lines(const Ended& ended, const nlohmann::json& page) {
   const bool bad =
       std::ranges::any_of(page["lines"], [](const auto& line) { return line["grade"] == "bad"; });

@@ -1,5 +1,5 @@
-// hil-bench faults: the matrix, the same bytes after kills and with shards, and a reduced scenario that still
-// shows the violation.
+// hil-bench faults: tests the matrix, that kills and shards do not change its bytes, and that a reduced
+// scenario still shows the violation.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -26,8 +26,8 @@ std::string file(const std::string& name, const std::string& text) {
   return path;
 }
 
-// Three faults: an outage and damaged frames of a seeker at 200 Hz, and lost frames of a master INS, which is
-// in another scenario.
+// Three faults: two of a seeker at 200 Hz (an outage, damaged frames), and one of a master INS (lost frames).
+// The seeker and the master INS are in different scenarios.
 std::string small_set() {
   return file("small.toml", R"(
 [[fault]]
@@ -93,8 +93,8 @@ to_s = 2.3
               HasSubstr("| angles away | detected in"));
 }
 
-// One of three faults is to blame: the target believes the signal of the stuck accelerometer, and reports
-// small sigmas.
+// Only one of three faults causes the violation: the target does not detect that the signal of the
+// accelerometer is stuck, and reports small sigmas.
 TEST(Faults, AViolationIsMadeSmallAndShowsAgain) {
   const std::string storm = file("storm.toml", R"(
 [[fault]]
@@ -162,7 +162,7 @@ TEST(Faults, ShardsAndAKillGiveTheSameBytes) {
   EXPECT_GT(json_in(whole).size(), 1000U);
   EXPECT_TRUE(json_in(whole) == json_in(shards));
 
-  // The program is killed after some cells are stored; then the file is truncated in the middle of a line.
+  // The program is killed when it has stored some cells; then the file is truncated in the middle of a line.
   const std::string cells = killed + "/faults.jsonl";
   const pid_t child = fork();
   if (child == 0) {
@@ -225,8 +225,8 @@ std::string recommended() {
                      scenario("los_quick"), scenario("wind_recommended"));
 }
 
-// believed.toml lists known faults, each of which makes one estimator violate the check `honest`. A fault
-// that no longer does must be removed from that file and from docs/fault-matrix.md.
+// believed.toml lists known faults; each of them makes one estimator violate the check `honest`. A fault that
+// no longer causes such a violation must be removed from believed.toml and from docs/fault-matrix.md.
 TEST(Faults, WhatIsKnownToBeBelievedIsEachOfOneEstimator) {
   const Ended ended =
       hil_bench(fmt::format("faults {} --set {}/bench/fault_matrix/believed.toml --out {} --json -",

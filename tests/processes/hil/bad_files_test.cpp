@@ -88,7 +88,8 @@ TEST(BadFiles, DbcgenWritesWhatItIsAskedForOrSaysWhyNot) {
   const auto dbcgen = [&](const std::string& more) {
     return shell(fmt::format("{} {} {}", DBCGEN, dbc, more));
   };
-  expect_one_line(dbcgen("-o /dev/full"), "/dev/full: cannot be written");  // reading /dev/full never ends
+  // dbcgen must not read the old content of its output file here: reading /dev/full never ends.
+  expect_one_line(dbcgen("-o /dev/full"), "/dev/full: cannot be written");
   expect_one_line(dbcgen(">/dev/full"),
                   "dbcgen: standard output: cannot be written: No space left on device\n");
   expect_one_line(dbcgen("-n 'a b;'"), "--namespace: 'a b;' is not a valid C++ namespace");

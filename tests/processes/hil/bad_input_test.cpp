@@ -75,7 +75,8 @@ TEST(BadInput, ParameterThatTheTargetRefusesIsNamedWithItsPlace) {
 }
 
 TEST(BadInput, AMisspeltParameterIsOneOfItsEstimator) {
-  // Among all parameters, the nearest name would be gyro_bias_sigma_degph of the alignments.
+  // Of the parameters of all estimators, gyro_bias_sigma_degph has the nearest name, but the wind estimator
+  // does not have this parameter.
   std::string text = read(scenario("wind_quick"));
   const std::string table = "[target.parameters]\n";
   const auto at = text.find(table);
@@ -360,7 +361,7 @@ TEST(BadInput, ARunThatDoesNotBeginLosesNothingAndLeavesNothing) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 4) << "nothing unfinished stays";
 }
 
-// A run that is killed writes no report; the report of an earlier run must not remain either.
+// A run that is killed writes no report. After it, the file of an earlier run's report must not exist either.
 TEST(BadInput, ARunThatBeganLeavesNoReportOfAnEarlierOne) {
   const std::string report = scratch("stale.json");
   std::ofstream(report) << "of an earlier run";
@@ -369,7 +370,8 @@ TEST(BadInput, ARunThatBeganLeavesNoReportOfAnEarlierOne) {
   EXPECT_FALSE(std::filesystem::exists(report));
 }
 
-// A target with another DBC: the test hosts the bus and sends heartbeats with another hash.
+// A target that was built from another DBC. The test takes the place of this target: it hosts the bus and
+// sends heartbeats with another hash.
 TEST(BadInput, TargetBuiltFromAnotherDbc) {
   const std::string bus = "local:other-dbc";
   auto hub = host_local_bus(bus, {});

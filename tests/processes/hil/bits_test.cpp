@@ -1,5 +1,5 @@
-// Property: the target's frames depend only on the bench's frames: on every bus, with every clock, and in a
-// replay.
+// The tested property: the frames that the target sends depend only on the frames that the bench sends. It
+// holds on every bus, in lockstep and in real time, and in a replay.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -19,7 +19,8 @@ std::string record(const std::string& name, const std::string& options,
   return log;
 }
 
-// A complete recording in real time. The property does not apply to incomplete recordings.
+// Records a run in real time. If the recording is incomplete, the run is repeated, because recordings can be
+// compared only if they are complete.
 std::string record_in_real_time(const std::string& name, const std::string& file = "transfer_alignment_quick",
                                 Ended* how = nullptr) {
   const std::string report = scratch(name + ".json");
@@ -51,7 +52,8 @@ TEST_P(BitsOfScenario, InProcessAndLockstepAgree) {
   EXPECT_TRUE(in_process == lockstep);
 }
 
-// With los_closed_loop, frames agree only if each answer acts on the flight at the same time on every bus.
+// In the scenario los_closed_loop, answers act on the flight. Its frames agree only if each answer takes
+// effect at the same time on every bus.
 INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
                          testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "los_quick",
                                          "los_closed_loop", "los_closed_loop_500hz", "wind_quick",
@@ -60,8 +62,8 @@ INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
 
 class BitsOnAWire : public testing::TestWithParam<const char*> {};
 
-// Simulated frame times must not change the order of frames or, in the closed loop, the time at which answers
-// take effect.
+// Simulated frame times must change neither the order of frames nor, in closed loop, the time at which an
+// answer takes effect.
 TEST_P(BitsOnAWire, AreThoseWithoutOne) {
   const std::string name = GetParam();
   const auto without = target_frames(record(name + ".no_wire.log", "--bus in-process", name));
@@ -101,7 +103,8 @@ TEST(Bits, AllFourAtOnceInProcessAndRealTimeAgree) {
   const auto real_time = target_frames(record_in_real_time("all_four.real_time.log", "all_four"));
   EXPECT_GT(in_process.size(), 30'000U);
   EXPECT_TRUE(in_process == real_time);
-  // The checks also pass in real time. The heartbeat is not judged here, because it depends on the host.
+  // The checks pass in real time too. The heartbeat check is left out, because its outcome depends on the
+  // host.
   const auto report = read_json(scratch("all_four.real_time.log.json"));
   for (const auto& check : report["checks"]) {
     if (check["kind"] == "heartbeat") continue;

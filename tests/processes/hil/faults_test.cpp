@@ -1,4 +1,5 @@
-// Faults of every stage in a run of two processes over the embedded bus, and what the report shows.
+// Faults of the four stages (sensor, node, bus, target) in runs of two processes over the embedded bus, and
+// what the report shows about them.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -31,7 +32,7 @@ std::string faults_file(const std::string& faults) {
   return path;
 }
 
-/// A quick flight with an additional check of the counts, and with faults from a separate file.
+/// Flies a quick flight with an additional check counts_match, and with faults from a separate file.
 Flown fly(const std::string& faults, const std::string& how = "--lockstep") {
   const std::string flight = scratch("flight.toml"), json = scratch("report.json");
   std::ofstream(flight) << read(scenario("transfer_alignment_quick")) << counts_match;
@@ -47,7 +48,7 @@ std::string fault(const std::string& kind, const std::string& keys) {
   return fmt::format("[[fault]]\nkind = \"{}\"\n{}\n", kind, keys);
 }
 
-/// The kinds of loss that the target reports, each once: "bad_crc late".
+/// The names of the counters of losses that are not 0 in the target's report, for example "bad_crc late".
 std::string causes(const Flown& flown) {
   std::string causes;
   for (const auto& [cause, count] : flown.report["target_counters"].items()) {
@@ -147,8 +148,8 @@ TEST(Faults, ATargetIsRestartedInVirtualTimeAndGoesOn) {
 TEST(Faults, ATargetThatIsHeldIsNotTakenForSilent) {
   const Flown paused = fly(fault("paused", "from_s = 1\nfor_s = 0.6"), "");
   EXPECT_TRUE(paused.report["ending"]["completed"]) << paused.report["ending"];
-  // The target was silent for longer than 0.5 s. On a busy host the check may be not measured, but it must
-  // not pass.
+  // The target was silent for longer than 0.5 s, so the heartbeat check must not pass. On a busy host its
+  // outcome may be 'not measured'.
   EXPECT_THAT(paused.outcome_of("heartbeat"),
               testing::AnyOf(testing::StartsWith("fail"), testing::StartsWith("not measured: no CPU")));
   const Flown slowed = fly(fault("slowed", "from_s = 1\nto_s = 2\ncpu_percent = 40\nperiod_ms = 100") +

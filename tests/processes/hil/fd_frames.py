@@ -2,7 +2,7 @@
 
 usage: fd_frames.py WIRE.log CLASSIC.log CANHIL_FD.dbc CANHIL.dbc DECODE_FRAMES
 WIRE.log: the frames on the bus. CLASSIC.log: the log of hil-bench run --log, decoded by canhil's own codec.
-For every classic message both must have the same sequence of values. Prints the number of compared frames.
+For every classic message, the two files must contain the same sequence of values. Prints the number of compared frames.
 """
 
 import collections
@@ -17,7 +17,7 @@ import canmatrix.formats  # noqa: E402
 
 
 def frames_of(path):
-    """(id, flags or None, data) of every line "(time) bus ID#DATA" or "ID##FDATA"."""
+    """(id, flags, data) of every line "(time) bus ID#DATA" (classic; flags: None) or "(time) bus ID##FDATA" (CAN FD; flags: F)."""
     for line in open(path, encoding="ascii"):
         identifier, _, rest = line.split()[2].partition("#")
         fd = rest.startswith("#")
@@ -25,7 +25,7 @@ def frames_of(path):
 
 
 def on_the_wire(path, dbc):
-    """values[classic message][signal]: list, from containers and from FD frames of their own."""
+    """values[classic message][signal]: the list of its values. Some messages are in containers, others have an FD frame of their own."""
     matrix = next(iter(canmatrix.formats.loadp(dbc).values()))
     values = collections.defaultdict(lambda: collections.defaultdict(list))
     for identifier, flags, data in frames_of(path):

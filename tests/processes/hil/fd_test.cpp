@@ -110,7 +110,8 @@ class Wiretap {
   std::thread thread_;
 };
 
-// The mean load over the whole seconds of the time base except the last second, as in the report.
+// The mean bus load over all complete seconds of the time base except the last one, computed as in the
+// report.
 double mean_load(const std::vector<Frame>& frames, const wire::BitRates& rates) {
   std::vector<double> seconds;
   for (const Frame& frame : frames) {
@@ -151,8 +152,8 @@ TEST(Fd, TheWireCarriesWhatTheLogAndTheReportSay) {
   const auto load = read_json(json)["bus_load"][0];
   const wire::BitRates rates{.nominal = load["bitrate_bitps"], .data = load["data_bitrate_bitps"]};
   EXPECT_EQ(rates.data, 2'000'000);
-  // In lockstep the bench may read the answers of a second's last step (1 of 100) after it has begun the next
-  // second.
+  // A second has 100 steps. In lockstep, the bench may read the answers of the last step after it has begun
+  // the next second; therefore the loads may differ by 1 %.
   EXPECT_NEAR(load["mean"].get<double>(), mean_load(frames, rates), 0.01 * mean_load(frames, rates));
 }
 

@@ -1,4 +1,4 @@
-// hil-bench golden names the first answer that differs from the recorded answers.
+// Tests that hil-bench golden names the first answer that differs from the recorded answers.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -63,7 +63,7 @@ TEST_F(Golden, NamesTheFirstSignalThatLeftItsToleranceAndKeepsTheFrames) {
   const nlohmann::json results = read_json(report);
   EXPECT_EQ(results[0]["outcome"], "pass");
   EXPECT_EQ(results[1]["outcome"], "fail");
-  // With a wide tolerance the answers count as the same, with a narrow one they do not.
+  // With a wide tolerance, the changed answers are accepted as equal; with a narrow tolerance, they are not.
   EXPECT_EQ(check("--tolerance 1").code, 1);
   EXPECT_EQ(check("--tolerance 1000000").code, 0);
 }
@@ -74,8 +74,8 @@ TEST_F(Golden, ATargetThatGivesUpIsAFailure) {
   EXPECT_THAT(ended.out, HasSubstr("FAIL  los_quick"));
 }
 
-// A log contains the frames of the classic DBC for both buses, so the test detects the bus by the target's
-// command line.
+// A log contains classic frames even if the bus was CAN FD. Therefore the test finds out from the target's
+// command line which kind of bus was used.
 TEST_F(Golden, AScenarioOnCanFdIsFlownOnCanFd) {
   const std::string file = scratch("on_fd.toml"), target = scratch("started_target.sh"),
                     arguments = scratch("arguments.txt");
@@ -90,7 +90,7 @@ TEST_F(Golden, AScenarioOnCanFdIsFlownOnCanFd) {
   EXPECT_EQ(check().code, 0);
 }
 
-// Unreadable stored files are not a failure of the target: no scenario fails, and none is flown.
+// A stored scenario that cannot be read is bad input, not a failure of the target: no scenario is flown.
 TEST_F(Golden, AKeptScenarioThatIsBrokenIsBadInput) {
   change("transfer_alignment_quick", "velocity_noise_m2ps", "velocity_noise");
   expect_one_line(check(), "transfer_alignment_quick.toml:");

@@ -22,10 +22,10 @@ namespace {
 using namespace canhil;
 using namespace canhil::messages;
 
-// Changes a frame that is to be sent. Returns false if the frame must not be sent.
+// Changes a frame that the target is about to send. Returns false if the frame must not be sent.
 using Lie = std::function<bool(Frame&)>;
 
-// If the frame carries this message, replaces its values and keeps its counter.
+// If the frame carries the message `Message`, replaces the values of the message and keeps its counter.
 template <class Message, class Change>
 void change(Frame& frame, const Change& values) {
   if (frame.id != Message::info.id) return;
@@ -104,7 +104,7 @@ const std::map<std::string_view, Lie>& lies() {
   return all;
 }
 
-// The bus that the target uses; it changes the frames that the target sends.
+// The port of the target: it changes the frames that the target sends to the bus.
 class LyingPort final : public Port {
  public:
   LyingPort(std::unique_ptr<Port> bus, Lie lie) : bus_(std::move(bus)), lie_(std::move(lie)) {}

@@ -1,4 +1,4 @@
-// Targets that are correct except for one fault: the bench reports it, and the run does not pass.
+// Targets that are correct except for one fault: the bench reports the fault, and the run does not pass.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -18,7 +18,7 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A program with one fault, started as a target.
+/// The path of a script that starts lying_target with this fault, for the option --target.
 std::string liar(const std::string& lie) {
   std::string path = scratch(lie);
   std::ofstream(path) << fmt::format("#!/bin/sh\nexec {} {} \"$@\"\n", LYING_TARGET, lie);
@@ -33,8 +33,8 @@ std::string with(const std::string& flight, const std::string& more) {
   return path;
 }
 
-/// A quick flight in which samples are lost, repeated and damaged, with an additional check of the target's
-/// counts of them.
+/// A quick flight in which samples are lost, repeated and damaged. An additional check compares the target's
+/// counts of such samples with the number of faults.
 std::string lossy() {
   return with("transfer_alignment_quick", R"(
 [[fault]]
@@ -74,7 +74,7 @@ Flown fly(const std::string& file, const std::string& more) {
   return flown;
 }
 
-/// The kinds of the checks that failed, each once.
+/// The kinds of the checks that failed; each kind is listed once.
 std::vector<std::string> failed(const nlohmann::json& report) {
   std::vector<std::string> kinds;
   for (const auto& check : report["checks"]) {
@@ -115,7 +115,7 @@ TEST(Lies, InRealTimeTheCountsMatchTooAndALieIsFound) {
   const std::string report = scratch("real_time.json");
   const std::string run = fmt::format("run {} --bus {} --json {}", lossy(), bus(), report);
   Kinds honest;
-  for (int attempt = 0; attempt < 4; ++attempt) {  // a long stall of the host keeps the target from reading
+  for (int attempt = 0; attempt < 4; ++attempt) {  // if the host stalls for long, the target loses frames
     ASSERT_NE(hil_bench(run).code, 2);
     honest = failed(read_json(report));
     if (std::ranges::find(honest, "counts_match") == honest.end()) break;

@@ -11,8 +11,8 @@
 namespace canhil::test {
 namespace {
 
-// Runs the bench with this number of IMU samples and with all reports. Returns the peak memory [KiB] of all
-// bench runs up to now.
+// Runs the bench with this number of IMU samples and with all reports. Returns the largest peak memory [KiB]
+// of this run and all earlier runs.
 long peak_kib(int samples) {
   constexpr double period_s = 0.005;
   const std::regex duration("duration_s = .*"), truth("trajectory = [^]*\\[initial_error\\]"),
@@ -32,10 +32,10 @@ long peak_kib(int samples) {
   return of_children.ru_maxrss;
 }
 
-// A series over 2 MiB is stored in a file (bench/spool). The series of navigation answers exceed this size
-// from 60 000 samples on. A dozen series exceed it later: the series of filter answers, which have a tenth of
-// the samples, and the series with 8 bytes per sample. Kept in memory, 120 000 more samples would take 90
-// MiB.
+// A series that is larger than 2 MiB is stored in a file (bench/spool). The series of navigation answers have
+// this size at 60 000 samples. A dozen other series reach it only in longer runs: the series of filter
+// answers, which have a tenth of the samples, and the series with 8 bytes per sample. If the bench kept all
+// series in memory, 120 000 more samples would take 90 MiB.
 TEST(Memory, OfARunDoesNotGrowWithIt) {
   const long before = peak_kib(60'000), after = peak_kib(180'000);
   EXPECT_GT(before, 0);

@@ -1,4 +1,5 @@
-// Tests the function by which the tests of runs recognise passed outputs: it must not accept failed outputs.
+// Tests output_complaints(): other tests decide with this function whether the outputs of a run passed, so it
+// must not accept outputs that failed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -14,8 +15,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// A run in virtual time, where timing is not measured. Each test changes its report, as if the run had ended
-// differently.
+// A run in virtual time, in which timing is not measured. Each test changes the report of this run, as if the
+// run had ended differently.
 class OutputComplaints : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -57,7 +58,8 @@ TEST_F(OutputComplaints, NameAnOutputThatFailedHoweverLateTheHostWas) {
     end_with(kind, "fail");
     EXPECT_THAT(complaints(), ElementsAre(HasSubstr(fmt::format("\"kind\":\"{}\"", kind)),
                                           "the verdict is 'fail', and no check of timing is why"));
-    end_with("latency", "fail");  // explains the verdict, but not the failed output check
+    end_with("latency",
+             "fail");  // a reason for the verdict 'fail', but no excuse for the failed output check
     EXPECT_THAT(complaints(), ElementsAre(HasSubstr(fmt::format("\"kind\":\"{}\"", kind))));
   }
 }
@@ -67,8 +69,8 @@ TEST_F(OutputComplaints, NameAnOutputThatWasNotMeasured) {
   EXPECT_THAT(complaints(), ElementsAre(HasSubstr("error attitude.heading")));
 }
 
-// A late host excuses a failed timing check only if its lateness exceeds half of the check's limit. The
-// limits are 5 ms, 50 % of 10 ms, and 0.5 s.
+// A failed timing check is excused only if the bench was late by more than half of the check's limit. The
+// limits of the three checks are 5 ms, 50 % of 10 ms, and 0.5 s.
 TEST_F(OutputComplaints, ExcuseATimingThatFailedByALateHostAlone) {
   for (const auto& [kind, half_bar_s] :
        {std::pair{"latency", 2.5e-3}, {"output_period", 2.5e-3}, {"heartbeat", 0.25}}) {
@@ -99,7 +101,7 @@ TEST_F(OutputComplaints, NameAnExitCodeAnEndAndTooFewChecks) {
   EXPECT_THAT(complaints(), ElementsAre("4 checks of outputs, expected at least 5"));
 }
 
-// A run that fails, here because of a limit that no estimator meets, has complaints.
+// For a run that fails, there are complaints. Here it fails because of a limit that no estimator can meet.
 TEST_F(OutputComplaints, OfARunThatFailed) {
   const std::string strict = scratch("strict.toml"), file = scratch("strict.json");
   std::string text = read(scenario("transfer_alignment_quick"));

@@ -27,7 +27,7 @@ namespace canhil::test {
 
 namespace {
 
-/// The limit of a timing check, parsed from the report; empty for a check of outputs.
+/// The limit of a timing check, parsed from the report; empty if the check judges outputs, not timing.
 std::optional<double> timing_bar_s(const nlohmann::json& check) {
   static const std::map<std::string, std::regex> bars{
       {"latency", std::regex(".* < ([0-9.]+) (ms) .*")},
@@ -39,7 +39,7 @@ std::optional<double> timing_bar_s(const nlohmann::json& check) {
   std::smatch found;
   const auto expected = check["expected"].get<std::string>();
   if (!std::regex_match(expected, found, bar->second))
-    return std::numeric_limits<double>::infinity();  // no limit found: lateness does not matter
+    return std::numeric_limits<double>::infinity();  // limit not found: no lateness excuses a failed check
   const double value = std::stod(found[1]) * (found[2] == "ms" ? 1e-3 : 1);
   return bar->first == "output_period" ? value * std::stod(found[3]) / 100 : value;
 }
@@ -111,7 +111,7 @@ bool of_target(const Frame& frame) {
   return info != nullptr && info->sender == messages::TargetHeartbeat::info.sender;
 }
 
-// From the first Sync on: during the handshake the bench waits for answers.
+// Begins at the first Sync, because during the handshake the bench is silent while it waits for the target.
 double longest_silence_of_bench_s(const std::string& log_path) {
   std::optional<std::int64_t> last_ns;
   std::int64_t longest_ns = 0;
@@ -142,7 +142,7 @@ std::string disturbance(const RealTimeRun& run) {
   if (run.report["ending"]["completed"] != true) return run.report["ending"].dump();
   std::string found;
   const auto add = [&](const char* what, const char* place) {
-    const int count = run.report.value(nlohmann::json::json_pointer(place), -1);  // -1: not in the report
+    const int count = run.report.value(nlohmann::json::json_pointer(place), -1);  // -1: the count is missing
     if (count != 0) found += fmt::format("{} {}; ", what, count);
   };
   add("frames lost by the target:", "/target_counters/frames_lost");

@@ -1,4 +1,4 @@
-// Starts the project's programs as a user does.
+// Functions that start the project's programs as a user does.
 #pragma once
 
 #include <functional>
@@ -18,28 +18,28 @@ struct Ended {
 
 /// Runs a shell command to its end.
 Ended shell(const std::string& command);
-/// Runs hil-bench with arguments as typed.
+/// Runs hil-bench; `arguments` is what a user types after the program's name.
 Ended hil_bench(const std::string& arguments);
 Ended hil_target(const std::string& arguments);
 
 /// The bus of these tests: "local:", or the value of CANHIL_TEST_BUS.
 std::string bus();
-/// What to write before a command so that it runs without root's capabilities in `dropped`, for example
-/// "-sys_nice,-ipc_lock". Empty if the caller is not root.
+/// A prefix for a shell command: with it, the command runs without those capabilities of root that `dropped`
+/// lists, for example "-sys_nice,-ipc_lock". Empty if the caller is not root.
 std::string without_capabilities(const std::string& dropped);
 std::string scenario(const std::string& name);
-/// A file name in a folder that only this test program uses.
+/// The path of the file `name` in a temporary folder that only this process uses.
 std::string scratch(const std::string& name);
 std::string read(const std::string& path);
 nlohmann::json read_json(const std::string& path);
-/// The value of a figure in the results of a report.
+/// The value of the figure `name` in the line `line` of an estimator's results in a report.
 double figure(const nlohmann::json& report, const char* estimator, const char* line, const char* name);
 /// Parses JSON. This function is compiled once for all tests, because every source that instantiates a JSON
 /// parser takes over a second longer to compile.
 nlohmann::json json_of(const std::string& text);
 
-/// The target's frames in a log, in order, from the first Sync on, without frames that report on the host or
-/// the step.
+/// The frames that the target sent after the first Sync in a log, in the order of the log. Leaves out
+/// TargetTiming, which depends on the host, and StepDone, which only lockstep has.
 std::vector<Frame> target_frames(const std::string& log_path);
 
 /// A run in real time.
@@ -48,29 +48,31 @@ struct RealTimeRun {
   std::string log = {};   // path of the recording; needed if the target's bits are compared
 };
 
-/// What the host did to the run: it did not complete, or lost frames. With a recording also whether the bench
-/// was silent for 1 s or more: a target that hears nothing for 2 s sends heartbeats of its own. Empty:
-/// nothing; only then can frames be counted and their bits be compared. A bench that is late, but never
-/// silent, changes neither.
+/// Describes how the host disturbed a run: the run did not complete, or frames were lost. If there is a
+/// recording, also whether the bench was silent for 1 s or more: a target that receives nothing for 2 s sends
+/// additional heartbeats. Empty if none of this happened; only then can tests count frames and compare their
+/// bits. A bench that is late, but not silent for so long, does not change the frames.
 std::string disturbance(const RealTimeRun& run);
 
-/// Flies until the host disturbed no run, at most four times; a rejected configuration once. Returns the
-/// disturbances of all runs if there is no other, otherwise an empty string.
+/// Calls `fly` until a run is undisturbed or its configuration is rejected, at most four times. Returns an
+/// empty string then, and the disturbances of all four runs if each run was disturbed.
 std::string fly_undisturbed(const std::function<RealTimeRun()>& fly);
 
 /// The largest lateness of the bench itself; 0 in virtual time.
 double largest_lateness_s(const nlohmann::json& report);
 
-/// fly_undisturbed() for hil-bench with arguments as typed, which writes `report`. Returns the last run.
+/// Calls hil_bench(arguments) by fly_undisturbed(); the arguments make hil-bench write the file `report`.
+/// Returns the result of the last call.
 Ended hil_bench_whole(const std::string& arguments, const std::string& report);
 
-/// Bad input: exit code 2, one line on stderr that contains `what`, nothing on stdout.
+/// Expects that a program rejected bad input: exit code 2, one line on stderr that contains `what`, an empty
+/// stdout.
 void expect_one_line(const Ended& ended, const std::string& what);
 
-/// Descriptions of the outputs that did not pass; empty: all passed. Outputs must pass on any host, but a
-/// slow host may affect timing, which these tests do not judge. So a timing check may be not measured. It may
-/// also fail if the bench missed one of its own deadlines by more than half of the check's limit, because the
-/// host may have delayed the target as much. Only in that case may the verdict be 'fail'.
+/// Describes the outputs that did not pass; empty if all passed. Outputs must pass on any host. Timing is not
+/// judged here, because a slow host may affect it. So the outcome of a timing check may be 'not measured'. A
+/// timing check may also fail if the bench missed one of its own deadlines by more than half of the check's
+/// limit, because the host may have delayed the target as much. Only in that case may the verdict be 'fail'.
 std::vector<std::string> output_complaints(const Ended& ended, const nlohmann::json& report);
 void expect_outputs_passed(const Ended& ended, const nlohmann::json& report);
 

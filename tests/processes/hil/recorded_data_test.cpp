@@ -1,4 +1,4 @@
-// Recorded data as a user flies it: replayed logs of runs, CSV files, a flight without truth.
+// Runs with recorded data, as a user starts them: replayed logs of runs, CSV files, a flight without truth.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// The text with the lines of a table replaced; the header of the table may have a comment.
+/// The text with the lines of a TOML table replaced; a comment may follow the table's header.
 std::string with_table(const std::string& text, const std::string& table, const std::string& lines) {
   const std::size_t at = text.find("\n[" + table + "]") + 1;
   const std::size_t header_end = text.find('\n', at), end = text.find("\n[", header_end);
@@ -24,7 +24,8 @@ std::string with_table(const std::string& text, const std::string& table, const 
   return at == 0 ? text : text.substr(0, header_end + 1) + lines + text.substr(end);
 }
 
-/// The line of a table that begins with this word, including the line end; empty if no line does.
+/// The line of a TOML table that begins with this word, including the line end. Empty if the table has no
+/// such line.
 std::string line_of(const std::string& text, const std::string& table, const std::string& word) {
   const std::size_t at = text.find("\n[" + table + "]");
   const std::size_t end = text.find("\n[", at + 1), found = text.find("\n" + word, at);
@@ -139,7 +140,8 @@ Csv csv_of(const std::string& log) {
   return csv;
 }
 
-// The samples of a flight as CSV files: the same numbers give the same bits, in any unit.
+// A flight with the samples of an earlier run as CSV files: the answers are the same bits, whatever the units
+// of the columns are.
 TEST(RecordedData, TheSamplesOfARunAsCsvFilesGiveTheSameAnswers) {
   const std::string log = scratch("csv.log"), again = scratch("csv.again.log");
   ASSERT_NE(hil_bench(fmt::format("run {} --lockstep --bus {} --log {}", scenario("transfer_alignment_quick"),
@@ -159,7 +161,7 @@ TEST(RecordedData, TheSamplesOfARunAsCsvFilesGiveTheSameAnswers) {
   EXPECT_EQ(none.code, 0) << none.out;
 }
 
-// The NIS needs no truth; errors need one.
+// Without a truth, the NIS can be judged, but errors cannot.
 TEST(RecordedData, WithoutATruthErrorsAreNotMeasuredAndConsistencyIs) {
   const std::string log = scratch("unknown.log"), json = scratch("unknown.json");
   ASSERT_NE(hil_bench(fmt::format("run {} --lockstep --bus {} --log {}", scenario("transfer_alignment_quick"),
@@ -206,7 +208,7 @@ heading_deg = 0.0
   EXPECT_THAT(csv, testing::Not(HasSubstr("nan")));
 }
 
-// The message for an invalid file states its line, the scenario's line, and what was expected.
+// The error message about an invalid CSV file states the line of this file and what was expected.
 TEST(RecordedData, AWrongFileIsOneLine) {
   write("rows.csv", "t_s,rate_x_degps\n0.01,1\n0.02,2\n");
   std::string text = read(scenario("transfer_alignment_quick"));

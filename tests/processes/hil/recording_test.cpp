@@ -33,7 +33,7 @@ TEST(Recording, TheLogOfVirtualTimeCarriesVirtualTime) {
   EXPECT_TRUE(start_ns);
 }
 
-// A file size limit simulates a full disk; the log is the only file that exceeds it.
+// A limit of the file size simulates a full disk. Only the log is larger than the limit.
 TEST(Recording, ALogThatCannotBeWrittenToItsEndCostsNothingElse) {
   const std::string log = scratch("cut.log"), report = scratch("cut.xml");
   const Ended ended =

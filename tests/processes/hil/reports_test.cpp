@@ -18,7 +18,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// One run in virtual time for all tests: its results are the same on any host.
+// All tests use the reports of one run in virtual time, whose results are the same on any host.
 class Reports : public testing::Test {
  protected:
   static void SetUpTestSuite() {

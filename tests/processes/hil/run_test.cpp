@@ -129,7 +129,7 @@ TEST(SimulatedWire, TheReportSaysWhoseTimesTheseAre) {
   EXPECT_EQ(compared.code, 0) << compared.out;
 }
 
-// Runs one scenario with the check of the wire bounds, on a bus of either format.
+// Runs the scenario with the additional check wire_response. `options` select the bus: classic CAN or CAN FD.
 nlohmann::json with_bounds(const std::string& options) {
   std::ofstream(scratch("bounds.toml"))
       << read(scenario("los_quick")) << "\n[[check]]\nkind = \"wire_response\"\n";
@@ -146,7 +146,8 @@ nlohmann::json with_bounds(const std::string& options) {
   return page;
 }
 
-/// The scenario with an output interval of 60 ms, and with a check of the period of `message`.
+/// The path of a copy of the scenario with an output interval of 60 ms and a check of the period of
+/// `message`.
 std::string with_interval(const std::string& name, const std::string& message, int within_percent) {
   constexpr std::string_view table = "[target.parameters]\n";
   std::string text = read(scenario(name));
@@ -161,7 +162,7 @@ std::string with_interval(const std::string& name, const std::string& message, i
   return path;
 }
 
-// The interval in the scenario is the expected period of the answers, not the cycle time in the DBC.
+// The check expects the period that the scenario sets with output_interval_ms, not the cycle time in the DBC.
 TEST(SimulatedWire, ThePeriodOfAnswersIsTheIntervalThatTheScenarioSets) {
   for (const auto& [name, message] :
        {std::pair("transfer_alignment_quick", "AlignAttitude"), std::pair("inflight_ssbl", "FixVelocityD"),
@@ -201,7 +202,8 @@ TEST(SimulatedWire, OnCanFdEveryContainerKeepsItsBoundAndTheWholeLatencyIsExplai
   EXPECT_THAT(read(scratch("bounds.html")), HasSubstr("Over the bus at 500 and 2000 kbit/s"));
 }
 
-// A run in real time, in which the target reports its own times. The durations on the host are not judged.
+// A run in real time, in which the target reports its own times. How long these times are is not tested,
+// because it depends on the host.
 TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
   const std::string report = scratch("fd.json");
   const Ended ended = hil_bench(
@@ -214,7 +216,7 @@ TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
   double sum_s = 0;
   for (const auto& [part, mean] : page["split"]["parts_s"].items()) {
     ASSERT_TRUE(mean.is_number()) << part;
-    // The rest may be negative: bench and target average over different stimuli.
+    // The part not_explained may be negative, because bench and target average over different stimuli.
     const bool is_rest = part == "not_explained";
     EXPECT_TRUE(is_rest || mean.get<double>() >= 0) << part;
     sum_s += mean.get<double>();
@@ -308,7 +310,7 @@ TEST(Run, JsonToStdoutIsAloneThere) {
   EXPECT_THAT(ended.err, HasSubstr("a target says hello"));
 }
 
-// Every program checks at its end whether its standard output was written.
+// Each program checks at its end whether its standard output could be written.
 TEST(Output, ThatIsLostIsSaid) {
   const std::string log = scratch("lost.log");
   ASSERT_THAT(

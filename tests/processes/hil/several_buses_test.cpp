@@ -1,4 +1,4 @@
-// Nodes on separate buses.
+// Runs in which the nodes are on two buses.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -26,7 +26,7 @@ int of(const Counts& counts, const std::string& message) {
   return counts.contains(message) ? counts.at(message) : 0;
 }
 
-// A bus hosted by the test, which therefore receives every frame of every sender without loss.
+// A bus that the test hosts. Therefore the test receives every frame of every sender without loss.
 class WatchedBus {
  public:
   explicit WatchedBus(const std::string& which)
@@ -35,7 +35,7 @@ class WatchedBus {
   WatchedBus& operator=(const WatchedBus&) = delete;
   ~WatchedBus() { frames(); }
 
-  /// The frames on the bus, after its host has ended.
+  /// Ends the bus, and returns how many frames of each message were on it.
   const Counts& frames() {
     stop_ = true;
     if (host_.joinable()) host_.join();
@@ -70,9 +70,9 @@ struct Flown {
   Counts main, aiding;
 };
 
-// The quick transfer alignment with the master INS on a separate bus. `command` starts bench and target. Its
-// arguments are the options of the bench, the bus of all other nodes, and the bus of the master INS. The run
-// is repeated if the host disturbed it.
+// Flies the quick transfer alignment with the master INS on a separate bus. `command(bench, main)` returns
+// the shell command that starts bench and target: `bench` is the command line of the bench, `main` is the bus
+// of all other nodes. The run is repeated if the host disturbed it.
 template <class Command>
 Flown fly(const Command& command) {
   std::optional<Flown> flown;
@@ -96,9 +96,9 @@ Flown fly(const Command& command) {
   return std::move(*flown);
 }
 
-// A flight of 3 s: the slave IMU sends 100 samples per second, the master INS 10. There is a Sync with each
-// IMU sample and one at the start. Each sample is answered, including each master sample that the target
-// receives.
+// In the flight of 3 s, the slave IMU sends 100 samples per second, the master INS 10. The bench sends a Sync
+// with each IMU sample and one at the start. The target answers each IMU sample, and each master sample that
+// it receives.
 void expect_from_bench(const Flown& flown) {
   EXPECT_EQ(flown.aiding, (Counts{{"MasterInsVelocityNE", 30},
                                   {"MasterInsAttitude", 30},

@@ -34,7 +34,7 @@ class TwoTargets : public testing::Test {
     stop_ = true;
     if (server_.joinable()) server_.join();
   }
-  /// Starts a target and waits for its first heartbeat, while no other target sends heartbeats.
+  /// Starts a target and waits for its first heartbeat. No other target may send heartbeats meanwhile.
   pid_t start_target() {
     const auto ear = open_port(bus_, {.only_ids = {messages::TargetHeartbeat::info.id}}).value();
     const pid_t pid = ::fork();
@@ -54,7 +54,8 @@ class TwoTargets : public testing::Test {
   std::vector<pid_t> targets_;
 };
 
-// A target listens before it sends its first frame. Here the first target is stopped during that time.
+// Before its first frame, a target listens for another target on the bus. Here the second target detects
+// none, because the first target is suspended while the second one listens.
 TEST_F(TwoTargets, EndTheRun) {
   const pid_t first = start_target();
   ::kill(first, SIGSTOP);
@@ -66,7 +67,8 @@ TEST_F(TwoTargets, EndTheRun) {
   ::kill(first, SIGCONT);
   const Ended ended =
       hil_bench(fmt::format("run {} --bus {} --target none", scenario("transfer_alignment_quick"), bus_));
-  EXPECT_TRUE(ended.code == 1 || ended.code == 2) << ended.code;  // depends on when the bench detects it
+  // The exit code depends on when the bench detects the second target.
+  EXPECT_TRUE(ended.code == 1 || ended.code == 2) << ended.code;
   EXPECT_THAT(ended.out + ended.err, testing::HasSubstr("a second target answers on this bus"));
 }
 

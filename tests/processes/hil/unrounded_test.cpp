@@ -1,5 +1,5 @@
-// Compares a run with the same run with unrounded frames. The difference is the effect of the rounding on the
-// bus.
+// Flies a scenario twice, with rounded and with unrounded frames, and compares the errors. The difference is
+// the effect of the rounding on the bus.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -31,14 +31,15 @@ TEST(Unrounded, TheRunPassesAndItsErrorsDifferByALittle) {
     const double difference = figure(exact, "transfer_alignment", "final_error", axis) -
                               figure(rounded, "transfer_alignment", "final_error", axis);
     EXPECT_NE(difference, 0.0) << axis;
-    // Attitude is sent in steps of 0.003 deg = 52 urad. The difference is half a step of the output, plus the
-    // effect of rounded measurements on the estimate. The errors themselves are up to 2.4 mrad here.
+    // Attitude is sent in steps of 0.003 deg = 52 urad. The difference is up to half a step of the output,
+    // plus the effect of rounded measurements on the estimate. The errors themselves are up to 2.4 mrad here.
     EXPECT_LT(std::abs(difference), 1e-4) << axis;
   }
   EXPECT_EQ(exact["provenance"]["bus"], "in-process?unrounded") << "a report says how its frames travelled";
 }
 
-// Unrounded frames exist only within one process; output files do not claim to contain them.
+// Unrounded frames exist only on the bus within the process of hil-bench. Logs and other buses are refused,
+// because they cannot contain such frames.
 TEST(Unrounded, NoLogAndNoOtherBusCarriesThem) {
   const std::string run = fmt::format("{} run {} --bus ", HIL_BENCH, scenario("transfer_alignment_quick"));
   const Ended logged = shell(run + "'in-process?unrounded' --log " + scratch("unrounded.log"));

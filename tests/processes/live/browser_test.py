@@ -1,6 +1,6 @@
 """The live view's page in Chromium: browser_test.py HIL_BENCH [--keep FOLDER]
 
---keep: also flies a scenario of 20 s with faults, and stores pictures of the page at its middle in FOLDER: live_desktop.png, live_phone.png.
+--keep: also flies a scenario of 20 s with faults, and stores pictures of the page in FOLDER. They show the middle of the flight: live_desktop.png, live_phone.png.
 """
 
 import argparse
@@ -45,7 +45,7 @@ def wait(browser, script, what):
 
 
 def charts(browser):
-    """{key of the figure: (points, last value)}"""
+    """{name of a chart: its properties}: number of points, last value, and whether its canvas shows a curve."""
     return {one["name"]: one for one in browser.execute_script("""
         return [...document.querySelectorAll("#series .chart")].map(box => ({name: box.dataset.quantity,
           points: Number(box.dataset.points), last: Number(box.dataset.last),
@@ -84,7 +84,7 @@ class Browser(unittest.TestCase):
             self.assertIn("running", self.text("state"))
             self.assertTrue(all(one["points"] > 0 for one in charts(browser).values()))
 
-            # The display is paused, the data continue.
+            # The display is paused; the page still receives data.
             self.press(" ")
             self.assertIn("paused", self.text("state"))
             shown, received = self.text("tiles"), browser.execute_script("return document.body.dataset.received")
@@ -122,7 +122,7 @@ class Browser(unittest.TestCase):
             self.press("w")
             self.expect_no_errors()
 
-            for size in (DESKTOP, PHONE):  # no element exceeds the page or overlaps another
+            for size in (DESKTOP, PHONE):  # no element is wider than the page or overlaps another element
                 set_size(browser, size)
                 time.sleep(0.3)
                 widths = browser.execute_script("return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")

@@ -19,7 +19,7 @@ PATIENCE_S = 60
 
 
 class Bench:
-    """hil-bench with these arguments and --live 0, in `folder` or a new one; killed at the block's end."""
+    """Runs hil-bench with these arguments and --live 0, in `folder` or in a new folder. Kills it at the end of the with block."""
 
     def __init__(self, program, *arguments, live=("--live", "0"), hurried=True, folder=None):
         self.hurried = hurried
@@ -36,8 +36,8 @@ class Bench:
         return self
 
     def hurry(self):
-        """Gives the view's thread the normal policy. In real time it has SCHED_IDLE, and would never run on a
-        busy host."""
+        """Gives the thread of the live view the normal scheduling policy. In a run in real time this thread has
+        SCHED_IDLE, with which it might never run on a busy host."""
         while self.hurried and self.process.poll() is None:
             for thread in os.listdir(f"/proc/{self.process.pid}/task"):
                 try:
@@ -81,7 +81,7 @@ def connect(port):
 
 
 def exchange(port, request):
-    """(status, headers, body) of the answer to these bytes; status 0: no answer."""
+    """Sends these bytes. Returns (status, headers, body) of the response; status 0: no response."""
     with connect(port) as one:
         one.sendall(request)
         answer = b""
@@ -138,7 +138,7 @@ class WebSocket:
             data = self.file.read(length)
             if kind == 8:
                 return None
-            if kind in (0, 1):  # a message may come in parts
+            if kind in (0, 1):  # 1: text, the first part of a message; 0: a further part
                 self.parts = (self.parts if kind == 0 else b"") + data
                 if last:
                     return json.loads(self.parts)

@@ -1,4 +1,4 @@
-"""The live view's server over HTTP and WebSocket: live_test.py HIL_BENCH CASE."""
+"""Tests the server of the live view over HTTP and WebSocket: live_test.py HIL_BENCH CASE."""
 
 import json
 import pathlib
@@ -13,7 +13,7 @@ from client import Bench, FLIGHTS, ROOT, WebSocket, connect, exchange, get  # no
 HIL_BENCH = sys.argv[1]
 QUICK = FLIGHTS / "transfer_alignment_quick.toml"
 LOCKSTEP = ("run", QUICK, "--lockstep", "--live-hold")
-MOST = 16  # connections
+MOST = 16  # the number of connections that the bench accepts
 
 
 class Page(unittest.TestCase):
@@ -29,7 +29,7 @@ class Page(unittest.TestCase):
                     self.assertNotIn(b"http", body.replace(b"http-equiv", b""), target)
             bench.await_line("(page stays)")
             code, out = bench.interrupt()
-            self.assertEqual(code, 3, out)  # not measured: lockstep does not judge times
+            self.assertEqual(code, 3, out)  # not measured, because lockstep does not judge timing
 
     def test_a_port_in_use_is_refused_in_one_line(self):
         with Bench(HIL_BENCH, *LOCKSTEP) as bench:
@@ -76,7 +76,7 @@ class Refusals(unittest.TestCase):
             speaks = WebSocket(bench.port)
             speaks.send(b"x" * 100)
             while speaks.message() is not None:
-                pass  # until the bench closes the connection, because the client sent data
+                pass  # ends when the bench closes the connection; the bench does so because the client sent data
             self.assertEqual(get(bench.port)[0], 200)
 
     def test_without_the_token(self):
@@ -100,7 +100,7 @@ class Refusals(unittest.TestCase):
             self.assertEqual(get(bench.port)[0], 0)
             for one in first[:4]:
                 one.close()
-            for _ in range(100):  # the bench notices with a delay that they were closed
+            for _ in range(100):  # the bench detects the closed connections with a delay
                 if get(bench.port)[0] == 200:
                     break
                 time.sleep(0.05)
@@ -148,7 +148,7 @@ class Run(unittest.TestCase):
                 before_end = message
                 times.append(message["flight"]["t_s"])
             self.assertEqual(times, sorted(times))
-            self.assertGreater(len(set(times)), 3)  # several updates during the run
+            self.assertGreater(len(set(times)), 3)  # the page received several updates during the run
             self.assertTrue(before_end["flight"]["series"])
             self.assertTrue(before_end["flight"]["timing"])
             self.assertTrue(all(check["outcome"] is None for check in before_end["flight"]["checks"]))

@@ -1,4 +1,4 @@
-"""hil-bench run --tui on terminals of several sizes: terminal_test.py HIL_BENCH."""
+"""Tests hil-bench run --tui on terminals of several sizes: terminal_test.py HIL_BENCH."""
 
 import fcntl
 import os
@@ -19,11 +19,11 @@ PATIENCE_S = 120
 
 
 def fly(rows, columns, key=b""):
-    """(exit code, what the terminal got, whether its settings are as before)"""
+    """Flies with --tui. Returns (exit code, output to the terminal, whether the terminal's settings are the same as before)."""
     child, terminal = pty.fork()
     if child == 0:
         os.environ["TERM"] = "xterm"
-        time.sleep(0.2)  # until the size is set
+        time.sleep(0.2)  # waits until the parent process has set the size of the terminal
         os.execv(HIL_BENCH, [HIL_BENCH, "run", str(QUICK), "--tui"])
     fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
     before, after, out, until = termios.tcgetattr(terminal), None, b"", time.monotonic() + PATIENCE_S
@@ -32,10 +32,10 @@ def fly(rows, columns, key=b""):
             continue
         try:
             part = os.read(terminal, 65536)
-        except OSError:  # the other end is closed
+        except OSError:  # the program has closed the terminal
             break
         out += part
-        if END in out:  # the program restores the settings afterwards
+        if END in out:  # the program restores the terminal's settings after it has sent END
             after = termios.tcgetattr(terminal)
         if key and b"heading error" in out:  # the flight has begun
             os.write(terminal, key)

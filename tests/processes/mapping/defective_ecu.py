@@ -9,7 +9,7 @@ from canhil_target import open_bus
 
 
 class WrongSign(own_ecu.Ecu):
-    """Uses the pitch rate with the wrong sign, as of a sensor that is mounted the wrong way round."""
+    """Uses the pitch rate with the wrong sign, as if the sensor were mounted the wrong way round."""
 
     def sample(self, rates, force):
         super().sample((rates[0], -rates[1], rates[2]), force)

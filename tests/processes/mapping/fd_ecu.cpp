@@ -1,4 +1,5 @@
-// An ECU on CAN FD: it answers each frame of 0x300 with a frame of 0x301 with the same data.
+// An ECU on CAN FD. It answers each frame that has the id 0x300: the answer has the id 0x301 and the same
+// data.
 #include <algorithm>
 #include <string>
 

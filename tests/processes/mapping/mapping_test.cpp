@@ -1,4 +1,4 @@
-// An ECU with its own DBC, tested by hil-bench over a bus.
+// hil-bench tests an ECU that has a DBC of its own, over a bus.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -27,8 +27,8 @@ Ended run(const std::string& target, const std::string& report, const std::strin
   return hil_bench(fmt::format("run {} --bus {} {} --json {} {}", own_ecu, bus(), target, report, more));
 }
 
-// A run in real time. It is repeated if the host stalled for longer than two samples, because the values of
-// the ECU are then late.
+// A run in real time. It is repeated if the host stalled for longer than two periods of the IMU samples,
+// because the values of the ECU are then late.
 Ended run_in_time(const std::string& target, const std::string& report, const std::string& more = "") {
   constexpr double two_samples_s = 0.02;
   Ended ended = run(target, report, more);
@@ -38,7 +38,7 @@ Ended run_in_time(const std::string& target, const std::string& report, const st
   return ended;
 }
 
-// The checks with this outcome.
+// The names of the checks in a report that have this outcome.
 std::vector<std::string> checks(const nlohmann::json& report, const std::string& outcome) {
   std::vector<std::string> names;
   for (const auto& check : report["checks"]) {
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(InC, Ecu, testing::Values("--target " OWN_ECU_C));
 
 struct Defect {
   const char* name;
-  const char* caught_by;  // a check that must fail
+  const char* caught_by;  // the check that must fail
   const char* clock;
 };
 
@@ -88,7 +88,7 @@ TEST_P(DefectiveEcu, IsCaughtByTheCheckThatItIsFor) {
   if (!failed.empty() || std::string(GetParam().name) != "slow") {
     EXPECT_EQ(ended.code, 1) << ended.err;
     EXPECT_THAT(failed, testing::Contains(HasSubstr(GetParam().caught_by))) << ended.out;
-  } else {  // the host was late, so the bench could not judge the latency of the slow ECU
+  } else {  // the host delayed the bench, so the bench could not judge the latency of the slow ECU
     EXPECT_THAT(checks(seen, "not measured"), testing::Contains(HasSubstr(GetParam().caught_by)))
         << ended.out;
     EXPECT_THAT(ended.out, HasSubstr("this host kept the bench itself")) << ended.out;
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Each, DefectiveEcu,
                                          Defect{"silent", "answers", ""}),
                          [](const auto& of) { return std::string(of.param.name); });
 
-// The program with defects passes when no defect is selected.
+// The program defective_ecu.py passes if no defect is selected.
 TEST(OwnEcu, WithoutADefectPasses) {
   const std::string report = scratch("none.json");
   EXPECT_EQ(run(in_python("none"), report, "--lockstep").code, 3);
@@ -125,7 +125,8 @@ TEST(OwnEcu, IsFlownByACampaign) {
   EXPECT_THAT(in_process.err, HasSubstr("expected a bus and --target")) << in_process.err;
 }
 
-// A drive is recorded from the bus, extracted from the log with the mapping, and sent again.
+// A run is recorded in a log; the IMU samples are extracted from the log with the mapping, and a second run
+// sends these samples.
 TEST(OwnEcu, ARecordedDriveIsDrivenAgain) {
   const std::string log = scratch("drive.log"), csv = scratch("imu.csv"), again = scratch("again.toml");
   ASSERT_NE(run_in_time(in_python("none"), scratch("drive.json"), "--log " + log).code, 2);
@@ -160,7 +161,8 @@ TEST(OwnEcu, ARecordedDriveIsDrivenAgain) {
       "has no whole group of IMU_TX3");
 }
 
-// The ECU repeats the played values, over 24 bytes of a CAN FD frame with float signals.
+// The bench sends values in CAN FD frames of 24 bytes with float signals, and the ECU sends the same values
+// back.
 TEST(OwnEcu, MayBeOnCanFd) {
   const std::string dbc = scratch("fd.dbc"), mapping = scratch("fd.mapping.toml"), file = scratch("fd.toml");
   std::ofstream(dbc) << R"(VERSION ""
@@ -212,7 +214,7 @@ counter = {{ signal = "Count" }}
   EXPECT_THAT(ended.out, HasSubstr("CAN FD")) << ended.out;
 }
 
-// A copy of the example with one text replaced.
+// Runs a copy of the example in which one text of one file is replaced.
 class Altered : public testing::Test {
  protected:
   Ended run_with(const std::string& file, const std::string& text, const std::string& instead) {

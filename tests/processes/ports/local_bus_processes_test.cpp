@@ -12,7 +12,7 @@
 namespace canhil {
 namespace {
 
-/// A process of the program node; the destructor kills it if it has not ended.
+/// A process that runs the program `node` (node.cpp). The destructor kills the process if it has not ended.
 class Process {
  public:
   Process(const std::string& role, const std::string& bus, int sender, std::uint64_t count) {
@@ -131,7 +131,7 @@ TEST_F(LocalBusProcesses, ThreeNodesAndTheHostSeeOneOrder) {
     if (sender != last) ++turns;
     last = sender;
   }
-  hub_->receive();  // delivers what may still be pending
+  hub_->receive();  // delivers frames that the hub may not have forwarded yet
   EXPECT_GT(turns, 10) << "the senders did not compete";
   const std::string expected = fmt::format("{:016x}\n", order.sum());
   for (Process& node : nodes) {
@@ -140,8 +140,8 @@ TEST_F(LocalBusProcesses, ThreeNodesAndTheHostSeeOneOrder) {
   }
 }
 
-/// Sends the stream of sender 0 from frame `from` on and waits whenever there is no room. Returns how often
-/// it waited.
+/// Sends the frames of the stream of sender 0, beginning with number `from`, and waits whenever the bus has
+/// no room. Returns how often it waited.
 int send_stream(Port& port, std::uint64_t from, std::uint64_t count) {
   int full = 0;
   for (std::uint64_t sent = from; sent < count;) {
@@ -159,7 +159,7 @@ TEST_F(LocalBusProcesses, ASlowReaderHoldsTheSenderBackAndLosesNothing) {
   Process reader("dawdle", bus_, 1, 20'000);
   wait_for_nodes(1);
   EXPECT_GT(send_stream(*hub_, 0, 20'000), 0);
-  while (!hub_->nodes().empty()) {  // the last frame may be pending
+  while (!hub_->nodes().empty()) {  // the hub may not have forwarded the last frame yet
     wait(*hub_, WaitFor::frame, no_deadline);
     hub_->receive();
   }
@@ -172,7 +172,9 @@ TEST_F(LocalBusProcesses, AStuckNodeStopsTheBusUntilItIsKilled) {
   Process stuck("ignore", bus_, 2, 0);
   wait_for_nodes(2);
   std::uint64_t sent = 0;
-  while (hub_->held_up_by() != "2") {  // the reader is slow too, but continues to read
+  // Until the hub reports that node 2 (`stuck`) holds up the bus. The other node is slow too, but continues
+  // to read.
+  while (hub_->held_up_by() != "2") {
     wait(*hub_, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + 1'000'000);
     if (hub_->send(streamed(0, sent)) == SendOutcome::sent) ++sent;
     ASSERT_LT(sent, count) << "no back-pressure";

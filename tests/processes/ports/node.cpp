@@ -1,4 +1,4 @@
-// A node (or host) of an embedded bus in a separate process, for local_bus_processes_test.
+// A program that is a node or the host of an embedded bus, for local_bus_processes_test.
 //   node ROLE BUS SENDER COUNT; ends with 0 on success, otherwise prints what failed.
 #include <fmt/format.h>
 #include <unistd.h>
@@ -37,7 +37,7 @@ void wait_for(Port& port, WaitFor what) {
   wait(port, what, no_deadline);
 }
 
-/// Sends its stream while it receives the stream of sender 0, which starts first.
+/// Waits for the first frame of sender 0; then sends its own stream while it receives the stream of sender 0.
 void exchange(const Task& task) {
   const auto port = join(task, false);
   wait_for(*port, WaitFor::frame);
@@ -88,7 +88,7 @@ void witness(const Task& task) {
   fmt::print("{:016x}\n", order.sum());
 }
 
-/// Receives the stream of sender 0, far more slowly than it is sent.
+/// Receives the stream of sender 0, far more slowly than sender 0 sends it.
 void dawdle(const Task& task) {
   const auto port = join(task, false);
   for (std::uint64_t n = 0; n < task.count; ++n) {
@@ -99,14 +99,14 @@ void dawdle(const Task& task) {
   }
 }
 
-/// Joins and never reads.
+/// Joins the bus and never reads from it.
 void ignore(const Task& task) {
   const auto port = join(task, false);
   while (!port->closed()) ::pause();
 }
 
-/// Hosts the bus until it is killed. A node that receives the first frame of the host knows
-/// that the hub has accepted this node.
+/// Hosts the bus until this process is killed. A node that has received a frame of the host is connected to
+/// the bus.
 void host(const Task& task) {
   auto hub = host_local_bus(task.bus, {.fd = true});
   if (!hub) give_up(hub.error().message);

@@ -1,5 +1,5 @@
-// A reproducible stream of frames with random ids and sizes, and the order in which a process received
-// frames.
+// A reproducible stream of frames with random ids and sizes, and a digest of the order in which a process
+// received frames.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace canhil {
 
-/// splitmix64 (Steele, Lea, Flood 2014).
+/// The hash function splitmix64 (Steele, Lea, Flood 2014).
 inline std::uint64_t scramble(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15U;
   x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
@@ -17,7 +17,7 @@ inline std::uint64_t scramble(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
-/// Frame n of a sender: CAN FD of any size, every byte depends on sender and n.
+/// Frame n of a sender: a CAN FD frame. Its size and all its bytes depend on `sender` and `n`.
 inline Frame streamed(std::uint64_t sender, std::uint64_t n) {
   constexpr std::array<std::uint8_t, 16> sizes{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
   std::uint64_t random = scramble(sender << 32U | n);

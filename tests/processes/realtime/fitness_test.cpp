@@ -23,8 +23,8 @@ using namespace std::chrono_literals;
 int some_cpu() { return std::stoi(shell("taskset -cp $$ | sed 's/.*[ ,-]//'").out); }
 bool may_have_priority(int priority) { return shell(fmt::format("chrt -f {} true", priority)).code == 0; }
 
-// The quick run with another quantile for the latency limit of 3 ms: with the median, a few answers may be
-// late, as happens on a shared machine.
+// The path of a quick scenario whose latency check limits this quantile to 3 ms. If it is the median, some
+// answers may be late, as happens on a shared machine.
 std::string judged_by(const std::string& quantile) {
   const std::string path = scratch(fmt::format("quantile_{}.toml", quantile));
   const Ended edited = shell(fmt::format(
@@ -41,7 +41,8 @@ nlohmann::json check(const nlohmann::json& report, const std::string& kind) {
   return {};
 }
 
-// On a shared machine the bench may be unable to judge. It reports this, and the test tries again.
+// On a shared machine the bench may be unable to judge the latency. Then the bench reports 'not measured',
+// and the test repeats the run.
 void expect_too_late(const std::string& slow, const char* where) {
   const std::string report = scratch("slow.json");
   const std::string priority = may_have_priority(40) ? "--realtime --priority 40" : "";
@@ -73,7 +74,7 @@ TEST(SlowTarget, ThatLetsFramesWaitFailsTheCheckOfLatency) {
   expect_too_late("CANHIL_SLOW_QUEUE_US=4000", "queue_max");
 }
 
-// Keeps a CPU busy for a part of each period.
+// Keeps a CPU busy for the time `busy` in each period.
 class Hog {
  public:
   Hog(int cpu, int fifo_priority, std::chrono::microseconds busy, std::chrono::microseconds period)
@@ -98,21 +99,22 @@ class Hog {
   std::jthread thread_;
 };
 
-// The effect of a CPU hog depends on the scheduler: a process that sleeps most of the time can wait for less
-// than 5 % of the run and still be late each time. A virtual machine can itself be delayed by its host; the
-// bench reports this first.
+// The two reasons that the bench can report if a CPU hog delays it. Which of them it reports depends on the
+// scheduler: the bench sleeps most of the time, so it can be late each time although it waits for a CPU for
+// less than 5 % of the run. The host of a virtual machine can delay the machine too; the bench reports this
+// first.
 const std::string no_cpu =
     "(no CPU was free for the bench for|the hypervisor gave) [0-9.]+ % of (the run|this machine's .*)";
 const std::string late = "this host kept the bench itself .* ms late \\(.*\\), more than 50 % of the limit";
 
-// Checks with limits of a few ms are not measured, and report `no_cpu` or `late`. All other checks pass; the
-// heartbeat is not examined.
+// Expects that the timing checks with limits of a few ms are not measured, with the reason `no_cpu` or
+// `late`, and that all other checks pass. The heartbeat check is not examined.
 void expect_not_measured(const Ended& ended, const nlohmann::json& report) {
   EXPECT_EQ(report["verdict"], "not measured");
   EXPECT_EQ(ended.code, 3) << ended.out;
   int open = 0;
   for (const auto& one : report["checks"]) {
-    if (one["kind"] == "heartbeat") continue;  // its limit is half a second
+    if (one["kind"] == "heartbeat") continue;  // the limit of this check is half a second
     const bool timing = one["kind"] == "latency" || one["kind"] == "output_period";
     EXPECT_EQ(one["outcome"], timing ? "not measured" : "pass") << one;
     if (!timing) continue;
@@ -135,8 +137,8 @@ TEST(CpuHog, BesideTheBenchLeavesTimingNotMeasured) {
   expect_not_measured(ended, read_json(report));
 }
 
-// The interruptions are too rare to take a noticeable share of CPU time, but longer than the 10 ms between
-// two stimuli.
+// The hog runs too rarely to take a noticeable share of CPU time, but each time for longer than the 10 ms
+// between two stimuli.
 TEST(CpuHog, OfAHigherPriorityLeavesTheWorstLatencyNotMeasured) {
   if (!may_have_priority(41)) {
     std::cerr << "SCHED_FIFO 41 is not permitted here: only the hog of the bench's own priority is tried\n";

@@ -1,4 +1,5 @@
-// --realtime of both programs: its effects, and its error if it is not permitted.
+// The option --realtime of both programs: its effects, and the error message if real-time priority is not
+// permitted.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -13,7 +14,8 @@ namespace {
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-// Runs a command without the resource limits and capabilities for real time.
+// Runs a command without the rights that real-time priority and locked memory need (resource limits,
+// capabilities).
 Ended without_rights(const std::string& command) {
   return shell(fmt::format("prlimit --rtprio=0 --memlock=65536 {}{}",
                            without_capabilities("-sys_nice,-ipc_lock"), command));
@@ -33,16 +35,16 @@ TEST(Realtime, IsRefusedWithTheRemedyByBothPrograms) {
                   fmt::format(fmt::runtime(remedy), user, HIL_BENCH));
 }
 
-// The sanitizers replace mlockall by a function that does nothing, because the terabytes of their shadow
-// memory cannot be locked.
+// The sanitizers replace mlockall() by a function that does nothing, because they use terabytes of shadow
+// memory, which cannot be locked.
 #ifdef CANHIL_SANITIZED
 constexpr bool memory_is_locked = false;
 #else
 constexpr bool memory_is_locked = true;
 #endif
 
-// Another program tests whether SCHED_FIFO is permitted. A user other than root also needs a sufficient
-// memory limit.
+// Whether --realtime is permitted here. The program chrt tests whether SCHED_FIFO is permitted; a user other
+// than root must also be allowed to lock any amount of memory.
 bool permitted() {
   return shell("chrt -f 40 true").code == 0 && (geteuid() == 0 || shell("ulimit -l").out == "unlimited\n");
 }
@@ -75,8 +77,8 @@ TEST(Realtime, IsNotInForceUnlessAskedFor) {
   EXPECT_EQ(process["locked_kib"], 0);
 }
 
-// Scheduling and locked memory of the started target in the middle of a run, and the number of page faults of
-// the bench from then on.
+// Starts a run. Prints the scheduling and the locked memory of the target in the middle of the run, and the
+// number of page faults of the bench in the following 1.5 s.
 std::string started_target(const std::string& options) {
   const Ended seen = shell(
       fmt::format("faults() {{ cut -d' ' -f10 /proc/$1/stat; }}; "

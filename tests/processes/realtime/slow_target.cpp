@@ -1,6 +1,6 @@
-// hil-target with delays: the objects of the delivered program, with a pause that the linker option --wrap
-// adds to two calls. CANHIL_SLOW_COMPUTE_US: additional computing time for each answered frame.
-// CANHIL_SLOW_QUEUE_US: waiting time of frames before they are processed.
+// hil-target with delays: the object files of the delivered program, in which the linker option --wrap
+// replaces two functions by functions with a pause. CANHIL_SLOW_COMPUTE_US: additional computing time for
+// each answered frame. CANHIL_SLOW_QUEUE_US: how long frames wait before they are processed.
 #include <unistd.h>
 
 #include <cstdint>
@@ -20,7 +20,8 @@ useconds_t microseconds(const char* variable) {
 
 }  // namespace
 
-// The names follow the Itanium C++ ABI, in which the object of a member function is its first argument.
+// The linker's names of the two functions, by the Itanium C++ ABI. In this ABI, the first argument of a
+// member function is its object.
 std::span<const Frame> delivered_receive(target::Device& device, const Frame& frame) asm(
     "__real__ZN6canhil6target6Device7receiveERKNS_5FrameE");
 std::span<const Frame> slow_receive(target::Device& device, const Frame& frame) asm(

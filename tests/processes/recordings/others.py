@@ -1,4 +1,4 @@
-"""Reads and writes logs with python-can and decodes values with canmatrix, to test that canhil and other programs understand each other's files.
+"""Reads and writes logs with python-can and decodes values with canmatrix: tests that these programs can read canhil's files and canhil can read theirs.
 
 others.py frames LOG            one line per frame: time in microseconds, id, flags, data
 others.py copy FROM TO          converts the log with python-can

@@ -1,5 +1,5 @@
-// Recorded frames are judged again, converted to formats that other programs read and write, decoded, and
-// sent again.
+// What hil-bench can do with recorded frames: judge them again, convert them to formats that other programs
+// read and write, decode them, and send them again.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -47,7 +47,7 @@ std::vector<LogEntry> entries_of(const std::string& log) {
   }
 }
 
-// A run recorded in lockstep, shared by all tests of a process.
+// The log of a run in lockstep. The run is flown once for all tests of this process.
 const std::string& recorded() {
   static const std::string log = [] {
     std::string path = scratch("los.log");
@@ -85,8 +85,8 @@ std::string frames_in_words(const std::string& log) {
   return text;
 }
 
-// Frames of every kind that all formats support. The first has a time in whole milliseconds, because
-// python-can writes the start time of an ASC file with that resolution.
+// A log with a frame of each kind that all formats support. The first frame has a time in whole milliseconds,
+// because python-can writes the start time of an ASC file with a resolution of 1 ms.
 std::string all_kinds() {
   return file("kinds.log",
               "(1790000000.123000) can0 7FF#0011223344556677 T\n(1790000000.123001) can1 101#00 R\n"
@@ -104,7 +104,8 @@ std::map<std::string, std::string> measured(const nlohmann::json& report) {
 
 class Recorded : public testing::TestWithParam<const char*> {};
 
-// Several flights, with open and closed loop and with four estimators at once, recorded in each format.
+// A flight that is recorded in each format and judged again. The flights are in open loop, in closed loop,
+// and with four estimators at once.
 TEST_P(Recorded, IsJudgedAsItWasFlown) {
   const std::string flight = scenario(GetParam());
   for (const char* ending : {"log", "pcap", "asc"}) {
@@ -313,7 +314,7 @@ TEST(LogCompare, ReportsHowFarStampsAreApart) {
   EXPECT_EQ(json["outside"], 1);
 }
 
-// The same content is sent repeatedly, and one of these frames is lost on the way to the recorder of log `a`.
+// Twenty frames with equal content are sent; log `a` does not contain one of them.
 TEST(LogCompare, PairsRepeatedFramesByTheirTimes) {
   std::string a, b;
   for (int i = 0; i < 20; ++i) {

@@ -1,13 +1,13 @@
-# Runs a Slurm cluster on this machine while the shell that sources this file lives. No service manager; loopback only; free ports; everything in
-# one temporary folder; run by and for the current user.
+# Runs a Slurm cluster on this machine until the shell that sources this file ends. It needs no service manager, uses only loopback addresses and free
+# ports, keeps everything in one temporary folder, and runs as the current user.
 #   cluster_start       sets $cluster (the folder) and SLURM_CONF; sbatch, squeue, ... then use this cluster
-#   cluster_run         COMMAND...: runs the command; unlike a plain call, a signal to the shell does not wait for the command's end
-#   cluster_stop        ends all its processes and removes the folder; also called whenever the shell ends
-#   cluster_processes   the ids of all its processes: daemons, steps, jobs. They are found by SLURM_CONF in their environment.
+#   cluster_run         COMMAND...: runs the command; unlike in a plain call, the shell handles signals while the command runs
+#   cluster_stop        ends all processes of the cluster and removes the folder; also called whenever the shell ends
+#   cluster_processes   prints the ids of all processes of the cluster: daemons, steps, jobs. They are found by SLURM_CONF in their environment.
 
 cluster_processes() {
   (
-    unset SLURM_CONF # or this search finds itself
+    unset SLURM_CONF # otherwise the search would also find its own processes
     grep -lzsxF "SLURM_CONF=$cluster/slurm.conf" /proc/[0-9]*/environ | cut -d/ -f3
   ) || true
 }
@@ -18,14 +18,14 @@ cluster_fail() {
   exit 1
 }
 
-# cluster_daemon NAME COMMAND...: in the background, on its own log.
+# cluster_daemon NAME COMMAND...: starts a daemon in the background, with a log of its own.
 cluster_daemon() {
   local name=$1
   shift
   SLURM_CONF=$cluster/slurm.conf "$@" >"$cluster/$name.log" 2>&1 </dev/null &
 }
 
-# cluster_wait WHAT COMMAND...: until the command succeeds.
+# cluster_wait WHAT COMMAND...: repeats the command until it succeeds, for at most 60 s. WHAT is for the error message.
 cluster_wait() {
   local what=$1 deadline=$((SECONDS + 60))
   shift
@@ -41,8 +41,8 @@ cluster_start() {
   trap 'exit 129' HUP
   trap 'exit 130' INT
   trap 'exit 143' TERM
-  # If the shell is killed without running its trap, this process stops the cluster. It ends when the folder
-  # is removed.
+  # If the shell is killed without running its trap, the following process stops the cluster. It also ends when the
+  # folder has been removed.
   setsid --fork bash -c 'source "$1"; cluster=$2
     while kill -0 "$3" && [[ -d "$cluster" ]]; do sleep 0.2; done; cluster_stop' \
     - "${BASH_SOURCE[0]}" "$cluster" $$ >/dev/null 2>&1 </dev/null

@@ -7,7 +7,8 @@
 
 namespace canhil::test {
 
-/// All values as a vector, which is written back at the end of the expression or loop that changes them.
+/// All values as a vector. At the end of the expression or loop that changes the values, they are written
+/// back to the Spool.
 template <class T>
 class Edited {
  public:
@@ -18,7 +19,7 @@ class Edited {
   std::vector<T>& operator*() { return all_; }
   auto begin() { return all_.begin(); }
   auto end() { return all_.end(); }
-  /// Removes the values from one index up to another, which is excluded.
+  /// Removes the values with the indices `from` to `to - 1`.
   void erase(std::ptrdiff_t from, std::ptrdiff_t to) { all_.erase(all_.begin() + from, all_.begin() + to); }
 
  private:

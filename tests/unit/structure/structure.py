@@ -10,10 +10,10 @@ from pathlib import Path
 CODE = ("dbc", "target", "bench")
 SKIPPED = {".git", "build", "runs", "__pycache__"}
 
-# A file under KEY may include project headers under these prefixes; the longest KEY applies. An entry that
-# ends in .hpp permits only that header.
+# MAY_INCLUDE: a file under a key may include project headers under the prefixes of this key; the longest key applies.
+# An entry that ends in .hpp permits only that header.
 ESTIMATOR_SHARED = ("target/estimators/strapdown/", "target/estimators/filtering/")
-GENERATED = "messages/"  # headers that dbcgen generates from dbc/: code that may include dbc/ may include them
+GENERATED = "messages/"  # headers that dbcgen generates from dbc/: code that may include dbc/ may include these too
 DEVICE = "target/device/device.hpp"  # the bench may hold a Device, through this header
 MAY_INCLUDE = {
     "dbc/": ("dbc/",),
@@ -37,18 +37,18 @@ ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/")
 # estimator's name.
 KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/nodes/seeker.", "bench/scenario/glide.")
 
-# The aim is 300 lines. A file with a long table or a long derivation may exceed it; a file that exceeds it by a
-# third has a second subject.
+# The aim is 300 lines. A file with a long table or a long derivation may exceed 300 lines; a file that is longer by a
+# third contains a second subject.
 MOST_LINES = 400
 VAGUE = {"util", "utils", "common", "manager", "helper", "helpers", "base"}
-TERMS = {"time_base"}  # terms of the field that contain such a word
+TERMS = {"time_base"}  # terms of the field that contain a word of VAGUE
 OTHER_SUFFIXES = {".h", ".hh", ".hxx", ".cc", ".cxx", ".c", ".inl", ".inc", ".ipp", ".tpp"}
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*(.*)$', re.M)
 INCLUDED = re.compile(r'([<"])([^>"]+)[>"]')
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.S)
 STANDARD_HEADER = re.compile(r"[a-z_]+$")  # <cmath>, never <math.h>
-# A path that exists on one person's machine. It is permitted after a variable or in an address.
+# A path that exists on one person's machine. Such a path is permitted after a variable or in an address.
 MACHINE_PATH = re.compile(r"(?<![\w.~})\-])/(?:work|root|home/\w+|Users/\w+|builds)/")
 
 

@@ -1,4 +1,4 @@
-// Reads the suites of the project, and invalid suites.
+// Tests that the suites of the project are read, and that invalid suites are rejected.
 #include "bench/accept/suite.hpp"
 
 #include <fmt/format.h>
@@ -52,8 +52,9 @@ TEST_P(Shipped, EveryMetricAsksForARequirement) {
   }
 }
 
-// The suite states the parameter ranges in its own table, so that a target is compared with the published
-// ranges and not with the ranges of this program.
+// The suite states the parameter ranges in its own table, so that any target is compared with the published
+// ranges and not with those of hil-target. This test verifies that the ranges of the suite equal those of
+// hil-target.
 class OfOneEstimator : public Shipped {};
 
 TEST_P(OfOneEstimator, RangesAreThoseOfTheTarget) {
@@ -80,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, OfOneEstimator, estimators, by_name);
 TEST(Suites, EachEstimatorHasOne) {
   const auto found = suites_in(shipped);
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->size(), 5U);  // one for each of four estimators, one for several at once
+  EXPECT_EQ(found->size(), 5U);  // one suite for each of the four estimators, one suite for several at once
   EXPECT_FALSE(suites_in("/no/such/folder"));
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// Variant A is within 3 mrad from 0.2 s on, variant B never is. A is better than B in three runs of four.
+// From 0.2 s on, the RMS of variant A is within 3 mrad; the RMS of variant B never is. In three of four runs,
+// A is better than B.
 std::vector<RunSeries> runs_of(std::size_t variant) {
   std::vector<RunSeries> runs;
   for (std::uint64_t run = 0; run < 4; ++run) {
@@ -48,8 +49,9 @@ TEST(Bars, OfTimeWithin) {
 TEST(Bars, OfLead) {
   EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 8.5\nother = 'B'\nat_least_s = 0.0\n"), true);
   EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 8.5\nother = 'B'\nat_least_s = 0.1\n"), false);
-  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'B'\nat_least_s = 5.0\n"), true);   // B never
-  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'A'\nat_least_s = 0.0\n"), false);  // itself
+  // B never comes within 3 mrad. The last line compares A with itself.
+  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'B'\nat_least_s = 5.0\n"), true);
+  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'A'\nat_least_s = 0.0\n"), false);
 }
 
 TEST(Bars, OfValuesWindowsPairsAndDivergence) {
@@ -68,7 +70,7 @@ TEST(Bars, OfValuesWindowsPairsAndDivergence) {
 }
 
 TEST(Bars, OfDistributions) {
-  const auto of_b = [](const std::string& bar) {  // the runs have 8, 8, 8 and 0 mrad
+  const auto of_b = [](const std::string& bar) {  // the four runs of B have 8, 8, 8 and 0 mrad
     return passed("kind = 'distribution'\nat_s = 0.3\n" + bar, 1);
   };
   EXPECT_EQ(of_b(""), std::nullopt);
@@ -82,7 +84,7 @@ TEST(Bars, OfDistributions) {
   EXPECT_EQ(of_b("below_mrad = 1\nfraction_at_least = 0.25"), true);
   EXPECT_EQ(of_b("below_mrad = 1\nfraction_at_least = 0.26"), false);
   EXPECT_EQ(of_b("below_mrad = 1\nfraction_at_most = 0.24"), false);
-  EXPECT_EQ(of_b("unit = 'deg'\nmedian_at_most_deg = 0.459"), true);  // 0.4584
+  EXPECT_EQ(of_b("unit = 'deg'\nmedian_at_most_deg = 0.459"), true);  // 8 mrad are 0.4584 deg
   EXPECT_EQ(of_b("unit = 'deg'\nmedian_at_most_deg = 0.458"), false);
 }
 

@@ -123,7 +123,8 @@ TEST(Execute, ARunThatCannotBeFlownIsOneFailedRun) {
   EXPECT_EQ(evaluation->outcome(), checks::Outcome::fail);
 }
 
-/// Limits the file size of this process, like a full disk, until the end of its scope.
+/// Until the end of its scope, an object of this class limits the size of the files that this process writes,
+/// as a full disk would.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

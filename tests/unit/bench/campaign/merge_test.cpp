@@ -1,4 +1,4 @@
-// The bytes of merged results depend only on the results.
+// The bytes of a merged file depend only on the results in it, not on how the runs were divided or ordered.
 #include "bench/campaign/merge.hpp"
 
 #include <gmock/gmock.h>

@@ -53,7 +53,7 @@ inline RunSeries run_with(std::uint64_t run, const std::vector<double>& values,
   return series;
 }
 
-/// A run like that of run_with() that ended early, at its last value.
+/// A run like that of run_with(), except that the run ended early, at the time of its last value.
 inline RunSeries ended_with(std::uint64_t run, const std::vector<double>& values,
                             const Quantity& quantity = quantities::attitude_heading) {
   RunSeries series = run_with(run, values, quantity);

@@ -1,4 +1,4 @@
-// A target that falls silent meets no limit: an estimate counts only until its age limit.
+// A target that falls silent fails every limit: an estimate is used only until it reaches its age limit.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -78,7 +78,7 @@ TEST(Silence, OfOneRunIsMissingBesideOthers) {
   EXPECT_EQ(run_distribution(runs, heading, end_us, 2, 1).missing, 1U);
 }
 
-/// Two runs with fixes every half second; the second run lost those at 3 and 3.5 s.
+/// Two runs with fixes every half second; in the second run, the fixes at 3 and 3.5 s were lost.
 std::vector<RunSeries> with_lost_fixes(const Quantity& quantity) {
   return {run_silent(end_us, end_us, quantity), run_silent(5 * s_us / 2, 4 * s_us, quantity)};
 }
@@ -195,7 +195,7 @@ TEST(Freshness, LetsPassTwoFixesInARowAndWhatIsLostOnPurpose) {
       << "nor is an outage";
 }
 
-// With 10 updates, the values end at 1 s of the 3 s of the flight. With 30 updates, there is no silence.
+// With 10 updates, the values end at 1 s, but the flight lasts 3 s. With 30 updates, there is no silence.
 TEST(Silence, MeetsNoBar) {
   for (const std::string metric :
        {"kind = 'value_at'\nat_s = 3.0\nat_most_mrad = 100\n",

@@ -71,7 +71,7 @@ TEST(RunDistribution, IsOfEachRunsLastUpdateAtOrBeforeTheTime) {
   for (std::uint64_t run = 0; run < 10; ++run)
     runs.push_back(
         run_with(run, {99, run % 2 == 0 ? static_cast<double>(run + 1) : -static_cast<double>(run + 1), 99}));
-  runs[3] = run_with(3, {4});  // the second fix was lost, so the previous value counts
+  runs[3] = run_with(3, {4});  // the second fix was lost, so the previous value is used
   const auto found = run_distribution(runs, heading, 250'000, 5, 100);
   EXPECT_EQ(found.missing, 0U);
   EXPECT_DOUBLE_EQ(found.rms, std::sqrt(38.5));
@@ -137,7 +137,7 @@ TEST(PairedFraction, ComparesMagnitudesOfTheSameRun) {
   EXPECT_EQ(paired.pairs, 3U);
   EXPECT_EQ(paired.better, 2U);
   EXPECT_DOUBLE_EQ(paired.fraction, 2.0 / 3);
-  // Clopper and Pearson (1934), 95 %, 2 of 3.
+  // The interval of Clopper and Pearson (1934) at 95 %, for 2 of 3 runs.
   EXPECT_NEAR(paired.low, 0.0943, 5e-5);
   EXPECT_NEAR(paired.high, 0.9916, 5e-5);
 }

@@ -43,7 +43,7 @@ TEST(RunMeans, CountRunsThatWereLost) {
             3U);  // there are no updates in this window
 }
 
-// The mean heading error of A is 2 mrad, of B 6 mrad.
+// The mean heading error of A is 2 mrad; the mean heading error of B is 6 mrad.
 std::optional<bool> passed(const std::string& metric) {
   const auto campaign =
       parse(two_variants + "[[metric]]\nkind = 'run_mean'\nquantity = 'attitude.heading'\n" + metric);

@@ -23,7 +23,7 @@ constexpr std::int64_t second_us = 1'000'000;
 constexpr std::int64_t duration_us = 20 * second_us;
 constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
 
-// A run of 20 s at rest with an SSBL fix each second; the target uses all fixes. Tests change the run.
+// A run of 20 s at rest with an SSBL fix each second; the target uses all fixes. The tests change this run.
 class Fixed : public testing::Test {
  protected:
   Fixed() {
@@ -150,7 +150,7 @@ TEST_F(Fixed, ARepairIsCountedWhereItCameAndTheHandoverWhereItFirstWas) {
   const Answers::Count none{.mark = "repaired", .at_most = 0};
   EXPECT_EQ(judge(counted(none)).outcome, Outcome::pass);
   for (std::size_t index = 15; index < 20; ++index)
-    seen_.of<InflightAnswers>().fixes[index].repairs = 2;  // after the fix of 16 s
+    seen_.of<InflightAnswers>().fixes[index].repairs = 2;  // from the fix at 16 s on
   EXPECT_EQ(judge(counted(none)).measured, "repaired 1");
   EXPECT_EQ(judge(counted(none)).outcome, Outcome::fail);
   EXPECT_EQ(judge(counted(none, {.from_us = 0, .to_us = 15 * second_us})).outcome, Outcome::pass);

@@ -41,7 +41,7 @@ struct Came {
   std::optional<std::uint8_t> counter{};
 };
 
-// A run of 4 s at rest with perfect answers; tests change it.
+// A run of 4 s at rest with perfect answers; the tests change the run.
 class Judged : public testing::Test {
  protected:
   Judged() {
@@ -213,7 +213,7 @@ TEST_F(Judged, ConsistencyByTheMeanInTheChiSquareInterval) {
   Consistency rule = consistency(quantities::innovation_nis, Probability{0.95});
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   // The sum of 40 values with 3 degrees of freedom each has a chi-square distribution with 120 degrees of
-  // freedom. 95 % of it lie between 91.573 and 152.211.
+  // freedom. 95 % of this distribution lie between 91.573 and 152.211.
   EXPECT_THAT(judge(rule).expected, HasSubstr("between 2.29 and 3.81"));
   for (auto& answer : test::Edited(seen_.of<TransferAnswers>().filter)) answer.nis = 3.9;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
@@ -228,7 +228,7 @@ TEST_F(Judged, NeesFailsAnOverconfidentFilter) {
   const Consistency rule = consistency(quantities::attitude_nees, MeanBetween{0, 9});
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   for (auto& answer : test::Edited(seen_.of<TransferAnswers>().filter))
-    answer.attitude_sigma *= 0.01;  // 10 sigma
+    answer.attitude_sigma *= 0.01;  // errors of 10 sigma
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
@@ -268,7 +268,7 @@ TEST_F(Judged, HeartbeatUpToTheEndOfTheRun) {
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   auto& beats = came<messages::TargetHeartbeat>();
   const auto kept = beats;
-  beats.resize(30);  // the last one at 3 s of 4
+  beats.resize(30);  // the last heartbeat is at 3 s; the run ends at 4 s
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
   beats = kept;
   beats.erase(beats.begin(), beats.begin() + 7);
@@ -292,8 +292,8 @@ TEST_F(Judged, CountersByEachBar) {
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
-// The bench stalls for 5 of 400 stimuli. The p99 of the lateness tolerates five late frames, but the periods
-// of the answers would exceed their limit.
+// The bench stalls for 5 of 400 stimuli. So few late frames hardly change the p99 of the lateness of all
+// frames, but the periods of the answers would exceed their limit.
 TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
   const OutputPeriod period{.message = "AlignAttitude", .window = whole, .within = 0.25, .quantile = 0.99};
   ASSERT_EQ(judge(period).outcome, Outcome::pass);
@@ -493,7 +493,7 @@ TEST(TimedWindows, AreTakenOnceForAllThatAskForThem) {
 TEST_F(Judged, TimingIsNotMeasuredByALateBenchWhateverTheTargetDid) {
   const Latency latency{.message = "AlignAttitude", .window = whole, .below_us = 1000};
   const Heartbeat heartbeat{.silent_at_most_us = 500'000};
-  seen_.timing.lateness.add(501'000);  // more than half of 1 ms
+  seen_.timing.lateness.add(501'000);  // more than half of the limit of 1 ms
   EXPECT_EQ(judge(latency).outcome, Outcome::not_measured);
   EXPECT_EQ(verdict_.outcome, Outcome::not_measured);
   EXPECT_EQ(judge(heartbeat).outcome, Outcome::pass) << "its bar is far above";

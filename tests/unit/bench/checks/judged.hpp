@@ -29,7 +29,7 @@ CheckResult judged(const Kind& rule, const Observations& seen, const estimators:
   return judge(scenario, {.seen = seen, .truth = truth, .estimators = estimators::all()}).checks.at(0);
 }
 
-/// An error in a window of the run.
+/// A rule that limits the error of a quantity in a window of the run.
 inline Error error_of(std::string estimator, const quantities::Quantity& quantity,
                       const scenario::Window& window, double below,
                       Error::Statistic statistic = Error::Statistic::max) {

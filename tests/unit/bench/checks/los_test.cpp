@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 constexpr std::int64_t duration_us = 6'000'000;
 
-// A fly-past at 1000 m/s from 5 km, sampled at 100 Hz and answered without error; tests change it.
+// A fly-past at 1000 m/s from 5 km, sampled at 100 Hz and answered without error; the tests change the run.
 class Engaged : public testing::Test {
  protected:
   Engaged() {

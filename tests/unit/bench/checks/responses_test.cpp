@@ -26,7 +26,8 @@ using testing::HasSubstr;
 constexpr std::int64_t second_us = 1'000'000, duration_us = 20 * second_us;
 constexpr scenario::Window faulty{.from_us = 8 * second_us, .to_us = 10 * second_us};
 
-// 20 s at rest with perfect answers, ten per second, and a fault from 8 to 10 s; tests set its consequences.
+// 20 s at rest with perfect answers, ten per second, and a fault from 8 to 10 s; the tests set the
+// consequences of the fault.
 class Disturbed : public testing::Test {
  protected:
   Disturbed() {

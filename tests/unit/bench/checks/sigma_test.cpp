@@ -12,7 +12,7 @@
 namespace canhil::checks {
 namespace {
 
-// 4 s of answers, ten per second, with sigmas from 0.2 to 0.3 mrad; tests change them.
+// 4 s of answers, ten per second, with sigmas from 0.2 to 0.3 mrad; the tests change the sigmas.
 class SigmaCheck : public testing::Test {
  protected:
   static constexpr std::int64_t second_us = 1'000'000;

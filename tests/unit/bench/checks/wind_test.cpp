@@ -35,7 +35,7 @@ world::GlidePlan heading_east() {
   return plan;
 }
 
-// 10 s of a glide to the east with perfect answers every 20 ms; tests change them.
+// 10 s of a glide to the east with perfect answers every 20 ms; the tests change the answers.
 class Winds : public testing::Test {
  protected:
   Winds() {
@@ -67,8 +67,8 @@ class Winds : public testing::Test {
 };
 
 TEST_F(Winds, ErrorsAreAlongAndAcrossTheAirVelocity) {
-  seen_.of<WindAnswers>()[100].wind_n += Vector3(0, 3, 0);   // to the east: along
-  seen_.of<WindAnswers>()[200].wind_n += Vector3(-2, 0, 0);  // to the south: to the right
+  seen_.of<WindAnswers>()[100].wind_n += Vector3(0, 3, 0);   // an error to the east: along the track
+  seen_.of<WindAnswers>()[200].wind_n += Vector3(-2, 0, 0);  // an error to the south: to the right
   seen_.of<WindAnswers>()[300].wind_n += Vector3(0, 0, -1);
   const auto errors = wind_errors(seen_.of<WindAnswers>(), glide_);
   EXPECT_NEAR(errors[100].along_track, 3, 0.01);  // the glider weathercocks by a fraction of a degree
@@ -82,7 +82,7 @@ TEST_F(Winds, TheLargestAndTheMeanErrorAreJudged) {
   seen_.of<WindAnswers>()[100].wind_n.z() -= 5;
   EXPECT_EQ(error(wind_norm, max, 4.9).outcome, Outcome::fail);
   EXPECT_EQ(error(wind_down, max, 5.1).outcome, Outcome::pass);
-  EXPECT_EQ(error(wind_down, mean, 0.009).outcome, Outcome::fail);  // 5 / 500
+  EXPECT_EQ(error(wind_down, mean, 0.009).outcome, Outcome::fail);  // the mean is 5 / 500
   EXPECT_EQ(error(wind_down, mean, 0.011).outcome, Outcome::pass);
   EXPECT_EQ(error(wind_cross, max, 1e-6).outcome, Outcome::pass);
 }
@@ -91,7 +91,7 @@ TEST_F(Winds, SilenceAndNansNeverPass) {
   seen_.of<WindAnswers>()[100].wind_n.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(error(wind_norm, mean, 1e9).outcome, Outcome::fail);
   EXPECT_EQ(error(wind_norm, max, 1e9).outcome, Outcome::fail);
-  test::Edited(seen_.of<WindAnswers>()).erase(90, 150);  // 1.2 s
+  test::Edited(seen_.of<WindAnswers>()).erase(90, 150);  // removes 1.2 s of answers
   EXPECT_THAT(error(wind_norm, max, 1).measured, HasSubstr("no answers from 1.8 to 3.02 s"));
   seen_.of<WindAnswers>() = {};
   EXPECT_EQ(error(wind_norm, max, 1).measured, "no answers");

@@ -96,8 +96,9 @@ TEST_F(OnTheWire, WithoutABoundNothingIsMeasured) {
   EXPECT_TRUE(wire_bounds(seen_).empty());
 }
 
-// Three messages in each direction, in a container of 24 bytes: 20 + 12 bits at the nominal bit rate and 246
-// + 33 bits at the data bit rate. The heartbeat with 8 bytes has 86 + 28 bits at the data bit rate.
+// Three messages in each direction, in a container of 24 bytes: 20 + 12 bits (before and after the data
+// phase) at the nominal bit rate, and 246 + 33 bits (data and CRC field) at the data bit rate. The heartbeat
+// with 8 bytes has 86 + 28 bits at the data bit rate.
 TEST_F(OnTheWire, OnCanFdTheBoundIsThatOfTheContainer) {
   constexpr std::int64_t container_ns = 32'000 + 69'750, heartbeat_ns = 32'000 + 28'500;
   seen_.timing.wire = {.rates = {.nominal = 1'000'000, .data = 4'000'000}, .fd = true};

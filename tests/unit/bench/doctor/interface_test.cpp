@@ -103,7 +103,8 @@ TEST(ReadLink, WhatIsNoControllerHasNone) {
   EXPECT_FALSE(read_link(link(ARPHRD_ETHER, IFF_UP, {})).is_can);
 }
 
-// Any truncated or damaged message is read without leaving the message (the sanitizers check this).
+// Reading a truncated or damaged message never accesses memory outside the message (the sanitizers check
+// this).
 TEST(ReadLink, ADamagedMessageGivesWhatCouldBeRead) {
   const Message whole = controller_message();
   for (std::size_t size = 0; size < whole.size(); ++size) {

@@ -1,4 +1,4 @@
-// What the doctor measures, and how it judges a machine.
+// What `hil-bench doctor` measures, and how it judges a machine.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -112,7 +112,7 @@ TEST_F(OnABus, TheFramesOfTheLoopAreNoneOfTheDbc) {
   EXPECT_EQ(seen, 2);
 }
 
-// Passes frames on, but loses some.
+// Forwards frames to another port, but loses some of them.
 class LossyPort final : public Port {
  public:
   LossyPort(Port& port, int loses_every) : port_(port), loses_every_(loses_every) {}

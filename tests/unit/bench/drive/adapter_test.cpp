@@ -24,7 +24,7 @@ class Adapters : public testing::Test {
     fs::create_directories(sys_ / to);
     fs::create_directory_symlink(sys_ / to, sys_ / name);
   }
-  // Adds the interface `name` of a device with this subsystem and driver to the tree.
+  // Adds to the tree the interface `name` of a device with this subsystem and driver.
   void plug_in(const std::string& name, const fs::path& device, const std::string& bus,
                const std::string& driver) const {
     link("class/net/" + name, device / "net" / name);

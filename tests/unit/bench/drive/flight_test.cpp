@@ -87,8 +87,8 @@ TEST_F(ImuLimits, ErrorsInProportionToTheFlightAreNamedToo) {
 
 TEST_F(ImuLimits, WhatIsAcceptedNeverLeavesTheRange) {
   world::ImuErrorModel imu;
-  imu.accel.bias.sigma = Vector3::Constant(7);  // 0.42 m/s
-  imu.accel.noise = Vector3::Constant(1);       // 0.6 m/s
+  imu.accel.bias.sigma = Vector3::Constant(7);  // 6 sigma are 0.42 m/s per sample
+  imu.accel.noise = Vector3::Constant(1);       // 6 sigma are 0.6 m/s per sample
   imu.accel.scale_factor.sigma = Vector3::Constant(0.2);
   imu.accel.misalignment_sigma = 0.1;
   ASSERT_EQ(refused(imu), "");

@@ -21,7 +21,7 @@ TEST(Contract, KnowsWhichEstimatorSendsEachAnswer) {
   EXPECT_EQ(contract().sent_by.at("WindVector"), "wind");
 }
 
-// A target that obeys all commands; tests make it misbehave.
+// A target that obeys all commands; the tests make this target misbehave.
 class Handshake : public testing::Test {
  protected:
   Handshake() {

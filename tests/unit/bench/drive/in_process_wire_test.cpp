@@ -1,4 +1,5 @@
-// Runs in virtual time over a simulated wire are exact, reproducible, and within the bounds of the analysis.
+// A run in virtual time over a simulated wire is exact and reproducible, and its times are within the bounds
+// of the analysis.
 #include "bench/drive/in_process_wire.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
@@ -18,7 +19,7 @@
 namespace canhil::drive {
 namespace {
 
-using Flown = Run;  // in tests, Run() is the member function of gtest
+using Flown = Run;  // in a test, the name Run means a member function of gtest
 
 scenario::Scenario scenario_of(const std::string& name) {
   auto read = scenario::read_file(fmt::format("{}/bench/flights/{}.toml", SOURCE_DIR, name), contract());
@@ -242,7 +243,7 @@ TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
   const auto back = std::ranges::find(bus.incidents, BusEvent::restarted, &checks::BusIncident::event);
   ASSERT_TRUE(off < back && back != bus.incidents.end());
   EXPECT_GE(back->t_ns - off->t_ns, 128 * 11 * 2'000);
-  // This check is implied if the scenario does not contain it.
+  // A bus failure adds this check to a run whose scenario does not contain it.
   ASSERT_NE(find_check(run, "bus_errors"), nullptr);
   EXPECT_EQ(find_check(run, "bus_errors")->outcome, checks::Outcome::fail);
 
@@ -256,7 +257,8 @@ TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
   EXPECT_EQ(fly(scenario, noisy).verdict.outcome, checks::Outcome::pass);
 }
 
-// The IMU alone sends 300 frames per second, each of at least 111 bits: more than 20 kbit/s can carry.
+// The IMU alone sends 300 frames per second, each of at least 111 bits. A bus of 20 kbit/s cannot carry so
+// many.
 TEST(InProcessWire, ABusThatIsTooSlowMakesTheBenchLate) {
   static const std::atomic<bool> never = false;
   Options options;
@@ -268,8 +270,9 @@ TEST(InProcessWire, ABusThatIsTooSlowMakesTheBenchLate) {
   EXPECT_GT(run->seen.bus.late_in_queue, 0U);
 }
 
-// Every attempt fails at its first bit, at 1 kbit/s. Heartbeats that are due while the device is bus-off wait
-// for its return and are sent then, not when the next one is due.
+// The bus has 1 kbit/s, and every attempt to send fails at its first bit. Heartbeats that become due while
+// the device is bus-off are sent as soon as the device returns to the bus, not when the next heartbeat is
+// due.
 TEST(InProcessWire, ADeviceThatIsOffTheBusWaitsForItsReturn) {
   const WireSettings noisy{.rates = {.nominal = 1'000}, .bit_error_rate = 1};
   InProcessWire port("noisy", noisy, BusFormat::classic);
@@ -282,7 +285,7 @@ TEST(InProcessWire, ADeviceThatIsOffTheBusWaitsForItsReturn) {
     }
   }
   ASSERT_GT(at_ns.size(), 64U);
-  // Bits from the error flag of the 32nd error on: 12 bits of flags, 11 bits of delimiter and intermission,
+  // Counted from the error flag of the 32nd error: 12 bits of flags, 11 bits of delimiter and intermission,
   // 128 times 11 bits until the return to the bus, and the first bit of the next attempt.
   EXPECT_EQ(at_ns[32] - at_ns[31], (12 + 11 + 128 * 11 + 1) * 1'000'000);
 }
@@ -298,7 +301,7 @@ TEST(InProcessWire, TimePassesOnlyWhileSomebodyWaits) {
   EXPECT_EQ(beat->t_ns, wire::duration_ns(wire::bit_length(beat->frame), {.nominal = 500'000}) - 3 * 2'000);
   EXPECT_FALSE(wait(port, WaitFor::frame, 50'000'000));
   EXPECT_EQ(port.monotonic_ns(), 50'000'000);
-  EXPECT_TRUE(wait(port, WaitFor::frame, 1'000'000'000));  // the next one
+  EXPECT_TRUE(wait(port, WaitFor::frame, 1'000'000'000));  // the next heartbeat
   EXPECT_GE(port.receive()->t_ns, 100'000'000);
   const Frame own{.id = 0x700, .size = 8};
   for (std::size_t i = 0; i < WireNode{}.depth; ++i) ASSERT_EQ(port.send(own), SendOutcome::sent);

@@ -102,7 +102,7 @@ TEST(SharesOfFrames, OfAllIdsOnlySoManyAreDistinguished) {
 TEST(LinkFlood, FramesThatWaitedForABenchWithoutACpuAreNone) {
   FloodedPort port;
   port.simulated = true;
-  port.most = 9'000;  // the link reads them within 90 ms
+  port.most = 9'000;  // the link reads these frames within 90 ms
   Link link(port);
   while (port.brought < port.most) link.drain();
   port.most += 2'000'000;  // 20 s pass in which the link does not read

@@ -39,8 +39,8 @@ TEST_F(RealTime, SendsTheWholeSchedule) {
   EXPECT_EQ(port_.sent.size(), 6U);
 }
 
-// FakePort has no descriptor, so the link does not sleep even without a spin. Therefore this port has a
-// descriptor that stays silent.
+// A link does not sleep on FakePort, which has no descriptor, even if `spin_ns` is 0 (no polling). Therefore
+// this port has a descriptor, on which nothing arrives.
 class SilentPort final : public FakePort {
  public:
   SilentPort() { EXPECT_EQ(::pipe(ends_.data()), 0); }
@@ -139,8 +139,8 @@ TEST_F(RealTime, EndsWhenTheBusIsDownOrFullOrTheUserSaysSo) {
   EXPECT_EQ(run(patient_ns).kind, Ending::Kind::interrupted);
 }
 
-// The target answers every frame except the second. After the second frame, the bus takes no frame for
-// one and a half times the silence limit.
+// The target answers every frame except the second. After the second frame, the bus accepts no frame for one
+// and a half times the silence limit.
 class Trouble : public RealTime {
  protected:
   static constexpr std::int64_t silence_limit_ns = 1'000'000'000;

@@ -1,4 +1,4 @@
-// Runs in process with recorded data give the same results as the flight that was recorded.
+// An in-process run with recorded data gives the same results as the flight that was recorded.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -18,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 using world::units::deg;
 
-// A weave of 40 s: its transfer alignment converges.
+// A weave of 40 s; in this time, the transfer alignment converges.
 constexpr std::string_view per_run_truth = R"(trajectory = "weave"
 latitude_deg = 37.0
 longitude_deg = 127.0
@@ -103,10 +103,10 @@ double rms(const Spool<estimators::NavigationError>& errors, std::int64_t from_u
   return std::sqrt(sum / count);
 }
 
-// With the same seed, both flights have the same errors of the sensors and of the initial state. They differ
-// only by the interpolation and the rounding of the file, which are small compared with the errors of the
-// alignment. The ratio of the errors differs from 1 by at most 8e-6; a single frame that is rounded in the
-// other direction can multiply this difference.
+// With the same seed, the analytic flight and the recorded flight have the same errors of the sensors and of
+// the initial state. The flights differ only by the interpolation and the rounding of the file, which are
+// small compared with the errors of the alignment. The ratio of the errors differs from 1 by at most 8e-6; a
+// single frame that is rounded in the other direction can multiply this difference.
 TEST(RecordedTruth, GivesTheErrorsOfTheFlightThatItWasRecordedOf) {
   const std::string analytic = scenario_text(per_run_truth);
   const auto scenario = scenario::parse(analytic, "own.toml", contract());

@@ -1,4 +1,4 @@
-// All four estimators at once: each sends the same answers as it does alone.
+// All four estimators at once: each sends the same answers as when it runs alone.
 #include <gtest/gtest.h>
 
 #include "bench/drive/contract.hpp"

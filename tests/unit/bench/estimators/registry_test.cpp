@@ -37,7 +37,8 @@ TEST(Registry, KnowsTheEstimatorsOfTheContract) {
   EXPECT_EQ(telling("height"), nullptr);
 }
 
-// The list of parameters that the bench suggests for a misspelt one contains exactly those of this target.
+// For a misspelt parameter, the bench suggests names from its own list. This list contains exactly the
+// parameters of hil-target.
 TEST(Registry, TheParametersAreThoseOfTheTarget) {
   const target::Device device;
   for (const auto estimator : messages::enumerators<messages::Estimator>) {

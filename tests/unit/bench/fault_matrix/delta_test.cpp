@@ -18,7 +18,7 @@ std::vector<int> numbers(int count) {
   return all;
 }
 
-// A violation that shows if all of the needed elements are present.
+// A violation that appears if all of the needed elements are present.
 std::function<bool(const std::vector<int>&)> with(std::vector<int> needed, int& flights) {
   return [needed = std::move(needed), &flights](const std::vector<int>& items) {
     ++flights;

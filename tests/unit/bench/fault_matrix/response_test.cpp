@@ -1,4 +1,5 @@
-// Tests how a response to a fault is named after the flags of the target and the checks of the flight.
+// Tests which response to a fault is reported, depending on the flags of the target and the checks of the
+// flight.
 #include "bench/fault_matrix/response.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ using Kind = Response::Kind;
 
 constexpr std::int64_t second_us = 1'000'000, duration_us = 20 * second_us;
 
-// A flight of 20 s with a fault from 8 to 10 s, in which all checks pass; tests set the reports of the
+// A flight of 20 s with a fault from 8 to 10 s, in which all checks pass; the tests set the reports of the
 // target.
 class Flown : public testing::Test {
  protected:

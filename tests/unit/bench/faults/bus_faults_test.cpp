@@ -21,7 +21,7 @@ std::string of_rates(const std::string& kind, const std::string& more = "") {
   return "[[fault]]\nkind = \"" + kind + "\"\nmessages = [\"SlaveImuDeltaTheta\"]\n" + more;
 }
 
-// Applies the fault `times` times to the two IMU frames. Returns the frames that remain the last time.
+// Applies the fault `times` times to the two IMU frames. Returns the frames that the last application leaves.
 std::vector<Frame> left_of(const std::string& fault, std::int64_t t_us, int times = 1) {
   const auto scenario = parsed(fault).value();
   Place on_fd = everything;

@@ -22,7 +22,7 @@ inline Result<scenario::Scenario> parsed(const std::string& faults,
   return drive::parse_scenario(text.str(), "test.toml");
 }
 
-/// The text of one fault of this kind; only further tables may follow it.
+/// The text of one fault of this kind; only further tables may follow this text.
 inline std::string fault(const std::string& kind, const std::string& more) {
   return "[[fault]]\nkind = \"" + kind + "\"\n" + more;
 }

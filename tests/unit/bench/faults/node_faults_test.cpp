@@ -20,8 +20,8 @@ const Flight& right() {
   return flight;
 }
 
-// Passes a number of each sample in a time window to `look`: its value without and with the fault, and the
-// time. Outside the window, both values must be equal.
+// For each sample in a time window, passes to `look` the value of a number without the fault, its value with
+// the fault, and the time. Outside the window, the two values must be equal.
 template <class Message, class Number>
 void each(const Flight& faulty, double from_s, double to_s, Number number,
           const std::function<void(double was, double is, double t_s)>& look) {
@@ -46,8 +46,8 @@ const std::string rate = "quantity = \"imu.rate.z\"\nfrom_s = 1\nto_s = 2\n";
 constexpr double degps = M_PI / 180;
 
 TEST(SensorFaults, ABiasOfARateIsInItsIncrementsAndNothingIsLostByRounding) {
-  // 1e-3 deg/s is 1.7e-7 rad per sample, a twelfth of a step: only the carried rounding remainders transmit
-  // it.
+  // 1e-3 deg/s is 1.7e-7 rad per sample, a twelfth of a step. Such an increment reaches the bus only because
+  // the remainder of each rounding is carried to the next sample.
   double sum = 0;
   each<SlaveImuDeltaTheta>(Flight(fault("bias", rate + "by_degps = 1e-3")), 1, 2, rate_z,
                            [&](double was, double is, double) { sum += 0.01 * (is - was); });

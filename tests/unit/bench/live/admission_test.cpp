@@ -22,7 +22,7 @@ TEST(LiveAdmission, AnswersThePage) {
   EXPECT_EQ(admit(here, page("/", "localhost:8460")).status, 200U);
   EXPECT_EQ(admit(here, page("/", "[::1]:8460")).status, 200U);
   EXPECT_EQ(admit(here, socket("127.0.0.1:8460", "http://127.0.0.1:8460")).status, 200U);
-  EXPECT_EQ(admit(here, socket("127.0.0.1:8460", "")).status, 200U);  // no browser: no origin
+  EXPECT_EQ(admit(here, socket("127.0.0.1:8460", "")).status, 200U);  // not a browser: sends no origin
 }
 
 TEST(LiveAdmission, AnswersNothingButGet) {

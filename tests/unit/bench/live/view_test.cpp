@@ -11,7 +11,7 @@
 namespace canhil::live {
 namespace {
 
-// The last snapshot shown. Until the view is closed, only the thread of the view uses the snapshot.
+// The last snapshot that was shown. Until the view is closed, only the thread of the view uses the snapshot.
 struct Shown {
   Snapshot last;
   std::atomic<int> times = 0;

@@ -1,4 +1,4 @@
-// The lists in docs/mapping.md equal those of the code.
+// The lists in docs/mapping.md equal the lists in the code.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -150,8 +150,8 @@ TEST(Player, AddsIncrementsUpAndTakesTheMeanOfRates) {
   EXPECT_NEAR(flown.value(1, "RateZ"), -2 * std::numbers::pi / 10, 1e-3);
 }
 
-// The stamps of a recording are not regular: a frame may wait for the bus or for the host. Each sample is
-// played once, with the rate in its row, whatever the time since the row before.
+// The time stamps of a recording are irregular, because a frame may have waited for the bus or for the host.
+// Each sample is played once, with the rate in its own row; the time since the previous row has no influence.
 TEST(Player, PlaysEachRecordedRateWhateverItsStamp) {
   constexpr int samples = 99;
   const std::string file = testing::TempDir() + "canhil_player_test.csv";
@@ -182,7 +182,7 @@ TEST(Player, SaysWhatASignalCouldNotHold) {
   EXPECT_EQ(flown.value(2 * 48, "Millis"), 255);
 }
 
-// The flag of a fix is in another message (GpsLongitude) than its height (GpsLatitude).
+// The flag of a fix is in another message (GpsLongitude) than the height of the fix (GpsLatitude).
 TEST(Player, SendsAQuantityAsInvalidIfAFlagOfItsSampleGroupIs) {
   for (const bool valid : {true, false}) {
     const auto scenario =
@@ -238,8 +238,8 @@ TEST(Conversation, FindsTheCauseByWhatIsRepeated) {
     dbc::put_raw_bits(*hear.echo->repeated, repeated, {frame.data.data(), frame.size});
     return cause_of(flown.conversation, hear, frame);
   };
-  // An answer repeats the lowest four bits of the sample count. The newest count with the bits 3 is 35 (35
-  // mod 16 = 3), that of the 36th sample.
+  // An answer repeats the lowest four bits of the sample count. The newest count whose lowest bits are 3 is
+  // 35 (35 mod 16 = 3); it is the count of the 36th sample.
   ASSERT_NE(answer(3), nullptr);
   EXPECT_EQ(answer(3)->valid_us, 36 * 20'000);
   EXPECT_EQ(answer(0)->valid_us, 49 * 20'000) << "48 mod 16";

@@ -14,7 +14,7 @@ using world::Vector3;
 using world::units::deg;
 
 const world::FlightRecord& flight() {
-  // North at 3 m/s, down to 10 m and back in 100 s.
+  // A path to the north at 3 m/s, which goes down to a depth of 10 m and back up within 100 s.
   static const world::FlightRecord record(
       {.start = {.latitude = 35 * deg, .longitude = 129 * deg, .height = 0},
        .motion = world::SPath{.speed = 3, .heading = 0, .depth = {.depth = 10, .period = 100}}},

@@ -1,4 +1,4 @@
-// Creates nodes in the same way as a run.
+// Creates nodes in the same way as a run does.
 #pragma once
 
 #include <memory>

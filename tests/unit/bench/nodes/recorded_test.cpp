@@ -138,7 +138,8 @@ TEST(RecordedGps, TakesItsSignalsByNameAndWrapsAngles) {
   EXPECT_EQ(from_frame<GpsTime>(frames[2]).time_of_validity_us, 500'000U);
 }
 
-// For every kind of node, recorded samples have a column for each signal of its table.
+// For every kind of node, recorded samples have a column for the time and a column for each signal of the
+// node.
 TEST(Recorded, EveryKindOfNodeHasColumns) {
   for (const Kind* kind : all()) {
     const auto columns = columns_of(kind->table);

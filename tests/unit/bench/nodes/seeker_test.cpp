@@ -273,7 +273,8 @@ TEST_F(GuidedSeeker, AnswersInTheAxesOfARollingAntenna) {
 }
 
 // With 100 ms from sample to command and a manoeuvring target, the seeker extrapolates an answer from the
-// time of its sample to the time of the command. A missing term or a wrong sign costs half a metre or more.
+// time of its sample to the time of the command. A missing term or a wrong sign increases the miss distance
+// by half a metre or more.
 TEST_F(GuidedSeeker, ReckonsTheAnswerOnToItsUse) {
   SeekerSettings late = exact();
   late.schedule.latency_us = 90'000;

@@ -47,7 +47,7 @@ class OnAnFdWire : public testing::Test {
  protected:
   static constexpr wire::BitRates rates{.nominal = 1'000'000, .data = 4'000'000};
   static std::int64_t ns(const Frame& on_wire) { return wire::duration_ns(wire::bit_length(on_wire), rates); }
-  /// The bench hands over its messages, one each 10 us.
+  /// The bench hands over its messages, one every 10 us.
   void hand_over(std::int64_t t_ns) {
     for (const Frame& frame : bench_.take_messages()) monitor_.transmitted(frame, t_ns += 10'000, 0);
   }

@@ -23,7 +23,7 @@ TEST(IntrudersOnTheBus, AreThoseWhoSendWhatTheBenchSends) {
   const Frame sync = frame_of(messages::Sync{});
   const Frame command = frame_of(messages::TargetCommand{});
   Intruders intruders;
-  intruders.received({.frame = command});  // the bench has not sent one yet
+  intruders.received({.frame = command});  // the bench has not yet sent a command
   intruders.transmitted(sync, 0, 0);
   intruders.transmitted(command, 0, 0);
   for (int n = 0; n < 2; ++n) intruders.received({.frame = sync});

@@ -328,7 +328,8 @@ TEST_F(Watched, RemembersHowLateTheBenchWasAndWhenItBeganAndEnded) {
   EXPECT_EQ(seen().last_ns, 300);
 }
 
-// The stimulus is due at 100 us, written 20 us late, and on the bus 5 us later. The target answers it.
+// The stimulus is due at 100 us, written 20 us late, and on the bus 5 us later. The target answers the
+// stimulus.
 TEST_F(Watched, TakesTheTimesOfEveryMessageOfAnAnswer) {
   const auto stimulate = [&](std::int64_t valid_us, std::int64_t due_ns, std::int64_t late_ns) {
     echo(transmit(SlaveImuStatus{.time_of_validity_us = wrap_us(valid_us)}, due_ns + late_ns, late_ns),

@@ -48,10 +48,10 @@ TEST(RankTest, IsThatOfAllPairs) {
   EXPECT_NEAR(rank_test(buckets_of(a), buckets_of(b)).effect, effect_by_pairs(a, b), 1e-12);
 }
 
-// Computed by hand for a = 1 2 2, b = 2 3 3 1. Pairs with b > a, for each b: 1, 3, 3, 0, in total 7 of 12.
-// Ties: 2 with 2 twice, 1 with 1 once, in total 3, so U = 7 + 1.5. N = 7 with ties of 2, 3 and 2: sum t^3 - t
-// = 6 + 24 + 6 = 36, var = 12 / 12 (8 - 36 / 42) = 7.142857; z = (8.5 - 6 - 0.5) / 2.672612 = 0.748331; P(Z >
-// z) = 0.227130.
+// Computed by hand for a = 1 2 2, b = 2 3 3 1. The numbers of pairs with b > a, for each b, are 1, 3, 3 and
+// 0: in total 7 of 12. Ties: 2 with 2 twice, 1 with 1 once, in total 3, each counted as a half, so
+// U = 7 + 1.5. N = 7 with ties of 2, 3 and 2: sum t^3 - t = 6 + 24 + 6 = 36, var = 12 / 12 (8 - 36 / 42) =
+// 7.142857; z = (8.5 - 6 - 0.5) / 2.672612 = 0.748331; P(Z > z) = 0.227130.
 TEST(RankTest, HandComputedWithTies) {
   const RankTest test = rank_test(buckets_of({1, 2, 2}), buckets_of({2, 3, 3, 1}));
   EXPECT_NEAR(test.effect, 8.5 / 12, 1e-12);
@@ -208,7 +208,8 @@ TEST(Compare, ACheckThatFailsNowIsWorse) {
   EXPECT_EQ(compared(bad, bad).outcome, Comparison::no_worse);
 }
 
-// Adds the implied check bus_errors, which reports contain only if the bus went off.
+// Adds the implied check bus_errors. If the scenario does not have this check, a report contains it only if
+// the bus failed.
 Json with_bus_errors(Json report) {
   report["checks"].push_back(
       {{"name", "bus_errors"}, {"kind", "bus_errors"}, {"outcome", "fail"}, {"measured", "bus off 1"}});

@@ -112,8 +112,8 @@ TEST(PageSections, ShowsTheWordsOfEveryFigureThatHasSome) {
                         "down none judged</td>"));
 }
 
-// The master INS sends 200 samples, and the target answers none of them. An estimator in use should answer
-// them with AlignUpdate.
+// The master INS sends 200 samples, and the target answers none of them. An estimator that is in use should
+// answer each of them with AlignUpdate.
 TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
   drive::Run run = run_of();
   for (int i = 0; i < 200; ++i)

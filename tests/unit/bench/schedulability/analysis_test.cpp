@@ -32,8 +32,9 @@ const std::vector<Stream> refuted{stream("A", 125, 2'500 * us, 2'500 * us),
                                   stream("B", 125, 3'500 * us, 3'250 * us),
                                   stream("C", 125, 3'500 * us, 3'250 * us)};
 
-// The analysis of 1994 considers only the first instance of C: 3 ms, within its deadline. The second
-// instance, due at 3.5 ms, takes 3.5 ms, because B and C delay each other.
+// The analysis of 1994 considers only the first instance of message C; its response time of 3 ms is within
+// the deadline. The second instance, due at 3.5 ms, has a response time of 3.5 ms, because B and C delay each
+// other.
 TEST(Davis2007, TheSecondInstanceOfCMissesItsDeadline) {
   const auto r = responses(refuted, bus_125k);
   EXPECT_THAT(bounds_us(refuted, bus_125k), ElementsAre(2'000, 3'000, 3'500));
@@ -99,14 +100,14 @@ TEST(Responses, QueueingJitterOfTheOthersIsInterferenceOwnJitterIsAdded) {
   std::vector<Stream> streams{stream("high", 100, 10 * ms, 10 * ms), stream("low", 100, 20 * ms, 20 * ms)};
   const Bus bus{.rates = {.nominal = 100'000}};  // C = 1 ms
   EXPECT_THAT(bounds_us(streams, bus), ElementsAre(2'000, 2'000));
-  streams[0].jitter_ns = 9'990 * us;  // two instances of `high` within 2 ms and a bit
+  streams[0].jitter_ns = 9'990 * us;  // two instances of `high` can be 10 us apart
   EXPECT_THAT(bounds_us(streams, bus), ElementsAre(2'000 + 9'990, 3'000));
   streams[1].jitter_ns = 500 * us;
   EXPECT_THAT(bounds_us(streams, bus), ElementsAre(2'000 + 9'990, 3'500));
 }
 
-// A frame that becomes due during the first bit of another frame still takes part in the arbitration. At a
-// queueing delay of 9.995 ms, `high` is due again after 5 us, half a bit.
+// A frame that becomes due during the first bit of another frame still takes part in the arbitration. If the
+// queueing delay is 9.995 ms, `high` becomes due again 5 us later, which is half a bit.
 TEST(Responses, TheFirstBitIsStillOpenToHigherPriority) {
   const std::vector<Stream> streams{stream("high", 100, 10 * ms, 10 * ms),
                                     stream("low", 100, 100 * ms, 100 * ms)};

@@ -31,7 +31,7 @@ std::map<std::string, Stream> by_name(const dbc::Database& from, const Assumptio
   return streams;
 }
 
-// 0x80010000 is the extended id 0x10000 with base id 0: it wins every arbitration.
+// 0x80010000 is the extended id 0x10000 with base id 0: this id wins every arbitration.
 TEST(Streams, AreSortedByPriority) {
   std::vector<std::string> names;
   const auto streams = streams_of(example(), {}, rates);

@@ -1,4 +1,4 @@
-// Compares the analysis with the simulated wire; their code is independent.
+// Compares the analysis with the simulated wire; the two share no code.
 #include <gtest/gtest.h>
 
 #include "tests/unit/bench/schedulability/traffic.hpp"
@@ -44,7 +44,7 @@ TEST(Simulation, NeverExceedsTheAnalysis) {
   }
 }
 
-// The same comparison with frames of random content; the analysis knows only their size.
+// The same comparison with frames of random content; the analysis uses only the size of each frame.
 TEST(Simulation, NeverExceedsTheAnalysisWhateverTheContent) {
   for (std::uint64_t seed = 0; seed < sets / 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -84,7 +84,7 @@ TEST(Simulation, NeverExceedsTheAnalysisOfQueuesInOrder) {
     const auto bounds = fifo_responses(set.streams, set.bus.rates);
     const auto by_priority = responses(set.streams, set.bus);
     auto dues = random_dues(set, 15 * longest_period(set), dice);
-    if (seed % 2 == 0) {  // all at once, like the bench at the beginning of each step
+    if (seed % 2 == 0) {  // all messages at once, as the bench sends them at the start of a step
       std::erase_if(dues, [&](const Due& due) { return due.due_ns < 2 * longest_period(set); });
       for (std::size_t i = set.streams.size(); i-- > 0;) dues.push_back({.stream = i});
     }
@@ -113,9 +113,10 @@ TEST(FifoAnalysis, HasNoBoundOnAnOverloadedBus) {
     EXPECT_FALSE(response.response_ns);
 }
 
-// Computed by hand; each frame takes 135 us. Node x queues messages 1 and 3, node y queues 2 and 4. In the
-// worst case of 1 or 3, the other one is ahead in the queue, 4 is on the wire, and 2 wins against 3. In the
-// worst case of 2 or 4, the other one is ahead in the queue, no frame blocks, and 1 and 3 win against 4.
+// Computed by hand; each frame takes 135 us. Node x queues messages 1 and 3, node y queues messages 2 and 4.
+// In the worst case of message 1 or 3, the other message of node x is ahead in the queue, message 4 is on the
+// wire, and message 2 wins against message 3. In the worst case of message 2 or 4, the other message of node
+// y is ahead in the queue, no frame blocks, and messages 1 and 3 win against message 4.
 TEST(FifoAnalysis, OfFourMessagesInTwoNodes) {
   const auto stream = [](std::uint32_t id, const char* sender) {
     return Stream{
@@ -177,8 +178,8 @@ TEST(Simulation, ReachesTheAnalysisAtTheCriticalInstant) {
   EXPECT_GT(beyond_the_first, 20);  // some of the sets violate the analysis of 1994
 }
 
-// The errors are no closer than the error model allows. Each error occurs at a random bit of a frame, and its
-// error flag has a random length.
+// The errors are no closer together than the error model allows. Each error occurs at a random bit of a
+// frame, and its error flag has a random length.
 TEST(Simulation, NeverExceedsTheAnalysisWithErrors) {
   std::uint64_t errors_seen = 0;
   for (std::uint64_t seed = 0; seed < sets / 2; ++seed) {
@@ -189,8 +190,8 @@ TEST(Simulation, NeverExceedsTheAnalysisWithErrors) {
     set.bus.errors = {.burst = dice(1, 3), .interval_ns = dice(1, 3) * longest_period(set)};
     const auto bounds = responses(set.streams, set.bus);
     const auto dues = random_dues(set, 12 * longest_period(set), dice);
-    // A token bucket with `burst` errors that gains one error per interval. After 12 errors, all nodes are
-    // still error active.
+    // A token bucket limits the errors: it starts with `burst` tokens and gains one token per interval. After
+    // 12 errors, all nodes are still error active.
     std::int64_t left = 12;
     double bucket = static_cast<double>(set.bus.errors.burst);
     std::int64_t last_ns = 0;

@@ -16,7 +16,7 @@ namespace canhil::schedulability {
 struct MessageSet {
   Bus bus;
   std::vector<Stream> streams;  ///< by priority
-  std::vector<Frame> frames;    ///< frames[i] is what stream i sends, of exactly streams[i].length
+  std::vector<Frame> frames;    ///< frames[i] is the frame of stream i; its length is streams[i].length
   std::vector<std::size_t> nodes;
   std::size_t node_count = 1;
 };
@@ -86,8 +86,8 @@ inline MessageSet random_set(Dice& dice) {
   return set;
 }
 
-/// Sends due frames over the wire. Returns the longest response of each stream, from due to the end of the
-/// intermission. `frame_of(due)` is the frame to send.
+/// Sends due frames over the wire. Returns the longest response of each stream, from the due time to the end
+/// of the intermission. `frame_of(due)` is the frame to send.
 template <class FrameOf>
 std::vector<std::int64_t> longest_responses(const MessageSet& set, std::vector<Due> dues, FrameOf&& frame_of,
                                             Disturb disturb = {}, QueueOrder order = QueueOrder::priority) {

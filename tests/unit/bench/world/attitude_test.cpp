@@ -68,7 +68,7 @@ TEST(Attitude, BodyRateIsTheDerivativeOfC) {
     return C_bn_from(
         {angles.roll + rates.roll * t, angles.pitch + rates.pitch * t, angles.heading + rates.heading * t});
   };
-  const Matrix3 derivative = (at(h) - at(-h)) / (2 * h);  // = C [omega x], to h^2
+  const Matrix3 derivative = (at(h) - at(-h)) / (2 * h);  // equals C [omega x] up to terms in h^2
   EXPECT_LT((derivative - at(0) * skew(omega_nb_b(angles, rates))).norm(), 1e-9);
 }
 

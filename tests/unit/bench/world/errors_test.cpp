@@ -110,7 +110,8 @@ TEST(ErroneousImu, NoiseIsWhiteWithTheDensityGiven) {
 }
 
 TEST(ErroneousImu, NoiseOfASecondDoesNotDependOnTheRate) {
-  // 0.125 deg/sqrt(h) is 0.125 deg after one hour, for any sample interval: sums 3600 runs of one second.
+  // 0.125 deg/sqrt(h) is 0.125 deg after one hour, for any sample interval. The test adds up the samples of
+  // each second, for 3600 seconds.
   ImuErrorModel model;
   model.gyro.noise = Vector3::Constant(0.125 * units::degprth);
   for (const std::int64_t interval_us : {5'000, 20'000}) {

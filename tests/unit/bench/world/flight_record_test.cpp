@@ -78,8 +78,8 @@ TEST(FlightRecord, GridAndIncrementsBelongTogether) {
 }
 
 // An independent navigator: Earth-centred inertial axes, attitude by two-sample coning, velocity by
-// two-sample sculling (Savage), gravitation by GeographicLib in geocentric coordinates. It shares no equation
-// with the NED form of the record.
+// two-sample sculling (Savage), gravitation by GeographicLib in geocentric coordinates. This navigator shares
+// no equation with the NED form of the record.
 struct Inertial {
   Vector3 r;  // inertial axes coincide with ECEF at t = 0
   Vector3 v;
@@ -145,9 +145,9 @@ Inertial navigate(const FlightRecord& record) {
   return state;
 }
 
-// At 1 kHz the errors of the two-sample algorithms are below the limits: they are of the order (rate * h)^4,
-// with rates of 1 rad/s. The trapezoid rule for the position has an error of h^2/12 times the change of
-// acceleration, 1e-6 m.
+// At 1 kHz the errors of the two-sample algorithms are below the limits: these errors are of the order
+// (rate * h)^4, with rates of 1 rad/s. The trapezoid rule for the position has an error of h^2/12 times the
+// change of acceleration, 1e-6 m.
 class IndependentNavigator : public testing::TestWithParam<Flight> {};
 
 TEST_P(IndependentNavigator, FliesTheIncrementsBackToTheTruth) {
@@ -174,7 +174,7 @@ TEST(FlightRecord, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
       theta += fine.increments()[j].delta_theta;
       v += fine.increments()[j].delta_v;
     }
-    // Relative to 2 mrad and 0.1 m/s per sample.
+    // The limits are 1e-13 of the sizes per sample, which are 2 mrad and 0.1 m/s.
     EXPECT_LT((coarse.increments()[k].delta_theta - theta).norm(), 2e-3 * 1e-13);
     EXPECT_LT((coarse.increments()[k].delta_v - v).norm(), 0.1 * 1e-13);
   }

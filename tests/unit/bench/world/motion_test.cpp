@@ -46,8 +46,8 @@ void expect_rates_are_derivatives(const Motion& motion, double t, double h, doub
 }
 
 TEST(Motion, RatesAreTheDerivativesOfWhatMoves) {
-  // Coning: amplitude 3.5e-3 rad at 63 rad/s has a third derivative of 870 rad/s^3: 1.5e-8 of error at h =
-  // 1e-5.
+  // Coning: an amplitude of 3.5e-3 rad at 63 rad/s has a third derivative of 870 rad/s^3, so the error at
+  // h = 1e-5 is 1.5e-8.
   for (const double t : {0.0, 1.3, 5.0, 11.7}) expect_rates_are_derivatives(weave, t, 1e-5, 1e-6);
   const LevelAcceleration level{.heading = 1.0, .speed = 100, .cruise_us = 10'000'000, .acceleration = 9.8};
   for (const double t : {1.0, 15.0}) expect_rates_are_derivatives(level, t, 1e-5, 1e-6);
@@ -89,8 +89,8 @@ TEST(Motion, TheWeaveIsCoordinated) {
   EXPECT_GT(std::abs(kinematics(smooth, 3).angles.roll), 60 * deg) << "the turn is real";
 }
 
-// Compares one second at a time with another simulation: heading, and the increments of an IMU with 1 deg/h,
-// 0.3 deg/sqrt(h), 1000 ug and 50 ug/sqrt(Hz).
+// Compares one second at a time with another simulation: the heading, and the increments of an IMU with
+// errors of 1 deg/h, 0.3 deg/sqrt(h), 1000 ug and 50 ug/sqrt(Hz).
 TEST(Motion, TheSPathIsThatOfTheReference) {
   const Csv seconds(TEST_DATA_DIR "/s_path/seconds.csv");
   const FlightRecord flight(

@@ -1,4 +1,5 @@
-// A recorded flight passes through the recorded states, and integrating its IMU increments reproduces them.
+// A recorded flight passes through the recorded states, and integrating its IMU increments reproduces these
+// states.
 #include "bench/world/motion/recorded.hpp"
 
 #include <gtest/gtest.h>
@@ -58,9 +59,10 @@ RC_GTEST_PROP(RecordedPath, PassesThroughItsSamplesWithTheRatesOfItsCurve, ()) {
   const auto states = states_of(flown, every_us);
   const Flight again = flown_again(states);
   const FlightRecord record(again, states.back().t_us, 10'000);
-  // Velocity differs only by the correction. A cubic spline through velocities has an error of 5/384 h^4
-  // v'''' per sample: 1e-3 m/s for 250 m/s turning at 2 pi / 6 per second, sampled at 50 ms. Its mean over 10
-  // s is far below that, so positions agree within this error times 12 s.
+  // The velocity of the record differs from the recorded velocity only by the correction. A cubic spline
+  // through velocities has an error of 5/384 h^4 v'''' per sample: 1e-3 m/s for 250 m/s turning at 2 pi / 6
+  // per second, sampled at 50 ms. The mean of this error over 10 s is far smaller, so the positions agree
+  // within this error times 12 s.
   const double h = 1e-6 * static_cast<double>(every_us);
   const double w = 2 * std::numbers::pi / 6;
   const double bend = weave.speed * std::pow(2 * w, 4) * 5 / 384 * std::pow(h, 4) + 1e-9;
@@ -105,9 +107,9 @@ strapdown::NavState navigated(const FlightRecord& record) {
 class RecordedEvery : public testing::TestWithParam<std::int64_t> {};
 
 // The errors after 100 s at 100 Hz. The record has the recorded velocity and attitude, and its increments are
-// their integrals. So the remaining error is the error of the mechanisation, as in the analytic flight:
-// 1.2e-8 rad, 1.6 mm/s and 82 mm. Interpolation may change it by a twentieth; the limits are three times the
-// error.
+// the integrals of these two. So the remaining error is the error of the mechanisation, as in the analytic
+// flight: 1.2e-8 rad, 1.6 mm/s and 82 mm. Interpolation may change this error by a twentieth; the limits are
+// three times the error.
 TEST_P(RecordedEvery, StrapdownNavigationOfItsIncrementsReturnsToWhatWasRecorded) {
   const FlightRecord flown(turning, 100'000'000, 10'000);
   const auto states = states_of(flown, GetParam());
@@ -129,8 +131,8 @@ TEST_P(RecordedEvery, StrapdownNavigationOfItsIncrementsReturnsToWhatWasRecorded
 INSTANTIATE_TEST_SUITE_P(Rates, RecordedEvery, testing::Values(10'000, 20'000, 40'000));
 
 // Rounded velocities at irregular times: the derivatives of the spline jump at each recorded time, so a
-// quadrature must not step across a recorded time. Sums of ten or a hundred parts agree to 1e-15 of 0.1 m/s
-// and 2 mrad.
+// quadrature must not step across a recorded time. Sums of ten or a hundred parts agree within 1e-15 times
+// 0.1 m/s and 2 mrad.
 TEST(RecordedPath, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
   const FlightRecord flown(turning, 4'000'000, 1'000);
   auto states = states_of(flown, 37'000);
@@ -169,8 +171,8 @@ TEST(RecordedPath, FollowsThePositionsWhereTheVelocityIsBiased) {
   EXPECT_LT(worst_acceleration, 1e-3) << "[m/s^2], 100 ug";
 }
 
-// The positions are rounded to a centimetre, like values in 1e-7 degrees. A curve through them would have
-// accelerations of 25 m/s^2.
+// The positions are rounded to a centimetre, like values in 1e-7 degrees. A curve through these positions
+// would have accelerations of 25 m/s^2.
 TEST(RecordedPath, RoundingOfPositionsIsNoAcceleration) {
   const FlightRecord flown(turning, 60'000'000, 10'000);
   auto states = states_of(flown, 20'000);

@@ -52,7 +52,7 @@ def random_raw(generator, signal):
 
 
 def encoded_by_canmatrix(generator, message):
-    """Bytes of a frame with random values; None: canmatrix cannot tell which signals are in it."""
+    """Bytes of a frame with random values; None: canmatrix cannot determine which signals are in the frame."""
     multiplexors = {s.name: random_raw(generator, s) for s in message.signals if s.is_multiplexer}
     for name in multiplexors:  # mostly values that select a signal
         asked = [v for s in message.signals if s.muxer_for_signal in (name, None)
@@ -96,7 +96,7 @@ def frames_of(generator, message, number):
         if i % 2:
             try:
                 data = encoded_by_canmatrix(generator, message)
-            except Exception as error:  # noqa: BLE001: as below
+            except Exception as error:  # noqa: BLE001: any exception is a disagreement
                 disagree(message.name, f"canmatrix cannot encode: {error}", "")
         yield (data, True) if data is not None else (bytes(generator.randrange(256) for _ in range(message.size)), False)
 
@@ -125,7 +125,7 @@ def compare_file(decoder, file, matrix, per_message):
             continue
         try:
             theirs = message.decode(data)
-        except Exception as error:  # noqa: BLE001: whatever it is, it is a disagreement
+        except Exception as error:  # noqa: BLE001: any exception is a disagreement
             disagree(where, f"canmatrix cannot decode: {type(error).__name__} {error}", line)
             continue
         counts["frames decoded"] += 1
@@ -148,7 +148,7 @@ def main(decoder, frames, *files):
     for file in files:
         try:
             matrix = matrix_of(file)
-        except Exception as error:  # noqa: BLE001: whatever it is
+        except Exception as error:  # noqa: BLE001: any exception means that canmatrix cannot read the file
             print(f"{file}: canmatrix cannot read it: {type(error).__name__} {error}")
             counts["files that canmatrix cannot read"] += 1
             continue

@@ -167,8 +167,8 @@ TEST(Asc, OfOthersIsRead) {
   EXPECT_EQ(got[0].t_ns % 1'000'000'000, 941'000'000);
 }
 
-// python-can writes the year 2026 as "2" if the microseconds end with 026. The reader ignores such a
-// date: times count from the next valid date, here from 0.
+// python-can writes the year 2026 as "2" if the microseconds end with 026. The reader ignores such a date.
+// Times are then relative to the next valid date in the file or, if there is none as here, to 0.
 TEST(Asc, ADateThatCannotBeIsIgnored) {
   const std::string path = path_of("date.asc"), event = "0.5 1  123 Rx d 1 00\n";
   for (const char* date :

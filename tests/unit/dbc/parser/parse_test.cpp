@@ -280,7 +280,8 @@ double seconds_to_parse(const std::string& text) {
 }
 
 // 16 times as many messages take about 16 times as long. Nested loops over all messages would take 256 times
-// as long, each time; a busy machine makes one comparison uncertain (73 was measured once).
+// as long. On a busy machine a single comparison is uncertain (a ratio of 73 was measured once), so the test
+// makes up to three comparisons.
 TEST(Parse, TakesAsLongAsTheTextIs) {
   const std::string few = text_of_messages(1'500), many = text_of_messages(24'000);
   double times = 256;

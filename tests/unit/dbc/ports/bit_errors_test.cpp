@@ -40,8 +40,8 @@ TEST(BitErrors, AFrameIsHitAsOftenAsItsBitsSayAndAnywhere) {
   }
   const double share = 1 - std::pow(1 - p, bits);
   EXPECT_NEAR(hits, tries * share, 5 * std::sqrt(tries * share * (1 - share)));
-  // Only the first of several errors in a frame counts, so the distribution is not quite uniform: its mean is
-  // off by p n / 12 of the length of n bits, here 1 %.
+  // Only the first of several errors in a frame counts, so the distribution is not quite uniform: for a frame
+  // of n bits, the mean differs from the middle by p n / 12 of the length, here 1 %.
   EXPECT_NEAR(mean / hits / bits, 0.5, 0.01 + 5 * std::sqrt(1. / 12 / hits));
   EXPECT_EQ(first_ns, bit_ns);
   EXPECT_EQ(last_ns, static_cast<std::int64_t>(bits) * bit_ns);
@@ -87,8 +87,8 @@ TEST(BitErrors, BitsOfTheDataPhaseAreShorter) {
   EXPECT_GT(in_data, 100);
 }
 
-// Three nodes send a frame every 2 ms at 500 kbit/s. About every fiftieth attempt is disturbed; no node goes
-// bus-off.
+// Each of three nodes sends a frame every 2 ms at 500 kbit/s. About every fiftieth attempt is disturbed; no
+// node goes bus-off.
 TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SimulatedWire wire(rates, {{.order = QueueOrder::fifo}, {.reports_errors = true}, {}},

@@ -117,7 +117,7 @@ TEST_F(FdGroups, AGroupOfFourteenGoesInTwoFrames) {
 }
 
 TEST_F(FdGroups, AnyLossLeavesTheOthersInOrderWithTheirCounters) {
-  for (unsigned lost = 0; lost < 64; ++lost) {  // each subset of two samples
+  for (unsigned lost = 0; lost < 64; ++lost) {  // each subset of the six frames of two samples
     wire_->sent.clear();
     std::vector<Frame> kept;
     for (std::uint8_t n = 0; n < 2; ++n) {

@@ -96,7 +96,7 @@ TEST_F(LocalBus, GivesNodesTheirNamesAndForgetsTheDead) {
   b->send(frame_of(7));
   b.reset();
   EXPECT_EQ(hub->send(frame_of(8)), SendOutcome::sent);
-  EXPECT_EQ(next_frame(*hub)->frame.id, 7U);  // the hub delivers frames that a node sent before its end
+  EXPECT_EQ(next_frame(*hub)->frame.id, 7U);  // the hub delivers what a node sent before closing
   EXPECT_FALSE(hub->receive());
   EXPECT_THAT(hub->nodes(), ElementsAre("target"));
 }
@@ -255,7 +255,7 @@ TEST_F(LocalBus, TheEndOfTheHubClosesNodesAfterTheirLastFrame) {
   auto hub = host();
   const auto node = join(*hub);
   hub->send(frame_of(3));
-  node->send(frame_of(4));  // the hub does not read it, so the connection is reset at the end
+  node->send(frame_of(4));  // the hub does not read this frame, so the connection is reset at the end
   hub.reset();
   EXPECT_TRUE(wait(*node, WaitFor::frame, 0));
   EXPECT_EQ(node->receive()->frame.id, 3U);

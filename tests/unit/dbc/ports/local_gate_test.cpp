@@ -60,7 +60,7 @@ class LocalGate : public ::testing::Test {
     for (int twice = 0; twice < 2; ++twice) EXPECT_FALSE(hub.receive());
     return node ? std::move(*node) : nullptr;
   }
-  /// Runs the hub like its host does until `done`; false after 10 s.
+  /// Runs the hub as its host does, until done() is true. Returns false if that takes more than 10 s.
   static bool serve(Port& hub, const std::function<bool()>& done) {
     const std::int64_t deadline = in_seconds(10);
     while (!done()) {
@@ -72,7 +72,7 @@ class LocalGate : public ::testing::Test {
     return true;
   }
   [[nodiscard]] std::string directory() const { return runtime_ + "/canhil"; }
-  /// This process, as the hub names it.
+  /// The name that the hub gives to this process.
   static std::string us() { return fmt::format("pid {} of uid {}", ::getpid(), ::geteuid()); }
 
   const std::string before_ = std::getenv("XDG_RUNTIME_DIR") == nullptr ? "" : std::getenv("XDG_RUNTIME_DIR");
@@ -318,7 +318,7 @@ TEST_F(LocalGate, WhoSendsWhatIsNoFrameIsDroppedAndNamed) {
   EXPECT_THAT(hub->nodes(), ElementsAre("node"));
 }
 
-// Three nodes have more frames waiting than the hub accepts at once.
+// Together, three nodes have more frames waiting than the hub accepts at once.
 TEST_F(LocalGate, FramesThatTheHostDoesNotWantKeepItNoLongerThanOthers) {
   const auto hub = host_local_bus("local:x", {.only_ids = {1}}).value();
   std::vector<std::unique_ptr<Port>> senders;

@@ -171,8 +171,8 @@ TEST(SimulatedWire, After32ErrorsOffTheBusAndBackAfter128RecessiveRuns) {
   EXPECT_EQ(wire.counters().error_frames, 32);
   EXPECT_EQ(wire.state(0), NodeState::bus_off);
   EXPECT_EQ(wire.counters().dropped, 2);
-  // 32 error frames of 37 bits. From the 16th on, the passive sender pauses for 8 bits after each except the
-  // last.
+  // 32 error frames of 37 bits. From the 16th error frame on, the passive sender pauses for 8 bits after each
+  // error frame except the last.
   const std::int64_t off_ns = (32 * 37 + 16 * 8) * bit_ns;
   const std::int64_t back_ns = off_ns + 128 * 11 * bit_ns;
   EXPECT_FALSE(wire.queue(0, frame(0x200), back_ns - bit_ns));
@@ -186,12 +186,12 @@ TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
   SimulatedWire wire(rates, {{}, {.depth = 200}, {}}, failing(0x100, 32));
   wire.queue(0, frame(0x100), 0);
   for (int i = 0; i < 200; ++i) wire.queue(1, frame(0x700), bit_ns);
-  // The other node's frames are sent while the passive sender is silent, and continuously while it is
+  // The other node's frames are sent while the passive sender pauses, and continuously while this sender is
   // bus-off.
   while (wire.state(0) != NodeState::bus_off) ASSERT_TRUE(wire.next(long_enough));
   for (int i = 0; i < 126; ++i) ASSERT_TRUE(wire.next(long_enough));
   EXPECT_EQ(wire.state(0), NodeState::bus_off);
-  ASSERT_TRUE(wire.next(long_enough));  // the 128th; the first came with the last error
+  ASSERT_TRUE(wire.next(long_enough));  // the 128th frame since bus-off; the loop above carried the first
   EXPECT_EQ(wire.state(0), NodeState::error_active);
 }
 
@@ -253,7 +253,7 @@ TEST(SimulatedWire, AReceiverReportsItsOwnCounter) {
   EXPECT_EQ(errors.tx_counter_max, 0);
 }
 
-// 12 errors cause a warning. One successful frame ends it; a further frame is not reported.
+// 12 errors cause a warning. One successful frame ends the warning; a further frame causes no report.
 TEST(SimulatedWire, TheWayBackIsReportedAfterTheFrameThatLedThere) {
   SimulatedWire wire(rates, {{.reports_errors = true}, {}}, failing(0x123, 12));
   for (int i = 0; i < 2; ++i) wire.queue(0, frame(0x123), 0);

@@ -143,7 +143,7 @@ TEST_F(TimedBus, CarriesFdAtTwoBitRates) {
   EXPECT_EQ(next_frame(*hub)->t_ns - first_ns, duration_ns(fd, rates));
 }
 
-// About one attempt in 20 is disturbed: warnings, perhaps error passive, but no bus-off.
+// About one attempt in 20 is disturbed. This causes warnings and perhaps error passive, but no bus-off.
 TEST_F(TimedBus, ADisturbedBusLosesNothing) {
   const auto hub = host("?bitrate=1000000&bit-error-rate=5e-4&seed=2");
   const auto node = join(*hub);
@@ -207,7 +207,8 @@ TEST_F(TimedBus, WhereEveryBitIsWrongASenderGoesOffTheBusAndComesBack) {
   EXPECT_EQ(of_other.tx_counter_max, 0);
 }
 
-// While the host is bus-off, send() reports a full queue; after the return to the bus it takes frames again.
+// While the host is bus-off, send() reports a full queue; after the return to the bus, send() accepts frames
+// again.
 TEST_F(TimedBus, AHostThatIsOffTheBusWaitsForItsReturn) {
   const auto hub = host("?bitrate=10000&bit-error-rate=1");
   ASSERT_EQ(hub->send(frame_of(1)), SendOutcome::sent);
@@ -262,7 +263,8 @@ TEST_F(TimedBus, ErrorReportsWithoutEndAreTakenSoManyAtOnce) {
   const int taken = fill();
   EXPECT_GT(taken, 0);
   EXPECT_LE(taken, 256);
-  // If the host is far behind with reading, the hub accepts no more reports than it delivers.
+  // If the host is far behind with reading, the hub accepts no more reports from the nodes than it delivers
+  // to the host.
   int more = 0;
   for (int n = 0; n < 100; ++n) {
     EXPECT_TRUE(hub->receive());

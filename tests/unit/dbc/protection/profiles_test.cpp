@@ -148,7 +148,8 @@ TEST(E2eProfile5, HasThePublishedExamples) {
   EXPECT_EQ(zeros("autosar-e2e-5", with_id(0x1234, 64), 16, 1), at(8, {0xFB, 0xD6, 0x01}, 16));
 }
 
-// With zeros as data, the CRC is the same in another place: the same bytes are covered in the same order.
+// With zeros as data, the CRC has the same value if it is stored in another place, because the same bytes are
+// covered in the same order.
 TEST(E2eProfile5, TakesOtherPlaces) {
   ProfileChoice choice = with_id(0x1234);
   choice.checksum = Place{48, 16, false};

@@ -153,8 +153,8 @@ TEST(Receivers, FindAWrongConstant) {
   EXPECT_EQ(Receiver().check(protection, data), Check::wrong_checksum);
 }
 
-// Any settings give either an error of one line, or a protection whose messages pass its check and that
-// leaves the other bits of the message unchanged.
+// Any settings give either an error of one line or a protection. Messages with this protection pass its
+// check, and the other bits of the message stay unchanged.
 Place any_place() {
   return {.start_bit = *rc::gen::weightedOneOf<unsigned>(
               {{3, rc::gen::map(rc::gen::inRange(0U, 8U), [](unsigned byte) { return 8 * byte + 3; })},

@@ -25,7 +25,7 @@ TEST(Preemption, IsReadFromTheVersionOfTheKernel) {
   EXPECT_EQ(preemption("#1 Debian 6.1.90-1"), "none or voluntary");
 }
 
-// CPUs 0 and 2 with frequency scaling on demand, 1 with a fixed frequency, 3 without frequency scaling.
+// CPUs 0 and 2 have frequency scaling on demand, CPU 1 has a fixed frequency, CPU 3 has no frequency scaling.
 class Governors : public testing::Test {
  protected:
   void SetUp() override {

@@ -72,7 +72,7 @@ TEST(BitLength, OfAnFdFrameByHand) {
 TEST(BitLength, FdFramesChangeTheCrcAbove16Bytes) {
   static_assert(fd_crc_field_bits(16) == 4 + 17 + 6 + 1);
   static_assert(fd_crc_field_bits(20) == 4 + 21 + 7 + 1);
-  // 0x55 needs no stuff bit. Id 0x555 and IDE 0: none either.
+  // 0x55 needs no stuff bit; id 0x555 and IDE 0 need none either.
   const auto data_bits = [](unsigned size) { return bit_length(filled(0x555, size, 0x55, true, true)).data; };
   EXPECT_EQ(data_bits(16), 5 + 8 * 16 + 28);
   EXPECT_EQ(data_bits(20), 5 + 8 * 20 + 33);

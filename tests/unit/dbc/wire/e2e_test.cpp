@@ -72,7 +72,7 @@ TEST(E2eReceiver, WrapsFrom14To0) {
 TEST(E2eReceiver, CountsWhatIsMissing) {
   Receiver receiver;
   receiver.check(protected_frame(13), data_id);
-  EXPECT_EQ(receiver.check(protected_frame(2), data_id), Check::some_lost);  // 14, 0, 1
+  EXPECT_EQ(receiver.check(protected_frame(2), data_id), Check::some_lost);  // 14, 0 and 1 are lost
   EXPECT_EQ(receiver.lost(), 3);
   EXPECT_EQ(receiver.check(protected_frame(1), data_id), Check::some_lost);
   EXPECT_EQ(receiver.lost(), 13);

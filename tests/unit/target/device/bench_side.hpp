@@ -25,7 +25,8 @@ class BenchSide {
     const auto answers = device_.receive(frame);
     answers_.insert(answers_.end(), answers.begin(), answers.end());
   }
-  /// Increments the counter of a message without sending it: the receiver sees a lost frame.
+  /// Increments the counter of a message without sending the message, so that the receiver detects a lost
+  /// frame.
   template <class Message>
   void lose(const Message& message) {
     out_.clear();

@@ -274,8 +274,8 @@ TEST(Device, IsAfterAResetAsItWasAfterConstruction) {
     }
     return bench.answers();
   };
-  // The new device receives the frames that the bench sent to the used device, because a new bench would
-  // count from 0.
+  // The new device receives the frames that the bench sent to the used device, because the counters of a new
+  // bench would start at 0.
   BenchSide again;
   const std::size_t before = used.fed().size();
   const auto answers = session(used);

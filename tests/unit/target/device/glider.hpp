@@ -51,8 +51,8 @@ class Glider : public BenchSide {
     command(Command::start, Estimator::wind, release.algorithm);
   }
 
-  /// Sends the rows [from, to): fins, navigation, time base. `spoil` changes the frames. If it sets
-  /// the time of the navigation to -1, no navigation is sent.
+  /// Sends the rows [from, to): fins, navigation, time base. `spoil` changes the frames. If `spoil` sets the
+  /// time of the navigation to -1, no navigation is sent.
   void fly(
       std::size_t from, std::size_t to, const wind::Spoil& spoil = [](auto...) {}) {
     for (std::size_t k = from; k < to; ++k) {

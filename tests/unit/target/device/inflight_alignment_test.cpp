@@ -96,8 +96,8 @@ TEST(InflightAlignment, AnSsblFixIsTheShipsPositionPlusTheRelative) {
   EXPECT_GT(bench.last<FixBiasSigma>()->fix_bias_sigma_north_m, 2);
 }
 
-// The parameters set a sigma of 2 m. A fix with a larger sigma is weighted by its own sigma, a fix with a
-// smaller sigma by the parameters.
+// The parameters set a sigma of 2 m. A fix that states a larger sigma is weighted by its own sigma; a fix
+// that states a smaller sigma is weighted by the sigma of the parameters.
 TEST(InflightAlignment, AFixThatStatesALargerSigmaWeighsLess) {
   const auto sigmas = [](float aiding, double stated_m) {
     Vehicle bench(aiding);

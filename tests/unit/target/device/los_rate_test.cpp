@@ -204,8 +204,8 @@ std::vector<Parameter> own_parameters() {
   return own;
 }
 
-// -1 and 1e30 are outside every range. 1.5 times the default, or 0.01 for a default of 0, is inside every
-// range.
+// For every parameter, -1 and 1e30 are outside the range, and 1.5 times the default is inside the range (the
+// test uses 0.01 if the default is 0).
 TEST(LosRateParameters, AreReadBackRefusedOutsideTheirRangeAndWhileRunning) {
   ASSERT_EQ(own_parameters().size(), 25U);
   for (const Parameter parameter : own_parameters()) {

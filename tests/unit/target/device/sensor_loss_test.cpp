@@ -81,7 +81,7 @@ TEST(SensorLoss, ABridgeIsTheMeanOfItsNeighboursAtTheirRates) {
     bench.send(velocity);
     bench.send(BenchSide::status(t_us, 10'000));
   };
-  // Two samples are lost between samples of 0.1 and 0.3 m/s. Each lost sample counts as 0.2 m/s.
+  // Two samples are lost between samples of 0.1 and 0.3 m/s. Each lost sample is replaced by 0.2 m/s.
   BenchSide bench;
   bench.start();
   accelerated(bench, 10'000, 0.1);
@@ -147,8 +147,8 @@ TEST(SensorLoss, AGapTooLongToBridgeEndsTheAlignment) {
   EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_silent, 1);
 }
 
-// The device bridges the whole gap while it processes one frame. With steps of 10 us, the interval of this
-// sample, it would need 20,000 steps.
+// The device bridges the whole gap while it processes one frame. With steps of 10 us, the interval of the
+// sample after the gap, the device would need 20,000 steps.
 TEST(SensorLoss, AGapBeforeAVeryShortSampleIsBridgedInFewSteps) {
   ImuStream imu;
   imu.start(0, 10'000);

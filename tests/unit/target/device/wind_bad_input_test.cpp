@@ -19,7 +19,7 @@ constexpr std::size_t bad_from = 500, bad_to = 550;  // 1 s
 
 bool is_bad(std::size_t k) { return k >= bad_from && k < bad_to; }
 
-// Mean error of the wind over the last second of the run; the last 50 elements of `winds` belong to it.
+// Mean error of the wind over the last second of the run; this second has the last 50 elements of `winds`.
 double final_error(const std::vector<Eigen::Vector3d>& winds) {
   double sum = 0;
   for (std::size_t i = 1; i <= 50; ++i)
@@ -36,7 +36,7 @@ double undisturbed_error() {
   return error;
 }
 
-// All frames sent contain valid values: no signal is at the end of its range, to which NaN would be
+// All frames that were sent contain valid values: no signal is at the end of its range, to which NaN would be
 // converted. The target is still running.
 void expect_sound(const Glider& bench) {
   for (const auto& w : bench.winds()) ASSERT_LT(w.cwiseAbs().maxCoeff(), 190);
@@ -222,7 +222,8 @@ TEST(Wind, MissingFinsAreFlaggedAndWidenTheSigmas) {
   expect_recovered(bench);
 }
 
-// Fins that arrive 60 ms after their validity take effect at their time of validity, not at their arrival.
+// Fins that arrive 60 ms after their time of validity take effect at that time of validity, not at their
+// arrival.
 TEST(Wind, LateFinsAreFlaggedAndUsedAtTheirTimeOfValidity) {
   Glider bench;
   bench.fly(0, rows, [](std::size_t k, Navigation&, FinFrame& fins) {

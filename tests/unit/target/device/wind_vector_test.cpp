@@ -1,6 +1,6 @@
-// The published test vector through the Device: the test sends its rows as frames and compares the answers
-// with its states. The test is built twice: with the DBC, where the states agree within the rounding of the
-// signals, and with a version of the DBC without rounding.
+// The published test vector through the Device: the test sends the rows of the vector as frames and compares
+// the answers with the states of the vector. The test is built twice: with the DBC, where the states agree
+// within the rounding of the signals, and with a version of the DBC without rounding.
 #include <gtest/gtest.h>
 
 #include "tests/unit/target/device/glider.hpp"
@@ -10,8 +10,9 @@ namespace {
 
 using namespace messages;
 
-// The published run holds the fins of a row until the next row, but the target interpolates linearly between
-// samples. Therefore the fins of a row are sent again 10 us before the next row: only 10 us are interpolated.
+// In the published run, the fins keep the deflection of a row until the next row, but the target interpolates
+// linearly between samples. Therefore the fins of a row are sent again 10 us before the next row: only 10 us
+// are interpolated.
 constexpr std::int64_t before_next_us = 10;
 
 struct Misses {

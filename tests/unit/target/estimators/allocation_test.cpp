@@ -121,7 +121,7 @@ TEST(Allocation, InflightAlignmentAllocatesNothing) {
         settings.ukf_root = root;
         settings.closed_loop = root == UkfRoot::symmetric;
         settings.longest_interval = 0.3;
-        settings.gyro_bias_sigma_0 = 0;  // P needs a repair by the ukf
+        settings.gyro_bias_sigma_0 = 0;  // so that the ukf must repair P
         const strapdown::NavState start = transfer_alignment::flight_start();
         const auto imu = transfer_alignment::flight_increment(start, 0, 0.01);
         const auto history = std::make_unique<History<128>>(0);
@@ -169,7 +169,7 @@ TEST(Allocation, LosRateAllocatesNothing) {
     const std::size_t before = allocations;
     for (int k = 0; !engagement.over(); ++k) {
       Measurement m = engagement.next();
-      m.error_valid = k % 600 < 580;  // starts up again after each gap
+      m.error_valid = k % 600 < 580;  // the filter starts up again after each gap
       const UpdateResult result = step(state, m, design);
       if (result.outcome == Outcome::updated) ++updated;
       if (result.outcome == Outcome::coasting) ++coasted;

@@ -12,11 +12,11 @@ inline constexpr double flight_acceleration = 9.81;  // [m/s^2]
 
 strapdown::NavState flight_start();
 
-/// The slave's navigation state whose errors (computed - true) are dV [m/s] and phi [rad].
+/// The slave's navigation state with the errors (computed - true) dV [m/s] and phi [rad] relative to `nav`.
 strapdown::NavState with_errors(strapdown::NavState nav, const Eigen::Vector3d& dV,
                                 const Eigen::Vector3d& phi);
 
-/// The start of the published runs: 5 deg and 1 m/s on each axis.
+/// The start of the published runs, with errors of 5 deg and 1 m/s on each axis.
 strapdown::NavState published_start();
 
 /// The true state one sample of dt [s] after `nav`, which is at t [s]: constant acceleration, latitude by the

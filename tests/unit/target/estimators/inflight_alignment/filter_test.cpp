@@ -49,7 +49,8 @@ constexpr Case cases[] = {{Algorithm::ekf, Aiding::ssbl},     {Algorithm::ekf, A
                           {Algorithm::ukf, Aiding::ssbl},     {Algorithm::ukf, Aiding::gps},
                           {Algorithm::sin_cos, Aiding::ssbl}, {Algorithm::sin_cos, Aiding::gps}};
 
-// Acceptance limit D. In sin_cos, only the variance of k = 1 - cos psi may be 0, after the heading handover.
+// Acceptance limit D. In sin_cos, after the handover of the heading, the variance of k = 1 - cos psi may be
+// 0; no other variance may.
 TEST(InflightFilter, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
   for (const auto [algorithm, aiding] : cases) {
     for (const double start_deg : {90.0, 170.0}) {
@@ -82,8 +83,9 @@ TEST(InflightFilter, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
 }
 
 // With the published platform frame, the reset rotates the tilts in P by the heading that is fed back. Open
-// and closed loop then agree to second order: measured differences 0.16 and 0.08 deg (ekf), 0.41 and 0.37 deg
-// (ukf, which draws its sigma points anew). Without the rotation the ekf ends 2.4 and 4.7 deg away.
+// and closed loop then agree to second order: the measured differences are 0.16 and 0.08 deg (ekf), 0.41 and
+// 0.37 deg (ukf, which draws its sigma points anew). Without the rotation, the heading of the ekf is off by
+// 2.4 and 4.7 deg at the end.
 TEST(InflightFilter, ClosedLoopWithItsResetEstimatesWhatTheOpenLoopDoes) {
   for (const auto [algorithm, aiding] : cases) {
     if (algorithm == Algorithm::sin_cos) continue;
@@ -115,7 +117,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnywhere) {
 }
 
 // The tilts are up to 40 deg, with a configured sigma of 30 deg. The first sample levels the INS, so heading
-// and sigma are as after a level start. Without this levelling, one run ends 3.4 sigma off.
+// and sigma are as after a level start. Without this levelling, the heading of one run is off by 3.4 sigma at
+// the end.
 TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   for (const double tilt_deg : {-40.0, 8.0, 40.0}) {
     RecordedRun from = inputs(Aiding::ssbl);
@@ -133,8 +136,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   }
 }
 
-// The vehicle accelerates by 1 m/s^2, so levelling by the first sample would tilt the INS by 6 deg. If the
-// sigma of the initial tilts is smaller, the INS must not be levelled.
+// The vehicle accelerates at 1 m/s^2, so levelling by the first sample would tilt the INS by 6 deg. If the
+// sigma of the initial tilts is smaller than 6 deg, the INS must not be levelled.
 TEST(InflightFilter, OnlyAnUnknownTiltIsLevelled) {
   Settings settings = recorded_settings(Algorithm::sin_cos, Aiding::ssbl);
   const RecordedRun& from = inputs(Aiding::ssbl);
@@ -275,7 +278,8 @@ TEST(InflightFilter, TheEstimateBetweenFixesIsThePredictionsMean) {
   }
 }
 
-// Passes fixes to a history, fix k late(k) samples late; the last fixes still arrive before the run ends.
+// Passes fixes to a history: fix k arrives late(k) samples late; the last fixes still arrive before the run
+// ends.
 template <class Late>
 State run_late(const Settings& settings, Late late) {
   const RecordedRun& from = inputs(settings.aiding);

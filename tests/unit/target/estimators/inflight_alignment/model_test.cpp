@@ -232,9 +232,9 @@ TEST(SinCos, JacobianOfTheVerticalForceHoldsWithTilts) {
   EXPECT_LT((G.block<1, 4>(5, 6) - expected.block<1, 4>(5, 6)).norm(), 1e-8);
 }
 
-// At any heading error, the product of the attitude left and the attitude taken out equals the
-// attitude before. An error of (s, k) changes both parts, so the new P must be the covariance of the
-// remaining part's error.
+// At any heading error, the product of the remaining attitude and the removed attitude equals the attitude
+// before the removal. An error of (s, k) changes both parts, so the new P must be the covariance of the error
+// of the remaining part.
 TEST(SinCos, TiltTakenOutLeavesTheSameAttitude) {
   Errors<19> errors;
   const Vector3d platform_tilt(0.12, -0.07, 0);
@@ -303,9 +303,9 @@ TEST(SinCos, BiasesTurnedBackAreThoseOfTheBody) {
             1e-17);
 }
 
-// The covariance has rank one: a single error of the estimate. After the attitude is taken out, the
-// covariance must equal that of the error of the remaining attitude. If the tilts of 2 deg are not taken out
-// (as published), it is wrong by 3.5 %.
+// The covariance has rank one: a single error of the estimate. After the attitude is taken out, P must be the
+// covariance of the error of the remaining attitude. If the tilts of 2 deg are not taken out (as published),
+// P is wrong by 3.5 %.
 TEST(SinCos, AttitudeTakenOutLeavesTheCovarianceOfWhatRemains) {
   Errors<19> errors;
   const double psi = 1.9, d_psi = 1e-5;

@@ -91,7 +91,8 @@ TEST(Ukf, IsTheTransformAsWritten) {
   }
 }
 
-// W0 is negative: the transform itself can give an indefinite P, which is repaired and counted.
+// W0 is negative, so the transform itself can give an indefinite P. Such a P is repaired, and the repair is
+// counted.
 TEST(Ukf, RepairsWhatItsNegativeWeightBreaks) {
   const Interval interval = some_interval();
   Settings settings;

@@ -239,7 +239,7 @@ TEST(BadInput, AResultThatOverflowsIsRefused) {
 }
 
 // Below the least range, the transition would divide by a small r and the switched thermal gain would be
-// unstable, so both use the least range.
+// unstable, so the transition and the gain use the least range.
 TEST(BlindRange, RangeIsClampedAndSaidSo) {
   for (const Algorithm algorithm : algorithms) {
     EngagementSetup setup;

@@ -40,7 +40,7 @@ TEST(Riccati, EqualsThePublishedTable) {
     std::vector<double> c;
     while (std::getline(cells, cell, ',')) c.push_back(std::stod(cell));
     const Covariance P = riccati(c.at(0), c[2], c[1]);
-    // The table is in the sign of pitch, where the acceleration has the opposite sign.
+    // The table uses the sign convention of pitch, in which the acceleration has the opposite sign.
     const std::array ours{P.ee, P.ew, -P.ea, P.ww, -P.wa, P.aa};
     for (std::size_t i = 0; i < ours.size(); ++i)
       EXPECT_NEAR(ours[i] / c[3 + i], 1, 1e-9) << line << " P" << i + 1;
@@ -67,7 +67,8 @@ TEST(Riccati, SolvesItsEquationWhateverTheRatioOfSpeedToNoise) {
   }
 }
 
-// Without process noise an unstable plant still needs a gain: its poles are mirrored to -v/2, -3v/2, -5v/2.
+// Without process noise, an unstable plant still needs a gain: the poles of the plant are mirrored to -v/2,
+// -3v/2, -5v/2.
 TEST(Riccati, WithoutProcessNoiseMirrorsThePoles) {
   const double v = 2;
   const Covariance P = riccati(0, 1, v);

@@ -15,8 +15,8 @@ namespace canhil::los_rate {
 namespace {
 
 // The largest relative error of the continuous gains, compared with the equation that is integrated from P at
-// 5 km. It is tested for the sum of thermal and glint noise after 2.2 s, and for constant noise alone, for
-// which the closed form is not exact either.
+// 5 km. The tests use the sum of thermal and glint noise after 2.2 s, and constant noise alone; the closed
+// form is exact for neither of them.
 double worst_of_combined(const Noise& noise, double r_first, double r_last) {
   const double T = 0.005, q = 300, vc = 900;
   double worst = 0;
@@ -87,7 +87,7 @@ TEST(ClosedGain, CombinedTableIsWithinThreePercentOfTheKalmanFilter) {
         EXPECT_NEAR(closed.sigma.error / std::sqrt(P.ee), 1, 0.12) << T << " " << vc << " " << r;
         EXPECT_NEAR(closed.sigma.acceleration / std::sqrt(P.aa), 1, 0.05) << T << " " << vc << " " << r;
       }
-      // It is an approximation to scale the sum of noises with a power of r. The error grows with vc/W: 1.8 %
+      // Scaling the sum of the noises with a power of r is an approximation. Its error grows with vc/W: 1.8 %
       // at 900 m/s, 3.03 % at 1200 m/s and 100 Hz. The limit of 3 % is for the paper's engagement.
       EXPECT_LT(worst, vc > 1000 ? 0.035 : 0.03) << T << " " << vc;
     }
@@ -135,7 +135,7 @@ TEST(ClosedGain, ThermalGainBelowTheCrossingIsCaught) {
 }
 
 // With the filter's own model and noise, the normalised innovation squared of two planes has the mean 2, and
-// errors match the sigmas, for every gain.
+// the errors match the sigmas, for every gain.
 TEST(Statistics, NisAndSigmasAreConsistent) {
   for (const Algorithm algorithm : {Algorithm::kalman, Algorithm::combined, Algorithm::switched_table}) {
     double nis = 0, ratio = 0, count = 0;
@@ -157,8 +157,8 @@ TEST(Statistics, NisAndSigmasAreConsistent) {
   }
 }
 
-// The paper ignores the transient. From the start on, the error must be at most 1.5 times that of the Kalman
-// filter.
+// The paper ignores the transient. Here the filter starts as a Kalman filter, so at first its error equals
+// that of the Kalman filter. With the closed gain from the start, the error would be larger.
 TEST(StartUp, KalmanFilterFirstThenTheClosedGain) {
   EngagementSetup setup = setup_of(Algorithm::combined);
   int start_up = 0, updated = 0;
@@ -220,8 +220,8 @@ TEST(StartUp, ComesAgainAfterALongCoastOrAnUnseenMotion) {
   EXPECT_EQ(after_coast(1, [](Measurement& m) { m.acceleration_valid = false; }), Outcome::start_up);
 }
 
-// If the antenna's data are invalid, the antenna is assumed to track: the error angle stays, and its sigma
-// grows by the possible rotation of the antenna.
+// If the antenna's data are invalid, the antenna is assumed to track the target: the error angle stays
+// constant, and its sigma grows by the possible rotation of the antenna.
 TEST(Coasting, AnUnseenAntennaIsTakenToTrack) {
   EngagementSetup setup = setup_of(Algorithm::kalman);
   setup.first_rate = {0.03, 0.03};
@@ -249,8 +249,8 @@ TEST(Coasting, AnUnseenAntennaIsTakenToTrack) {
   EXPECT_NEAR(wide * wide - usual * usual, pull * pull, 0.01 * pull * pull);
 }
 
-// The target's acceleration steps, and the measurements have no noise. The lag of the rate is three times the
-// part of the reported sigma that allows for the step.
+// The target's acceleration changes in a step, and the measurements have no noise. The lag of the estimated
+// rate is three times the part of the reported sigma that allows for the step.
 TEST(ClosedGain, ReportedSigmaAllowsForATurnAllAtOnce) {
   Settings settings;
   settings.start_up = 0;

@@ -1,7 +1,7 @@
 #pragma once
-// A head-on engagement with constant closing speed in both planes of a rolling antenna. It follows the
-// model of the filter, so the statistics of the filter are known. Angles are small; the antenna rolls, the
-// reference axes do not.
+// A head-on engagement with constant closing speed in both planes of a rolling antenna. The engagement
+// follows the model of the filter, so the statistics of the filter are known. Angles are small; the antenna
+// rolls, the reference axes do not.
 #include <cmath>
 #include <complex>
 #include <random>
@@ -13,7 +13,7 @@ namespace canhil::los_rate {
 struct EngagementSetup {
   double range = 5000, closing_speed = 900;  // [m], [m/s]
   Plane first_rate{3e-3, -2e-3};             // LOS rate at the start [rad/s]
-  Plane target{0, 0};                        // target acceleration from `manoeuvre_s` to go on [m/s^2]
+  Plane target{0, 0};                        // target acceleration in the last `manoeuvre_s` seconds [m/s^2]
   double manoeuvre_s = 1;
   double jerk_density = 0;  // of a randomly accelerating target [m^2/s^5]
   double roll_rate = 0;     // antenna roll rate [rad/s]

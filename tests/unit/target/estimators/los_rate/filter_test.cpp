@@ -51,7 +51,7 @@ TEST(LosRate, ConvergesToTheTruthInBothPlanesWithTheirSigns) {
       if (truth.time_to_go > 0.7 || truth.time_to_go < 0.5) return;
       const Estimate x = estimate(state);
       EXPECT_EQ(result.outcome, Outcome::updated);
-      // The classical filter lags behind a rate that grows by 2 vc/r.
+      // The classical filter lags behind a LOS rate that grows at the relative rate 2 vc/r.
       const double bar = algorithm == Algorithm::low_pass ? 0.6 : 0.03;
       EXPECT_NEAR(x.rate.yaw / truth.rate.real(), 1, bar);
       EXPECT_NEAR(x.rate.pitch / truth.rate.imag(), 1, bar);
@@ -162,8 +162,8 @@ TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
     Matrix6 Q6 = Matrix6::Zero();
     Q6.topLeftCorner<3, 3>() = Q6.bottomRightCorner<3, 3>() = Q;
     x = Phi * x;
-    // The input acts during the rotation. The last columns of Phi would rotate it by the whole angle, but on
-    // average it is rotated by half.
+    // The input acts during the rotation. The last columns of Phi would rotate the input by the whole angle,
+    // but on average the input is rotated by half of the angle.
     x += u;
     P = Phi * P * Phi.transpose() + Q6;
     Eigen::Matrix<double, 2, 6> H = Eigen::Matrix<double, 2, 6>::Zero();

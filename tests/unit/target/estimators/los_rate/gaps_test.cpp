@@ -43,7 +43,8 @@ TEST(Gaps, AreBridgedWithTheMeanOfTheRatesBeforeAndAfter) {
   EXPECT_LT(std::abs(leg.antenna_increment - Plane(0.005, 0)), 1e-15);
   EXPECT_DOUBLE_EQ(leg.roll_increment, 0.04);
   EXPECT_EQ(leg.missile_acceleration, Plane(25, 0));
-  // The variance of the increment over both planes, if the rate steps by (0.3, -0.4) rad/s at a random time.
+  // The variance of the increment over both planes, if the rate changes at a random time, in a step of (0.3,
+  // -0.4) rad/s.
   double variance = 0;
   for (int k = 0; k < 1000; ++k) {
     const double share = (k + 0.5) / 1000;

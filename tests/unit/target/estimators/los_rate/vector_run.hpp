@@ -15,7 +15,7 @@ struct Row {
   Geometry at() const { return {r_hat, vc_hat}; }
 };
 
-/// An estimate in the sign of pitch, and its gain.
+/// An estimate in the sign convention of pitch, and its gain.
 struct Point {
   double t, e, w, a;
   Gain K;

@@ -19,8 +19,8 @@ double largest(const std::string& name) {
 
 double relative(double value, double reference) { return std::abs(value / reference - 1); }
 
-// Compares every row of a run with the columns of `name`. Limits: gains 1e-9 relative, estimates 1e-9 + 1e-8
-// of the largest.
+// Compares every row of a run with the columns of `name`. Limits: for gains 1e-9 relative; for estimates 1e-9
+// plus 1e-8 times the largest value of the column.
 void expect_published(const std::vector<Point>& points, const std::string& name) {
   const Csv& csv = vector_file();
   const double e_bar = 1e-9 + 1e-8 * largest(name + "_e"), w_bar = 1e-9 + 1e-8 * largest(name + "_w");
@@ -144,8 +144,8 @@ TEST(SignTraps, MissingMissileAccelerationIsCaught) {
   EXPECT_GT(wrong_over_right(drop, 5, 6), 1e5);
 }
 
-// The RMS error of the estimate from the changed rows, compared with the truth from 5.05 to 5.45 s. It
-// distinguishes right from wrong signs without a reference filter.
+// The RMS error of the estimate from the changed rows, compared with the truth from 5.05 to 5.45 s. This
+// error distinguishes right from wrong signs without a reference filter.
 double rms_error(Change change) {
   std::vector<Row> rows = vector_rows();
   for (Row& row : rows) change(row);

@@ -81,8 +81,9 @@ TEST_P(BothKinds, StaysAtRest) {
   EXPECT_LT(errors.velocity, 1e-12 * 9.8 * 60);  // a tilt of this size under gravity for 60 s
 }
 
-// A tilted INS at rest oscillates with Schuler's period: after a quarter of it, |V_N| = g tilt / w_s,
-// w_s = sqrt(g/R). At the equator the coupling through the earth rate is of order (w_ie/w_s)^2 = 0.3 %.
+// A tilted INS at rest oscillates with Schuler's period: after a quarter of this period,
+// |V_N| = g tilt / w_s, w_s = sqrt(g/R). At the equator the coupling through the earth rate is of order
+// (w_ie/w_s)^2 = 0.3 %.
 TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   const LocalEarth earth = local_earth(0, 0);
   const double omega = std::sqrt(earth.gravity / earth.meridian_radius), tilt = 1e-4, dt = 0.5;
@@ -162,7 +163,8 @@ TEST(Mechanization, TwoSamplesFollowConingAtUnequalSampleTimes) {
 }
 
 // Sculling: roll theta sin wt with an eastward acceleration A sin wt, x = w dt. The rectified acceleration is
-// theta A/2; the one-sample step has an error of x^2/6 of it, the two-sample step of x^4/30.
+// theta A/2. The error of the one-sample step is x^2/6 of this acceleration, the error of the two-sample step
+// is x^4/30 of this acceleration.
 TEST(Mechanization, TwoSamplesFollowSculling) {
   const double theta = 0.02, A = 10, omega = 2 * std::numbers::pi * 5;
   const Motion motion{[=](double t) {
@@ -194,8 +196,8 @@ TEST(Mechanization, OneSampleFollowsATurnAtConstantRate) {
   const Errors errors = fly(turn, Mechanization::one_sample, 20, 0.02);
   // The step's free-air gradient, 2 g/a, differs from that of the test by 1e-8 1/s^2, at 1000 m for 20 s.
   EXPECT_LT(errors.velocity, 5e-4);
-  // The step uses the earth rate in the body axes at its start. The error is the earth's rotation in 20 s,
-  // 1.5e-3 rad, times half of the rotation in a step, 3e-3 rad.
+  // The step uses the earth rate in the body axes at the start of the step. The error is the earth's rotation
+  // in 20 s, 1.5e-3 rad, times half of the rotation in a step, 3e-3 rad.
   EXPECT_LT(errors.attitude, 5e-6);
   EXPECT_LT(fly(turn, Mechanization::two_sample, 20, 0.02).velocity, errors.velocity);
 }

@@ -87,7 +87,8 @@ TEST(TransferAlignment, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
       ASSERT_TRUE(filtering::is_positive_definite<state_count>(state.P));
       smallest = std::min(smallest, symmetric_eigenvalues(state.P)[0]);
     });
-    // The variance of the gyro biases stays near (3 deg/h)^2 = 2.1e-10; in the reference it falls to 1.6e-10.
+    // The variance of the gyro biases stays near (3 deg/h)^2 = 2.1e-10; in the reference, this variance falls
+    // to 1.6e-10.
     EXPECT_GT(smallest, 1.4e-10);
   }
 }
@@ -104,7 +105,7 @@ TEST(TransferAlignment, VanishingAttitudeCovarianceGivesNoNan) {
     });
     EXPECT_TRUE(state.P.allFinite() && state.ins.nav.C_bn.allFinite() && state.ins.nav.v_eb_n.allFinite())
         << sigma;
-    // A variance of exactly 0 is not a valid covariance until the gyro bias has increased it.
+    // With a variance of 0, P is a valid covariance only after the gyro bias has increased this variance.
     if (sigma > 1e-100) {
       EXPECT_EQ(updates, 200) << sigma;
     }

@@ -29,8 +29,8 @@ void expect_same_bits(const State& a, const State& b) {
   EXPECT_EQ(a.ins.interval.duration, b.ins.interval.duration);
 }
 
-// The full run with every master velocity `late` samples late. Velocities that are still under way after the
-// last sample arrive then.
+// The full run, in which every master velocity arrives `late` samples late. Velocities that are still under
+// way at the last sample arrive after this sample.
 State run_late(std::size_t late) {
   const Settings settings;
   State state = initial(published_start(), settings);

@@ -99,8 +99,8 @@ Settings configured(Algorithm algorithm, Loop loop, double tilt_deg, double head
   return settings;
 }
 
-// The cruise makes the tilts observable, but not the heading: a correction of tilts must not change the
-// heading's sigma. If P stays in the axes before the correction, or if the tilts' sigmas are as small as
+// The cruise makes the tilts observable, but not the heading: a correction of the tilts must not change the
+// heading's sigma. If P keeps the axes from before the correction, or if the tilts' sigmas are as small as
 // their errors, the heading's sigma falls by a quarter or more.
 TEST(InvariantLoop, LeavesTheHeadingSigmaAloneInTheCruise) {
   const Vector3d phi = Vector3d(6, -6, 25) * rad_per_deg;
@@ -123,7 +123,8 @@ TEST(InvariantLoop, FindsALargeHeadingWithinItsSigma) {
   EXPECT_GT(fly(configured(Algorithm::kalman, Loop::published, 1, 30), phi).worst_of_heading, 2);
 }
 
-// With the gate, a single wrong velocity must not change the INS; after five in a row, the sixth must.
+// With the gate, a single wrong velocity must not change the INS; after five wrong velocities in a row, the
+// sixth must change the INS.
 TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
   for (const Loop loop : {Loop::invariant, Loop::published}) {
     const Settings settings = configured(Algorithm::kalman, loop, 1, 5);
@@ -143,14 +144,14 @@ TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
       EXPECT_EQ(state.P, before.P) << k;
       EXPECT_EQ(state.ins.nav.v_eb_n, before.ins.nav.v_eb_n) << k;
     }
-    // The gate rejects the wrong update of k = 10 and, from k = 13 on, every wrong update except the sixth.
-    // This update is accepted, so the INS takes over the master's wrong velocity.
+    // The gate rejects the wrong update of k = 10. From k = 13 on, it rejects every wrong update except the
+    // sixth: the sixth is accepted, so the INS takes over the master's wrong velocity.
     EXPECT_EQ(gated, loop == Loop::invariant ? 7 : 0);
     EXPECT_GT(state.ins.nav.v_eb_n.z() - truth.v_eb_n.z(), 30);
   }
 }
 
-// H2 with an initial heading sigma of 15 deg: without the guard, its attitude covariance diverges in the
+// H2 with an initial heading sigma of 15 deg: without the guard, the attitude covariance diverges in the
 // cruise. With the guard, the covariance stays below its initial value, and the filter reports `degraded`.
 TEST(InvariantLoop, GuardsH2AgainstItsOwnCovariance) {
   const Vector3d phi = Vector3d(5, -5, 15) * rad_per_deg;

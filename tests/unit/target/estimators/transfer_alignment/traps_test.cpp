@@ -35,8 +35,8 @@ Covariance small_covariance(std::mt19937_64& engine) {
 }
 
 // The correction Chat <- exp(+[phi x]) Chat has phi in n axes and multiplies from the left. It must reduce
-// the misalignment by exactly the attitude part of dx. At a heading of 100 deg, body and navigation axes
-// cannot be confused.
+// the misalignment by exactly the attitude part of dx. At a heading of 100 deg, a filter that confuses body
+// and navigation axes fails this test.
 TEST(Traps, CorrectionRemovesTheEstimatedError) {
   const Settings settings;
   std::mt19937_64 engine(5);
@@ -130,7 +130,7 @@ TEST(Traps, BetaUsesAllRowsOfThePosterior) {
   }
 }
 
-// The whole covariance step against the dense recursion: P N'N/beta in Phi, not in Q.
+// Compares the whole covariance step with the dense recursion, in which P N'N/beta is in Phi, not in Q.
 TEST(Traps, CovarianceStepIsTheDenseH2Recursion) {
   std::mt19937_64 engine(7);
   const Settings settings;
@@ -170,8 +170,8 @@ TEST(Traps, AlphaOfAHeadingErrorVanishesInLevelFlight) {
   EXPECT_NEAR(uncertainty_size(settings, P, Vector3d(5, 0, -9.8)), 0.5, 1e-12);
 }
 
-// Chat f is averaged over the interval, so the result hardly depends on the instant of a step of the specific
-// force within the interval. If only the last sample's Chat f were used, the result would differ by half.
+// Chat f is averaged over the interval, so it hardly matters when, within the interval, the specific force
+// changes in a step. If only the last sample's Chat f were used, the result would differ by half.
 TEST(Traps, SpecificForceIsAveragedOverTheInterval) {
   Settings settings;
   settings.algorithm = Algorithm::kalman;

@@ -26,7 +26,7 @@ Bank released(const RecordedRun& run, const BankDesign& design) {
   return bank;
 }
 
-// Hands each sample's bank and result to `inspect`.
+// Passes the bank and the result of each sample to `inspect`.
 template <class Inspect>
 void fly(const RecordedRun& run, const BankDesign& design, const Inspect& inspect) {
   Bank bank = released(run, design);

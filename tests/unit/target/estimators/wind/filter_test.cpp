@@ -92,8 +92,8 @@ TEST(WindFilter, EveryChoiceStaysPositiveDefinite) {
   }
 }
 
-// Starting from the published, over-tight noise, the mean NIS falls nearly to its 9 degrees of freedom, and
-// the error falls too.
+// The filter starts with the published noise, which is too small. With adaptive noise, the mean NIS falls
+// nearly to its 9 degrees of freedom, and the error falls too.
 TEST(WindFilter, AdaptiveNoiseMakesTheStatisticConsistent) {
   const RecordedRun run;
   Settings settings = run.settings;
@@ -107,8 +107,8 @@ TEST(WindFilter, AdaptiveNoiseMakesTheStatisticConsistent) {
   for (const State& state : tight.states) EXPECT_EQ(state.noise_factor, 1);
 }
 
-// A gap is predicted in parts, each with the fins of its time. The result is nearly the same as that of the
-// run without a gap.
+// A gap is predicted in parts, each with the fins of its own time. The result is nearly the same as that of
+// the run without a gap.
 TEST(WindFilter, LostNavigationIsBridged) {
   const RecordedRun run;
   const Settings settings;

@@ -163,8 +163,9 @@ TEST(WindModel, Eq5EulerAnglesFollowTheRates) {
   EXPECT_LT((motion - expected).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-// Eq. (7): lift perpendicular to the flow and drag against the flow in the plane of symmetry, side force
-// along y. The same force in full wind axes: there, the side force S has the opposite sign in the paper.
+// Eq. (7): in the plane of symmetry, the lift is perpendicular to the flow and the drag acts against the
+// flow; the side force acts along y. The test also computes the same force in full wind axes, in which the
+// side force S has the opposite sign in the paper.
 TEST(WindModel, Eq7ForcesAreOfStabilityAxesAndBodySideForce) {
   const Air air = standard_atmosphere(9000);
   const Vector3d v_a(200, 25, 30);
@@ -224,8 +225,8 @@ TEST(WindModel, AtmosphereIsTheStandardOne) {
   EXPECT_EQ(standard_atmosphere(1e6).density, standard_atmosphere(20'000).density);
 }
 
-// The noise of Eq. (3): the noise of the wind also enters the air velocity, so that it does not change the
-// ground velocity.
+// The noise of Eq. (3): the noise of the wind also enters the air velocity, so that this noise does not
+// change the ground velocity.
 TEST(WindModel, Eq3NoiseWindNoiseDoesNotMoveTheGroundVelocity) {
   Settings settings;
   settings.density = {0, 0, 0, 0.3};
@@ -332,8 +333,8 @@ TEST(WindModel, CovariancePredictionIsThatOfTheDenseTransition) {
 }
 
 // The filter has an error in one part of one coefficient; its samples come from the right model without
-// noise. Its estimation error must be the sensitivity times the coefficient error. The steps are short,
-// because at 20 ms the second order of Phi contributes 6 %.
+// noise. The estimation error of the filter must be the sensitivity times the coefficient error. The steps
+// are short, because at 20 ms the second order of Phi contributes 6 %.
 TEST(WindModel, SensitivityIsWhatAWrongShareDoesToTheFilter) {
   struct Part {
     int column;

@@ -38,7 +38,7 @@ struct RecordedRun {
             .altitude = altitude[k],
             .valid = true};
   }
-  /// The published start, ready for row 0.
+  /// The published initial state, ready for row 0.
   State release() const {
     State state;
     state.x = x0;
