@@ -1,6 +1,7 @@
 // Whether the timing of a run can be judged at all.
 #include <fmt/format.h>
 
+#include "bench/checks/finding.hpp"
 #include "bench/checks/judge.hpp"
 
 namespace canhil::checks {

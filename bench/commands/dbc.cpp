@@ -111,7 +111,7 @@ std::string text_of(const mapping::Mapping& mapping, const std::vector<mapping::
       "{}: {} messages played, {} heard, {} quantities reported; bus load", mapping.file,
       std::ranges::count_if(mapping.messages, [](const MessageInfo& m) { return m.sender == "Bench"; }),
       mapping.hears.size(), mapping.quantities.size());
-  std::string_view separator = "";
+  std::string_view separator;
   for (const std::int64_t kbitps : {125, 250, 500, 1000}) {
     const double load = mapping::load_of(mapping, {.nominal = kbitps * 1000, .data = 4000 * kbitps});
     text += fmt::format("{} {:.1f} % at {} kbit/s", separator, load * 100, kbitps);

@@ -1,5 +1,7 @@
 #include "bench/conformance/talk.hpp"
 
+#include <ranges>
+
 #include "bench/drive/session.hpp"
 
 #include "bench/conformance/groups.hpp"
@@ -143,8 +145,8 @@ void Talk::begin_flight() {
 bool Talk::closes(std::uint16_t step) {
   const std::int64_t deadline_ns = link_.now_ns() + step_ns;
   const auto closed = [&] {
-    for (auto one = listener_.frames.rbegin(); one != listener_.frames.rend(); ++one) {
-      if (const auto done = observe::decode_from_target<StepDone>(*one)) return done->step == step;
+    for (const Frame& one : listener_.frames | std::views::reverse) {
+      if (const auto done = observe::decode_from_target<StepDone>(one)) return done->step == step;
     }
     return false;
   };

@@ -17,8 +17,9 @@ namespace canhil::drive {
 scenario::DbcVocabulary contract();
 
 /// Reads a scenario. The vocabulary comes from the mapping that the scenario's [target] names; without a
-/// mapping, from canhil's own DBC. Otherwise the two functions work like scenario::parse() and
-/// scenario::read_file(). `folder`: see scenario::parse(). `read`: loads mapping and DBC.
+/// mapping, from canhil's own DBC. Apart from this, parse_scenario() works like
+/// scenario::parse(), and read_scenario() like scenario::read_file(). `folder`: see scenario::parse().
+/// `read`: loads mapping and DBC.
 Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
                                           std::span<const scenario::Setting> settings = {},
                                           std::optional<std::string> folder = {},

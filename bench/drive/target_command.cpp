@@ -70,7 +70,7 @@ std::string program_path(const std::string& word) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string found = folder + "/" + word;
+    std::string found = folder + "/" + word;
     if (is_file(found) && access(found.c_str(), X_OK) == 0) return found;
   }
   return word;

@@ -19,7 +19,7 @@ std::optional<double> value_of(const Frame& frame, std::string_view signal);
 void set(Frame& frame, std::string_view signal, double value);
 
 /// Whether a signal is the validity flag of a sensor's sample.
-bool is_validity(const MessageInfo& message, std::string_view signal);
+bool is_validity(const MessageInfo& info, std::string_view name);
 
 /// Whether a signal is the time of validity or the interval of a sample.
 bool is_time(std::string_view signal);

@@ -89,7 +89,7 @@ class Spectator : public std::enable_shared_from_this<Spectator> {
  public:
   Spectator(tcp::socket socket, Place place) : place_(std::move(place)), stream_(std::move(socket)) {}
 
-  void accept(const http::request<http::empty_body>& request, std::function<void()> accepted) {
+  void accept(const http::request<http::empty_body>& request, const std::function<void()>& accepted) {
     auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
     timeout.handshake_timeout = request_time;
     timeout.idle_timeout = 20s;
@@ -221,7 +221,7 @@ class Exchange : public std::enable_shared_from_this<Exchange> {
 
 class BeastServer final : public Server {
  public:
-  BeastServer(tcp::endpoint endpoint, std::string token) : acceptor_(io_) {
+  BeastServer(const tcp::endpoint& endpoint, std::string token) : acceptor_(io_) {
     acceptor_.open(endpoint.protocol());
     close_on_exec(acceptor_);
     acceptor_.set_option(asio::socket_base::reuse_address(true));

@@ -14,8 +14,8 @@ struct Extracted {
 };
 
 /// Extracts the transmissions of a play from a candump log: one row for each transmission; t_s is the time
-/// stamp of the transmission's last frame. `play`: the name of the play's last message. Error: one line; the
+/// stamp of the transmission's last frame. `name`: the name of the play's last message. Error: one line; the
 /// mapping has no such play, or the log does not contain it.
-Result<Extracted> extract(const Mapping& mapping, std::string_view play, const std::string& log);
+Result<Extracted> extract(const Mapping& mapping, std::string_view name, const std::string& log);
 
 }  // namespace canhil::mapping

@@ -138,7 +138,7 @@ class Places {
 
 /// Reads a mapping and its DBC, whose path is relative to the mapping. Error: one line.
 Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,
-                                                    const ReadText& text = read_from_disk);
+                                                    const ReadText& read = read_from_disk);
 
 /// The layout of samples with the quantities that `columns` names, in this order. Repeated calls return the
 /// same object, so stored samples and the samples of a run share it. Null: the bench has no truth for one of

@@ -106,10 +106,11 @@ void Player::sample(Played& played) {
     const Play& play = conversation_.mapping.plays[i];
     if (play.node != played.table->key) continue;
     if (++samples_[i] % (play.period_us / played.period_us) != 0) continue;
-    if (due_us + play.latency_us > end_us_) continue;  // an answer would come after the end of the run
-    Sent sent = put_together(i, played, due_us + play.latency_us);
-    const auto after = std::ranges::upper_bound(due_, sent.due_us, {}, &Due::due_us);
-    due_.insert(after, {.due_us = sent.due_us, .play = i, .sent = std::move(sent), .lost = played.lost});
+    const std::int64_t sent_us = due_us + play.latency_us;
+    if (sent_us > end_us_) continue;  // an answer would come after the end of the run
+    const auto after = std::ranges::upper_bound(due_, sent_us, {}, &Due::due_us);
+    due_.insert(
+        after, {.due_us = sent_us, .play = i, .sent = put_together(i, played, sent_us), .lost = played.lost});
   }
 }
 

@@ -49,7 +49,7 @@ class Player final : public nodes::Node {
 
   void sample(Played& played);
   void take(const Played& played, const Frame& frame);
-  Sent put_together(std::size_t play, const Played& played, std::int64_t due_us);
+  Sent put_together(std::size_t index, const Played& played, std::int64_t due_us);
   double value_of(std::size_t play, const Source& source, std::int64_t valid_us);
 
   Conversation& conversation_;

@@ -277,7 +277,8 @@ void Seeker::steer() {
   if (!is_estimate(estimate.outcome) || estimate.blind != 0) return;  // the guidance holds its command
   const Sent& sample = sent_.front();
   const std::int64_t use_us = sample.sent_us + plan.guidance_delay_us;
-  const double age = 1e-6 * static_cast<double>(use_us - cause_us + period_us_ / 2);
+  const std::int64_t half_period_us = period_us_ / 2;
+  const double age = 1e-6 * static_cast<double>(use_us - cause_us + half_period_us);
   const world::Vector3 omega_los_a =
       plan.guidance_predicts && sample.range > 0
           ? rate_at_use(sample, estimate, target, age)

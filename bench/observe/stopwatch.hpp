@@ -36,7 +36,7 @@ class Stopwatch {
   /// The bench handed over a frame at `t_ns`, `late_ns` after its deadline.
   void sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
   /// The frame that was passed to the last call of sent() completed a sample group that the target answers.
-  void stimulus(std::string_view group, const checks::Stimulus& stimulus);
+  void stimulus(std::string_view name, const checks::Stimulus& stimulus);
   /// The bus echoed a frame of the bench; `group`, `valid_us`: the sample group that this frame completes, if
   /// any, and the time of validity of the group.
   void echoed(const Received& received, std::string_view group, std::int64_t valid_us);
@@ -83,7 +83,7 @@ class Stopwatch {
     checks::SlowestAnswer slowest{};
   };
 
-  Sent* find(std::string_view group, std::int64_t valid_us, std::optional<std::uint8_t> counter = {});
+  Sent* find(std::string_view name, std::int64_t valid_us, std::optional<std::uint8_t> counter = {});
   void without_cause(std::span<const std::size_t> indices, std::string_view group, std::int64_t cause_us);
   void forget_oldest(std::string_view name, Group& group);
   void answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,

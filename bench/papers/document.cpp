@@ -27,7 +27,7 @@ std::string_view trimmed(std::string_view text) {
 // Splits a line at the first occurrence of a separator.
 std::pair<std::string_view, std::string_view> cut(std::string_view line, std::string_view at) {
   const auto found = line.find(at);
-  if (found == line.npos) wrong(line, fmt::format("'{}'", at));
+  if (found == std::string_view::npos) wrong(line, fmt::format("'{}'", at));
   return {trimmed(line.substr(0, found)), trimmed(line.substr(found + at.size()))};
 }
 
@@ -155,7 +155,7 @@ Page page_of(std::string_view text, const Curves& curves) {
   while (!text.empty()) {
     const auto end = text.find('\n');
     const std::string_view line = trimmed(text.substr(0, end));
-    text.remove_prefix(end == text.npos ? text.size() : end + 1);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (!line.empty()) block.push_back(line);
     if (block.empty() || (!line.empty() && !text.empty())) continue;
     add(block);

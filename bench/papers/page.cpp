@@ -42,7 +42,7 @@ Result<std::string> html(const Table& table) {
 Result<std::string> html(const Figure& figure) {
   std::string drawings;
   for (const auto& [width, name] : {std::pair{Width::desktop, "wide"}, std::pair{Width::phone, "narrow"}}) {
-    const auto drawn = draw(figure, width);
+    auto drawn = draw(figure, width);
     if (!drawn) return drawn;
     drawings += fmt::format("\n<div class=\"{}\" role=\"img\" aria-label=\"{}\">{}</div>", name,
                             escaped(figure.title), *drawn);
@@ -88,7 +88,7 @@ Result<std::string> html(const Page& page) {
   for (const Section& section : page.sections) {
     out += fmt::format("<section id=\"{}\"><h2>{}</h2>\n", section.id, escaped(section.title));
     for (const auto& part : section.parts) {
-      const auto drawn = std::visit([](const auto& one) { return html(one); }, part);
+      auto drawn = std::visit([](const auto& one) { return html(one); }, part);
       if (!drawn) return drawn;
       out += *drawn;
     }

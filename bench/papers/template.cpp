@@ -38,7 +38,7 @@ class Context final : public mustache::basic_context<std::string> {
     const auto found = std::ranges::find(files_, name, &report::EmbeddedFile::name);
     if (found == files_.end()) throw std::logic_error(fmt::format("template: no file '{}'", name));
     std::string_view text = found->text;
-    if (text.find("{{ ") != text.npos)
+    if (text.find("{{ ") != std::string_view::npos)
       throw std::logic_error(fmt::format("template: '{}': expected no blank behind {{{{", name));
     while (text.ends_with('\n')) text.remove_suffix(1);
     return std::string(text);
@@ -64,8 +64,9 @@ class Context final : public mustache::basic_context<std::string> {
   }
   [[nodiscard]] bool stands(std::string_view tag, std::string_view sign) const {
     const std::string whole = fmt::format("{{{{{}{}}}}}", sign, tag);
-    return std::ranges::any_of(
-        files_, [&](const report::EmbeddedFile& one) { return one.text.find(whole) != one.text.npos; });
+    return std::ranges::any_of(files_, [&](const report::EmbeddedFile& one) {
+      return one.text.find(whole) != std::string_view::npos;
+    });
   }
 
   report::EmbeddedFiles files_;

@@ -80,8 +80,9 @@ constexpr std::array texts{
     RuleText{Rule::signal_length, "signal-length", warning, "a signal has no bits, or more than 64",
              "the signal is left out"},
     RuleText{Rule::overlap, "overlap", warning, "two signals of the same frame share bits",
-             "both are kept; in encoding, the signal with more multiplexors above it overwrites the other; "
-             "if both have the same number of multiplexors, the later signal overwrites the earlier one"},
+             "both are kept; in encoding, the signal that depends on more multiplexors overwrites the other "
+             "one; if both depend on the same number, the signal that comes later in the file overwrites the "
+             "earlier one"},
     RuleText{Rule::scale_zero, "scale-zero", warning, "the scale of a signal is 0",
              "the physical value always equals the offset"},
     RuleText{Rule::minimum_above_maximum, "minimum-above-maximum", warning,

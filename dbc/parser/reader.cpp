@@ -165,7 +165,8 @@ double Reader::limit(std::string_view what) {
     return real(what);
   report(Rule::number_too_large, std::string(what));
   take();
-  const bool vanishing = text.find("e-") != text.npos || text.find("E-") != text.npos;
+  const bool vanishing =
+      text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos;
   const double largest = vanishing ? 0 : std::numeric_limits<double>::max();
   return text.starts_with('-') ? -largest : largest;
 }

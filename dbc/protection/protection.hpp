@@ -44,8 +44,8 @@ class Protection {
   [[nodiscard]] std::uint64_t next(std::uint64_t counter) const;
   /// The number of steps from one allowed counter value to another: 0..period() - 1.
   [[nodiscard]] std::uint64_t steps(std::uint64_t from, std::uint64_t to) const;
-  /// True if the counters of both messages have the same values. This is necessary for messages that share a
-  /// counter.
+  /// True if the counters of both messages run through the same sequence of values, or if neither message has
+  /// a counter. Messages that share a counter must meet this condition.
   [[nodiscard]] bool counts_like(const Protection& other) const;
 
  private:

@@ -17,7 +17,7 @@ constexpr std::int64_t unwrap_us(std::uint32_t low_us, std::int64_t reference_us
 constexpr std::uint32_t wrap_us(std::int64_t t_us) { return static_cast<std::uint32_t>(t_us); }
 
 /// The time [us] after which times with 16 bits in units of 10 us wrap.
-inline constexpr std::int64_t short_period_us = 65536 * 10;
+inline constexpr std::int64_t short_period_us = std::int64_t{65'536} * 10;
 
 /// Of all times [us] that equal `short_us` modulo short_period_us, returns the latest one that is not after
 /// `latest_us`. This is the right time if it is at most 0.65 s before latest_us.

@@ -166,7 +166,8 @@ def invariant(data, aid, heading_sigma, tilt_sigma, iterations=1, reset=False):
     """Heading error and sigma [rad] after each fix: runs x fixes."""
     told, n = AIDS[aid], len(data["v"])
     lat, lon = data["position"][:, 0], data["position"][:, 1]
-    # The axes are those of the tangent plane at the INS's initial position, so there is no transport rate. Earth rate and gravity are known inputs.
+    # The axes are those of the tangent plane at the INS's initial position, so there is no transport rate. Earth rate and gravity are
+    # known inputs.
     to_plane = t_(from_euler(np.stack([0 * lat, -np.pi / 2 - lat, lon], -1)))
     fixes = times(to_plane[:, None], ecef(data["fix"]) - ecef(data["position"])[:, None])
     earth = EARTH_RATE * np.stack([np.cos(lat), 0 * lat, -np.sin(lat)], -1)

@@ -85,8 +85,8 @@ inline constexpr std::array wind_parameters = [] {
           "1-sigma of the body rates at the start.",
           [](WindTuning& t, double v) { t.filter.rate_sigma_0 = v * deg; }},
       Row{P::initial_wind_sigma_mps, 20, 1e-3, 1e3, real, stopped_only,
-          "1-sigma of each component of the wind in two cases: at the start, if the target receives no "
-          "initial air velocity, and when the filter restarts after jumps.",
+          "1-sigma of each component of the wind when the filter restarts after jumps; also at the start if "
+          "the target receives no initial air velocity.",
           [](WindTuning& t, double v) { t.filter.wind_sigma_0 = v; }},
       Row{P::fins_late_ms, 30, 1, 1e4, real, any_time,
           "Answers have the mark `fins_late` if the deflections of the fins are older than this time.",

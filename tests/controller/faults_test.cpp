@@ -33,17 +33,15 @@ struct Outcome {
 /// Flies in real time. `trouble` is called during the run.
 Outcome run_with(const std::function<void()>& trouble, const std::string& name = "transfer_alignment_quick") {
   const std::string json = scratch("fault.json");
-  Outcome outcome;
+  Ended ended;
   const Target target;
-  std::thread bench([&] { outcome.ended = bench_run(fmt::format("{} --json {}", scenario(name), json)); });
+  std::thread bench([&] { ended = bench_run(fmt::format("{} --json {}", scenario(name), json)); });
   await_syncs(50);
   trouble();
   bench.join();
-  EXPECT_NE(outcome.ended.code, 2) << outcome.ended.err;
-  EXPECT_NE(outcome.ended.code, 124) << "it hung";
-  outcome.report = read_json(json);
-  outcome.target_said = target.said();
-  return outcome;
+  EXPECT_NE(ended.code, 2) << ended.err;
+  EXPECT_NE(ended.code, 124) << "it hung";
+  return {.ended = ended, .report = read_json(json), .target_said = target.said()};
 }
 
 TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndReported) {

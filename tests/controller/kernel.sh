@@ -2,7 +2,7 @@
 # kernel.sh: downloads Debian's kernel into a cache (once), unpacks the parts that a guest with CAN controllers needs, and prints the
 # folder of these parts: vmlinuz, modules/*.ko, and build/ (the headers, to build a module). Nothing is installed.
 # On failure: exit code 2 and one line.
-# The cache: ${XDG_CACHE_HOME:-~/.cache}/canhil/controller/, one folder per kernel; remove it to get Debian's newest kernel.
+# The cache: ${XDG_CACHE_HOME:-~/.cache}/canhil/controller/, one folder per kernel. Remove the cache to get Debian's newest kernel.
 set -euo pipefail
 
 die() { echo "controller: $*" >&2; exit 2; }
@@ -27,7 +27,7 @@ for tool in apt-get apt-cache dpkg-deb tar flock; do
 done
 mkdir -p "$cache" || die "cannot make the folder $cache"
 exec 9>"$cache/lock"
-flock 9 # if several run at the same time, only one downloads
+flock 9 # if several kernel.sh run at the same time, only one downloads
 if present; then exit 0; fi
 
 # Package lists in the cache: a user without root rights cannot write to apt's folders, and the machine's lists

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# run.sh COMMAND...: runs COMMAND on a machine where can0 and can1 are two SJA1000 controllers (kvaser_pci) on one bus, up, at 1 Mbit/s, in the
-# directory and with the environment of the caller. The exit status, stdout and stderr of run.sh are those of COMMAND.
-# The machine is a PC that QEMU emulates in software, so no rights are needed. It has Debian's kernel and
+# run.sh COMMAND...: runs COMMAND on a machine where can0 and can1 are two SJA1000 controllers (kvaser_pci) on one bus; both are up, at 1 Mbit/s.
+# COMMAND has the directory and the environment of the caller. The exit status, stdout and stderr of run.sh are those of COMMAND.
+# The machine is a PC that QEMU emulates in software, so no root rights are needed. The machine has Debian's kernel and
 # drivers and sees the host's files; changes of files are discarded at the end. docs/controller.md describes
-# what the machine can test.
+# what can be tested on the machine.
 # Needs these packages of Debian: qemu-system-x86 busybox iproute2 gzip make gcc-12. apt downloads the kernel once (kernel.sh).
 # CANHIL_CONTROLLER_TIMEOUT_S (default 600) is the time limit.
 set -u
@@ -61,8 +61,8 @@ setsid timeout -k 5 "$limit" qemu-system-x86_64 -nodefaults -no-user-config -dis
 qemu=$!
 wait $qemu
 ended=$?
-# If QEMU did not start, nobody has opened the pipes for writing, and reading would block. Opening them for both
-# directions does not block.
+# If QEMU did not start, nobody has opened the pipes for writing, and their readers would wait forever. This line opens
+# and closes the pipes; opening them for both directions does not block.
 : <>"$dir/out" <>"$dir/err"
 wait $out $err
 if [ -s "$dir/status" ]; then exit "$(cat "$dir/status")"; fi

@@ -1,4 +1,4 @@
-"""The commands that a page of the documentation shows."""
+"""Finds the commands that a page of the documentation shows."""
 
 import re
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ class Command:
 
 
 def _blocks(lines: list[str]):
-    """Fenced and indented blocks: language, number of the first line, lines."""
+    """Yields (language, number of the first line, lines) for each fenced and each indented block of a page."""
     at = 0
     while at < len(lines):
         fence = re.match(r"(\s*)```(\w*)", lines[at])

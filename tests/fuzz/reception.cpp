@@ -1,4 +1,4 @@
-// Tests the device and its estimators with any input. The first bytes of the input select estimators,
+// Tests the device and its estimators with arbitrary input. The first bytes of the input select estimators,
 // algorithm and parameters; then the fuzzer performs the handshake and starts the estimators. Each further
 // step either advances the time or sends a frame that the input defines. While the time advances, sensors
 // report a plausible flight; the input delays, drops or repeats the sensors' frames, or inverts bits in them.
@@ -64,8 +64,7 @@ class Answers {
       expect(answer.data[0] == canhil::e2e::crc(answer.payload(), message->e2e_data_id));
       const std::uint8_t counter = canhil::e2e::counter(answer.payload());
       std::uint8_t& last = last_[static_cast<std::size_t>(message - all_messages.begin())];
-      expect(counter == 0 ||
-             counter == canhil::e2e::next(last));  // counters begin at 0 after a reset or start
+      expect(counter == 0 || counter == canhil::e2e::next(last));  // a reset or start sets counters to 0
       last = counter;
       if (answer.id == AlignAttitude::info.id)
         expect_pitch(canhil::from_frame<AlignAttitude>(answer).pitch_deg);
@@ -174,8 +173,7 @@ void run(canhil::target::Device& device, Script& script, std::vector<Frame>& fed
     switch (what % 8) {
       case 0:
       case 1:
-      case 2: {  // the flight continues: the first sample is changed as the input says, the others are
-                 // unchanged
+      case 2: {  // the flight continues; the input can change the first sample, but not the others
         constexpr std::array repeats{1, 4, 16, 64};
         const int count = repeats[(what >> 4U) % 4];
         const bool aided = what % 8 != 0;

@@ -5,7 +5,7 @@
 
 The defects are in tests/mutants/*.toml, one file per family; seeded.py describes their format. The sources of the project are not changed.
 build/default must be built; it defines how the target is compiled and linked. overlaid.py compiles the changed file from a copy and links it with
-the existing objects. A suite ends at the first requirement that is not met. The suites `several` and that of the defect's family are flown first.
+the existing objects. A suite ends at the first requirement that is not met. The suite `several` and the suite of the defect's family are flown first.
 Before all mutants, the unchanged target must pass all suites.
 
 A mutant is caught if a requirement is not met. It survives if all requirements are met or not measured.

@@ -1,7 +1,7 @@
 """Prints the share of the lines of dbc, target and bench that the programs of a build folder have run: coverage.py BUILD_FOLDER
 
 The build needs --coverage. All lines for which the compiler generated code are included, in headers and in sources, but not in generated files. A line
-is covered if it was executed in at least one object file. If no program ran an object file, none of its lines is covered by this object file.
+is covered if it was executed in at least one object file. An object file that no program ran covers none of its lines.
 """
 
 import concurrent.futures

@@ -40,19 +40,17 @@ struct Outcome {
 Outcome run_with(const std::string& trouble, const std::string& more_checks = "") {
   std::ofstream(scratch("outage.toml")) << read(scenario("transfer_alignment_quick")) << more_checks;
   const std::string json = scratch("outage.json");
-  Outcome outcome;
-  std::thread bench([&] {
-    outcome.ended = hil_bench(fmt::format("run {} --bus vcan0 --json {}", scratch("outage.toml"), json));
-  });
+  Ended ended;
+  std::thread bench(
+      [&] { ended = hil_bench(fmt::format("run {} --bus vcan0 --json {}", scratch("outage.toml"), json)); });
   {
     const auto listener = open("vcan0", {.only_ids = {messages::Sync::info.id}});
     for (int syncs = 0; syncs < 50; ++syncs) EXPECT_TRUE(next_frame(*listener));
   }
   run(trouble);
   bench.join();
-  EXPECT_NE(outcome.ended.code, 2) << outcome.ended.err;
-  outcome.report = read_json(json);
-  return outcome;
+  EXPECT_NE(ended.code, 2) << ended.err;
+  return {.ended = ended, .report = read_json(json)};
 }
 
 TEST(Outages, ABusOffWithRestartIsSurvivedReportedAndFailsTheRun) {

@@ -1,6 +1,6 @@
 #!/bin/bash
-# run.sh COMMAND...: runs COMMAND on a machine with vcan0 and vcan1 (mtu 72, so classic and FD), in the directory and with the environment of the
-# caller. Its exit status, stdout and stderr are those of COMMAND. It uses the first of these ways that works:
+# run.sh COMMAND...: runs COMMAND on a machine with vcan0 and vcan1 (mtu 72, so classic and FD). COMMAND has the directory and the environment of
+# the caller. The exit status, stdout and stderr of run.sh are those of COMMAND. run.sh uses the first of these ways that works:
 #   1. this kernel has vcan: a network namespace of its own, so that it does not disturb other runs or an existing vcan0;
 #   2. user-mode Linux: a kernel as a process, with this machine's files (Debian: user-mode-linux kmod iproute2 busybox gcc).
 #      /tmp, /run and /dev are private to the guest; one CPU.
@@ -15,7 +15,7 @@ case "${1:-}" in -h | --help) sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' "$0"; exit
 make_interfaces='ip link set lo up && for i in vcan0 vcan1; do
   ip link add dev $i type vcan && ip link set $i mtu 72 && ip link set $i up || exit 1; done'
 
-kernel_namespace() { # prints the unshare options that work here
+kernel_namespace() { # prints the options with which unshare can make the interfaces on this machine
   [ "$(id -u)" = 0 ] && modprobe -qa vcan can-raw can-gw 2>/dev/null
   for options in --net "--net --map-root-user"; do
     if unshare $options sh -c "$make_interfaces" 2>/dev/null &&

@@ -1,4 +1,4 @@
-// Sends frames through the port for up to hours, from one process to another on the same interface.
+// Sends frames through the port, for any time up to hours, from one process to another on the same interface.
 //   soak INTERFACE SECONDS [FRAMES_PER_S]
 // The sender has an absolute deadline for each millisecond; after a stall of the host, the deadlines are
 // moved. The sender receives the echo of its own frames, as the bench does. Sender and receiver check that no
@@ -38,8 +38,8 @@ std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
   std::exit(1);
 }
 
-/// Counts anonymous memory only: pages of the program and its libraries are loaded when their code first
-/// runs, which is not a leak.
+/// The resident anonymous memory. Pages of the program and its libraries are left out: they are loaded when
+/// their code first runs, which is not a leak.
 std::int64_t resident_kib() {
   std::ifstream file("/proc/self/statm");
   std::int64_t size = 0;
@@ -157,8 +157,7 @@ int send(Port& port, std::int64_t duration_ns, std::int64_t rate) {
     }
     const std::int64_t late_ns = now_ns() - due_ns;
     latest_ns = std::max(latest_ns, late_ns);
-    if (late_ns > catch_up_ns)
-      due_ns += late_ns;  // moves the deadlines: the bus could not catch up after such a stall
+    if (late_ns > catch_up_ns) due_ns += late_ns;  // the bus could not catch up after such a stall
     for (const auto due = static_cast<std::uint64_t>(tick * rate * tick_ns / ns_per_s); sent < due; ++sent)
       send(port, numbered_id, sent);
     drain();

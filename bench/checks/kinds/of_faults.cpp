@@ -25,10 +25,11 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
     section.reject("fault", "names a fault, but the scenario has none", "a [[fault]] beside it, or times");
     return Disturbance{};
   }
-  const std::string name = section.given_name({"fault",
-                                               "Name of a `[[fault]]` of the scenario. The onset and end of "
-                                               "this fault are used in place of the keys for times."},
-                                              names);
+  const std::string name =
+      section.given_name({"fault",
+                          "Name of a `[[fault]]` of the scenario. The check uses the times of "
+                          "this fault, so `from_s` and `to_s` must be absent."},
+                         names);
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
   if (found->window.from_us >= context.duration_us)

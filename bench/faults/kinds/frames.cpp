@@ -32,7 +32,7 @@ class DamagedFrames final : public OfFrames {
       damaged.data[std::min<std::size_t>(3, frame.size - 1)] ^= 0x10U;
       return;
     }
-    for (std::int64_t flipped = 0; flipped < std::min<std::int64_t>(*bits_, 8 * frame.size);) {
+    for (std::int64_t flipped = 0; flipped < std::min<std::int64_t>(*bits_, 8L * frame.size);) {
       const auto at = static_cast<std::size_t>(stream_.uniform() * 8 * frame.size);
       const auto bit = static_cast<std::uint8_t>(1U << (at % 8));
       if (((damaged.data[at / 8] ^ frame.data[at / 8]) & bit) != 0) continue;  // flip each bit only once

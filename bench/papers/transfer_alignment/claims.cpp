@@ -135,7 +135,7 @@ void add_tables(Names& names, const Results& results) {
 // not present these comparisons as a gain. Returns whether the expectation holds in all of them.
 bool add_guards(Names& names, const Results& results) {
   bool all = true;
-  const auto add = [&](std::string name, double kf, double h2, const char* unit) {
+  const auto add = [&](const std::string& name, double kf, double h2, const char* unit) {
     const auto to_text = [&](double value) {
       return std::isfinite(value) ? fmt::format("{:.1f} {}", value, unit) : "never";
     };

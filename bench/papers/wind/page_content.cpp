@@ -79,7 +79,7 @@ void add_claims(Names& names, const Results& results) {
   claim("h_infinity_holds", at("hinf", 40) < 0.6 * at("low", 40));
   claim("h_infinity_costs", at("hinf", 0) > at("low", 0));
   claim("kf_grows", at("low", 0) < at("low", 20) && at("low", 20) < at("low", 40));
-  const auto text = [&names](const char* name, std::string words) {
+  const auto text = [&names](const char* name, const std::string& words) {
     names[name] = [=](Words&) { return words; };
   };
   text("h_infinity_less", fmt::format("{:.0f} %", 100 * (1 - at("hinf", 20) / at("low", 20))));

@@ -405,8 +405,8 @@ static void send_timing(canhil_target* target) {
   target->queue_sum_us = target->compute_sum_us = 0;
 }
 
-/* In a run the target sends no heartbeat by its own clock, so that a replay produces the same frames. The target does so again when the
- * bench is gone. */
+/* In a run the target sends no heartbeat by its own clock, so that a replay produces the same frames. When the bench is gone, the target
+ * sends heartbeats by its own clock again. */
 void canhil_target_poll(canhil_target* target, uint32_t now_ms) {
   if (!target->polled) {
     target->polled = true;

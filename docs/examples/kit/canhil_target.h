@@ -1,5 +1,6 @@
 /* A target for the canhil bench; only the estimator is missing. It contains the state machine, the protection of frames, sample groups,
- * parameters, the heartbeat, and counts of lost frames. C99, without allocation and operating system. docs/own-target.md describes the protocol.
+ * parameters, the heartbeat, and counts of lost frames. C99, without allocation and operating system. docs/own-target.md describes the
+ * protocol.
  *
  *   static canhil_target target;
  *   canhil_target_init(&target, &my_estimator, my_send, my_bus);
@@ -54,9 +55,9 @@ typedef struct {
    * change its values during the run. initial: the values of group TargetInit. */
   void (*start)(void* state, uint8_t algorithm, const double* parameters, const double* initial);
 
-  /* Processes one complete sample that is newer than the sample before. t_us: its time of validity in the bench's time base, unwrapped. Writes
-   * the values of the answer, which are zero before the call; the kit itself writes cause_time_us and cause_counter. Returns false if the filter
-   * cannot continue; then the target's state becomes fault. */
+  /* Processes one complete sample that is newer than the sample before. t_us: its time of validity in the bench's time base, unwrapped.
+   * Writes the values of the answer, which are zero before the call; the kit itself writes cause_time_us and cause_counter. Returns false
+   * if the filter cannot continue; then the target's state becomes fault. */
   bool (*sample)(void* state, uint8_t group, const double* values, int64_t t_us, double* answer);
 
   void* state;

@@ -47,9 +47,9 @@ class Estimator:
         group TargetInit."""
 
     def sample(self, group, values, t_us):
-        """Processes one complete sample that is newer than the sample before. t_us: its time of validity in the bench's time base, unwrapped. Returns
-        the values of the answer; a missing value is sent as 0, and the kit adds cause_time_us and cause_counter. Raises ArithmeticError if the
-        filter cannot continue."""
+        """Processes one complete sample that is newer than the sample before. t_us: its time of validity in the bench's time base, unwrapped.
+        Returns the values of the answer; a missing value is sent as 0, and the kit adds cause_time_us and cause_counter. Raises
+        ArithmeticError if the filter cannot continue."""
         raise NotImplementedError
 
 
@@ -79,7 +79,8 @@ def decode(data, signals):
 
 
 def encode(size, signals, values):
-    """Packs the values of signals into a frame. Rounds half to even and clamps to the signal's range. NaN becomes the lowest value; a missing value is 0."""
+    """Packs the values of signals into a frame. Rounds half to even and clamps to the signal's range. NaN becomes the lowest value; a missing
+    value is 0."""
     word = 0
     for name, start, length, kind, scale, offset, lowest, highest, table in signals:
         value = values.get(name, 0)
@@ -398,8 +399,8 @@ class Process:
         return True
 
     def look_at_clock(self):
-        """In a run the target sends no heartbeat by its own clock, so that a replay produces the same frames. The target does so again when the
-        bench is gone."""
+        """In a run the target sends no heartbeat by its own clock, so that a replay produces the same frames. When the bench is gone, the target
+        sends heartbeats by its own clock again."""
         now = time.monotonic()
         self.established = self.established or now - self.begun >= 1.25e-6 * HEARTBEAT_US
         if not self.established or now - self.report < 1e-6 * HEARTBEAT_US:

@@ -4,8 +4,8 @@
 
 #include "canhil_target.h"
 
-/* Runs the target until a signal comes or the bus ends. argv must contain `--bus BUS`, which hil-bench appends to the target's command. Returns
- * the exit code of the program: 0, or 2 after one line on standard error. */
+/* Runs the target until a signal comes or the bus ends. argv must contain `--bus BUS`, which hil-bench appends to the target's command.
+ * Returns the exit code of the program: 0, or 2 after one line on standard error. */
 int canhil_serve(const canhil_estimator* estimator, int argc, char** argv);
 
 #endif

@@ -25,7 +25,7 @@ static const double least_range_m = 50; /* a shorter measured range is replaced 
 
 /* One plane of the seeker. */
 typedef struct {
-  double error, rate, target; /* angle from the antenna to the LOS [rad], inertial LOS rate [rad/s], acceleration of the seeker's target [m/s2] */
+  double error, rate, target; /* angle from antenna to LOS [rad], inertial LOS rate [rad/s], acceleration of the seeker's target [m/s2] */
   double sigma, nis;
 } plane;
 
@@ -38,8 +38,8 @@ typedef struct {
   bool timed;
 } filter;
 
-/* Processes the n-th sample. measured: error angle; turned: rotation of the antenna; missile: acceleration of the missile; reach: range; noise
- * [rad]; agility [m/s2]. The model: d(rate)/dt = (2 closing rate + target - missile) / range. */
+/* Processes the n-th sample. measured: error angle; turned: rotation of the antenna; missile: acceleration of the missile; reach: range;
+ * noise [rad]; agility [m/s2]. The model: d(rate)/dt = (2 closing rate + target - missile) / range. */
 static void step(plane* p, double measured, double turned, double missile, double dt, double reach, double closing, double noise,
                  double agility, double n) {
   /* The gains follow from Kalata's tracking index, the ratio of target manoeuvre to measurement noise (IEEE AES-20 (1984), 174). */

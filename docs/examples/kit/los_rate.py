@@ -15,14 +15,14 @@ LEAST_RANGE_M = 50.0  # a shorter measured range is replaced by this one, becaus
 
 
 class Plane:
-    """One plane of the seeker: angle from the antenna to the LOS [rad], inertial LOS rate [rad/s], acceleration of the seeker's target [m/s2]."""
+    """One plane of the seeker: angle from antenna to LOS [rad], inertial LOS rate [rad/s], acceleration of the seeker's target [m/s2]."""
 
     def __init__(self):
         self.error = self.rate = self.target = self.sigma = self.nis = 0.0
 
     def step(self, measured, turned, missile, dt, reach, closing, noise, agility, n):
-        """Processes the n-th sample. measured: error angle; turned: rotation of the antenna; missile: acceleration of the missile; reach: range; noise
-        [rad]; agility [m/s2]. The model: d(rate)/dt = (2 closing rate + target - missile) / range."""
+        """Processes the n-th sample. measured: error angle; turned: rotation of the antenna; missile: acceleration of the missile; reach:
+        range; noise [rad]; agility [m/s2]. The model: d(rate)/dt = (2 closing rate + target - missile) / range."""
         self.error += self.rate * dt - turned
         self.rate += (2 * closing * self.rate + self.target - missile) / reach * dt
         # The gains follow from Kalata's tracking index, the ratio of target manoeuvre to measurement noise (IEEE AES-20 (1984), 174).

@@ -7,29 +7,31 @@
 namespace canhil::filtering::detail {
 namespace {
 
+using Eigen::Index;
+
 struct Factor {
   const double* P;
-  int N;
-  int stride;  // rows of L: even_rows(N)
+  Index N;
+  Index stride;  // rows of L: even_rows(N)
 };
 
 // Column c of P minus the contribution of the first `done` columns of L. Computes the last `rows` rows, which
 // begin at row c or at row c - 1. P is not padded if N is odd.
 template <int rows>
-Vector<rows> column_left(const Factor& of, const double* L, int c, int done) {
-  const int first = of.stride - rows;
+Vector<rows> column_left(const Factor& of, const double* L, Index c, Index done) {
+  const Index first = of.stride - rows;
   const double* const P = of.P + c * of.N + first;
   Vector<rows> left;
   left.template head<rows - 1>() = Eigen::Map<const Vector<rows - 1>>(P);
   left(rows - 1) = of.N % 2 == 0 ? P[rows - 1] : 0;
-  for (int j = 0; j < done; ++j, L += of.stride)
+  for (Index j = 0; j < done; ++j, L += of.stride)
     left.noalias() -= L[c] * Eigen::Map<const Vector<rows>>(L + first);
   return left;
 }
 
 template <int rows>
-bool finish_column(const Factor& of, double* L, int c) {
-  const int first = of.stride - rows;
+bool finish_column(const Factor& of, double* L, Index c) {
+  const Index first = of.stride - rows;
   const Vector<rows> left = column_left<rows>(of, L, c, c);
   const double pivot = left(c - first);
   if (!(pivot > 0 && pivot <= std::numeric_limits<double>::max())) return false;
@@ -41,15 +43,15 @@ bool finish_column(const Factor& of, double* L, int c) {
 }
 
 template <int rows>
-void store_rest(const Factor& of, const double* L, int columns, int c, double* rest) {
-  const int first = of.stride - rows;
+void store_rest(const Factor& of, const double* L, Index columns, Index c, double* rest) {
+  const Index first = of.stride - rows;
   const Vector<rows> left = column_left<rows>(of, L, c, columns);
   std::copy_n(left.data() + (c - first), of.N - c, rest + (c - columns) * (of.N - columns + 1));
 }
 
 // Calls apply.operator()<rows>(), where `rows` is the number of rows from row c (or row c - 1) to the last.
 template <class Apply>
-auto with_rows(const Factor& of, int c, const Apply& apply) {
+auto with_rows(const Factor& of, Index c, const Apply& apply) {
   switch (of.stride - (c - c % 2)) {
     case 20:
       return apply.template operator()<20>();
@@ -78,7 +80,7 @@ auto with_rows(const Factor& of, int c, const Apply& apply) {
 
 bool cholesky_columns(const double* P, int N, double* L, int columns) {
   const Factor of{P, N, even_rows(N)};
-  for (int c = 0; c < columns; ++c) {
+  for (Index c = 0; c < columns; ++c) {
     if (!with_rows(of, c, [&]<int rows>() { return finish_column<rows>(of, L, c); })) return false;
   }
   return true;
@@ -86,7 +88,7 @@ bool cholesky_columns(const double* P, int N, double* L, int columns) {
 
 void cholesky_rest(const double* P, int N, const double* L, int columns, double* rest) {
   const Factor of{P, N, even_rows(N)};
-  for (int c = columns; c < N; ++c)
+  for (Index c = columns; c < N; ++c)
     with_rows(of, c, [&]<int rows>() { store_rest<rows>(of, L, columns, c, rest); });
 }
 

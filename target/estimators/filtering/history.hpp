@@ -78,7 +78,7 @@ class History {
     const double share = between ? static_cast<double>(epoch_us(epoch) - t_us) /
                                        static_cast<double>(epoch_us(epoch) - epoch_us(epoch - 1))
                                  : 0;
-    const UpdateResult result =
+    UpdateResult result =
         Model::update(then, between ? &at(epoch - 1).before : nullptr, share, measurement, settings);
     if (result.outcome != Outcome::ok) {
       Model::keep_refusal(state, then);

@@ -213,7 +213,7 @@ Matrix3d take_out_tilt(Errors<N>& errors) {
 
 template <int N>
 Matrix3d take_out_attitude(Errors<N>& errors) {
-  const Matrix3d C_pc = tilt_and_heading<N>(errors.x);
+  Matrix3d C_pc = tilt_and_heading<N>(errors.x);
   const double psi = heading_error<N>(errors.x);
   Matrix<4, 4> J = Matrix<4, 4>::Zero();
   J.topLeftCorner<2, 2>().setIdentity();

@@ -113,8 +113,7 @@ void advance(State& state, double dt, const ActingFins& acting, const Design& de
 void advance(State& state, std::int64_t t_us, bool reckon, const FinHistory& fins, const Design& design,
              Flags& flags) {
   const std::int64_t begin = *state.t_us, gap_us = t_us - begin;
-  const auto longest_us =
-      static_cast<std::int64_t>(std::max(design.settings.longest_prediction, 1e-3) / us + 0.5);
+  const auto longest_us = std::int64_t{std::llround(std::max(design.settings.longest_prediction, 1e-3) / us)};
   const std::int64_t parts = (gap_us + longest_us - 1) / longest_us;
   for (std::int64_t i = 0; i < parts; ++i) {
     const std::int64_t from = begin + gap_us * i / parts, to = begin + gap_us * (i + 1) / parts;

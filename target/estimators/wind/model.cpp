@@ -118,7 +118,9 @@ StateVector predicted(const StateVector& x, const StateVector& f, double dt, con
 Growth growth(const Jacobian& A, double dt) {
   const double half = dt * dt / 2;
   filtering::Matrix<9, 9> G;
-  const auto block = [&](int row, int column) { return G.block<3, 3>(3 * row, 3 * column); };
+  const auto block = [&](Eigen::Index row, Eigen::Index column) {
+    return G.block<3, 3>(3 * row, 3 * column);
+  };
   block(0, 0) = dt * A.aa + half * (A.aa.lazyProduct(A.aa) + A.ao.lazyProduct(A.oa));
   block(0, 1) = dt * A.ao + half * (A.aa.lazyProduct(A.ao) + A.ao.lazyProduct(A.oo) + A.ap.lazyProduct(A.po));
   block(0, 2) = dt * A.ap + half * (A.aa.lazyProduct(A.ap) + A.ap.lazyProduct(A.pp));

@@ -4,14 +4,15 @@
 // reads and writes registers, and shows the driver the registers of a controller with errors. The driver, the kernel's CAN and everything above are
 // the real ones.
 //
+// The wire of each controller has a state.
 // Two controllers with different bit timings disturb each other. If one controller is down or bus-off, the other one has the state `alone` (see below).
-// Other states are set by /sys/module/canhil_wire/parameters/wire. Load the module while the controllers are down: it reads their bit timings when
-// the controllers are set up.
+// Other states are set by /sys/module/canhil_wire/parameters/wire. Load the module while the controllers are down: the module reads their bit timings
+// when the controllers are set up.
 //   echo can1 sound              QEMU's behaviour
 //   echo can1 held               can1 sends nothing until its state is sound again, as if other nodes occupied the bus
-//   echo can1 slow US            each frame takes this time
+//   echo can1 slow US            each frame takes US microseconds
 //   echo can1 broken             each frame ends with an error until the controller is bus-off
-//   echo can1 alone              no acknowledgement: error passive, endless retransmission
+//   echo can1 alone              nobody acknowledges frames: can1 becomes error passive and repeats its frame endlessly
 //   echo can1 raise IR SR ECC ALC TXERR RXERR    one interrupt with these register values (hex)
 #include <linux/can/dev.h>
 #include <linux/hrtimer.h>

@@ -29,8 +29,8 @@ inline WarmGlider warm_glider(Algorithm algorithm, ProcessNoise noise = ProcessN
   truth(air_velocity_at) += 0.5;
   const Inputs inputs{{-0.01, 0, 0}, standard_atmosphere(start.altitude)};
   for (int k = 0; k <= 250; ++k) {
-    glider.fins.push(k * 20'000, inputs.fins, glider.design.airframe.deflection_most);
-    glider.navigation = {.t_us = k * 20'000,
+    glider.fins.push(k * 20'000L, inputs.fins, glider.design.airframe.deflection_most);
+    glider.navigation = {.t_us = k * 20'000L,
                          .v_eb_n = ground_velocity(truth).C_v_a + truth.tail<3>(),
                          .omega = truth.segment<3>(rate_at),
                          .attitude = truth.segment<3>(attitude_at),

@@ -72,8 +72,7 @@ int main() {
   std::vector<double> one, two, ratio, cost;
   for (int i = 0; i < repeats; ++i) {
     std::array<Rate, 2> rate{};
-    for (const int which :
-         {i % 2, 1 - i % 2})  // 0: one thread, 1: two; the order changes with each repetition
+    for (const int which : {i % 2, 1 - i % 2})  // 0: one thread, 1: two threads; in changing order
       rate[static_cast<std::size_t>(which)] = measured(campaign, static_cast<unsigned>(which + 1));
     one.push_back(rate[0].runs_per_s);
     two.push_back(rate[1].runs_per_s);

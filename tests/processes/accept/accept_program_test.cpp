@@ -1,4 +1,5 @@
-// hil-bench accept as a user starts it, with a small suite for this test and with the suites of the project.
+// Tests hil-bench accept as a user starts it, with a small suite for this test and with a suite of the
+// project.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -105,7 +106,7 @@ TEST_F(Accept, ATargetThatMeetsEveryRequirementPasses) {
   const auto report = read_json(json);
   EXPECT_EQ(report["outcome"], "pass");
   const std::size_t asked = report["suites"][0]["requirements"].size();
-  EXPECT_GT(asked, 20U);  // the suite's own requirements and those of the protocol
+  EXPECT_GT(asked, 20U);  // includes the suite's own requirements and those of the protocol
   EXPECT_THAT(ended.out,
               HasSubstr(fmt::format("transfer_alignment: pass: {0} of {0} requirements met", asked)));
   EXPECT_EQ(shell("xmllint --noout " + junit).code, 0);
@@ -165,7 +166,7 @@ TEST_F(Accept, BadInputIsOneLine) {
   expect_one_line(accept("--tolerance 0"), "--tolerance");
   expect_one_line(accept("--html /no/such/folder/a.html"), "/no/such/folder/a.html");
   expect_one_line(hil_bench("accept --suites /no/such/folder"), "/no/such/folder: has no suites");
-  // The reference has not been recorded yet.
+  // The suite cannot be judged, because its reference has not been recorded yet.
   expect_one_line(accept(judged), "reference/one.txt: cannot be read");
   change("suite.toml", "family = \"errors\"", "family = \"error\"");
   expect_one_line(accept("--record"), "small/suite.toml:7: key 'requirement[1].family'");

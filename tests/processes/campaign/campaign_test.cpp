@@ -1,4 +1,5 @@
-// hil-bench campaign: neither threads nor shards nor kills change the merged file; an error is one line.
+// Tests hil-bench campaign: neither threads nor shards nor kills change the merged file; an error is one
+// line.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -175,8 +176,9 @@ TEST(Export, IsATableOfWhatTheRunsReported) {
   expect_done(ended);
   EXPECT_THAT(ended.out,
               testing::StartsWith("variant,run,t_s,quantity,unit,value\nKF master_ins.latency_ms=0,0,"));
-  // A header, then the 30 runs of each of the four variants, with 14 quantities per update. Two variants have
-  // 29 updates; the two others, whose master INS is 100 ms late, have 28.
+  // The output has a header line and a line for each quantity (14) of each update. There are four variants
+  // with 30 runs each. In two variants a run has 29 updates; in the others, whose master INS is 100 ms late,
+  // 28.
   EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1 + 30 * (2 * 29 + 2 * 28) * 14);
   EXPECT_THAT(ended.out, testing::ContainsRegex(
                              "\nKF master_ins.latency_ms=0,29,[0-9.]+,attitude.heading,rad,-?[0-9.e-]+\n"));

@@ -1,4 +1,4 @@
-// hil-bench conformance: which targets pass, and which rule detects which defect.
+// Tests hil-bench conformance: which targets pass it, and which rule detects which defect.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Conformance, EstimatorOfHilTarget,
 
 struct Defect {
   const char* name;                // a class of defective_target.py
-  std::set<std::string> expected;  // exactly the rules that must detect it
+  std::set<std::string> expected;  // exactly these rules must detect the defect
   friend void PrintTo(const Defect& defect, std::ostream* out) { *out << defect.name; }
 };
 

@@ -1,4 +1,4 @@
-// hil-bench dbc as a user starts it.
+// Tests hil-bench dbc as a user starts it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -16,14 +16,14 @@ using testing::StartsWith;
 
 /// A DBC of another maker, in which dbc lint finds two warnings and a note.
 std::string odd_file() {
-  const std::string path = scratch("odd file.dbc");
+  std::string path = scratch("odd file.dbc");
   std::ofstream(path) << "BU_: A\nBO_ 291 Motion: 2 C\n SG_ speed : 0|12@1+ (0.5,0) [0|0] \"km/h\" A\n"
                          " SG_ beyond : 12|8@1+ (1,0) [0|0] \"\" A\nCM_ \"\xB0\";\n";
   return path;
 }
 
 std::string refused_file() {
-  const std::string path = scratch("refused.dbc");
+  std::string path = scratch("refused.dbc");
   std::ofstream(path) << "BU_: A\nBO_ 291 : 2 A\n";
   return path;
 }

@@ -1,4 +1,4 @@
-// hil-bench doctor as a user starts it.
+// Tests hil-bench doctor as a user starts it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

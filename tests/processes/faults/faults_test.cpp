@@ -1,4 +1,4 @@
-// hil-bench faults: tests the matrix, that kills and shards do not change its bytes, and that a reduced
+// Tests hil-bench faults: the content of the matrix; kills and shards do not change the matrix; a reduced
 // scenario still shows the violation.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Files that cannot be read or written: one error line, and no data is lost.
+// Tests files that cannot be read or written: the program prints one error line, and no data is lost.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,5 @@
-// Bad input: one line (what, where, what was expected), exit code 2, no partial output.
+// Tests bad input: the program must print one line (what, where, what was expected), end with exit code 2,
+// and write no partial output.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Bits, BitsOnAWire,
                          testing::Values("transfer_alignment_quick", "inflight_quick", "los_closed_loop",
                                          "wind_quick"));
 
-/// The flight of 30 s is flown once for both the bits and the verdict.
+/// Tests the bits and the verdict together, because the flight in real time takes 30 s.
 TEST(Bits, AnAlignmentInFlightPassesInRealTimeAndAgreesWithInProcess) {
   const std::string name = "inflight_quick";
   const auto in_process = target_frames(record("inflight.in_process.log", "--bus in-process", name));

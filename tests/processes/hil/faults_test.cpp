@@ -1,5 +1,5 @@
-// Faults of the four stages (sensor, node, bus, target) in runs of two processes over the embedded bus, and
-// what the report shows about them.
+// Tests faults of the four stages (sensor, node, bus, target) in runs of two processes over the embedded bus,
+// and what the report shows about these faults.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// Runs on CAN FD: the target sends the same messages as on classic CAN.
+// Tests runs on CAN FD: the target must send the same messages as on classic CAN.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -52,8 +52,8 @@ TEST_P(FdBitsOfScenario, ClassicAndFdAgree) {
     if (kind == "latency" || kind == "output_period" || kind == "heartbeat") continue;
     EXPECT_EQ(check["outcome"], "pass") << check;
   }
-  // Compares the load of CAN FD (500 kbit/s nominal, 2 Mbit/s data) with that of classic CAN (500 kbit/s),
-  // both without the frames that lockstep adds.
+  // Compares the bus load on CAN FD (500 kbit/s nominal, 2 Mbit/s data) with that on classic CAN (500
+  // kbit/s). Both runs are in process, so they do not have the frames that lockstep adds.
   const Recorded fd_in_process = record(GetParam(), "--bus in-process --dbc canhil-fd", "fd_in_process");
   const auto load = [](const Recorded& run) { return run.report["bus_load"][0]["mean"].get<double>(); };
   EXPECT_LT(load(fd_in_process), 0.4 * load(classic));
@@ -141,7 +141,7 @@ TEST(Fd, TheWireCarriesWhatTheLogAndTheReportSay) {
   EXPECT_EQ(compared.code, 0) << compared.out << compared.err;
   EXPECT_GT(std::atoi(compared.out.c_str()), 10'000);
 
-  // Recordings of the FD bus can be replayed and compared like the log of the bench.
+  // The recording of the FD bus must be usable like the log of the bench: for a replay and for a comparison.
   const std::string replayed = scratch("replayed.log");
   EXPECT_EQ(shell(fmt::format("{} --replay {} > {}", HIL_TARGET, raw, replayed)).code, 0);
   for (const std::string& other : {raw, replayed}) {

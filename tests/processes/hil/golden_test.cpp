@@ -27,7 +27,7 @@ class Golden : public testing::Test {
   [[nodiscard]] Ended check(const std::string& more = "") const {
     return hil_bench(fmt::format("golden check {} {}", folder_, more));
   }
-  /// Changes a stored scenario, so that the input frames differ.
+  /// Changes a line of a stored scenario, so that the bench sends other frames than in the recorded run.
   void change(const std::string& name, const std::string& line, const std::string& instead) const {
     const std::string file = fmt::format("{}/{}.toml", folder_, name);
     std::string text = read(file);

@@ -26,7 +26,7 @@ std::string liar(const std::string& lie) {
   return path;
 }
 
-/// A scenario of bench/flights with text appended.
+/// The path of a copy of a scenario of bench/flights, with the text `more` appended.
 std::string with(const std::string& flight, const std::string& more) {
   std::string path = scratch(flight + "_and_more.toml");
   std::ofstream(path) << read(scenario(flight)) << more;

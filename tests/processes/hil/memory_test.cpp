@@ -1,4 +1,4 @@
-// The memory of the bench does not grow with the length of a run.
+// Tests that the memory of the bench does not grow with the length of a run.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -39,7 +39,7 @@ long peak_kib(int samples) {
 TEST(Memory, OfARunDoesNotGrowWithIt) {
   const long before = peak_kib(60'000), after = peak_kib(180'000);
   EXPECT_GT(before, 0);
-  EXPECT_LT(after, before + 24 * 1024) << "was " << before;
+  EXPECT_LT(after, before + 24 * 1024L) << "was " << before;
 }
 
 }  // namespace

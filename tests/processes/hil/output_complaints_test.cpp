@@ -101,7 +101,8 @@ TEST_F(OutputComplaints, NameAnExitCodeAnEndAndTooFewChecks) {
   EXPECT_THAT(complaints(), ElementsAre("4 checks of outputs, expected at least 5"));
 }
 
-// For a run that fails, there are complaints. Here it fails because of a limit that no estimator can meet.
+// There must be complaints about a run that fails. This run fails because of a limit that no estimator can
+// meet.
 TEST_F(OutputComplaints, OfARunThatFailed) {
   const std::string strict = scratch("strict.toml"), file = scratch("strict.json");
   std::string text = read(scenario("transfer_alignment_quick"));

@@ -22,7 +22,7 @@ Ended shell(const std::string& command);
 Ended hil_bench(const std::string& arguments);
 Ended hil_target(const std::string& arguments);
 
-/// The bus of these tests: "local:", or the value of CANHIL_TEST_BUS.
+/// The bus of these tests: "local:", or the value of the environment variable CANHIL_TEST_BUS.
 std::string bus();
 /// A prefix for a shell command: with it, the command runs without those capabilities of root that `dropped`
 /// lists, for example "-sys_nice,-ipc_lock". Empty if the caller is not root.

@@ -33,7 +33,7 @@ std::string line_of(const std::string& text, const std::string& table, const std
 }
 
 std::string write(const std::string& name, const std::string& text) {
-  const std::string path = scratch(name);
+  std::string path = scratch(name);
   std::ofstream(path) << text;
   return path;
 }
@@ -65,7 +65,7 @@ TEST_P(LogFlownAgain, GivesTheSameAnswers) {
   EXPECT_EQ(none.code, 0) << none.out;
   EXPECT_GT(target_frames(log).size(), 500U);
 
-  // One changed increment in the middle of the log changes the answers.
+  // If one increment in the middle of the log is changed, the answers must change.
   auto reader = LogReader::open(log);
   ASSERT_TRUE(reader);
   std::string changed;

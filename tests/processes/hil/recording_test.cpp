@@ -1,4 +1,4 @@
-// The log of a run in virtual time, and the part that remains if the log cannot be written completely.
+// Tests the log of a run in virtual time, and what remains if the log cannot be written completely.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

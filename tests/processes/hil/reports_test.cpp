@@ -1,4 +1,4 @@
-// Commands that work on reports of finished runs.
+// Tests the commands of hil-bench that read reports of finished runs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// A run as a user sees it: verdict, exit code, reports.
+// Tests what a user sees of a run: verdict, exit code, reports.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -106,7 +106,8 @@ TEST(Run, ACheckThatCannotHoldFailsTheRun) {
   EXPECT_THAT(read(junit), HasSubstr("value=\"R&lt;1&gt;\""));
 }
 
-// In virtual time the simulated wire is exact: the host has no influence, and all runs are equal.
+// In virtual time, the times on the simulated wire are exact: they do not depend on the host, and all runs
+// are equal.
 TEST(SimulatedWire, TheReportSaysWhoseTimesTheseAre) {
   const std::string report = scratch("wire.json");
   const std::string run = fmt::format("run {} --bus 'in-process?bitrate=500000&bit-error-rate=1e-4' --json ",
@@ -312,7 +313,7 @@ TEST(Run, JsonToStdoutIsAloneThere) {
 
 // Each program checks at its end whether its standard output could be written.
 TEST(Output, ThatIsLostIsSaid) {
-  const std::string log = scratch("lost.log");
+  const std::string log = scratch("lost.log"), dbc = SOURCE_DIR "/dbc/canhil.dbc";
   ASSERT_THAT(
       hil_bench(fmt::format("run {} --bus in-process --log {}", scenario("transfer_alignment_quick"), log))
           .err,
@@ -321,9 +322,8 @@ TEST(Output, ThatIsLostIsSaid) {
                                           HIL_TARGET " --version",
                                           HIL_BENCH " diverge " + log + " " + log,
                                           HIL_BENCH " --help",
-                                          HIL_BENCH " schedulability --bitrate 500000 " SOURCE_DIR
-                                                    "/dbc/canhil.dbc",
-                                          DBCGEN " --load " SOURCE_DIR "/dbc/canhil.dbc"};
+                                          HIL_BENCH " schedulability --bitrate 500000 " + dbc,
+                                          DBCGEN " --load " + dbc};
   for (const std::string& command : commands) {
     const Ended ended = shell(command + " > /dev/full");
     EXPECT_EQ(ended.code, 2) << command;

@@ -1,4 +1,4 @@
-// Runs in which the nodes are on two buses.
+// Tests runs in which the nodes are on two buses.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>

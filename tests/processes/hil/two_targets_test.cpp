@@ -1,4 +1,4 @@
-// Two targets on one bus, each started as the only target.
+// Tests a bus with two targets, each of which was started as if it were the only target.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>

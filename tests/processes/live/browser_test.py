@@ -1,6 +1,6 @@
 """The live view's page in Chromium: browser_test.py HIL_BENCH [--keep FOLDER]
 
---keep: also flies a scenario of 20 s with faults, and stores pictures of the page in FOLDER. They show the middle of the flight: live_desktop.png, live_phone.png.
+--keep: also flies a scenario of 20 s with faults, and stores pictures of the page, taken in the middle of the flight, in FOLDER: live_desktop.png, live_phone.png.
 """
 
 import argparse
@@ -161,7 +161,8 @@ class Browser(unittest.TestCase):
         folder = pathlib.Path(self.keep)
         faults = pathlib.Path(self.folder.name, "faults.toml")
         faults.write_text(PICTURED_FAULTS)
-        (pathlib.Path(self.folder.name) / PICTURED).write_text((FLIGHTS / PICTURED).read_text())  # relative, because the picture shows the path
+        # PICTURED is a relative path, because the picture of the page shows the path.
+        (pathlib.Path(self.folder.name) / PICTURED).write_text((FLIGHTS / PICTURED).read_text())
         with Bench(HIL_BENCH, "run", PICTURED, "--faults", faults, "--bus", "local:?bitrate=500000", folder=self.folder.name) as bench:
             set_size(self.browser, DESKTOP)
             self.browser.get(bench.url)

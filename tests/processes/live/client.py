@@ -60,7 +60,7 @@ class Bench:
         raise AssertionError(f"no '{pattern}' within {PATIENCE_S} s: {self.errors.read()}")
 
     def end(self):
-        """(exit code, standard output) of a bench that ends by itself."""
+        """Waits for the end of a bench that ends by itself. Returns (exit code, standard output)."""
         out, _ = self.process.communicate(timeout=PATIENCE_S)
         return self.process.returncode, out
 
@@ -151,7 +151,7 @@ class WebSocket:
                             bytes(byte ^ mask[i % 4] for i, byte in enumerate(data)))
 
     def until_over(self):
-        """The last message, with all points of its series."""
+        """Receives messages until the end of the run. Returns the last one, which has all points of the series."""
         last = None
         while (message := self.message()) is not None:
             last = message

@@ -16,7 +16,7 @@ class WrongSign(own_ecu.Ecu):
 
 
 class Stale(own_ecu.Ecu):
-    """Answers with the attitude of 50 ms ago."""
+    """Sends in each answer the attitude that it had 50 ms before."""
 
     def __init__(self):
         super().__init__()

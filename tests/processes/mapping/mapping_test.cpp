@@ -1,4 +1,4 @@
-// hil-bench tests an ECU that has a DBC of its own, over a bus.
+// Tests hil-bench with an ECU that has a DBC of its own, over a bus.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// The embedded bus between real processes.
+// Tests the embedded bus with real processes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-// The effect of a slow target and of an unfit host on timing checks.
+// Tests how timing checks react to a slow target and to an unfit host.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <pthread.h>
@@ -26,7 +26,7 @@ bool may_have_priority(int priority) { return shell(fmt::format("chrt -f {} true
 // The path of a quick scenario whose latency check limits this quantile to 3 ms. If it is the median, some
 // answers may be late, as happens on a shared machine.
 std::string judged_by(const std::string& quantile) {
-  const std::string path = scratch(fmt::format("quantile_{}.toml", quantile));
+  std::string path = scratch(fmt::format("quantile_{}.toml", quantile));
   const Ended edited = shell(fmt::format(
       "sed '/kind = \"latency\"/,$ {{s/below_ms = .*/below_ms = 3/;s/quantile = .*/quantile = {}/}}' "
       "{} >{}",

@@ -1,5 +1,5 @@
-// The option --realtime of both programs: its effects, and the error message if real-time priority is not
-// permitted.
+// Tests the option --realtime of both programs: its effects, and the error message if real-time priority is
+// not permitted.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-"""Reads and writes logs with python-can and decodes values with canmatrix: tests that these programs can read canhil's files and canhil can read theirs.
+"""Reads and writes logs with python-can and decodes values with canmatrix. Tests compare these results with those of canhil.
 
 others.py frames LOG            one line per frame: time in microseconds, id, flags, data
 others.py copy FROM TO          converts the log with python-can

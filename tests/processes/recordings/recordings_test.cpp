@@ -1,5 +1,5 @@
-// What hil-bench can do with recorded frames: judge them again, convert them to formats that other programs
-// read and write, decode them, and send them again.
+// Tests what hil-bench can do with recorded frames: judge them again, convert them to formats that other
+// programs read and write, decode them, and send them again.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

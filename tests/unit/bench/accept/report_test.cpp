@@ -10,7 +10,7 @@ using checks::Outcome;
 using testing::HasSubstr;
 using testing::Not;
 
-Finding finding(std::string id, std::vector<Outcome> outcomes) {
+Finding finding(const std::string& id, const std::vector<Outcome>& outcomes) {
   Finding one{.requirement = {.id = id, .family = "errors", .text = "It <is>."}, .items = {}};
   for (const Outcome outcome : outcomes)
     one.items.push_back({.requirement = id,

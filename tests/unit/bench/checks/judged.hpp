@@ -14,8 +14,8 @@
 namespace canhil::checks {
 
 template <class Kind>
-scenario::Check check_of(Kind rule, std::string name = "it") {
-  return {.name = std::move(name),
+scenario::Check check_of(Kind rule, const std::string& name = "it") {
+  return {.name = name,
           .requirement = "R1",
           .kind = std::string(Kind::kind),
           .rule = std::make_shared<RuleOf<Kind>>(std::move(rule))};

@@ -298,7 +298,7 @@ TEST(InProcessWire, TimePassesOnlyWhileSomebodyWaits) {
   const auto beat = port.receive();
   ASSERT_TRUE(beat);
   EXPECT_EQ(beat->source, StampSource::virtual_time);
-  EXPECT_EQ(beat->t_ns, wire::duration_ns(wire::bit_length(beat->frame), {.nominal = 500'000}) - 3 * 2'000);
+  EXPECT_EQ(beat->t_ns, wire::duration_ns(wire::bit_length(beat->frame), {.nominal = 500'000}) - 3 * 2'000L);
   EXPECT_FALSE(wait(port, WaitFor::frame, 50'000'000));
   EXPECT_EQ(port.monotonic_ns(), 50'000'000);
   EXPECT_TRUE(wait(port, WaitFor::frame, 1'000'000'000));  // the next heartbeat

@@ -23,7 +23,7 @@ quantities::Track track(double delay, double noise, double offset, unsigned seed
   for (int k = 0; k <= 2000; ++k) {
     const double t = 0.01 * k, estimate = roll(t - delay) + offset + noise * normal(random);
     delayed.points.push_back(
-        {.t_us = 10'000 * k, .value = estimate - roll(t), .estimate = estimate, .truth = roll(t)});
+        {.t_us = 10'000L * k, .value = estimate - roll(t), .estimate = estimate, .truth = roll(t)});
   }
   return delayed;
 }

@@ -179,7 +179,7 @@ TEST(Player, SaysWhatASignalCouldNotHold) {
   const Flown flown(*scenario);
   ASSERT_EQ(flown.conversation.clipped.size(), 1U);
   EXPECT_EQ(flown.conversation.clipped.at("Turned.Millis"), 37U) << "of 49: from 260 ms on";
-  EXPECT_EQ(flown.value(2 * 48, "Millis"), 255);
+  EXPECT_EQ(flown.value(2 * std::size_t{48}, "Millis"), 255);
 }
 
 // The flag of a fix is in another message (GpsLongitude) than the height of the fix (GpsLatitude).
@@ -203,8 +203,10 @@ TEST(Player, ALostSampleUsesItsCounterUp) {
   const Flown flown(*scenario);
   EXPECT_LT(flown.due.size(), 45U);
   EXPECT_GT(flown.due.size(), 20U);
-  for (std::size_t k = 0; k < flown.due.size(); ++k)
-    EXPECT_EQ(flown.value(2 * k + 1, "Count"), static_cast<double>((flown.due[k] - 3'000) / 20'000 - 1));
+  for (std::size_t k = 0; k < flown.due.size(); ++k) {
+    const std::int64_t sample = (flown.due[k] - 3'000) / 20'000 - 1;
+    EXPECT_EQ(flown.value(2 * k + 1, "Count"), static_cast<double>(sample));
+  }
 }
 
 TEST(J1939, GroupsAreKnownWithoutPrioritySourceAndDestination) {

@@ -181,9 +181,9 @@ TEST(RecordedLog, FramesAreSentAsTheyWereBetweenTheSameSyncs) {
   Log log;
   log.sync(0);
   for (int k = 1; k <= 100; ++k) {
-    log.imu(k * 10'000);
+    log.imu(k * 10'000L);
     log.add(to_frame(GpsTime{}, 3));
-    log.sync(k * 10'000);
+    log.sync(k * 10'000L);
   }
   log.imu(second_us + 10'000);
   const auto group = log.read(second_us);

@@ -77,7 +77,7 @@ TEST_F(Model, ARepeatedFrameIsLateAndSoIsTheFirstAfterAWholePeriodOfTheCounter) 
   sync();
   EXPECT_EQ(least().late, 1U);
   for (int k = 1; k < e2e::counter_period; ++k)
-    imu(10'000 * (k + 1), [](std::vector<Frame>& frames) { frames.clear(); });
+    imu(10'000L * (k + 1), [](std::vector<Frame>& frames) { frames.clear(); });
   imu(160'000);
   sync();
   EXPECT_EQ(least().late, 4U) << "the counter says that they were there before";

@@ -117,7 +117,7 @@ TEST(PageSections, ShowsTheWordsOfEveryFigureThatHasSome) {
 TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
   drive::Run run = run_of();
   for (int i = 0; i < 200; ++i)
-    run.seen.stimuli[messages::MasterInsVelocityD::info.sample_group].add(100'000 * i);
+    run.seen.stimuli[messages::MasterInsVelocityD::info.sample_group].add(100'000L * i);
   const Json latencies = document(scenario_of(), run).at("latency_s");
   ASSERT_TRUE(latencies.contains("AlignUpdate"));
   EXPECT_EQ(latencies["AlignUpdate"]["count"], 0);

@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <functional>
+#include <ranges>
 
 #include "bench/scenario/table.hpp"
 #include "bench/world/units.hpp"
@@ -134,14 +135,14 @@ TEST_P(WrongFlight, IsOneLine) {
   EXPECT_EQ(complaint(GetParam().change, GetParam().keys), GetParam().complaint);
 }
 
-const auto put = [](std::size_t row, std::size_t column, std::string text) {
+const auto put = [](std::size_t row, std::size_t column, const std::string& text) {
   return [=](std::vector<Row>& all) { all[row][column] = text; };
 };
 const auto without = [](std::initializer_list<std::size_t> columns) {
   return [places = std::vector<std::size_t>(columns)](std::vector<Row>& all) {
     for (Row& row : all)
-      for (auto place = places.rbegin(); place != places.rend(); ++place)
-        row.erase(row.begin() + static_cast<std::ptrdiff_t>(*place));
+      for (const std::size_t place : places | std::views::reverse)
+        row.erase(row.begin() + static_cast<std::ptrdiff_t>(place));
   };
 };
 

@@ -119,8 +119,7 @@ TEST(Spool, ManyReadersAtOnce) {
   const Spool<Sample> spool = filled(many);
   std::vector<std::thread> readers;
   std::array<bool, 4> right{};
-  for (std::size_t reader = 0; reader < right.size(); ++reader)
-    readers.emplace_back([&, reader] { right[reader] = holds(spool, many); });
+  for (bool& result : right) readers.emplace_back([&spool, &result] { result = holds(spool, many); });
   for (std::thread& reader : readers) reader.join();
   EXPECT_TRUE(std::ranges::all_of(right, std::identity{}));
 }

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <ranges>
-
 #include "bench/world/flight_record.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/target/estimators/csv.hpp"
@@ -102,10 +100,9 @@ TEST(Motion, TheSPathIsThatOfTheReference) {
   for (std::size_t second = 0; second < seconds.rows(); ++second) {
     Vector3 rotation = Vector3::Zero();
     Vector3 velocity = Vector3::Zero();
-    for (const ImuIncrement& increment :
-         flight.increments() | std::views::drop(50 * second) | std::views::take(50)) {
-      rotation += increment.delta_theta;
-      velocity += increment.delta_v;
+    for (std::size_t i = 50 * second; i < 50 * (second + 1); ++i) {
+      rotation += flight.increments()[i].delta_theta;
+      velocity += flight.increments()[i].delta_v;
     }
     const double heading = euler_from(flight.epochs()[50 * (second + 1)].C_bn).heading;
     EXPECT_NEAR(heading, seconds.at(second, "heading_true"), 1e-12);

@@ -59,10 +59,10 @@ RC_GTEST_PROP(RecordedPath, PassesThroughItsSamplesWithTheRatesOfItsCurve, ()) {
   const auto states = states_of(flown, every_us);
   const Flight again = flown_again(states);
   const FlightRecord record(again, states.back().t_us, 10'000);
-  // The velocity of the record differs from the recorded velocity only by the correction. A cubic spline
-  // through velocities has an error of 5/384 h^4 v'''' per sample: 1e-3 m/s for 250 m/s turning at 2 pi / 6
-  // per second, sampled at 50 ms. The mean of this error over 10 s is far smaller, so the positions agree
-  // within this error times 12 s.
+  // The velocity of the repeated flight differs from the recorded one, because a cubic spline through
+  // velocities has an error of up to 5/384 h^4 v''''. The fastest part of the velocity is a product of two
+  // oscillations with periods of 6 s or more: 4e-4 m/s for 250 m/s, sampled at 50 ms. Therefore the positions
+  // agree within this error times the 12 s of the flight.
   const double h = 1e-6 * static_cast<double>(every_us);
   const double w = 2 * std::numbers::pi / 6;
   const double bend = weave.speed * std::pow(2 * w, 4) * 5 / 384 * std::pow(h, 4) + 1e-9;

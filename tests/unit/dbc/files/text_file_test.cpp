@@ -13,7 +13,7 @@ namespace canhil {
 namespace {
 
 std::string file_of(std::size_t bytes) {
-  const std::string path = test::own_folder() + "/text_file_test_" + std::to_string(bytes);
+  std::string path = test::own_folder() + "/text_file_test_" + std::to_string(bytes);
   std::ofstream(path) << std::string(bytes, 'x');
   return path;
 }

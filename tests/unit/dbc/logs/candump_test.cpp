@@ -195,7 +195,7 @@ TEST(LogReading, LinesUpToTheLimitAreRead) {
   const std::string path = test::own_folder() + "/canhil_long_lines.log";
   const std::string head = "(0.000000) ", tail = " 123#00 R";
   for (const std::size_t length : {4096U, 4097U}) {
-    std::ofstream(path) << head + std::string(length - head.size() - tail.size(), 'x') + tail + "\n";
+    std::ofstream(path) << head << std::string(length - head.size() - tail.size(), 'x') << tail << '\n';
     auto reader = LogReader::open(path);
     ASSERT_TRUE(reader);
     EXPECT_EQ(reader->next().has_value(), length == 4096);

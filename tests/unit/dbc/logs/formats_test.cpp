@@ -1,4 +1,5 @@
 // The three log formats: written frames are read back unchanged, and every error is one line.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -203,7 +204,7 @@ TEST(Asc, WhatIsWrongIsSaidInOneLine) {
   for (const auto& [line, what] : wrong) {
     const std::string path = path_of("wrong.asc");
     std::ofstream(path) << "date Sat Sep 30 15:06:13 2017\nbase hex  timestamps absolute\n" << line << "\n";
-    EXPECT_THAT(why_not(path), StartsWith(path + ":3: " + what)) << line;
+    EXPECT_THAT(why_not(path), StartsWith(fmt::format("{}:3: {}", path, what))) << line;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "dbc/parser/parse.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -264,7 +265,7 @@ std::string text_of_messages(int count) {
   }
   for (int i = 0; i < count; ++i) {
     const std::string id = std::to_string(2147483648U + static_cast<unsigned>(i));
-    text += "BA_ \"GenMsgCycleTime\" BO_ " + id + " 10;\nVAL_ " + id + " s 0 \"zero\" 1 \"one\" ;\n";
+    text += fmt::format("BA_ \"GenMsgCycleTime\" BO_ {0} 10;\nVAL_ {0} s 0 \"zero\" 1 \"one\" ;\n", id);
   }
   return text;
 }

@@ -34,7 +34,8 @@ TEST(BitErrors, AFrameIsHitAsOftenAsItsBitsSayAndAnywhere) {
     ++hits;
     EXPECT_FALSE(error->at);
     ASSERT_EQ(error->after_ns % bit_ns, 0);
-    mean += static_cast<double>(error->after_ns / bit_ns);
+    const std::int64_t bit = error->after_ns / bit_ns;
+    mean += static_cast<double>(bit);
     first_ns = std::min(first_ns, error->after_ns);
     last_ns = std::max(last_ns, error->after_ns);
   }
@@ -114,11 +115,11 @@ TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
       }
     };
     for (std::uint32_t i = 0; i < rounds; ++i) {
-      take(i * 2'000'000);
+      take(i * 2'000'000L);
       for (std::uint32_t n = 0; n < 3; ++n) {
         Frame f = frame(i);
         f.id = 0x100 + n;
-        ASSERT_TRUE(wire.queue(n, f, i * 2'000'000));
+        ASSERT_TRUE(wire.queue(n, f, i * 2'000'000L));
       }
     }
     take(1'000'000'000'000);

@@ -156,7 +156,7 @@ TEST(SimulatedWire, AfterSixteenErrorsASenderIsPassiveAndLetsOthersGoFirst) {
 TEST(SimulatedWire, WhileASenderIsSuspendedALessUrgentFrameGoes) {
   SimulatedWire wire(rates, std::vector<WireNode>(2), failing(0x100, 16));
   wire.queue(0, frame(0x100), 0);
-  const std::int64_t passive_ns = 16 * (20 + 6 + 8 + 3) * bit_ns;
+  const std::int64_t passive_ns = 16L * (20 + 6 + 8 + 3) * bit_ns;
   ASSERT_FALSE(wire.next(passive_ns));
   EXPECT_EQ(wire.state(0), NodeState::error_passive);
   wire.queue(1, frame(0x700), passive_ns + bit_ns);
@@ -174,7 +174,7 @@ TEST(SimulatedWire, After32ErrorsOffTheBusAndBackAfter128RecessiveRuns) {
   // 32 error frames of 37 bits. From the 16th error frame on, the passive sender pauses for 8 bits after each
   // error frame except the last.
   const std::int64_t off_ns = (32 * 37 + 16 * 8) * bit_ns;
-  const std::int64_t back_ns = off_ns + 128 * 11 * bit_ns;
+  const std::int64_t back_ns = off_ns + 128 * 11L * bit_ns;
   EXPECT_FALSE(wire.queue(0, frame(0x200), back_ns - bit_ns));
   EXPECT_TRUE(wire.queue(0, frame(0x200), back_ns));
   EXPECT_EQ(wire.state(0), NodeState::error_active);

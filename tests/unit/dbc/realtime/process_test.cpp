@@ -25,7 +25,7 @@ TEST(Words, SayWhatIsInForce) {
   Standing standing{.policy = "SCHED_FIFO",
                     .priority = 40,
                     .cpus = {2, 3},
-                    .locked_kib = 71 * 1024,
+                    .locked_kib = 72'704,
                     .timer_slack_ns = 1,
                     .awake = true,
                     .governors = {"performance"},

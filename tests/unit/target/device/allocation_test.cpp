@@ -59,14 +59,14 @@ std::vector<Frame> transfer_session(messages::Algorithm algorithm) {
   bench.command(Command::start);
   for (int k = 1; k <= 200; ++k) {
     if (k % 37 == 0) {
-      bench.lose_imu(k * 10'000L);
+      bench.lose_imu(k * 10'000LL);
     } else {
-      bench.imu(k * 10'000L);
+      bench.imu(k * 10'000LL);
     }
     if (k % 10 == 5) bench.master((k - 5) * 10'000L, BenchSide::speed + 0.1);
-    bench.sync(k * 10'000L, k > 100);
+    bench.sync(k * 10'000LL, k > 100);
   }
-  for (int k = 201; k <= 260; ++k) bench.sync(k * 10'000L);  // the IMU falls silent, which causes a fault
+  for (int k = 201; k <= 260; ++k) bench.sync(k * 10'000LL);  // the IMU falls silent, which causes a fault
   return bench.fed();
 }
 
@@ -88,24 +88,24 @@ std::vector<Frame> inflight_session(messages::Algorithm algorithm) {
   bench.command(Command::start);
   for (int k = 1; k <= 600; ++k) {
     if (k % 37 == 0) {
-      bench.lose_imu(k * 10'000);
+      bench.lose_imu(k * 10'000L);
     } else {
-      bench.imu(k * 10'000);
+      bench.imu(k * 10'000L);
     }
     if (k % 50 == 0) {
       const double north_deg = BenchSide::speed * (k - 40) * 0.01 / 111e3;
       bench.send(GpsLatitude{.latitude_deg = k == 300 ? 38 : 37 + north_deg, .height_m = 1000});
       bench.send(GpsLongitude{.longitude_deg = 127,
                               .position_validity = k == 200 ? Validity::invalid : Validity::valid});
-      bench.send(GpsTime{.time_of_validity_us = wrap_us((k - 40) * 10'000)});
+      bench.send(GpsTime{.time_of_validity_us = wrap_us((k - 40) * 10'000L)});
       bench.send(SsblRelativeNE{});
       bench.send(SsblShipLatitude{});
       bench.send(SsblShipLongitude{});
       bench.send(SsblRelativeD{});
     }
-    bench.sync(k * 10'000, k > 300);
+    bench.sync(k * 10'000L, k > 300);
   }
-  for (int k = 601; k <= 660; ++k) bench.sync(k * 10'000);
+  for (int k = 601; k <= 660; ++k) bench.sync(k * 10'000L);
   return bench.fed();
 }
 
@@ -155,7 +155,7 @@ std::vector<Frame> wind_session(messages::Algorithm algorithm) {
   bench.send(TargetInitAirVelocity{.air_velocity_x_mps = BenchSide::speed, .air_velocity_z_mps = 5});
   bench.command(Command::start);
   for (int k = 1; k <= 600; ++k) {
-    const std::int64_t t_us = k * 20'000;
+    const std::int64_t t_us = k * 20'000L;
     if (k % 7 != 0) {
       bench.send(FinDeflections{
           .elevator_deg = k % 31 == 0 ? 40.0 : -1.0,

@@ -18,7 +18,7 @@ constexpr double latitude_deg = 37, longitude_deg = 127, height_m = 1000;
 class Vehicle : public BenchSide {
  public:
   explicit Vehicle(float aiding, Algorithm algorithm = Algorithm::sin_cos,
-                   std::vector<ParamSet> parameters = {}, double starts_at_deg = longitude_deg) {
+                   const std::vector<ParamSet>& parameters = {}, double starts_at_deg = longitude_deg) {
     command(Command::reset, Estimator::inflight_alignment, algorithm);
     send(ParamSet{.parameter = Parameter::aiding, .value = aiding});
     for (const ParamSet& parameter : parameters) send(parameter);
@@ -162,8 +162,8 @@ TEST_P(BadFixes, AreAnsweredWithTheirReasonAndLeaveNoTrace) {
     const auto flight = [&](bool bad) {
       Vehicle bench(by_gps, algorithm);
       for (int second = 1; second <= 4; ++second) {
-        bench.imu_until(second * 1'000'000);
-        bench.gps(second * 1'000'000, second % 2);
+        bench.imu_until(second * 1'000'000L);
+        bench.gps(second * 1'000'000L, second % 2);
       }
       bench.imu_until(4'500'000);
       const std::size_t before = bench.all<FixStatus>().size();
@@ -178,8 +178,8 @@ TEST_P(BadFixes, AreAnsweredWithTheirReasonAndLeaveNoTrace) {
       }
       bench.forget();
       for (int second = 5; second <= 6; ++second) {
-        bench.imu_until(second * 1'000'000);
-        bench.gps(second * 1'000'000, second % 2);
+        bench.imu_until(second * 1'000'000L);
+        bench.gps(second * 1'000'000L, second % 2);
       }
       std::vector<double> estimates;
       for (const auto& a : bench.all<FixAttitude>()) estimates.push_back(a.heading_deg);
@@ -241,8 +241,8 @@ TEST(InflightAlignment, TheGateOpensAfterAsManyRejectionsAsConfigured) {
   bench.gps(1'000'000);
   std::vector<FixOutcome> outcomes;
   for (int second = 2; second <= 6; ++second) {
-    bench.imu_until(second * 1'000'000);
-    bench.gps(second * 1'000'000, 1000);
+    bench.imu_until(second * 1'000'000L);
+    bench.gps(second * 1'000'000L, 1000);
     outcomes.push_back(bench.outcome());
   }
   EXPECT_THAT(outcomes, testing::ElementsAre(FixOutcome::gated, FixOutcome::gated, FixOutcome::gated,

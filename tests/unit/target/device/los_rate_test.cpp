@@ -247,7 +247,7 @@ TEST(LosRateParameters, SettingsReachTheEstimator) {
     LosRateEstimate estimate;
     LosRateSigma sigma;
   };
-  const auto at_two_seconds = [](std::vector<ParamSet> parameters,
+  const auto at_two_seconds = [](const std::vector<ParamSet>& parameters,
                                  Algorithm algorithm = Algorithm::combined) {
     Missile missile(algorithm, parameters);
     missile.fly_until(2);

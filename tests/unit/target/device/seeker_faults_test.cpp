@@ -217,7 +217,7 @@ TEST(SeekerLoss, ASeekerThatStaysAwayIsNamedAndTheTargetAcquiredAnew) {
 
 TEST(SeekerLoss, ASeekerThatNeverSpeaksIsNamed) {
   Missile missile;
-  for (int k = 0; k <= 50; ++k) missile.sync(k * 10'000);
+  for (int k = 0; k <= 50; ++k) missile.sync(k * 10'000L);
   EXPECT_EQ(missile.last<TargetHeartbeat>()->error_input_silent, 0);
   missile.sync(600'000);
   EXPECT_EQ(missile.last<TargetHeartbeat>()->error_input_silent, 1);

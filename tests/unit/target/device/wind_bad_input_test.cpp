@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"ThatStandsStill", WindFault::stale, 44, [](Navigation&) {}},
         Bad{"OfAnotherHeading", WindFault::jump, 0,
             [](Navigation& n) {
-              if (n.t_us < 20'000 * 520) n.attitude.z() += 1;
+              if (n.t_us < 20'000L * 520) n.attitude.z() += 1;
             }}),
     [](const auto& which) { return which.param.name; });
 
@@ -325,7 +325,7 @@ TEST_P(UntimelyNavigation, IsAnsweredWithItsReasonAndLeavesNoTrace) {
 INSTANTIATE_TEST_SUITE_P(
     Navigation, UntimelyNavigation,
     testing::Values(Untimely{"FromTheFuture", WindOutcome::future, 1, 0, 12'000'000},
-                    Untimely{"TwiceTheSame", WindOutcome::out_of_order, 0, 1, 499 * 20'000},
+                    Untimely{"TwiceTheSame", WindOutcome::out_of_order, 0, 1, 499 * 20'000L},
                     Untimely{"FromThePast", WindOutcome::out_of_order, 0, 1, 5'000'000},
                     Untimely{"BeforeTheStart", WindOutcome::out_of_order, 0, 1, -20'000}),
     [](const auto& which) { return which.param.name; });

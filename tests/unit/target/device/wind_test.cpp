@@ -76,7 +76,7 @@ TEST(Wind, TimesMayWrap) {
   const auto flight = [](std::int64_t epoch_us) {
     Glider bench(Glider::Release{.parameters = {}, .t_us = epoch_us});
     bench.fly(0, 200);
-    EXPECT_EQ(bench.last<WindUpdate>()->cause_time_us, wrap_us(epoch_us + 199 * 20'000));
+    EXPECT_EQ(bench.last<WindUpdate>()->cause_time_us, wrap_us(epoch_us + 199 * 20'000L));
     return bench.winds();
   };
   EXPECT_EQ(flight(0), flight((std::int64_t{1} << 32) - 1'000'006));

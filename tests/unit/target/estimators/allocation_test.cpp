@@ -21,6 +21,8 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
+// The names that the linker's option --wrap prescribes.
+// NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" {
 void* __real_malloc(std::size_t size);
 void* __real_calloc(std::size_t count, std::size_t size);
@@ -44,6 +46,7 @@ void* __wrap_aligned_alloc(std::size_t alignment, std::size_t size) {
   return __real_aligned_alloc(alignment, size);
 }
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 // Not inlined, because GCC would otherwise report a mismatched free() in these functions.
 [[gnu::noinline]] void* operator new(std::size_t size) {
@@ -92,10 +95,10 @@ TEST(Allocation, TransferAlignmentAllocatesNothing) {
       Outcome worst = Outcome::ok;
       const std::size_t before = allocations;
       for (int k = 1; k <= 200; ++k) {
-        history.propagate(state, imu, k * 10'000L, settings);
+        history.propagate(state, imu, k * 10'000LL, settings);
         if (k % 10 != 0) continue;
         const UpdateResult result =
-            history.update(state, flight_start().v_eb_n, k * 10'000L - 55'000, settings);
+            history.update(state, flight_start().v_eb_n, k * 10'000LL - 55'000, settings);
         if (result.outcome != Outcome::ok) worst = result.outcome;
       }
       const std::size_t made = allocations - before;
@@ -129,12 +132,12 @@ TEST(Allocation, InflightAlignmentAllocatesNothing) {
         int ok = 0;
         const std::size_t before = allocations;
         for (int k = 1; k <= 500; ++k) {
-          history->propagate(state, imu, k * 10'000, settings);
+          history->propagate(state, imu, k * 10'000L, settings);
           if (k % 50 != 0) continue;
           const double north = start.v_eb_n.x() * (k * 0.01 - 0.455);
           const UpdateResult result =
               history->update(state, {start.latitude + north / 6.36e6, start.longitude, start.height},
-                              k * 10'000 - 455'000, settings);
+                              k * 10'000L - 455'000, settings);
           if (result.outcome == Outcome::ok && std::isfinite(estimate(state).nav.height)) ++ok;
           if (uncertainty(state).position.allFinite()) continue;
           ok = 0;
@@ -204,8 +207,8 @@ TEST(Allocation, WindAllocatesNothing) {
     int outcomes[7] = {};
     const std::size_t before = allocations;
     for (int k = 0; k <= 500; ++k) {
-      fins.push(k * 20'000, {0, 0, 0.3 * (k % 2)}, 0.2);  // every other push is refused
-      const Navigation sample{.t_us = k % 50 == 0 ? 0 : k * 20'000,
+      fins.push(k * 20'000L, {0, 0, 0.3 * (k % 2)}, 0.2);  // every other push is refused
+      const Navigation sample{.t_us = k % 50 == 0 ? 0 : k * 20'000L,
                               .v_eb_n = start.v_eb_n + Eigen::Vector3d(0.01 * (k % 3), 0, 0),
                               .omega = start.omega,
                               .attitude = start.attitude,

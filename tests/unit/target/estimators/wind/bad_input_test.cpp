@@ -254,8 +254,8 @@ TEST(WindBadInput, AirVelocityOutsideTheTable) {
       State state = initial(start, design);
       FinHistory fins;
       for (int k = 0; k <= 50; ++k) {
-        fins.push(k * 20'000, {}, 1);
-        const Navigation n{.t_us = k * 20'000,
+        fins.push(k * 20'000L, {}, 1);
+        const Navigation n{.t_us = k * 20'000L,
                            .v_eb_n = start.v_eb_n + Eigen::Vector3d(0.001 * k, 0, 0),
                            .omega = start.omega,
                            .attitude = start.attitude,

@@ -59,7 +59,7 @@ TEST(FinHistory, SaysWhenItKnowsNothing) {
 
 TEST(FinHistory, KeepsTheLastOfMany) {
   FinHistory fins;
-  for (int k = 0; k < 1000; ++k) fins.push(k * 10'000, {k * 1e-4, 0, 0}, limit);
+  for (int k = 0; k < 1000; ++k) fins.push(k * 10'000L, {k * 1e-4, 0, 0}, limit);
   EXPECT_NEAR(fins.over(9'400'000, 9'420'000).mean.elevator, 0.0941, 1e-12);
   EXPECT_NEAR(fins.over(0, 20'000).mean.elevator, 0.0936, 1e-12);  // the oldest of the 64 samples
   EXPECT_GT(fins.over(0, 20'000).gap_us, 9'000'000);
