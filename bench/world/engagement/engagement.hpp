@@ -30,7 +30,8 @@ struct EngagementTruth {
   [[nodiscard]] double time_to_go() const { return range * closing_speed / velocity_n.squaredNorm(); }
 };
 
-/// Integrals of the antenna's gyros and the missile's accelerometers over an interval, in the antenna's axes.
+/// The integral of the antenna's gyros and the mean of the missile's accelerometers over an interval, in the
+/// antenna's axes.
 struct SeekerIncrement {
   std::int64_t interval_us = 0;
   Vector3 delta_theta = Vector3::Zero();        ///< inertial rotation of the antenna: roll, pitch, yaw [rad]

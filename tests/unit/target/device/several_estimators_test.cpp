@@ -139,8 +139,8 @@ TEST(SeveralEstimators, AStartThatIsRepeatedStartsAllAnew) {
   EXPECT_EQ(first_answers(1).size(), 6U);
 }
 
-// Fixes newer than the last IMU sample wait. When an IMU sample arrives after the gap, the device answers all
-// of these fixes.
+// The device holds back fixes that are newer than the last IMU sample. When an IMU sample arrives after the
+// gap, the device answers all of these fixes.
 TEST(SeveralEstimators, AllThatWaitedIsAnsweredWithOneSample) {
   BenchSide bench;
   make_ready(bench).command(Command::start);
