@@ -58,9 +58,9 @@ Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
                                          const world::FlightRecord& truth);
 
 /// The error of the first navigation answer that includes a filter update with the cause `cause_us`.
-/// `navigation_us` is the time of the cause of the last navigation answer before the update; it excludes the
-/// navigation answers between the time of validity of a late fix and the arrival of the fix. Null: no
-/// navigation answer follows the update.
+/// `navigation_us` is the time of the cause of the last navigation answer before the update; the result has a
+/// later cause. The navigation answers between the time of validity of a late fix and the arrival of the fix
+/// do not include the update yet. Null: no navigation answer follows the update.
 const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
                                    std::int64_t navigation_us);
 
