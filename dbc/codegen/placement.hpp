@@ -14,7 +14,7 @@ struct Word {
   unsigned first = 0;
   unsigned bytes = 8;
   ByteOrder order = ByteOrder::little_endian;
-  /// Compares the first byte and the byte order, in which the words of one message differ.
+  /// Compares by first byte, then by byte order. Two words of one message differ in one of the two.
   friend bool operator<(const Word& a, const Word& b) {
     return std::pair(a.first, a.order) < std::pair(b.first, b.order);
   }

@@ -9,8 +9,9 @@ namespace canhil::checks {
 struct Answering {
   static constexpr std::string_view kind = "answering";
   static constexpr std::string_view meaning =
-      "Passes when answers and heartbeats come without a gap while no fault is active, all values are "
-      "numbers, and no frame of the target is damaged.";
+      "Passes when three conditions hold. While no fault is active, answers and heartbeats come without a "
+      "gap. "
+      "All estimates and sigmas are numbers. No frame of the target is damaged.";
   std::vector<Subject> judged;  ///< quantities that are reported with every answer
   /// The windows of the scenario's faults. In these windows answers may be missing, because the target may
   /// receive no input.
