@@ -15,7 +15,8 @@ constexpr std::int64_t error_frame_bits = 31;
 constexpr std::int64_t divide_up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
 /// The number of instances of a stream that can be queued in an interval. The interval includes its first
-/// moment, but not its last. With a period T this is ceil(interval / T), without a period 1.
+/// moment, but not its last. This is ceil(interval / T) for a stream with period T, and 1
+/// for a stream that has no period.
 std::int64_t queued_within(const Stream& stream, std::int64_t interval_ns) {
   if (interval_ns <= 0) return 0;
   return stream.period_ns > 0 ? divide_up(interval_ns, stream.period_ns) : 1;

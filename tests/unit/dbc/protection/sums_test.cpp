@@ -116,9 +116,9 @@ TEST(Sums, XorOfNibbles) {
   EXPECT_EQ(summed(checksum, {0x12, 0x34, 0x56, 0x0A}), (Bytes{0x12, 0x34, 0x56, 0xDA}));
 }
 
-// A CRC over the whole message with 0 in the checksum's byte. CRC-8/SMBUS of the byte 01 is the remainder of
-// x^8, the polynomial itself: 07. A following zero byte multiplies by x^8 again: 07 times 07 without carries
-// = 15.
+// A CRC over the whole message with 0 in the checksum's byte. The CRC-8/SMBUS of the byte 0x01 is the
+// remainder of x^8. This remainder is the polynomial without its term x^8: 0x07. A following zero byte
+// multiplies by x^8 again: 0x07 times 0x07 without carries is 0x15.
 TEST(Sums, CrcWithItsOwnByteAsZero) {
   Checksum checksum;
   checksum.place = {8, 8, false};
