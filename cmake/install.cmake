@@ -1,4 +1,4 @@
-# cmake --install installs programs, the libraries for find_package(canhil), data and documents. cpack -G DEB packs the same into a Debian
+# cmake --install installs programs, the libraries for find_package(canhil), data and documents. cpack -G DEB packs the same files into a Debian
 # package.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# manual.sh PROGRAMS OUT VERSION: writes manual pages to OUT from the --help output of the programs in the folder PROGRAMS.
+# manual.sh PROGRAMS OUT VERSION: makes manual pages from the --help output of the programs in the folder PROGRAMS, and
+# writes the pages to the folder OUT. The pages state the version VERSION.
 set -euo pipefail
 programs=$1 out=$2 version=$3
 mkdir -p "$out"

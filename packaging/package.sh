@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# package.sh OUT: builds only what is installed, and writes the Debian package to OUT/canhil.deb.
+# package.sh OUT: builds only the parts of the project that the Debian package contains, and writes the package to OUT/canhil.deb.
 set -euo pipefail
 out=$(mkdir -p "${1:?expected a folder for canhil.deb}" && realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,4 +1,4 @@
-// hil-target: runs a Device on a bus, or replays a recorded log to it.
+// hil-target: runs a Device on a bus, or passes the frames of a recorded log to a Device.
 #include <fmt/format.h>
 
 #include <atomic>

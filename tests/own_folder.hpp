@@ -11,7 +11,7 @@
 namespace canhil::test {
 
 /// The folder is removed when the process that created it ends; the end of a child process does not remove
-/// it. It is kept if a test failed, so that the files in it can be inspected.
+/// it. If a test failed, the folder is kept, so that its files can be inspected.
 class OwnFolder {
  public:
   OwnFolder() { std::filesystem::create_directories(path); }

@@ -115,7 +115,7 @@ build() { # build PRESET [TARGET...]
   local preset=$1 log=$results/$1.build.log
   shift
   configure "$preset" "$log" || return
-  # -k 0: continue after errors and test all targets that can be built.
+  # With -k 0, ninja continues after errors, so that all targets that can be built are tested.
   if ! logged "building $preset" "$log" ninja -C "build/$preset" -j "$jobs" -k 0 "$@"; then
     progress_rest "$log"
     failure "building $preset"

@@ -159,8 +159,8 @@ class Run {
     Items found{item(flight.requirement, name + " ends", run.ending.detail, flown_to_its_end)};
     if (run.ending.kind != Ending::Kind::completed) return found;
     for (const checks::CheckResult& check : run.verdict.checks) {
-      // In lockstep, timing checks are not measured and are skipped here. The suite's flights in real time
-      // judge the timing.
+      // A flight in lockstep does not measure the timing, so its timing checks are skipped here. The suite's
+      // flights in real time judge the timing.
       if (!flight.real_time && check.outcome == Outcome::not_measured) continue;
       found.push_back(
           {.requirement = suite_.find(check.requirement) != nullptr ? check.requirement : flight.requirement,

@@ -52,8 +52,8 @@ struct Acceptance {
 /// requirements does not cause an Error: the findings report the failures.
 Result<Acceptance> accept(const Suite& suite, const Options& options, const std::atomic<bool>& stop);
 
-/// Flies the suite's flights that need a reference, in this process, once with rounded and once with
-/// unrounded frames. Writes the reference of each flight. An Error has one line.
+/// Flies, in this process, those flights of the suite that need a reference. Flies each of them twice: with
+/// rounded frames and with unrounded frames. Writes the reference of each flight. An Error has one line.
 Result<void> record(const Suite& suite, const std::atomic<bool>& stop,
                     const std::function<void(const std::string&)>& progress);
 

@@ -48,7 +48,7 @@ class Answers final : public drive::Onlooker {
   double t_s_ = 0;
 };
 
-/// The magnitude of the difference of two values of a signal; for angles, the smaller of the two arcs.
+/// The absolute difference between two values of a signal; for angles, the smaller of the two arcs.
 double distance(const SignalInfo& signal, double a, double b);
 
 }  // namespace canhil::accept

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t{1} << 22U;
 constexpr double at_an_instant = 2, in_the_mean = 0.25, of_rounding = 4;
 
-/// The value with the largest deviation. Deviations are measured in tolerances.
+/// The value with the largest deviation. Each deviation is divided by its tolerance before it is compared.
 struct Worst {
   double tolerances = 0;
   std::string text;

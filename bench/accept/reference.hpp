@@ -1,8 +1,9 @@
 // The answers of the reference target in one flight, stored as text, with the allowed deviation of a target.
 //
 // Two correct targets differ by rounding: each signal is rounded to its step in the DBC, and the rounded
-// inputs of the filter change its estimates. A second flight, with unrounded frames, measures this effect
-// when the reference is made. The deviation of a target may be at most `share` times
+// inputs of the filter change its estimates. When the reference is made, a second flight, with unrounded
+// frames, measures this effect. A target may deviate from the reference by at most these limits, each
+// multiplied by `share`:
 //   at an instant:  2 steps + 4 times the largest effect of rounding over the flight
 //   in the mean:    1/4 step + 4 times the effect of rounding on the mean
 // Flags, states and counts must be equal at each instant, unless rounding changes them. The mean of a flag,
@@ -39,11 +40,11 @@ Reference make_reference(const Answers& answers, const Answers& unrounded, std::
 
 /// `comment`: lines at the beginning of the file.
 Result<void> write(const Reference& reference, const std::filesystem::path& file, const std::string& comment);
-/// An Error has one line, which states the line of the file.
+/// An Error is one line of text. If one line of the file is wrong, the text contains the number of that line.
 Result<Reference> read_reference(const std::filesystem::path& file);
 
-/// Describes where a target deviates too far from the reference: the signal with the largest deviation,
-/// measured in tolerances, and the first time of that deviation. Empty if no deviation is larger than its
+/// Describes where a target deviates too far from the reference: names the signal with the largest ratio of
+/// deviation to tolerance, and the first time of that deviation. Empty if no deviation is larger than its
 /// tolerance.
 std::string departure(const Reference& reference, const Answers& answers, double share = 1);
 

@@ -29,8 +29,8 @@ struct Answer {
   const Quantity* quantity = nullptr;
 };
 
-/// Evaluates a metric for the runs of a variant. `other`: the runs of the variant with which the metric
-/// compares; empty if the metric compares with none.
+/// Evaluates a metric for the runs of a variant. If the metric compares this variant with a second variant,
+/// `other` contains the runs of the second variant; otherwise `other` is empty.
 void answer(const Metric& metric, const Runs& runs, const Runs& other, Answer& out);
 
 }  // namespace canhil::campaign

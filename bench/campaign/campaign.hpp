@@ -31,8 +31,8 @@ struct Variant {
 struct Sources {
   std::string file;  ///< file name as given by the user
   std::string text;
-  /// The text of each file, by the file name that the campaign contains; includes the mappings and DBCs of
-  /// the scenarios.
+  /// The texts of the scenario files, and of the mappings and DBCs that the scenarios use. The key of a text
+  /// is the file name by which the campaign or the scenario refers to the file.
   std::map<std::string, std::string> scenarios;
 };
 

@@ -11,8 +11,8 @@
 
 namespace canhil::campaign {
 
-/// Reports a defect of a file in which SQLite detects no error. The text is the reason, without the name of
-/// the file.
+/// Thrown if a file has a defect that SQLite does not detect. The text is the reason, without the name of the
+/// file.
 struct Unfit : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

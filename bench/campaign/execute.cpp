@@ -36,8 +36,8 @@ class Finishing {
     const std::scoped_lock lock(mutex_);
     if (--workers_ == 0) ended_.notify_one();
   }
-  /// Waits for a commit interval, or until the workers end. Returns the runs that have finished since the
-  /// last call. Returns nullopt if the workers have ended and all runs were returned.
+  /// Waits until a commit interval has passed or all workers have ended. Returns the runs that have finished
+  /// since the last call. Returns nullopt if the workers have ended and all runs were returned.
   std::optional<std::vector<Finished>> take() {
     std::unique_lock lock(mutex_);
     const bool ended = ended_.wait_for(lock, commit_interval, [&] { return workers_ == 0; });
@@ -92,8 +92,8 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
   finishing.worker_ends();
 }
 
-/// All runs of the shard that are not stored yet. They are ordered by run number, so that the runs with the
-/// same number in all variants, which are compared in pairs, are done at nearly the same time.
+/// All runs of the shard that are not stored yet, ordered by run number. Runs of different variants that have
+/// the same number are compared in pairs; in this order, they are flown at nearly the same time.
 std::vector<Key> open_tasks(const Campaign& campaign, const Shard& shard, std::vector<Key> stored) {
   std::ranges::sort(stored);
   std::vector<Key> tasks;

@@ -9,10 +9,11 @@
 
 namespace canhil::campaign {
 
-/// Writes comma-separated values: variant, run, t_s, quantity, unit, value, in SI and rad. There is one line
-/// per sample and quantity, variant by variant; values that were not reported have no line. For samples by
-/// time to go, t_s is minus the time to go. Returns an Error if the results cannot be read or if `give`
-/// fails.
+/// Writes comma-separated values in the columns variant, run, t_s, quantity, unit and value. Values are in SI
+/// units, angles in rad. The variants follow one another; each sample has one line per quantity, but a value
+/// that was not reported has no line. If a sample covers an interval of the time to go
+/// (Layout::to_go_stretch_us), t_s is minus the time to go. Returns an Error if the results cannot be read or
+/// if `give` fails.
 Result<void> export_csv(const Campaign& campaign, const Store& store,
                         const std::function<Result<void>(std::string_view text)>& give);
 

@@ -56,7 +56,8 @@ const Quantity* read_error(Section& section) {
   return read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom == 0; });
 }
 
-/// Reads the key `stem` with the unit's ending: a limit that is at least 0 and may be absent.
+/// Reads a limit, which may be absent and must not be negative. Its key is `stem` followed by the ending of
+/// the unit.
 std::optional<double> read_limit(Section& section, const quantities::Unit& unit, std::string_view stem,
                                  std::string_view meaning) {
   return section.optional_number({checks::key_of(stem, unit), meaning, fmt::format("{}_UNIT", stem)},

@@ -37,7 +37,8 @@ struct TimeWithin {
   std::optional<std::int64_t> never_before_us;  ///< limit; a time that is never reached meets it
 };
 
-/// How much earlier the RMS of a variant stays within a limit than the RMS of the variant `other`.
+/// How much earlier the RMS of a variant comes within a limit, and stays there until the end, than the RMS of
+/// the variant `other`.
 struct Lead {
   static constexpr std::string_view kind = "lead";
   static constexpr std::string_view meaning =
@@ -49,7 +50,7 @@ struct Lead {
   std::optional<std::int64_t> at_least_us;
 };
 
-/// RMS over runs at the last update at or before a time.
+/// RMS over runs at a given time. If there is no update at this time, the last update before it counts.
 struct ValueAt {
   static constexpr std::string_view kind = "value_at";
   static constexpr std::string_view meaning = "RMS over runs at the last update up to `at_s`.";
@@ -112,7 +113,8 @@ struct ToGo {
   std::optional<double> ratio_at_most, ratio_at_least;  ///< limits of the RMS divided by the RMS of `other`
 };
 
-/// RMS over runs of the value at the end of each run, divided by the same RMS of the variant `other`.
+/// Takes the value at the end of each run, and divides the RMS of these values by the same RMS of the variant
+/// `other`.
 struct RmsRatio {
   static constexpr std::string_view kind = "rms_ratio";
   static constexpr std::string_view meaning =
@@ -173,7 +175,8 @@ struct Metric {
 
 std::string_view kind(const Metric& metric);
 const Quantity& quantity_of(const Metric& metric);
-/// The variant that a metric compares with, as named in the file; empty: none.
+/// The name, in the campaign file, of the variant with which a metric compares; empty: the metric compares
+/// with no variant.
 std::string other_of(const Metric& metric);
 
 /// The name of a kind of metric, and what the kind evaluates.

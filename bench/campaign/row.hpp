@@ -29,7 +29,7 @@ struct Finished {
 /// run.
 std::int64_t row_id(const Key& key, std::uint64_t runs);
 
-/// FNV-1a over a sequence of integers and texts; the length of each text precedes it.
+/// FNV-1a over a sequence of integers and texts. The length of a text is hashed before the text.
 class Digest {
  public:
   Digest& add(std::int64_t value);
@@ -53,11 +53,11 @@ inline constexpr std::string_view key_columns = "id, variant, run";
 
 /// Binds the columns of a row.
 void bind_row(SQLite::Statement& statement, std::uint64_t runs, const Finished& finished);
-/// The key of the row that a statement for key_columns or row_columns has reached. Throws Unfit if the row is
-/// not valid, because the file was then damaged.
+/// The key of the current row of a statement that selects key_columns or row_columns. Throws Unfit if the row
+/// is not valid: then the file was damaged.
 Key key_of(const SQLite::Statement& row, std::uint64_t runs);
-/// The run in the row that a statement for row_columns has reached. Throws Unfit if the row was changed since
-/// it was written.
+/// The run in the current row of a statement that selects row_columns. Throws Unfit if the row was changed
+/// since it was written.
 Finished read_row(const SQLite::Statement& row, std::uint64_t runs);
 
 }  // namespace canhil::campaign

@@ -38,7 +38,8 @@ double variance(const std::vector<double>& values, double mean) {
   return squares / static_cast<double>(values.size() - 1);
 }
 
-// Standard error of the RMS from the scatter of the squares: d(sqrt(m)) = dm / (2 sqrt(m)).
+// Standard error of the RMS, computed from the scatter of the squares. The RMS is the square root of the mean
+// of the squares, so its error is the error of this mean divided by twice the RMS.
 double standard_error_of_rms(const std::vector<double>& squares, double mean) {
   if (mean <= 0) return nan;
   return std::sqrt(variance(squares, mean) / static_cast<double>(squares.size())) / (2 * std::sqrt(mean));

@@ -23,8 +23,9 @@ struct CurvePoint {
   std::size_t missing = 0;                                      ///< runs without a finite value
 };
 
-/// Root mean square of a quantity over the runs, at every update time of any run, ascending. Each run
-/// contributes its last update at or before that time; if an update is lost, the previous update is used.
+/// Root mean square of a quantity over the runs. The curve has one point for each time that update_times()
+/// returns, in ascending order. Each run contributes its last update at or before that time; if an update is
+/// lost, the previous update is used.
 std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, const Quantity& quantity);
 
 /// The last point at or before `t_us`; nullopt if the curve begins later.
@@ -70,8 +71,8 @@ struct RunMeans {
 RunMeans run_means(std::span<const RunSeries> runs, const Quantity& quantity, std::int64_t from_us,
                    std::int64_t to_us);
 
-/// RMS and mean over all runs and over all samples within a window of the time to go [s]. The runs must have
-/// samples by time to go.
+/// RMS and mean over all runs and over all samples within a window of the time to go [s]. Each sample of the
+/// runs must cover an interval of the time to go (Layout::to_go_stretch_us > 0).
 struct ToGoStatistics {
   double rms = 0, mean = 0;  ///< of the finite values [SI]
   std::size_t count = 0;     ///< number of finite values
@@ -92,9 +93,9 @@ struct PairedFraction {
 PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b,
                                const Quantity& quantity, std::int64_t t_us, double confidence);
 
-/// Tests normalised errors squared against chi-square over a window. Errors within one run are correlated in
-/// time, so the bounds apply to the mean over runs at one update (Bar-Shalom, Li, Kirubarajan (2001), section
-/// 5.4.2).
+/// Tests whether the normalised squared errors in a window follow a chi-square distribution. Errors within
+/// one run are correlated in time, so the bounds apply to the mean over runs at one update (Bar-Shalom, Li,
+/// Kirubarajan (2001), section 5.4.2).
 struct ConsistencyStatistics {
   double mean = 0;           ///< over all runs and updates
   double low = 0, high = 0;  ///< central interval of chi2(k n) / n, n: runs, k: degrees of freedom

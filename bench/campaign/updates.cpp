@@ -17,7 +17,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 std::int64_t end_of(const RunSeries& run) {
   if (run.samples.empty()) return run.freshness.end_us;
   const std::size_t last = run.samples.size() - 1;
-  // If the final event (such as the passage) is missing, the end is unknown, and the last sample is used.
+  // If the final event (such as the passage) is missing, the end is unknown, and the time of the last sample
+  // is used in its place.
   const Quantity* known_by = run.samples.layout().end_known_by;
   const bool open = known_by != nullptr && std::isnan(run.samples.value(last, *known_by));
   return open ? run.samples.times()[last] : run.freshness.end_us;
@@ -62,7 +63,8 @@ std::vector<std::int64_t> all_times(std::span<const RunSeries> runs) {
   return times;
 }
 
-// Whether a run's update is stale at a time, or at the end of the run if the end comes first.
+// Whether an update that a run contains at `updated_us` is stale at `t_us`. If the run ended before `t_us`,
+// returns whether the update was stale at the end of the run.
 bool stale(const RunSeries& run, const Quantity& quantity, std::int64_t updated_us, std::int64_t t_us) {
   if (quantity.of_whole_run) return false;
   const std::int64_t until_us = std::min(t_us, end_of(run));

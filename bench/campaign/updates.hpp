@@ -10,11 +10,11 @@
 
 namespace canhil::campaign {
 
-/// All update times [us] of any run, ascending. In gaps that are so long that the updates of all runs become
-/// stale, the times at which they become stale are added.
+/// The times [us] at which at least one run has an update, ascending. In a gap so long that the last updates
+/// of all runs become stale, the result also contains the times at which this happens.
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, const Quantity& quantity);
-/// The same times, but only within a window. Before the first update in the window, the age of an update is
-/// measured from the beginning of the window.
+/// The times that update_times(runs, quantity) would return within a window. Before the first update in the
+/// window, the age of an update is measured from the beginning of the window.
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int64_t from_us,
                                        std::int64_t to_us);
 
@@ -22,9 +22,9 @@ std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int
 /// value.
 double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
 /// Whether the value at `t_us` may be missing. It may be missing in two cases. The first: the run has no
-/// update at `t_us`, but its last update (or, if later, `from_us`, the beginning of the window) is not yet
-/// stale. The second: the update does not contain the quantity, for example the NIS of a fix that was not
-/// used.
+/// update at `t_us`, but its last update is not yet stale. (If that update came before the window, its age is
+/// measured from `from_us`, the beginning of the window.) The second: the update does not contain the
+/// quantity, for example the NIS of a fix that was not used.
 bool may_be_missing(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us);
 /// The value of the quantity in a run's last update at or before `t_us`. NaN: there is no update, the update
 /// is stale or not finite, or the run had ended.
@@ -32,10 +32,10 @@ double last_value(const RunSeries& run, const Quantity& quantity, std::int64_t t
 /// The magnitude of last_value().
 double last_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
 
-/// Whether a run has no silence within a window that is longer than the age limit of its updates.
+/// Whether a run is, within a window, never silent for longer than the age limit of its updates.
 bool answers_throughout(const RunSeries& run, std::int64_t from_us, std::int64_t to_us);
-/// The expected number of samples between the times to go `most` and `least` [s], as far as the flight covers
-/// this window; 0: unknown.
+/// The expected number of samples whose time to go is between `least` and `most` [s]. If the flight covers
+/// only a part of this window, the samples of this part are counted. 0: unknown.
 double samples_to_go(const quantities::Freshness& freshness, double least, double most);
 
 }  // namespace canhil::campaign

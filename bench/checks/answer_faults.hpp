@@ -13,12 +13,12 @@ inline constexpr std::string_view causes_kind = "causes";
 /// The implied check (judge.hpp) that fails when the messages of an answer group never form a whole group.
 inline constexpr std::string_view groups_kind = "answer_groups";
 
-/// Reports, in one line, the groups with wrong causes: the time of the cause matches no stimulus, or counter
-/// and time belong to different stimuli. Empty: there is no such group.
+/// Reports, in one line, the groups whose answers name a wrong cause. A cause is wrong if its time matches no
+/// stimulus, or if its time and its counter belong to different stimuli. Empty: there is no such group.
 std::string wrong_causes(const Observations& seen);
 
-/// Reports, in one line, the groups whose messages arrived but never formed a whole group, and for each group
-/// the messages that were missing or defective. Empty: there is no such group.
+/// Reports, in one line, the groups whose messages arrived but never formed a whole group. For each of these
+/// groups, names the messages that were missing or defective. Empty: there is no such group.
 std::string broken_groups(const Observations& seen);
 
 }  // namespace canhil::checks

@@ -30,7 +30,7 @@ struct BusRecord {
   std::uint64_t more_incidents = 0;    ///< the number of later incidents
   std::uint64_t downs = 0;             ///< how often the interface went down or was removed
   std::uint64_t late_in_queue =
-      0;  ///< frames of the bench that waited for room in the queue beyond their deadline
+      0;  ///< frames of the bench that waited for room in the queue; see Link::late_in_queue()
   std::map<std::string_view, std::uint64_t> intruded;  ///< by message of the bench: the number of frames that
                                                        ///< other nodes sent with the id of this message
   std::uint64_t foreign = 0;  ///< frames in the format (classic or FD) that the DBC of the bus does not use

@@ -9,22 +9,22 @@
 
 namespace canhil::checks {
 
-/// Fractions of the time in which the bus is busy: 1 is a full bus.
+/// How busy the bus is, as a fraction of time: 0 is an idle bus, 1 is a full bus.
 struct Load {
   double mean = 0;
   double busiest = 0;  ///< load in the busiest second
 };
 
-/// The load over time: one value for each second; in a long run, one value for each stretch of several
-/// seconds, namely the load in the busiest second of the stretch.
+/// The load over time. A short run has one value for each second. A long run has one value for each stretch
+/// of several seconds: the load in the busiest second of the stretch.
 struct LoadLine {
   std::size_t stretch_s = 0;  ///< length of a stretch; 0: there were no frames
   std::vector<double> busiest{};
 };
 LoadLine load_line(std::span<const wire::BitLength> seconds, wire::BitRates rates);
 
-/// Bits on the bus in each second. The last second is incomplete, so it is omitted unless it is the only
-/// second.
+/// The bits on the bus in each second of a run. The last second is incomplete, so it is omitted, except in a
+/// run that has only this second.
 std::span<const wire::BitLength> whole_seconds(std::span<const wire::BitLength> seconds);
 std::span<const wire::BitLength> whole_seconds(const Observations& seen);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view error = "error_", e2e = "e2e_";
 
-// The name of an error bit without the common prefix; empty: the signal is not an error bit.
+// Returns the name of an error bit without the prefix "error_". Empty: the signal is not an error bit.
 std::string_view error_in(const SignalInfo& signal) {
   return signal.name.starts_with(error) ? signal.name.substr(error.size()) : std::string_view();
 }

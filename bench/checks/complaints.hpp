@@ -1,4 +1,4 @@
-// Errors that a target reports in addition to its answers: error bits of its heartbeat, its counters, and
+// Errors that a target shows outside its answers: error bits in its heartbeat, increases of its counters, and
 // intervals without a heartbeat.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace canhil::checks {
 
-/// Times are on the bench's time base: the time of the last Sync.
+/// All times in this class are on the bench's time base: an event gets the time of the last Sync before it.
 class Complaints {
  public:
   struct Said {
@@ -26,12 +26,13 @@ class Complaints {
   /// To be called at the end of the run: records a silence up to `now_us`, if there is one.
   void end(std::int64_t now_us);
 
-  /// An entry for each error bit at the time when the bit becomes 1; the target then keeps the bit set to the
-  /// end. For `degraded`: an entry for each heartbeat in which this flag is set.
+  /// For each error bit, one entry at the time when the bit becomes 1; a target then keeps this bit at 1
+  /// until the end of the run. For the flag `degraded`, one entry for each heartbeat in which the flag is
+  /// set.
   [[nodiscard]] const std::vector<Said>& of_heartbeats() const { return of_heartbeats_; }
   /// An entry for each increase of a counter.
   [[nodiscard]] const std::vector<Said>& of_counters() const { return of_counters_; }
-  /// Stretches without a heartbeat, if they are longer than the limit (silence.hpp).
+  /// Intervals without a heartbeat that are longer than the limit (silence.hpp).
   [[nodiscard]] const std::vector<scenario::Window>& silences() const { return silences_; }
 
   /// All possible values of Said::what.

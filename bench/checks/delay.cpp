@@ -13,7 +13,7 @@ constexpr double least_s = -0.2, most_s = 1.0, step_s = 0.01;  // limits and ste
 
 double seconds(std::int64_t t_us) { return 1e-6 * static_cast<double>(t_us); }
 
-// The truth between answers: the cubic through the four nearest points, and its slope.
+// The truth between the answers. A cubic polynomial through the four nearest points gives value and slope.
 class Curve {
  public:
   explicit Curve(const Spool<TrackPoint>& points) {
@@ -27,8 +27,8 @@ class Curve {
   struct At {
     double value = 0, slope = 0;
   };
-  /// `after`: an index that the caller keeps between calls, 0 at first. With this index, queries in ascending
-  /// order of time are cheap.
+  /// `after`: an index that the caller sets to 0 before the first call and keeps between the calls. The index
+  /// makes each search short, so `t` must not decrease from one call to the next.
   [[nodiscard]] At at(double t, std::ptrdiff_t& after) const {
     while (after < std::ssize(t_) && time(after) <= t) ++after;
     const auto first = std::clamp<std::ptrdiff_t>(after - 2, 0, std::ssize(t_) - 4);

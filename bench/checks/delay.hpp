@@ -1,5 +1,5 @@
-// The delay of a reported quantity, estimated by comparison with the truth. Answers without a cause allow no
-// other measurement of their delay.
+// The delay of a reported quantity, estimated by comparison with the truth. If an answer does not name its
+// cause, there is no other way to measure its delay.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ struct Delay {
   double half_width_s = 0;  ///< half-width of the 95 % interval
 };
 
-/// The delay d, with an offset b, for which estimate(t) = truth(t - d) + b fits best within a window, by
-/// least squares. The variance of d is the variance of the residuals, divided by the sum of the squares of
-/// (rate of the truth minus mean rate), times (1 + r)/(1 - r). Here r is the correlation of successive
-/// residuals. None: fewer than 20 answers, or the truth moves too little to determine the delay within
-/// `coarsest_delay_s`.
+/// Fits the delay d and an offset b by least squares, so that estimate(t) is nearly truth(t - d) + b within a
+/// window. The variance of d is computed as V / S * (1 + r) / (1 - r), where V is the variance of the
+/// residuals, S is the sum of the squares of (rate of the truth minus mean rate), and r is the correlation of
+/// successive residuals. None: there are fewer than 20 answers, or the truth moves too little to determine
+/// the delay to within `coarsest_delay_s`.
 std::optional<Delay> delay_of(const quantities::Track& track, const scenario::Window& window);
 inline constexpr double coarsest_delay_s = 0.05;
 

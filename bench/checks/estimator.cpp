@@ -11,7 +11,7 @@ void give_tracks(const Estimator& of, const checks::Observations& seen, const Tr
   of.tracks(seen, truth, [&](quantities::Track track) {
     if (!track.quantity->white) {
       if (track.kind == quantities::Track::Kind::statistic) return;
-      // The iterators of a Spool are constant. NOLINTNEXTLINE(modernize-loop-convert)
+      // A loop by index: the iterators of a Spool are constant. NOLINTNEXTLINE(modernize-loop-convert)
       for (std::size_t index = 0; index < track.points.size(); ++index) {
         quantities::TrackPoint& point = track.points[index];
         point.value = std::numeric_limits<double>::quiet_NaN();

@@ -53,13 +53,14 @@ struct Estimator {
   std::span<const quantities::Quantity* const> of_runs;  ///< quantities of its tracks in a run
   /// Creates the object that assembles the estimator's answers during a run.
   std::unique_ptr<Reception> (*reception)() = nullptr;
-  /// The samples that a run contributes to a campaign; empty without truth.
+  /// The samples that a run contributes to a campaign; empty if there is no truth.
   quantities::Samples (*samples)(const checks::Observations& seen, const Truth& truth) = nullptr;
-  /// Passes to `give` each track of the run for which the bench has a truth.
+  /// Passes the tracks of the run to `give`. Passes none if the estimator observes an engagement or a glide
+  /// that is null in `truth`.
   void (*tracks)(const checks::Observations& seen, const Truth& truth,
                  const quantities::TrackSink& give) = nullptr;
-  /// All marks of the estimator; a mark that never occurred has no times. The first mark, "answers", counts
-  /// all answers.
+  /// All marks of the estimator, including marks that never occurred; these have no times. The first mark,
+  /// "answers", has a time for each answer.
   std::vector<Mark> (*marks)(const checks::Observations& seen) = nullptr;
   /// Marks that report normal events, such as an update or the start of the estimator. "answers" is not
   /// listed.
@@ -79,8 +80,8 @@ struct Estimator {
   quantities::Freshness (*freshness)(const scenario::Scenario& scenario) = nullptr;
 };
 
-/// The tracks of an estimator over a run. If the truth of the flight is unknown, tracks contain estimates
-/// only, and tracks that consist of errors alone are left out.
+/// Passes the tracks of an estimator over a run to `give`. If the truth of the flight is unknown, the tracks
+/// contain no errors, and tracks that would contain only errors are left out.
 void give_tracks(const Estimator& of, const checks::Observations& seen, const Truth& truth,
                  const quantities::TrackSink& give);
 

@@ -26,8 +26,8 @@ struct Evidence {
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
                                                 const quantities::Quantity& quantity);
 
-/// Why timing cannot be compared with a limit [s] at a quantile; empty: it can. The bench can judge the
-/// target's deadlines only if the bench keeps its own deadlines.
+/// Returns why a quantile of the timing cannot be compared with the limit `bar_s`; empty: it can be compared.
+/// The bench can judge the target's deadlines only if the bench keeps its own deadlines.
 std::string unfit(const Evidence& evidence, double quantile, double bar_s);
 /// The largest permitted lateness of the bench, as a fraction of the check's limit; the lateness is taken at
 /// the quantile of the check. If the lateness was larger, the host may have delayed the target by the same

@@ -8,7 +8,7 @@ namespace canhil::checks {
 namespace {
 
 // The bench sends a few hundred frames a second. If the bench waits for a CPU for more than this fraction of
-// the run, the machine has no room for the bench, and none for a target on the same machine.
+// the run, the machine is too busy for the bench, and also for a target on this machine.
 constexpr double most_waited = 0.05;
 // The largest permitted fraction of the machine's CPU time that the hypervisor gives to other guests. The
 // programs on the machine cannot see at which moments the hypervisor does so.

@@ -6,9 +6,10 @@
 
 namespace canhil::checks {
 
-/// Counts how often each duration occurs, in buckets: buckets of 1 us below 10 ms, of 10 us below 100 ms, of
-/// 100 us below 1 s, of 1 ms below 10 s, and one bucket for all longer durations. At most 37 001 buckets (296
-/// kB); only the buckets up to the longest duration are allocated. Minimum, maximum and count are exact.
+/// Counts how often each duration occurs. The width of a bucket is 1 us for durations below 10 ms, 10 us for
+/// durations below 100 ms, 100 us below 1 s, and 1 ms below 10 s. One more bucket counts all longer
+/// durations. There are at most 37 001 buckets (296 kB); only the buckets up to the longest duration are
+/// allocated. Minimum, maximum and count are exact.
 class Histogram {
  public:
   /// A bucket that is not empty.
@@ -18,16 +19,17 @@ class Histogram {
     friend bool operator==(const Bucket&, const Bucket&) = default;
   };
 
-  /// Counts a duration `times` times. A negative duration (because a clock was set) counts in the first
-  /// bucket.
+  /// Adds `times` to the count of a duration. A negative duration occurs if a clock was set; it counts in the
+  /// first bucket.
   void add(std::int64_t t_ns, std::uint64_t times = 1);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] std::int64_t min_ns() const { return min_ns_; }
   [[nodiscard]] std::int64_t max_ns() const { return max_ns_; }
-  /// The quantile q by nearest rank [ns], 0 < q <= 1. The result is the middle of the bucket that contains
-  /// this rank, limited to the minimum and maximum. So a quantile below 10 ms is off by at most half a
-  /// microsecond. 0 if the histogram is empty.
+  /// The quantile q in ns, by the nearest-rank method; q must be above 0 and at most 1. The result is the
+  /// middle of the bucket that contains the rank, but neither less than the minimum nor more than the
+  /// maximum. So the error is at most half a microsecond if the result is below 10 ms. Returns 0 if the
+  /// histogram is empty.
   [[nodiscard]] double quantile_ns(double q) const;
   /// In ascending order.
   [[nodiscard]] std::vector<Bucket> buckets() const;
@@ -39,11 +41,11 @@ class Histogram {
   std::int64_t max_ns_ = 0;
 };
 
-/// Width [us] of the bucket that begins at a time; 0 for the bucket above 10 s.
+/// The width [us] of the bucket that begins at `from_us`; 0 for the bucket of the durations above 10 s.
 std::int64_t bucket_width_us(std::int64_t from_us);
 
-/// The largest value in each stretch of time. When the fixed number of stretches no longer covers the run,
-/// the length of each stretch doubles.
+/// The largest value in each stretch of time. There are at most `max_stretches` stretches. When they no
+/// longer cover the run, the length of every stretch doubles.
 class TimeLine {
  public:
   static constexpr std::size_t max_stretches = 512;

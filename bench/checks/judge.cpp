@@ -14,7 +14,8 @@
 namespace canhil::checks {
 namespace {
 
-// The implied check of the bus: a bus failure fails every run whose scenario has no bus_errors check.
+// Returns a bus_errors check if the bus failed and the scenario itself contains no such check. This implied
+// check makes the run fail.
 std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, const Evidence& evidence) {
   const bool said = std::ranges::find(scenario.checks, BusErrorLimits::kind, &scenario::Check::kind) !=
                     scenario.checks.end();
@@ -51,7 +52,7 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
   return tracks;
 }
 
-// Why a rule cannot be judged for lack of truth; empty: it can be judged.
+// If a rule cannot be judged because the truth is missing, returns the reason. Empty: the rule can be judged.
 std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule& rule,
                          const Evidence& evidence) {
   const std::vector<std::string> held = rule.held_against_truth();
@@ -132,7 +133,8 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
                               .measured = std::move(found),
                               .expected = std::string(expected)});
   };
-  // If another node sends with the ids of bench or target, a check can neither pass nor fail.
+  // If another node sent frames with the bench's ids, the answers may be wrong because of these frames. So
+  // wrong answers then lead to 'not measured' instead of 'fail'.
   const Outcome fault = evidence.seen.bus.intruded.empty() ? Outcome::fail : Outcome::not_measured;
   imply(causes_kind, fault, wrong_causes(evidence.seen), "each answer with time and counter of its cause");
   imply(groups_kind, fault, broken_groups(evidence.seen), "all messages of an answer, with one counter");

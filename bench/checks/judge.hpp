@@ -19,8 +19,8 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence);
 /// The verdict lists an implied check only if the check does not pass.
 bool is_implied(std::string_view kind);
 
-/// The windows, without duplicates, for which checks need the timing of a message. They contain no times yet;
-/// observe::Stopwatch adds the times during the run.
+/// The windows, without duplicates, in which checks need the timing of a message. The windows contain no
+/// times yet; observe::Stopwatch adds the times during the run.
 std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks,
                                        std::span<const MessageInfo> messages = messages::all_messages);
 

@@ -1,5 +1,5 @@
-// Limits between which the loss counters of a receiver of the bench's frames must lie (TargetCounters,
-// docs/report.md).
+// Limits for the counts in TargetCounters (docs/report.md). With this message a target reports how many
+// losses and defects it found in the bench's frames.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ struct LossCounts {
 /// A limit that is larger than any count of a target.
 inline constexpr std::uint32_t any_count = 1'000'000;
 
-/// Limits for the last counts that the target sent. Lower and upper limit differ for two reasons: the bench
-/// cannot see which frames the target had read when the target sent the counts, and the protocol lets the
-/// estimator decide whether to use a group.
+/// Limits for the last counts that the target sent. The lower limit differs from the upper limit for two
+/// reasons. The bench cannot see which frames the target had read when the target sent the counts. The
+/// protocol lets the estimator decide whether to use a group.
 struct ExpectedCounts {
   LossCounts least{}, most{};
 };

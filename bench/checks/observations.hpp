@@ -42,8 +42,8 @@ struct Observations {
   explicit Observations(std::span<const MessageInfo> on_bus)
       : answers(on_bus.size()), from_target(on_bus.size()), timing(on_bus) {}
 
-  /// The answers of an estimator, as the type that the estimator's folder defines; created empty at first
-  /// use.
+  /// The answers of an estimator. The estimator's folder defines their type, `Answers`. The first call
+  /// creates an empty object of this type.
   template <class Answers>
   [[nodiscard]] Answers& of() {
     std::any& own = answered[typeid(Answers)];
@@ -61,7 +61,8 @@ struct Observations {
   std::map<std::string_view, StimulusCount> stimuli;  ///< by sample group; only groups that are answered
   std::vector<std::uint64_t> answers;                 ///< by index in timing.messages
   std::vector<Sighting> from_target;                  ///< by index in timing.messages
-  /// The minimum interval [s] of answer groups that the target sends less often than their stimuli come.
+  /// The minimum interval [s] between two answers, for each answer group that keeps such an interval even if
+  /// its stimuli come faster.
   std::map<std::string_view, double> own_interval_s{};
   std::int64_t first_ns = 0;   ///< stamp of the bench's first transmission
   std::int64_t last_ns = 0;    ///< stamp of the bench's last transmission

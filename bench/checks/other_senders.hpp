@@ -12,8 +12,9 @@ namespace canhil::checks {
 /// of the target.
 inline constexpr std::string_view senders_kind = "senders";
 
-/// Reports, in one line, frames of the bench that another node sent, and answers of the target that came more
-/// than once; empty: there are none. If there are such frames, the measurements may not describe the target.
+/// Reports, in one line, two kinds of frames: frames that another node sent with ids of the bench, and
+/// answers of the target that came more than once. Empty: there are no such frames. If there are such frames,
+/// the measurements may not describe the target.
 std::string other_senders(const Observations& seen);
 
 }  // namespace canhil::checks

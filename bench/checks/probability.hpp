@@ -1,13 +1,13 @@
 // Quantiles and bounds of distributions, from Boost.Math. Only one source file includes Boost.Math, because
-// it takes seconds to compile.
+// Boost.Math takes seconds to compile.
 #pragma once
 
 namespace canhil::checks {
 
-/// x with P(chi-squared of k degrees of freedom <= x) = p.
+/// The value x for which P(X <= x) is p, where X is chi-squared.
 double chi_squared_quantile(double degrees_of_freedom, double p);
-/// x with P(chi-squared of k degrees of freedom > x) = p. For small p, this is more accurate than the
-/// quantile of 1 - p.
+/// The value x for which P(X > x) is p, where X is chi-squared. For small p, this function is more accurate
+/// than a call of chi_squared_quantile() with the probability 1 - p.
 double chi_squared_quantile_above(double degrees_of_freedom, double p);
 
 /// P(Z > z) of a standard normal Z.
@@ -16,8 +16,8 @@ double normal_above(double z);
 /// P(T > t) of Student's T.
 double student_t_above(double degrees_of_freedom, double t);
 
-/// Clopper-Pearson bounds of the probability of a success: the true probability lies beyond each bound with
-/// probability at most `tail`.
+/// Clopper-Pearson bounds for the probability of a success. The true probability is below `low` with a
+/// probability of at most `tail`, and above `high` with a probability of at most `tail`.
 struct SuccessBounds {
   double low, high;
 };

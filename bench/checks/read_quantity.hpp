@@ -14,12 +14,12 @@ class Section;
 
 namespace canhil::checks {
 
-/// The key that consists of `stem` and the suffix of a unit.
+/// The name of a key: `stem`, followed by the suffix of the unit.
 std::string key_of(std::string_view stem, const quantities::Unit& unit);
 
-/// The quantity among `known` whose name is the value of the key `quantity`. `refused`: returns why a
-/// quantity is not allowed here, as text after "'NAME' "; empty: it is allowed. Error: an unknown, former or
-/// refused name; the return value is then an allowed quantity.
+/// Reads the key `quantity` and returns the quantity that has this name among `known`. `refused`: returns why
+/// a quantity is not allowed here, as a text that is put after the quoted name; empty: the quantity is
+/// allowed. Error: the name is unknown, former or refused; the function then returns an allowed quantity.
 const quantities::Quantity* read_quantity(
     scenario::Section& section, std::span<const quantities::Quantity* const> known,
     const std::function<std::string(const quantities::Quantity&)>& refused);

@@ -1,5 +1,5 @@
-// Turns frames into answers: the code in each estimator's folder assembles the answer groups of this
-// estimator.
+// Turns frames into answers. The folder of each estimator contains the code that assembles the answer groups
+// of this estimator.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +28,11 @@ class Reception {
   Reception& operator=(const Reception&) = delete;
   virtual ~Reception() = default;
 
-  /// Whether the estimator's answers contain a message, by index in all_messages.
+  /// Whether the estimator's answers contain a message. `message`: its index in all_messages.
   [[nodiscard]] virtual bool takes(std::size_t message) const = 0;
-  /// Takes a frame with a valid CRC, of a message for which takes() is true. `now_us`: time of the last Sync.
-  /// Adds a completed answer to `seen` and returns its group; none: the group is not complete yet.
+  /// Takes a frame that has a valid CRC and belongs to a message for which takes() is true. `now_us`: time of
+  /// the last Sync. If the frame completes an answer, adds the answer to `seen` and returns the answer's
+  /// group. None: the group is not complete yet.
   virtual std::optional<Whole> take(const Frame& frame, std::size_t message, std::int64_t now_us,
                                     checks::Observations& seen) = 0;
   /// Called when the bench has sent the last frame of a sample group that some estimator answers.

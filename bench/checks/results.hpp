@@ -1,4 +1,4 @@
-// Results of a run in addition to the checks: lines of figures, for people and programs.
+// Results of a run in addition to the checks: lines of numbers, for people and for programs.
 #pragma once
 
 #include <optional>

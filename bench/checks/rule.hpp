@@ -2,13 +2,13 @@
 //
 // A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), its fields, and
 //   static Kind read(scenario::Section&, const scenario::CheckContext&)
-//   Finding judge(const Evidence&) const         an absent answer is a failure of the target, never a pass
+//   Finding judge(const Evidence&) const         an absent answer counts as a failure of the target
 // and, where they apply,
-//   std::string subject() const                  distinguishes the checks of one kind
+//   std::string subject() const                  a text that distinguishes the checks of one kind
 //   std::vector<Subject> subjects() const        the quantities that the rule uses
 //   std::vector<std::string> held_against_truth() const
 //                                                the estimators whose truth the rule needs; without this
-//                                                function: the estimators of its subjects, except for
+//                                                function: the estimators of all subjects that are not
 //                                                innovations
 //   std::optional<Bar> bar() const               the limits of the rule, for pictures
 //   std::vector<Timed> timed() const             the messages whose times the rule needs, with windows

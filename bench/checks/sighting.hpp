@@ -20,7 +20,8 @@ struct Sighting {
   std::uint8_t counter = 0;         ///< counter of the last frame with a wrong counter
 };
 
-/// "50 with a wrong CRC, 3 of 7 bytes, expected 8"; empty: no defects.
+/// Describes the defects, for example "50 with a wrong CRC, 3 of 7 bytes, expected 8": 50 frames had a wrong
+/// CRC, and 3 frames had 7 bytes instead of 8. Empty: there are no defects.
 std::string faults_of(const Sighting& sighting, const MessageInfo& message);
 
 }  // namespace canhil::checks

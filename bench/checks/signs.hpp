@@ -25,8 +25,8 @@ struct Sign {
 std::vector<Sign> signs_in(const Observations& seen,
                            std::span<const estimators::Estimator* const> estimators);
 
-/// The names of all possible signs: the marks of these estimators except Estimator::plain_marks, the error
-/// bits, the counters.
+/// The names of all possible signs: error bits, counters, and marks of the estimators. The mark "answers" and
+/// the marks in Estimator::plain_marks are not signs.
 std::vector<std::string> sign_names(std::span<const estimators::Estimator* const> estimators);
 
 /// A sign that appears within this time before a fault is not attributed to the fault.

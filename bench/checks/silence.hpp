@@ -1,5 +1,5 @@
-// The longest wait for an answer; a longer wait is silence, and silence never passes. The checks of a run and
-// the metrics of a campaign share this rule.
+// The longest permitted wait for an answer. A longer wait is silence, and no check passes if there was
+// silence. The checks of a run and the metrics of a campaign share this rule.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace canhil::checks {
 
 /// This many consecutive fixes may remain unanswered.
 inline constexpr int tolerated_fixes = 2;
-/// Seeker samples may be lost on purpose, but at least this fraction must be answered.
+/// A run may lose seeker samples on purpose, but the target must answer at least this fraction of all
+/// samples.
 inline constexpr double least_answered = 0.5;
 
 /// A gap between answers that is longer than this time [us] counts as silence. The time is `periods` periods
@@ -22,9 +23,9 @@ constexpr double longest_wait_us(double period_us, double periods = 2) {
   return std::max(second_us + period_us, periods * period_us);
 }
 
-/// The first stretch, within a window, that is longer than `longest_us` and contains no answer; none: there
-/// is no such stretch. `times`: times of the answers in the window, ascending [us]; `end_us`: after this time
-/// of the run no answers are expected.
+/// Finds the first part of a window in which no answer came for longer than `longest_us`. None: there is no
+/// such part. `times`: the times [us] of the answers in the window, ascending. `end_us`: after this time of
+/// the run no answers are expected.
 template <class Times>
 std::optional<scenario::Window> silent_stretch(const Times& times, const scenario::Window& window,
                                                std::int64_t end_us, double longest_us) {

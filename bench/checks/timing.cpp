@@ -20,7 +20,8 @@ const AnswerTiming& timing_of(const Observations& seen, const MessageInfo& info)
   return seen.timing.answers[place_of(seen, info)];
 }
 
-// The stimuli that a message answers in this run, for each group that was sent.
+// The counts of the stimuli that a message answers: one entry for each sample group that was sent in this
+// run.
 std::vector<StimulusCount> all_stimuli_of(const Observations& seen, const MessageInfo& info) {
   std::vector<StimulusCount> all;
   for (const std::string_view group : info.answers) {
@@ -34,7 +35,7 @@ bool same(const scenario::Window& a, const scenario::Window& b) {
   return a.from_us == b.from_us && a.to_us == b.to_us;
 }
 
-// The index of a quantile (nearest rank) in a sorted sample.
+// The index of the quantile q in a sorted sample of `count` values, by the nearest-rank method.
 std::size_t place_of(double q, std::size_t count) {
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(count)));
   return std::max<std::size_t>(rank, 1) - 1;

@@ -28,7 +28,7 @@ Distribution distribution_s(const Histogram& histogram);
 /// Nearest-rank quantile, 0 < q <= 1, of a non-empty sample.
 double quantile(std::vector<double> sample, double q);
 
-/// The timing of a message within a window; null: it was not recorded.
+/// The timing of a message within a window; null: this timing was not recorded.
 const TimedWindow* find_window(const TimingRecord& timing, std::string_view message,
                                const scenario::Window& window);
 
@@ -39,21 +39,24 @@ bool stamped_by_hardware(const TimingRecord& timing);
 /// message answers, or one answer in each period if the message keeps its own period.
 std::size_t unanswered(const Observations& seen, std::string_view message);
 
-/// The quantile of |period - nominal| [s], and the number of nominal periods. A gap of n nominal periods
-/// counts n times; otherwise a quantile would ignore a long gap. `end_s`: the time from the last message to
-/// the end; this time counts as a period if it exceeds the nominal period.
+/// `off_s` is the quantile of |period - nominal period| [s], and `count` is the number of nominal periods. A
+/// gap of n nominal periods counts n times, because a quantile would ignore a long gap that counts once.
+/// `end_s`: the time from the last message to the end; this time counts as a period if it exceeds the nominal
+/// period.
 struct PeriodDeviation {
   double off_s = 0;
   std::uint64_t count = 0;
 };
 PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double end_s, double quantile);
 
-/// The longest time [s] without a message, including the beginning and the end of the run.
+/// The longest time [s] without the given message. The times before the first arrival and after the last
+/// arrival count too.
 double longest_silence_s(const Observations& seen, std::string_view message);
 
-/// The period [s] that a message should have. For an answer: the period at which its stimuli were sent, or
-/// the minimum interval of its answer group if this interval is longer; 0 if the answer has stimuli of more
-/// than one group. For other messages, and with fewer than two stimuli: the cycle time in the DBC.
+/// The period [s] that a message should have. For an answer, this is the period at which its stimuli were
+/// sent or, if that is longer, the minimum interval of its answer group. 0: the answer has stimuli of more
+/// than one group. For a message that answers nothing, and for an answer with fewer than two stimuli, this is
+/// the cycle time in the DBC.
 double nominal_period_s(const Observations& seen, std::string_view message);
 
 /// The time [s] from a message's last arrival in the window to the last stimulus in the window. For a message

@@ -31,7 +31,8 @@ struct Stimulus {
   std::int64_t due_ns = 0;       ///< deadline of the frame, on the clock of t_ns
 };
 
-/// Time [ns] from one stamp to a later one, on the controller's clock if the controller stamped both events.
+/// The time [ns] from one stamp to a later stamp. If the controller stamped both events, the time is measured
+/// on the controller's clock.
 template <class From, class To>
 constexpr std::int64_t elapsed_ns(const From& from, const To& to) {
   const bool hardware = from.hardware_ns != 0 && to.hardware_ns != 0;
@@ -41,15 +42,17 @@ constexpr std::int64_t elapsed_ns(const From& from, const To& to) {
 /// Timing of a message of the target.
 struct AnswerTiming {
   Histogram latency;  ///< from the last frame of the stimulus group to the answer, both on the bus
-  /// |time between two arrivals - nominal time|. The nominal time is the time between the deadlines of the
-  /// two stimuli, or the cycle time of a message that answers nothing.
+  /// How much the time from one arrival to the next differs from the nominal time (absolute value). The
+  /// nominal time is the time between the deadlines of the two stimuli. For a message that answers nothing,
+  /// the nominal time is the cycle time.
   Histogram jitter;
-  TimeLine latency_line;                     ///< latency over the time of arrival
-  std::uint64_t count = 0;                   ///< arrivals
-  std::uint64_t unpaired = 0;                ///< answers to stimuli that the bench did not send
-  std::uint64_t repeated = 0;                ///< answers to stimuli that were answered before
-  std::optional<std::int64_t> nearest_us{};  ///< for `unpaired`: the smallest difference between the time
-                                             ///< that an answer names and the time of validity of a stimulus
+  TimeLine latency_line;       ///< latency over the time of arrival
+  std::uint64_t count = 0;     ///< arrivals
+  std::uint64_t unpaired = 0;  ///< answers to stimuli that the bench did not send
+  std::uint64_t repeated = 0;  ///< answers to stimuli that were answered before
+  /// How close an answer in `unpaired` came to a stimulus: the smallest difference between the time that an
+  /// answer names and the time of validity of a stimulus.
+  std::optional<std::int64_t> nearest_us{};
   std::uint64_t wrong_counter = 0;  ///< answers that name the time of one cause and the counter of another
   std::uint8_t counter_reported = 0, counter_sent = 0;  ///< in the first answer with a wrong counter
   std::int64_t reply_wire_ns = 0;  ///< sum over the answers in `latency`: time that the answer's frames, up
@@ -64,10 +67,11 @@ struct TransmitTiming {
   Histogram echoed;       ///< lateness at the end of the frame on the bus; empty if the bus has no echo
 };
 
-/// The time from the queueing of a frame to the end of the frame on the bus. For a frame of the bench: from
-/// hand-over to echo. A container is handed over with its last message; if that message is missing, the time
-/// is unknown. For a frame of the target, the time counts from the beginning of the first frame of the same
-/// answer. This is a lower bound, because the bench cannot see when the target queued the frame.
+/// The time from the queueing of a frame to the end of the frame on the bus. For a frame of the bench, this
+/// is the time from the hand-over to the echo. The bench hands over a container with the container's last
+/// message; if that message is missing, the time is unknown. For a frame of the target, the time counts from
+/// the beginning of the first frame of the same answer. This is a lower bound, because the bench cannot see
+/// when the target queued the frame.
 struct WireResponse {
   std::uint64_t count = 0;
   std::int64_t max_ns = 0;
@@ -80,12 +84,12 @@ struct TimedWindow {
   scenario::Window window{};
   Histogram latency{};
   Histogram period{};  ///< from one arrival to the next
-  /// The time from the deadline of each stimulus until it was on the bus: the delay that the host causes.
+  /// The time from the deadline of a stimulus until the stimulus was on the bus. The host causes this delay.
   Histogram lateness{};
-  /// The bench's own deviation from the period of the stimuli that the message answers: for each two
-  /// successive stimuli, the absolute difference between their distance in time on the bus and the distance
-  /// of their deadlines. If the bench sends one stimulus in place of n due stimuli, this deviation counts n
-  /// times.
+  /// How far the bench itself deviates from the period of the stimuli that the message answers. For two
+  /// successive stimuli, this is the absolute difference between two times: the time between them on the bus,
+  /// and the time between their deadlines. If the bench sends one stimulus in place of n due stimuli, this
+  /// deviation counts n times.
   Histogram stimulus_deviation{};
   std::optional<Arrival> last_arrival{};
   std::optional<std::int64_t> last_stimulus_ns{};  ///< stamp of the last stimulus whose time of validity is
@@ -95,8 +99,8 @@ struct TimedWindow {
 /// TargetTiming saturates at this value [us]: a reported time of this value is a lower bound.
 inline constexpr std::uint16_t most_reported_us = 8191;
 
-/// The parts of the time from the hand-over of a stimulus's last frame to the last frame that answers this
-/// stimulus. Each value is a sum over the answered stimuli.
+/// The time from the hand-over of the last frame of a stimulus to the last frame of its answer, divided into
+/// parts. Each value is a sum over the answered stimuli.
 struct LatencyBreakdown {
   std::uint64_t stimuli = 0;          ///< answered stimuli
   std::uint64_t echoed = 0;           ///< answered stimuli whose echo was seen

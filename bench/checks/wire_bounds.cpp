@@ -61,8 +61,9 @@ Stream stream_of(const Observations& seen, const wire::Carrier& carrier) {
           .length = carrier.longest};
 }
 
-// The analysis counts the response time from the release of a frame, and the jitter is the time from release
-// to queueing. Response time minus jitter is therefore the time from queueing.
+// The analysis counts the response time from the release of a frame, and the jitter is the time from the
+// release to the queueing. So the response time minus the jitter is the time from the queueing to the end of
+// the frame.
 std::optional<std::int64_t> from_queued(const Stream& stream, const schedulability::Response& response) {
   if (!response.response_ns) return std::nullopt;
   return *response.response_ns - stream.jitter_ns;

@@ -10,11 +10,11 @@
 
 namespace canhil::checks {
 
-/// A message of the bus's DBC (on CAN FD a container), its longest response (see WireResponse) and its bound:
-/// the worst case by response-time analysis. The analysis assumes the queue order of the bus and includes all
-/// messages that were observed. For each message it assumes the observed rate or, if that is higher, the rate
-/// in the DBC. Response and bound count from the queueing of the frame, so they contain neither the bench's
-/// lateness nor the target's computing time.
+/// A message of the bus's DBC (on CAN FD a container) with its longest response (see WireResponse) and its
+/// bound. The bound is the worst case of the response, by response-time analysis. The analysis assumes the
+/// queue order of the bus and includes all messages that were observed. For each message it assumes the
+/// observed rate or, if that is higher, the rate in the DBC. Response and bound count from the queueing of
+/// the frame, so they contain neither the bench's lateness nor the target's computing time.
 struct WireBound {
   std::string_view message{};
   bool of_target = false;  ///< sent by the target: `longest_ns` is a lower bound

@@ -26,8 +26,8 @@ void add_golden(command_line::Command app, int& code);
 /// `hil-bench conformance`: tests the protocol rules one by one. Exit code 1 if the target breaks a rule.
 void add_conformance(command_line::Command app, int& code);
 
-/// `hil-bench doctor --bus BUS`: reports what this machine and its interface can do, and remedies for
-/// problems. Exit code 1 if a finding is bad.
+/// `hil-bench doctor --bus BUS`: reports what this machine and its interface can do, and how to solve the
+/// problems that it finds. Exit code 1 if a finding is bad.
 void add_doctor(command_line::Command app, int& code);
 
 /// `hil-bench schedulability FILE.dbc`: computes the worst-case response times of all messages. Exit code 1

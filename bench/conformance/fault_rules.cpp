@@ -22,8 +22,8 @@ struct Seen {
   TargetHeartbeat beat;
 };
 
-// Flies, and applies `spoil` to one sample in mid-flight. The target answers this sample in the undisturbed
-// flight.
+// Flies, and applies `spoil` to one sample in mid-flight: a sample that the target answered in the
+// undisturbed flight.
 Result<Seen> flown_with(Subject& subject, Spoil spoil) {
   const auto known = undisturbed(subject);
   if (!known) return tl::unexpected(known.error());

@@ -149,7 +149,7 @@ std::string repeats_bit_for_bit(Subject& subject) {
   return "";
 }
 
-// Every time on the bus, except the time in Sync, is a 32-bit number of microseconds. Such a number wraps
+// All times on the bus, except the time in Sync, are 32-bit numbers of microseconds. Such a number wraps
 // after 71.6 minutes.
 std::string bears_the_wrap_of_time(Subject& subject) {
   const auto flown = undisturbed(subject);

@@ -27,8 +27,8 @@ struct Group {
 std::vector<std::uint32_t> ids_of(std::string_view group);
 
 /// Splits a sequence of frames into groups, in the order in which the groups end. A group ends with the
-/// message that has the highest id in the group. If that message is missing, the group ends when another
-/// message of the group comes a second time. Frames that belong to no group are ignored.
+/// message that has the highest id in the group. If that message is missing, the group ends before the first
+/// frame whose id the group already contains. Frames that belong to no group are ignored.
 std::vector<Group> groups_in(std::span<const Frame> frames);
 
 /// Whether the messages of `group` carry answers of the target.

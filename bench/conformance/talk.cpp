@@ -84,8 +84,8 @@ void Talk::send_time() {
 void Talk::send_damaged(int frames) {
   Frame frame = to_frame(ParamSet{}, 0);
   frame.data[0] ^= 0xFFU;
-  // After so many frames, waits until the target has read them: the embedded bus drops a node that blocks the
-  // bus.
+  // Each time that this number of frames has been sent, waits until the target has read them: the embedded
+  // bus drops a node that blocks the bus.
   constexpr int at_once = 128;
   for (int i = 0; i < frames; ++i) {
     static_cast<void>(link_.send(frame, patience_ns));
@@ -145,7 +145,7 @@ void Talk::begin_flight() {
 bool Talk::closes(std::uint16_t step) {
   const std::int64_t deadline_ns = link_.now_ns() + step_ns;
   const auto closed = [&] {
-    for (const Frame& one : listener_.frames | std::views::reverse) {
+    for (const Received& one : listener_.frames | std::views::reverse) {
       if (const auto done = observe::decode_from_target<StepDone>(one)) return done->step == step;
     }
     return false;

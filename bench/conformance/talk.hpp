@@ -50,8 +50,8 @@ class Talk {
   void send_damaged(int frames);
   /// In all frames that are sent later, adds `shift_us` to the time (time base or time of validity).
   void shift_time(std::int64_t shift_us) { shift_us_ = shift_us; }
-  /// Sends the time base before a flight. With it, the target can extend a 32-bit time of validity to the
-  /// full time that is nearest to the time base.
+  /// Sends the time base before a flight. The target needs the time base to extend a 32-bit time of validity:
+  /// it takes the full time that is nearest to the time base.
   void send_time();
 
   /// Waits for a message that arrives after the last transmission and satisfies `condition`. Returns nullopt

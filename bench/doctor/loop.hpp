@@ -19,8 +19,9 @@ struct LoopResult {
 };
 
 /// Sends eight-byte frames from `near` to `far`, one after the other; `far` answers each frame. Sends
-/// `frames` frames, or fewer if stop() returns true or if many frames in a row are lost. The frames have one
-/// id and the answers another: the two largest ids up to 0x7EF (lowest priority) that the DBC does not use.
+/// `frames` frames, or fewer if stop() returns true or if many frames in a row are lost. All frames from
+/// `near` have one id, and all answers have another id. These are the two largest ids up to 0x7EF (lowest
+/// priority) that the DBC does not use.
 LoopResult measure_loop(Port& near, Port& far, int frames, const std::function<bool()>& stop);
 
 /// The finding about the result of measure_loop().

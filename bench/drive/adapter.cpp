@@ -30,7 +30,8 @@ std::string name_behind(const fs::path& link) {
 // PCI ids have the prefix 0x (0x0c72), USB ids have none (0c72).
 std::string without_prefix(const std::string& id) { return id.starts_with("0x") ? id.substr(2) : id; }
 
-// The folder of a USB device contains the folders of its interfaces.
+// Looks for the device in the folders above the interface: a device's folder contains its interfaces'
+// folders.
 void add_usb(Adapter& adapter, const fs::path& of_interface) {
   for (fs::path folder = of_interface; folder.has_relative_path(); folder = folder.parent_path()) {
     adapter.vendor_id = attribute(folder, "idVendor");

@@ -24,7 +24,7 @@ struct Adapter {
 /// The adapter of a kernel interface; a bus without an interface is "virtual". `sys`: where sysfs is mounted.
 Adapter adapter_of(const std::string& bus, const std::filesystem::path& sys = "/sys");
 
-/// "can0: usb, gs_usb at 1-4:1.0, 1d50:606f 'candleLight', serial 0042"
+/// One line, for example "can0: usb, gs_usb at 1-4:1.0, 1d50:606f 'candleLight', serial 0042".
 std::string to_text(const Adapter& adapter);
 
 /// The adapters of the buses of a run, without duplicates.

@@ -12,9 +12,9 @@
 
 namespace canhil::drive {
 
-/// Virtual time, with the device in this process. '?bitrate=...' adds a simulated wire.
+/// The bus for a run in virtual time, with the device in this process. '?bitrate=...' adds a simulated wire.
 inline constexpr std::string_view in_process_bus = "in-process";
-/// Virtual time, with the device in this process; frames carry unrounded values.
+/// Like `in_process_bus`, but the frames carry unrounded values.
 inline constexpr std::string_view unrounded_bus = "in-process?unrounded";
 
 /// A bus as given on the command line, parsed and ready to open. The opened port reports the properties of
@@ -32,7 +32,7 @@ struct BusName {
   Result<WireSettings> wire;  ///< the part after '?'
 };
 
-/// Nodes of the DBC that are on another bus than the one given to --bus: (node, bus).
+/// Pairs (node, bus) for the nodes of the DBC that are not on the bus given to --bus.
 using BusOf = std::vector<std::pair<std::string, std::string>>;
 
 struct OpenBuses {
@@ -41,8 +41,8 @@ struct OpenBuses {
   std::unique_ptr<Port> port;  ///< combines all buses
 };
 
-/// Each frame is sent on the bus of its sender. The bench hosts a local bus unless another program already
-/// does. Error: one line.
+/// Opens the buses. The port sends each frame on the bus of the frame's sender. The bench hosts a local bus
+/// unless another program already hosts this bus. Error: one line.
 Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format);
 
 }  // namespace canhil::drive

@@ -1,4 +1,4 @@
-// The vocabulary of scenarios from the DBC that this bench was built with.
+// The vocabulary of scenarios. It comes from the DBC that this bench was built with.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,14 @@
 
 namespace canhil::drive {
 
-/// The vocabulary with the built-in DBC: its value tables and messages, and the kinds of checks, nodes and
-/// faults.
+/// The vocabulary with the built-in DBC. It contains the value tables and messages of this DBC, and the kinds
+/// of checks, nodes and faults.
 scenario::DbcVocabulary contract();
 
-/// Reads a scenario. The vocabulary comes from the mapping that the scenario's [target] names; without a
-/// mapping, from canhil's own DBC. Apart from this, parse_scenario() works like
-/// scenario::parse(), and read_scenario() like scenario::read_file(). `folder`: see scenario::parse().
-/// `read`: loads mapping and DBC.
+/// Reads a scenario. The vocabulary comes from the mapping that the scenario's [target] names. If [target]
+/// names no mapping, the vocabulary comes from canhil's own DBC. In all other respects, parse_scenario()
+/// works like scenario::parse(), and read_scenario() works like scenario::read_file(). `folder`: see
+/// scenario::parse(). `read`: loads the mapping and its DBC.
 Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
                                           std::span<const scenario::Setting> settings = {},
                                           std::optional<std::string> folder = {},
@@ -28,7 +28,8 @@ Result<scenario::Scenario> read_scenario(const std::string& file);
 
 /// Adds the [[fault]] tables of a file to the scenario. Error: one line.
 Result<void> add_faults(scenario::Scenario& scenario, const std::string& file);
-/// The same for `text`, the contents of a file. `some`: if not null, adds only these faults of the file.
+/// Adds the [[fault]] tables in `text` to the scenario. `text`: the contents of a file. `some`: if not null,
+/// adds only these faults of the file.
 Result<void> add_faults(scenario::Scenario& scenario, std::string_view text, const std::string& name,
                         const scenario::FaultPlaces* some = nullptr);
 

@@ -13,7 +13,8 @@
 namespace canhil::drive {
 namespace {
 
-/// The state that a carrier transfers to the glider at release: the truth with the errors drawn for this run.
+/// The state that a carrier transfers to the glider at release: the truth plus errors that are drawn for this
+/// run.
 InitialState state_at_release(const world::GlideTruth& truth, const scenario::Glide& config,
                               const scenario::InitialSigma& sigma, world::Stream& stream) {
   const scenario::ReleaseError& error = config.release;
@@ -55,12 +56,13 @@ Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, std::
     });
   };
   own.glide_is_sampled = !is_recorded(scenario::TruthOf::glide);
-  // With a recorded seeker there is no simulated engagement.
+  // If the seeker is recorded, there is no simulated engagement.
   if (scenario.engagement && !is_recorded(scenario::TruthOf::engagement)) own.engagement.emplace();
   return own;
 }
 
-/// The period of the node that samples every epoch, whether or not this node is on the bus.
+/// The period of the node that samples at every epoch. If this node is not on the bus, the result is its
+/// cycle time in the DBC.
 std::int64_t epoch_interval_us(const scenario::Scenario& scenario) {
   const nodes::Kind& kind = **std::ranges::find_if(nodes::all(), &nodes::Kind::at_every_epoch);
   const scenario::NodeSettings* node = scenario.node(kind.table.key);
@@ -99,9 +101,9 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
     if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
     if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
   }
-  // Even without drawn errors, the initial state must fit into its signals; otherwise the scenario is
-  // rejected here, before its first run. make_flight() checks the initial state with the errors drawn for its
-  // run.
+  // Checks the initial state without drawn errors. If a value does not fit into its signal, the scenario is
+  // rejected here, before its first run. make_flight() checks the initial state with the errors that are
+  // drawn for its run.
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream none(0, 0, "none");
     const auto start = initial_solution(truth.epochs().front(), world::InitialErrorModel{}, none);

@@ -35,8 +35,8 @@ estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth&
 /// The parts of a run that are drawn at random before the run begins.
 struct Flight {
   PerRunTruth per_run_truth;
-  /// The initial state for each estimator of the target: the truth with the errors drawn for this run. All
-  /// estimators get the same draw.
+  /// The initial state for each estimator of the target: the truth plus the errors that are drawn for this
+  /// run. All estimators get the same draw.
   std::vector<InitialState> initial;
 };
 
@@ -45,7 +45,8 @@ struct Flight {
 Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index);
 
-/// The initial state for each estimator at a time of the run, with the initial errors drawn for the run.
+/// The initial state for each estimator at the time `t_us` of the run: the truth at this time plus the
+/// initial errors that are drawn for the run.
 std::vector<InitialState> initial_states(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                          const PerRunTruth& per_run_truth, std::uint64_t run_index,
                                          std::int64_t t_us);

@@ -43,7 +43,8 @@ std::string algorithms_of(Estimator estimator) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// Why the target refused a parameter, the expected value, and the value that stays in force.
+// Explains why the target refused a parameter. Names the expected value and, if there is one, the value that
+// stays in force.
 std::string refusal(const ParamAck& ack, Estimator estimator) {
   const auto in_force = static_cast<double>(ack.value);
   switch (ack.status) {
@@ -78,8 +79,8 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
     return failure(fmt::format("{}: {:g} was sent and refused by the target: {}", wanted.where,
                                static_cast<double>(value), refusal(ack, estimator)));
   }
-  // The value that the target reads back must equal the value that was sent, except for rounding by a unit
-  // conversion in the target.
+  // The value that the target reads back must equal the value that the bench sent. Only a unit conversion in
+  // the target may round the value.
   if (std::abs(ack.value - value) > 1e-6F * std::abs(value)) {
     return failure(fmt::format("{}: {:g} was sent, the target reads back {:g}", wanted.where,
                                static_cast<double>(value), static_cast<double>(ack.value)));

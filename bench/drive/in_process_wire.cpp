@@ -94,8 +94,8 @@ void InProcessWire::queue(const Frame& frame, std::int64_t t_ns) {
   if (!waiting_.empty() || !wire_.queue(device, frame, t_ns)) waiting_.push_back(frame);
 }
 
-/// While the device's queue is full or the device is bus-off, the device waits for room, without a time limit
-/// (hil-target gives up after 50 ms).
+/// While the device's queue is full or the device is bus-off, frames of the device wait for room, without a
+/// time limit. (In contrast, hil-target gives up after 50 ms.)
 void InProcessWire::queue_waiting() {
   while (!waiting_.empty() && wire_.queue(device, waiting_.front(), now_ns_)) waiting_.pop_front();
 }

@@ -1,5 +1,5 @@
-// A Device behind a simulated CAN wire, in virtual time. Its frame times equal those of a real-time run on a
-// bus of this bit rate with an infinitely fast target.
+// A Device behind a simulated CAN wire, in virtual time. The frames have the same times as in a real-time run
+// on a bus of this bit rate, if the target of that run computed infinitely fast.
 #pragma once
 
 #include <deque>

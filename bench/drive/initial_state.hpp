@@ -26,10 +26,11 @@ struct InitialState {
 
 InitialState initial_state(const world::NavigationSolution& initial, const scenario::InitialSigma& sigma);
 
-/// Rates [rad/s] and velocity through the air [m/s], body axes.
+/// The group TargetInitAir. `rates` [rad/s] and `air_velocity` (velocity through the air, in m/s) are in body
+/// axes.
 InitialAir initial_air(const world::Vector3& rates, const world::Vector3& air_velocity);
 
-/// Appends the messages in the order that makes the target ready.
+/// Appends the messages to `out`. The group that makes the target ready comes last.
 void send(const InitialState& state, nodes::Transmission& out);
 
 /// Checks that every value lies within its signal's range. Also checks, for each signal that cannot be

@@ -1,4 +1,4 @@
-// Judges the observations of a flight, simulated or recorded.
+// Judges what the bench observed in a flight. The flight took place in this run or comes from a recording.
 #pragma once
 
 #include "bench/drive/session.hpp"
@@ -6,8 +6,8 @@
 
 namespace canhil::drive {
 
-/// The observations. The upper limits of the target's counts (bad groups, late groups ...) are raised by the
-/// numbers that the faults of the run may cause.
+/// Returns the observations with higher upper limits for the target's counts (bad groups, late groups ...).
+/// Each limit is raised by the number of events that the faults of the run may cause.
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario);
 

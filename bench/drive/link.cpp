@@ -69,7 +69,7 @@ void Link::look_at_interface() {
   for (observe::Observer* observer : observers_) observer->interface_changed(up_, port_.now_ns());
 }
 
-// A port that has read several frames at once does not signal the frames that it still holds.
+// A port may read several frames at once. It does not signal frames that it has read but not yet returned.
 bool Link::wait_until(std::int64_t deadline_ns) {
   return backlog_.more() || wait(port_, WaitFor::frame, deadline_ns);
 }

@@ -29,16 +29,16 @@ class Link {
   LinkState send(const Frame& frame, std::int64_t patience_ns,
                  std::optional<std::int64_t> due_ns = std::nullopt);
 
-  /// Passes waiting frames to the observers without blocking; returns `down` if the bus is gone. A bus may
-  /// deliver frames without end, so one call takes at most `most_at_once`: before the next call the caller
-  /// must check its deadline and whether to stop. While more frames are waiting, wait_until() returns at
-  /// once.
+  /// Receives the frames that are waiting and passes them to the observers, without blocking. Returns `down`
+  /// if the bus is gone. A bus may deliver frames without end, so one call takes at most `most_at_once`
+  /// frames: before the next call the caller must check its deadline and whether to stop. While more frames
+  /// are waiting, wait_until() returns at once.
   LinkState drain();
   static constexpr int most_at_once = 256;  ///< enough for several groups of the target; takes less than a
                                             ///< millisecond
 
-  /// After send() gave up waiting: the frames that arrived during the wait, in the form of
-  /// observe::Shares::to_text(); empty: no frames arrived.
+  /// Describes the frames that arrived while send() waited, if send() then gave up. The form is that of
+  /// observe::Shares::to_text(). Empty: no frames arrived.
   [[nodiscard]] const std::string& crowd() const { return crowd_; }
 
   /// The longest interval in which frames came faster than they could be processed; none: there was no such
@@ -54,10 +54,11 @@ class Link {
     for (observe::Observer* observer : observers_) observer->time_set(t_ns);
   }
 
-  /// Sleeps until a frame arrives (true), or until `deadline_ns` or a signal (false).
+  /// Sleeps until a frame arrives, and then returns true. Returns false at `deadline_ns` or after a signal.
   bool wait_until(std::int64_t deadline_ns);
 
-  /// The number of frames that waited for room until more than a period of Sync after their deadline.
+  /// The number of frames that waited for room and were late when the bus took them: later than their
+  /// deadline by more than one period of Sync.
   [[nodiscard]] std::uint64_t late_in_queue() const { return late_in_queue_; }
 
   [[nodiscard]] const Port& port() const { return port_; }

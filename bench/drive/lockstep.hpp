@@ -11,8 +11,8 @@
 namespace canhil::drive {
 
 /// Sends the frames of each step; the watch decides which frame closes the step and when the next step may
-/// begin. Frames and their order are the same as in run_real_time. A step without an answer within
-/// `step_limit_ns` ends the run.
+/// begin. The frames and their order are the same as in run_real_time(). If the target does not answer a step
+/// within `step_limit_ns`, the run ends.
 Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch, std::int64_t step_limit_ns,
                     const std::atomic<bool>& stop, const Progress& progress);
 

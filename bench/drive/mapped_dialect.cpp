@@ -1,6 +1,7 @@
-// A mapped target has no handshake. The target runs independently of the bench. The bench waits for the
-// settling time of the target, and until a message of the target shows that the target is present (unless the
-// target sends only answers).
+// A mapped target has no handshake and runs independently of the bench. Before the run, the bench waits until
+// the settling time of the target is over and until a message of the target shows that the target is present.
+// A target that sends only answers is silent before the run; for such a target, the bench waits only for the
+// settling time.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/wait.h>
@@ -32,8 +33,8 @@ class EndOfRun final : public nodes::Node {
   bool over_ = false;
 };
 
-// Any message of the target shows that it is present. In virtual time, the echo of a played message shows
-// that the target has processed that message.
+// Any message of the target shows that the target is present. In virtual time, the echo of a played message
+// shows that the target has processed that message.
 class MappedWatch final : public observe::TargetWatch {
  public:
   explicit MappedWatch(const mapping::Conversation& conversation)
@@ -141,7 +142,7 @@ class MappedDialect final : public Dialect {
     return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
                                       Rounding::as_on_the_bus, std::move(faults));
   }
-  // Watchers look up played messages in the conversation, which the player changes.
+  // Watchers look up played messages in the conversation, and the player changes the conversation.
   [[nodiscard]] bool watches_frames_alone() const override { return false; }
   std::unique_ptr<observe::Watcher> watcher(bool /*with_times*/) override {
     WireFacts wire = of_.wire;

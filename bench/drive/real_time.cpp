@@ -35,8 +35,8 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
   const Attached bus_attached(link, bus);
   std::int64_t progress_due_us = 0;
 
-  // While the bus is down or a fault stops the target, and for the usual limit afterwards, the target's
-  // silence has no meaning.
+  // The target's silence has no meaning while the bus is down or a fault stops the target. After that,
+  // the usual limit of silence begins anew.
   const auto excused_until_ns = [&] {
     if (watch.heard()) heard_ns = link.now_ns();
     if (bus.outage()) return bus.outage()->since_ns + outage_limit_ns;

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::string_view unknown_lateness = "a recording does not say when its frames were due";
 
-// Does nothing, because the recorded frames already contain the effects of the faults on target and
-// interface.
+// Does nothing, because the recorded frames already contain the effects of faults that act on the target or
+// on the interface.
 class NoRigControl final : public faults::RigControl {
  public:
   void pause_target() override {}
@@ -80,8 +80,8 @@ Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scena
     const auto entry = reader->next();
     if (!entry) return tl::unexpected(entry.error());
     if (!*entry) {
-      // A mapped target receives no Sync. Its run counts as virtual time if the stamps span less than half
-      // the duration of the scenario.
+      // A mapped target receives no Sync. Its run counts as a run in virtual time if the stamps span less
+      // than half the duration of the scenario.
       const std::int64_t span_ns = last_ns - first_ns.value_or(0);
       if (scenario.foreign != nullptr) manner.lockstep = span_ns < scenario.duration_us * 1000 / 2;
       return manner;

@@ -24,8 +24,8 @@ ifreq request_for(const std::string& bus) {
   return request;
 }
 
-// Sets an interface up or down; without `up`, writes its flags unchanged. Returns whether the kernel
-// accepted this.
+// Sets an interface up or down. If `up` is absent, writes the flags of the interface back unchanged. Returns
+// whether the kernel accepted the flags.
 bool set_flag(const std::string& bus, std::optional<bool> up) {
   const int any = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (any < 0) return false;

@@ -21,7 +21,8 @@ InterfaceFacts interface_facts(const std::string& bus);
 
 class RunRigControl final : public faults::RigControl {
  public:
-  /// `target`: empty until the target is started; must outlive this object. `restart`: restarts the target.
+  /// `target`: has no value until the target is started; must outlive this object. `restart`: restarts the
+  /// target.
   RunRigControl(std::string bus, std::optional<TargetProcess>& target,
                 std::function<void(std::int64_t t_us)> restart);
   ~RunRigControl() override;

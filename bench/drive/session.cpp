@@ -152,8 +152,8 @@ class Session {
 
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
-  // The error message with its possible cause: the frames that flooded the bus or, if there was no flood, a
-  // program that the bench rejected on its local bus.
+  // Adds the possible cause to an error message: the frames that flooded the bus or, if there was no flood,
+  // the first note, for example about a program that the bench rejected on its local bus.
   [[nodiscard]] std::string explained(const std::string& what) const {
     if (link_.flood()) return fmt::format("{}; {}", what, to_text(*link_.flood()));
     return notes_->empty() ? what : fmt::format("{}; {}", what, notes_->front());
@@ -209,7 +209,7 @@ class Session {
             .wire = bus_.wire};
   }
 
-  // Restarts the target for a fault. If that fails, the target stays silent, which ends the run.
+  // Restarts the target for a fault. If the restart fails, the target stays silent, which ends the run.
   void restart_target(std::int64_t t_us) {
     target_->kill_it();
     target_.reset();
@@ -224,15 +224,15 @@ class Session {
     if (!options_.target || bus_.in_process) return {};
     target_cpus_ = cpus;
     std::vector<std::string> arguments = options_.target_arguments;
-    // Every target gets this option, so that the target uses the same DBC as the bench.
+    // On CAN FD, every target gets the option --dbc, so that the target uses the same DBC as the bench.
     if (options_.format == BusFormat::fd)
       arguments.insert(arguments.end(), {"--dbc", std::string(name_of(options_.format))});
     return TargetProcess::start(*options_.target, options_.bus.text, arguments, cpus)
         .map([&](TargetProcess started) { target_.emplace(std::move(started)); });
   }
 
-  // Closes the log of a run that did not begin. Returns the end of the error message, which contains the name
-  // of the log.
+  // Closes the log of a run that did not begin. Returns a text with the name of the log, for the end of the
+  // error message.
   std::string log_of_the_handshake() {
     if (!log_) return {};
     const auto name = log_->close_early();
@@ -250,7 +250,7 @@ class Session {
     return load_.full_wire(ending_.t_us * 1000 + dialect_->silence_limit_ns(), bus_.wire.rates);
   }
 
-  // Other senders on the bus come first among the notes.
+  // The note about other senders on the bus comes before all other notes.
   void add_watched(checks::Observations& seen) {
     seen.bus = bus_watch_.record();
     seen.bus.intruded = intruders_->frames();

@@ -97,9 +97,9 @@ Result<Collected> run_in_process(const scenario::Scenario& scenario, const world
                                  std::uint64_t run_index, Rounding rounding = Rounding::as_on_the_bus);
 
 /// Runs a scenario for a campaign against a program, which is started for this run on a private local bus.
-/// The run is in lockstep; with a mapping whose answers do not name their cause, it is in real time. In
-/// lockstep, a target that behaves like the Device gives the same samples. Error: as for run_in_process(), or
-/// the program does not start or answer.
+/// The run is in lockstep or, with a mapping whose answers do not name their cause, in real time. In
+/// lockstep, a target that behaves like the Device gives the same samples as run_in_process(). Error: as for
+/// run_in_process(), or the program does not start or does not answer.
 Result<Collected> run_against(const std::string& target, const scenario::Scenario& scenario,
                               const world::FlightRecord& truth, std::uint64_t run_index);
 

@@ -66,8 +66,8 @@ void Dialogue::listen(std::int64_t duration_ns) {
   while (link_.now_ns() < deadline_ns && link_.drain() == LinkState::up) link_.wait_until(deadline_ns);
 }
 
-// If valid heartbeats arrived, reports the last one, a ParamAck for another parameter and the defects of
-// frames; otherwise lists the frames that arrived.
+// If valid heartbeats arrived, reports the last heartbeat, the defects of frames and, if there is one, a
+// ParamAck for another parameter. If no valid heartbeat arrived, lists the frames that arrived.
 std::string Dialogue::complaint(const Step& step) const {
   const double limit_s = static_cast<double>(step.limit_ns) * 1e-9;
   const bool beats = mailbox_.heartbeat && sightings_.of(message_index<TargetHeartbeat>()).right > 0;

@@ -52,8 +52,8 @@ class Dialogue {
   using Request = std::function<void(nodes::Transmission&)>;
   using Condition = std::function<bool(const Mailbox&)>;
 
-  /// One step of the dialogue. `doing`: what happens to the target, "being reset". `awaited`: the expected
-  /// state of the target, "idle".
+  /// One step of the dialogue. `doing`: what happens to the target, for example "being reset". `awaited`: the
+  /// state of the target that the bench expects, for example "idle".
   struct Step {
     std::string doing;
     std::string awaited;
@@ -68,8 +68,8 @@ class Dialogue {
         second_attached_(link, second_),
         sightings_attached_(link, sightings_) {}
 
-  /// Sends `request` at once and then every `repeat_ns`, until `condition` is true. Error: one line with what
-  /// was received instead.
+  /// Sends `request` at once and then every `repeat_ns`, until `condition` is true. Error: one line, which
+  /// says what was received instead.
   Result<void> until(const Step& step, const Request& request, const Condition& condition);
 
   /// Receives frames for `duration_ns`.

@@ -1,4 +1,4 @@
-// The parameters of hil-target, for the page of `hil-bench reference`.
+// The parameters of hil-target. `hil-bench reference` lists them on a page.
 #pragma once
 
 #include <string>

@@ -34,7 +34,8 @@ Result<TargetProcess> TargetProcess::start(const std::string& command, const std
   std::vector<char*> arguments;
   for (std::string& word : *words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  // A pipe for the reason why the program did not start; the pipe closes when the program starts.
+  // Through this pipe the new process reports why the program did not start. If the program starts, the pipe
+  // closes.
   int refusal[2];
   if (pipe2(refusal, O_CLOEXEC) != 0)
     return failure(fmt::format("target '{}': cannot start a process: {}", name, strerror(errno)));

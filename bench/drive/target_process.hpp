@@ -14,8 +14,8 @@ namespace canhil::drive {
 /// terminates the target.
 class TargetProcess {
  public:
-  /// Starts `COMMAND --bus BUS` with further arguments on the given CPUs (empty: the bench's CPUs). The
-  /// command is split by target_words(). Error: the program cannot be started.
+  /// Starts `COMMAND --bus BUS`, followed by the arguments `more`, on the given CPUs (if `cpus` is empty: on
+  /// the bench's CPUs). target_words() splits the command into words. Error: the program cannot be started.
   static Result<TargetProcess> start(const std::string& command, const std::string& bus,
                                      const std::vector<std::string>& more = {},
                                      const std::vector<int>& cpus = {});

@@ -34,7 +34,8 @@ inline constexpr std::array<const quantities::Quantity*, 10> alignment_reported{
     &quantities::velocity_north,    &quantities::velocity_east,      &quantities::velocity_down,
     &quantities::velocity_norm};
 
-/// The quantities of alignment_reported, then `own`: the quantities of one estimator.
+/// A list of quantities: first those of alignment_reported, then those of `own`, which only one estimator
+/// reports.
 template <std::size_t count>
 constexpr auto and_alignment_reported(const std::array<const quantities::Quantity*, count>& own) {
   std::array<const quantities::Quantity*, alignment_reported.size() + count> all{};
@@ -52,13 +53,13 @@ struct Alignment {
   Answering filters;
 };
 
-/// Creates the tracks of attitude, velocity and innovations. `filter`: the answers of the filter, with
-/// cause_us, attitude_sigma, velocity_sigma and innovation.
+/// Creates the tracks of attitude, velocity and innovations. `filter`: the answers of the filter; each answer
+/// has the members cause_us, attitude_sigma, velocity_sigma and innovation.
 template <class Answers>
 void give_alignment(const Alignment& of, const Answers& filter, const quantities::TrackSink& give) {
   using namespace quantities;
-  // Each error gets the sigma of the last filter answer at or before its time; it gets none if that answer is
-  // stale.
+  // Each error gets the sigma of the last filter answer at or before the time of the error. If that answer is
+  // stale, the error gets no sigma.
   const auto fill = [&](Track track, auto error, auto sigma) {
     auto next = filter.begin();
     AnswerTo answer(of.navigation);
@@ -138,8 +139,9 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
   });
 }
 
-/// The time from which the heading error stays in each band, and the errors of the last answer. `angle`: unit
-/// of the bands and of the angles in the result.
+/// Two result lines. The first line gives, for each band, the time from which the heading error stays within
+/// the band. The second line gives the errors of the last answer. `angle`: the unit of the bands, and of the
+/// angles in the result.
 std::vector<ResultLine> alignment_results(const Spool<NavigationError>& errors, std::span<const double> bands,
                                           const quantities::Unit& angle);
 

@@ -22,7 +22,7 @@ class AnswerGroup {
     return ((message_index<Messages>() == message) || ...);
   }
 
-  /// Adds a frame to the group. True: the group is now complete.
+  /// Adds a frame to the group. Returns true if the group is now complete.
   bool put(const Frame& frame) {
     bool complete = false;
     const auto try_one = [&]<class Message>(std::type_identity<Message>) {
@@ -63,8 +63,8 @@ class AnswerGroup {
 };
 
 /// Receives the groups of one estimator and adds their answers to one `Answers`. Each of `Groups` is an
-/// AnswerGroup with `add(cause_us, answers)`. Each run has its own object: `seen` must be the same in every
-/// call.
+/// AnswerGroup that has a function `add(cause_us, answers)`. Each run has its own object of this class,
+/// because every call for an object must pass the same `seen`.
 template <class Answers, class... Groups>
 class ReceptionOf : public Reception {
  public:

@@ -6,8 +6,8 @@
 namespace canhil::estimators {
 namespace {
 
-/// The number of periods without a fix that do not count as silence if each fix is lost with a given
-/// probability: the smallest n with probability^n <= 1e-6, but at least tolerated_fixes + 1.
+/// The number of periods that may pass without a fix before this counts as silence, if each fix is lost with
+/// a given probability. It is the smallest n with probability^n <= 1e-6, but at least tolerated_fixes + 1.
 double periods_of_fixes(double loss_probability) {
   constexpr double improbable = 1e-6;
   constexpr double most_periods = 1e6;

@@ -9,9 +9,9 @@ namespace canhil::estimators {
 /// The time between samples of a node [us].
 double period_us(const scenario::NodeSettings& node);
 
-/// The longest time between answers to fixes that does not count as silence [us]. It allows for the random
-/// losses of the scenario (loss_percent, invalid_percent), but not for an interval without fixes that the
-/// scenario sets (silence_s).
+/// How long [us] the target may send no answer to a fix before this counts as silence. This time allows for
+/// the random losses of the scenario (loss_percent, invalid_percent), but not for an interval in which the
+/// scenario withholds all fixes (silence_s).
 double longest_wait_of_fixes_us(const scenario::NodeSettings& aid);
 
 }  // namespace canhil::estimators

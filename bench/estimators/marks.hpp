@@ -9,7 +9,7 @@
 
 namespace canhil::estimators {
 
-/// Cause times of the answers for which a condition holds.
+/// The times of the causes of those answers for which a condition holds.
 template <class Answers, class Holds>
 Spool<std::int64_t> times_of(const Answers& answers, Holds holds) {
   Spool<std::int64_t> times;

@@ -13,7 +13,8 @@
 
 namespace canhil::estimators {
 
-/// Aligned attitude and velocity at the time of a slave IMU sample. rad, m/s, NED.
+/// Attitude and velocity, as aligned by the estimator, at the time of a sample of the slave IMU. Units: rad
+/// and m/s; axes: NED.
 struct NavigationAnswer {
   std::int64_t cause_us = 0;
   world::Euler angles;
@@ -58,19 +59,20 @@ Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
                                          const world::FlightRecord& truth);
 
 /// The error of the first navigation answer that includes a filter update with the cause `cause_us`.
-/// `navigation_us` is the time of the cause of the last navigation answer before the update; the result has a
-/// later cause. The navigation answers between the time of validity of a late fix and the arrival of the fix
-/// do not include the update yet. Null: no navigation answer follows the update.
+/// `navigation_us` is the time of the cause of the last navigation answer before the update; the cause of the
+/// returned answer is later than both times. If a fix arrives late, the navigation answers between its time
+/// of validity and its arrival do not include its update. Null: no navigation answer follows the update.
 const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
                                    std::int64_t navigation_us);
 
-/// error' P^-1 error, with P from the sigmas and correlations (north-east, north-down, east-down) on the bus.
-/// Infinite if rounding made P not positive definite: such a P explains no error.
+/// The normalised estimation error squared, error^T P^-1 error. The covariance P is computed from the sigmas
+/// and the correlations (north-east, north-down, east-down) on the bus. The result is infinite if P is not
+/// positive definite because of rounding on the bus: such a P explains no error.
 double nees(const world::Vector3& error, const world::Vector3& sigma, const world::Vector3& correlation);
 
-/// Adds (error / sigma)^2 of the heading (1 degree of freedom) after an update to `series`, with the error
-/// from first_after(); adds nothing without such an error. The update has cause_us, navigation_us and
-/// attitude_sigma.
+/// Appends one point to `series`: (error / sigma)^2 of the heading (1 degree of freedom) after the update
+/// `update`. The error comes from first_after(); without such an error, nothing is appended. `update` has the
+/// members cause_us, navigation_us and attitude_sigma.
 template <class Update>
 void add_heading_nees(Spool<quantities::TrackPoint>& series, const Spool<NavigationError>& errors,
                       const Update& update) {

@@ -12,10 +12,11 @@ struct MessageInfo;
 
 namespace canhil::estimators {
 
-/// All estimators. If a scenario runs several, a campaign keeps the samples of the last of them in this
-/// order.
+/// All estimators. If several of them run in a scenario, a campaign keeps only the samples of the one that
+/// comes last in this list.
 std::span<const Estimator* const> all();
-/// The estimators that may run in a scenario: all, or, with a mapping, only the mapped target.
+/// The estimators that may run in a scenario. Without a mapping these are all estimators; with a mapping,
+/// only the mapped target.
 std::span<const Estimator* const> in(const scenario::Scenario& scenario);
 /// The estimator of this name; null if there is none.
 const Estimator* find(std::string_view name);
@@ -25,7 +26,8 @@ const Estimator* telling(std::string_view columns);
 const Estimator* sending(const MessageInfo& message);
 /// The estimator whose samples a campaign keeps for a scenario.
 const Estimator& of(const scenario::Scenario& scenario);
-/// Facts for scenarios by estimator name, for scenario::DbcVocabulary.
+/// The facts that scenarios need about each estimator, by the name of the estimator, for
+/// scenario::DbcVocabulary.
 std::map<std::string, scenario::EstimatorFacts, std::less<>> facts();
 /// Every quantity that any estimator reports, each once, in the order of the registry.
 std::span<const quantities::Quantity* const> every_quantity();

@@ -14,12 +14,13 @@
 
 namespace canhil::estimators {
 
-/// The longest time between two messages of a kind that does not count as silence [us].
+/// The longest gap [us] between two messages with the name `message`. A longer gap counts as silence.
 inline double longest_wait_us(const checks::Observations& seen, std::string_view message) {
   return checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, message));
 }
 
-/// Finds the answer to a cause. The causes are asked for in ascending order, and each must have an answer.
+/// Finds the answer to a cause. Callers must ask for the causes in ascending order of time, and each cause
+/// must have an answer.
 template <class Answers>
 class AnswerTo {
  public:
@@ -33,7 +34,7 @@ class AnswerTo {
   typename Answers::const_iterator next_;
 };
 
-/// Calls visit(quantity, the axis's name, its index) for north, east and down.
+/// For each of the axes north, east and down, calls visit(quantity, name of the axis, index of the axis).
 template <class Visit>
 void each_axis(const std::array<const quantities::Quantity*, 3>& ned, Visit visit) {
   visit(*ned[0], std::string("north"), 0);
@@ -47,7 +48,7 @@ inline quantities::Track judged(quantities::Track track) {
   return track;
 }
 
-/// Properties shared by the tracks of the same answers; see quantities::Track.
+/// Properties that all tracks of one series of answers share; see quantities::Track.
 struct Answering {
   double longest_wait_us = 0;
   std::int64_t answers_end_us = 0;

@@ -44,7 +44,8 @@ std::vector<Item> least_of(std::vector<Item> items,
 }
 
 /// A part of [from, to] that still has the property and cannot be shortened by a step at either end. The
-/// search bisects in whole steps and tries the end first. The whole of [from, to] must have the property.
+/// search bisects in whole steps; it shortens the part at its end if possible, otherwise at its beginning.
+/// The whole of [from, to] must have the property.
 inline std::pair<std::int64_t, std::int64_t> least_stretch(
     std::int64_t from, std::int64_t to, std::int64_t step,
     const std::function<bool(std::int64_t from, std::int64_t to)>& shows) {

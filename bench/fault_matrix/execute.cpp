@@ -131,9 +131,9 @@ class Flights {
     const fs::path file = options_.folder / fmt::format("violation-{}.toml", finished.cell);
     fs::path log = file;
     log.replace_extension(".log");
-    // A scenario needs at least one check: the saved scenario has the violated check if it is in judged_by,
-    // otherwise `answering`. Other violations end the run or belong to an implied check, which is made in
-    // every run.
+    // A scenario needs at least one check. If the violated check is in judged_by, the saved scenario contains
+    // this check. Any other violation ends the run or belongs to an implied check, which is made in every
+    // run; the saved scenario then contains the check `answering`.
     const std::string text =
         text_of(column, cell.run, least.faults, least.duration_us,
                 std::ranges::find(judged_by, check) == judged_by.end() ? "answering" : check,

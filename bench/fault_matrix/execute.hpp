@@ -24,8 +24,8 @@ struct Options {
 /// The command that repeats a saved violation, for example "hil-bench run FILE --bus in-process".
 std::string replay_command(const std::string& file, const std::string& target);
 
-/// Flies these cells. If `stop` is set, the execution ends early and cleanly. Returns an Error of one line if
-/// a flight could not be flown.
+/// Flies the cells whose indices are in `cells`. If `stop` is set, the execution ends early and cleanly.
+/// Returns an Error of one line if a flight could not be flown.
 Result<void> execute(const Plan& plan, const std::set<std::size_t>& cells, const Options& options,
                      const std::atomic<bool>& stop);
 

@@ -66,13 +66,13 @@ Plan made_plan(std::vector<Column> columns, std::uint64_t seed, std::uint64_t ru
 Result<Plan> plan_of(std::vector<Column> columns, const std::string& set_file, std::uint64_t seed,
                      std::uint64_t runs);
 
-/// The scenario of a flight, with the checks of the matrix (response.hpp). `duration_us` 0: the duration in
-/// the scenario file. Returns an Error of one line if the faults do not fit.
+/// The scenario of a flight, with the checks of the matrix (response.hpp). If `duration_us` is 0, the flight
+/// has the duration in the scenario file. Returns an Error of one line if the faults do not fit.
 Result<scenario::Scenario> scenario_of(const Column& column, std::uint64_t run,
                                        const std::vector<FaultText>& faults, std::int64_t duration_us = 0);
 
-/// The same scenario as the text of a self-contained file that may be in any folder. The scenario in the text
-/// has only one check.
+/// The scenario of a flight as text. A file with this text is self-contained, so it may be in any folder. The
+/// scenario in the text has only the check `check`.
 std::string text_of(const Column& column, std::uint64_t run, const std::vector<FaultText>& faults,
                     std::int64_t duration_us, const std::string& check, const std::string& comment);
 

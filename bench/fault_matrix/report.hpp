@@ -8,8 +8,8 @@
 
 namespace canhil::fault_matrix {
 
-/// The outcome is fail if anything is violated; otherwise not measured if cells are missing or could not be
-/// judged; otherwise pass.
+/// The outcome is `fail` if there is a violation. Without a violation, the outcome is `not_measured` if a
+/// cell is missing or could not be judged, and `pass` if all cells were judged.
 checks::Outcome outcome_of(const Results& results);
 
 /// The matrix, followed by the cells that were not measured and by the violations, each with the command that

@@ -10,8 +10,8 @@
 
 namespace canhil::faults {
 
-/// Wraps a Node object. An object that replays a log sends the frames of all nodes in the log; the frames of
-/// the other nodes pass unchanged.
+/// Wraps a Node object. A Node object that replays a log sends the frames of all nodes in the log; the frames
+/// of the other nodes pass unchanged.
 class FaultyNode : public nodes::Node {
  public:
   FaultyNode(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run)
@@ -27,7 +27,7 @@ class FaultyNode : public nodes::Node {
   void hear(const Frame& frame) final { node_->hear(frame); }
 
  protected:
-  /// Changes the frames of a transmission of the node that was due at `t_us`.
+  /// Changes the frames that the node sends in one transmission. The transmission was due at `t_us`.
   virtual void apply(std::vector<Frame>& frames, std::int64_t t_us) = 0;
   /// Lets the node transmit, changes the frames with apply(), and puts the changed frames into `out`.
   void sample(nodes::Transmission& out);

@@ -23,7 +23,7 @@ struct FaultReport {
 };
 
 /// Checks that each fault works with the bus and the target of `place`. Returns an Error of one line if a
-/// fault does not.
+/// fault does not work with them.
 Result<void> check(std::span<const scenario::Fault> faults, const Place& place);
 
 class Faults final : public nodes::NodeFaults {

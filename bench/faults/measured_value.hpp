@@ -12,8 +12,8 @@ namespace canhil::faults {
 /// Whether a node sends a message.
 bool sends(const scenario::NodeTable& node, const MessageInfo& message);
 
-/// The interval of the sample in these frames [s]: the interval that a frame contains; if no frame contains
-/// it, the period of the node.
+/// The interval [s] of the sample that these frames carry. If one of the frames contains an interval, returns
+/// this interval; otherwise returns the period of the node.
 double interval_of(const std::vector<Frame>& frames, std::int64_t period_us);
 
 class MeasuredValue {

@@ -33,8 +33,8 @@ enum class Repeats : std::uint8_t { each, stretch };
 /// Reads the keys from_s, to_s, for_s and each_s. With Repeats::each, also reads the keys every and percent.
 When read_when(scenario::Section& section, const scenario::FaultContext& context, Repeats repeats);
 
-/// Reads these keys for a fault that must end before the run ends: for_s is required, and the run must
-/// continue after the fault.
+/// Reads from_s, to_s, for_s and each_s for a fault that must end before the run ends: for_s is required, and
+/// the run must continue after the fault.
 When read_stretches(scenario::Section& section, const scenario::FaultContext& context);
 
 /// Decides for each frame or sample whether it is affected.

@@ -82,7 +82,8 @@ void add_load(Flight& flight, std::span<const wire::BitLength> lengths, wire::Bi
 }
 
 // The end of the window in which a check judges values. Nullopt if the check can only be judged after the
-// run: it compares no values with a limit, or its window is in time to go, or it judges timing.
+// run: because it compares no values with a limit, because its window is a range of the time to go, or
+// because it judges timing.
 std::optional<std::int64_t> over_at_us(const scenario::Check& check) {
   const auto bar = check.rule->bar();
   if (!bar || bar->stretch.to_go_s || !check.rule->timed().empty()) return std::nullopt;

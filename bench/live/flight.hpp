@@ -62,8 +62,9 @@ class FlightInProgress final : public observe::Observer {
   std::optional<world::EngagementRecord> engagement_{};  // a copy of the record that the flight extends
   observe::LoadMeter load_;
   std::unique_ptr<observe::Watcher> whole_;  // for the whole flight: times and checks
-  // Two watchers for tracks. The older one has received the frames of the last one to two window_us. After
-  // each window_us, the newer watcher replaces the older one, and another watcher starts.
+  // Two watchers for tracks. The older watcher has received all frames since it started: at the beginning of
+  // the flight, or between one and two window_us ago. After each window_us, the newer watcher replaces the
+  // older one, and another watcher starts.
   std::unique_ptr<observe::Watcher> recent_, next_recent_;
   std::int64_t window_since_us_ = 0;
   std::vector<Known> known_{};

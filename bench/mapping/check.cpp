@@ -54,8 +54,8 @@ class Remarks {
     for (const PlayedMessage& one : play.messages) {
       for (const dbc::Signal& signal : one.of.message->signals) {
         const bool played = std::ranges::find(one.sources, &signal, &Source::signal) != one.sources.end();
-        // A multiplexed signal needs no value: it is only sent if the play sends the value of the multiplexor
-        // that selects it.
+        // A multiplexed signal needs no value, because it is sent only if the play also sends the value of
+        // the multiplexor that selects this signal.
         if (!played && signal.multiplexed_by.empty() && !is_protection(one.of, signal))
           add(Grade::warning, "unmapped", name(one.of, signal),
               "no value is mapped to it: it is encoded from 0");
@@ -77,8 +77,8 @@ class Remarks {
   void on(const Mapped& of, const Source& source, const Play& play) {
     const dbc::Signal& signal = *source.signal;
     const SignalInfo* own = observe::signal_of(*source.stimulus->message, source.stimulus->signal);
-    // Converts from the node's unit to the signal's. A rate is an increment divided by its interval. The
-    // shortest interval is the period of the play.
+    // Converts from the unit of the node to the unit of the signal. A rate is an increment divided by its
+    // interval; the shortest interval is the period of the play.
     const double interval_s =
         source.stimulus->over == Over::rate ? 1e-6 * static_cast<double>(play.period_us) : 1;
     const double factor = std::abs(source.factor * source.stimulus->factor) / interval_s;

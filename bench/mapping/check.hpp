@@ -11,7 +11,7 @@
 namespace canhil::mapping {
 
 struct Remark {
-  /// note: for information only; warning: should be corrected.
+  /// A note is for information only. What a warning reports should be corrected.
   enum class Grade : std::uint8_t { note, warning };
   Grade grade = Grade::note;
   std::string rule;     ///< "saturates"
@@ -29,8 +29,8 @@ struct Remark {
 /// - messages without protection, and answers that do not name their cause.
 std::vector<Remark> remarks_on(const Mapping& mapping);
 
-/// The bus load of the mapping's messages, with their longest frames. Messages without a cycle time are not
-/// included.
+/// The bus load of the mapping's messages, if every frame has its greatest possible length. Messages without
+/// a cycle time are not included.
 double load_of(const Mapping& mapping, const wire::BitRates& rates);
 
 }  // namespace canhil::mapping

@@ -61,8 +61,9 @@ class Passing {
   std::vector<Passed> passed_;  // the newest transmission of each play
 };
 
-/// The stimulus that is the cause of a frame of the target. If the target echoes a signal, it is the stored
-/// stimulus with the echoed value; otherwise it is the latest stimulus. Null: no stored stimulus matches.
+/// The stimulus that is the cause of a frame of the target. If the target echoes a signal, the cause is the
+/// stored stimulus in which this signal has the echoed value; otherwise the cause is the latest stimulus.
+/// Null: no stored stimulus matches.
 const Sent* cause_of(const Conversation& conversation, const Hear& hear, const Frame& frame);
 
 }  // namespace canhil::mapping

@@ -26,7 +26,7 @@ double difference(const ReferenceQuantity& of, double a, double b) {
   return of.turns ? std::remainder(a - b, 2 * std::numbers::pi) : a - b;
 }
 
-// Sorts points by time, in memory, if they are out of order.
+// If the points are not in order of time, sorts them in memory.
 template <class Value, class TimeOf>
 Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
   if (std::ranges::is_sorted(values, {}, time_of)) return values;
@@ -72,8 +72,9 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const quant
   }
 }
 
-// Takes a sample at each time at which a quantity was reported, with the last error of every quantity,
-// because a target may report its quantities in turn. The first sample needs an error of every quantity.
+// Takes a sample at each time at which a quantity was reported. Each sample contains the last error of every
+// quantity, because a target may report its quantities in turn. No sample is taken before every quantity has
+// an error.
 quantities::Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   const Answers& answers = seen.of<Answers>();
   if (answers.mapping == nullptr) return {};
@@ -97,7 +98,8 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
   return samples;
 }
 
-// A mark for all answers, then one for each message that answers a play or carries a quantity.
+// The first mark is for all answers. It is followed by one mark for each message that answers a play or
+// carries a quantity.
 std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
   const Answers& answers = seen.of<Answers>();
   estimators::Mark all{.name = "answers"};

@@ -13,9 +13,10 @@ struct Extracted {
   std::size_t incomplete = 0;  ///< groups left out: a message is missing or its protection fails
 };
 
-/// Extracts the transmissions of a play from a candump log: one row for each transmission; t_s is the time
-/// stamp of the transmission's last frame. `name`: the name of the play's last message. Error: one line; the
-/// mapping has no such play, or the log does not contain it.
+/// Extracts the transmissions of a play from a candump log, with one row for each transmission. t_s is the
+/// time stamp of the last frame of the transmission. `name`: the name of the play's last message. It is an
+/// error if the mapping has no such play, or if the log does not contain the play; the error is one line of
+/// text.
 Result<Extracted> extract(const Mapping& mapping, std::string_view name, const std::string& log);
 
 }  // namespace canhil::mapping

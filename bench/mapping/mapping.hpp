@@ -76,7 +76,8 @@ struct ReportedSignal {
   std::optional<std::uint64_t> invalid{};  ///< raw value that means "invalid"
 };
 
-/// A signal in which the target echoes a signal of its cause.
+/// An echo: the target copies the value of a signal of its cause (`original`) into a signal of its answer
+/// (`repeated`).
 struct Echo {
   const dbc::Signal* repeated = nullptr;
   std::size_t message = 0;  ///< index in the play
@@ -95,7 +96,8 @@ struct Mapping final : scenario::Foreign {
   std::vector<Play> plays;
   std::vector<Hear> hears;
   std::string name;  ///< name of the target, used as the name of its estimator
-  /// For J1939, message indices by parameter group: any source address and priority is accepted.
+  /// For J1939: the index of each message by its parameter group, because any source address and any priority
+  /// is accepted.
   std::map<std::uint32_t, std::size_t> by_group;
 
   // Storage for Foreign::messages and Foreign::estimator.
@@ -111,8 +113,8 @@ using ReadText = std::function<Result<std::string>(const std::string& file)>;
 /// Reads a file from the disk.
 Result<std::string> read_from_disk(const std::string& file);
 
-/// The parameter group of a J1939 id (SAE J1939-21, 5.2): without priority and source address, and for a
-/// destination-specific message (PDU format below 240) without the destination.
+/// The parameter group of a J1939 id (SAE J1939-21, 5.2): the id without the priority and the source address.
+/// If the message has a destination (PDU format below 240), the destination is left out too.
 constexpr std::uint32_t j1939_group(std::uint32_t id) {
   constexpr std::uint32_t first_broadcast = 240;
   const std::uint32_t group = (id >> 8U) & 0x3FFFFU;
@@ -123,7 +125,7 @@ constexpr std::uint32_t j1939_group(std::uint32_t id) {
 class Places {
  public:
   explicit Places(const Mapping& mapping) : by_id_(mapping.messages), by_group_(mapping.by_group) {}
-  /// MessagePlaces::nowhere: not a message of the mapping.
+  /// Returns MessagePlaces::nowhere if the frame is not a message of the mapping.
   [[nodiscard]] std::size_t operator()(const Frame& frame) const {
     const std::size_t index = by_id_(frame);
     if (index != MessagePlaces::nowhere || !frame.extended || frame.error) return index;
@@ -136,21 +138,24 @@ class Places {
   const std::map<std::uint32_t, std::size_t>& by_group_;
 };
 
-/// Reads a mapping and its DBC, whose path is relative to the mapping. Error: one line.
+/// Reads a mapping and its DBC. The mapping gives the path of the DBC relative to the folder of the mapping.
+/// An error is one line of text.
 Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,
                                                     const ReadText& read = read_from_disk);
 
-/// The layout of samples with the quantities that `columns` names, in this order. Repeated calls return the
-/// same object, so stored samples and the samples of a run share it. Null: the bench has no truth for one of
-/// the quantities.
+/// The layout of samples with the quantities that `columns` names, in the order of these names. Repeated
+/// calls return the same object, so the samples of a run and stored samples have one common layout. Null: for
+/// one of the quantities, the bench has no truth.
 const quantities::Layout* find_layout(std::string_view columns);
 
-/// The mapped target presented as an estimator, which refers to the mapping. The mapping must not move.
+/// Presents the mapped target as an estimator. The result refers to the mapping, so the mapping must not
+/// move.
 estimators::Estimator estimator_of(const Mapping& mapping);
 
-/// The vocabulary for reading a scenario. If the scenario's [target] names a mapping (a path relative to the
-/// scenario's file), the vocabulary comes from the mapping, otherwise from canhil's own DBC. Error: one line.
-/// TOML syntax errors are not reported here but by the reader of the scenario.
+/// The vocabulary for reading a scenario. If [target] of the scenario names a mapping (by a path relative to
+/// the scenario's file), the vocabulary comes from this mapping; otherwise it comes from canhil's own DBC. An
+/// error is one line of text. This function does not report syntax errors of TOML; the reader of the scenario
+/// reports them.
 Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::string& file,
                                             const scenario::DbcVocabulary& own,
                                             const ReadText& read = read_from_disk);

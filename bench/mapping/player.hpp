@@ -15,8 +15,8 @@ namespace canhil::mapping {
 
 class Player final : public nodes::Node {
  public:
-  /// Error: the scenario has no table for a played node, or the play's period is not a multiple of the node's
-  /// period.
+  /// Returns an error if the scenario has no table for a node that the mapping plays, or if the period of a
+  /// play is not a multiple of the period of its node.
   static Result<void> check(const Mapping& mapping, const scenario::Scenario& scenario);
 
   /// `conversation` and everything in `run` must outlive the player. The scenario must have passed check().

@@ -329,7 +329,8 @@ class Reader {
     hear.reported_signals.push_back(telling);
   }
 
-  // Derives all other members from what was read. Returns why the mapping is invalid; none: it is valid.
+  // Derives all other members of the mapping from what was read. If the mapping is invalid, returns the
+  // reason.
   std::optional<std::string> put_together() {
     Mapping& mapping = *mapping_;
     const auto wrong = [&](const std::string& what) { return fmt::format("{}: {}", mapping.file, what); };

@@ -24,7 +24,7 @@ std::vector<std::uint64_t> values(Section& section, std::string_view key) {
   return all;
 }
 
-// Reports the error of a library function as an error of the key.
+// If a library function returned an error, reports this error as an error of the key.
 template <class Value>
 std::optional<Value> or_reject(Section& section, std::string_view key, Result<Value> value) {
   if (value) return std::move(*value);
@@ -32,7 +32,8 @@ std::optional<Value> or_reject(Section& section, std::string_view key, Result<Va
   return std::nullopt;
 }
 
-// The bits of a signal of the DBC, or a position in DBC notation.
+// Reads a position in a message: either a signal of the DBC whose bits are used, or start bit, length and
+// byte order as in a DBC.
 protection::Place read_place(Section& section, const dbc::Message& message) {
   if (!section.has("start_bit")) {
     for (const std::string_view key : {"start_bit", "length", "byte_order"}) section.optional(key);

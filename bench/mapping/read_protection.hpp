@@ -12,8 +12,8 @@ class Section;
 
 namespace canhil::mapping {
 
-/// The protection of one of the table's messages. None: the table is invalid, and the section contains the
-/// error.
+/// The protection of `message`, which is one of the messages that the table names. None: the table is
+/// invalid, and the section contains the error.
 std::optional<protection::Protection> read_protection(scenario::Section& section,
                                                       const dbc::Message& message);
 

@@ -1,5 +1,5 @@
-// The measurements of the bench's nodes as quantities that a mapping may play: by name and in SI, independent
-// of the messages in canhil's own DBC.
+// The measurements of the bench's nodes, as quantities that a mapping may play. They are identified by name
+// and given in SI, independent of the messages in canhil's own DBC.
 #pragma once
 
 #include <cstdint>

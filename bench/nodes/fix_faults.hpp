@@ -41,8 +41,8 @@ struct Fate {
       world::Vector3::Zero();  ///< horizontal offset of an outlier in a random direction [m]
 };
 
-/// Draws the faults of the fix valid at a time. Takes four numbers from the stream, whatever the settings
-/// are.
+/// Draws the faults of the fix that is valid at `valid_us`. Every call takes four numbers from the stream,
+/// whatever the settings are.
 Fate draw_fate(const FixFaults& faults, std::int64_t valid_us, world::Stream& stream);
 
 }  // namespace canhil::nodes

@@ -12,7 +12,8 @@ struct GliderNavSettings {
   double velocity_noise = 0;  ///< 1-sigma of each component, NED [m/s]
   double rate_noise = 0;      ///< body [rad/s]
   double attitude_noise = 0;  ///< roll, pitch, heading [rad]
-  /// Fraction of the variance from a first-order Gauss-Markov process; the rest is white.
+  /// The fraction of the variance that comes from a first-order Gauss-Markov process. The rest of the
+  /// variance is white noise.
   double correlated_fraction = 0;
   double correlation_time = 60;  ///< [s]
   SampleLoss loss{};

@@ -1,5 +1,5 @@
-// Rounding of increments to the resolution of the bus: the remainder of a sample is carried into the next
-// one, so rounding errors do not accumulate.
+// Rounding of increments to the resolution of the bus: the remainder of a sample is added to the next sample,
+// so rounding errors do not accumulate.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 
 namespace canhil::nodes {
 
-/// Rounds a scalar to steps of `lsb` (0: no rounding), limits it to the signal's range and keeps the
-/// remainder: sent = round(increment + remainder); remainder' = increment + remainder - sent. All
-/// values are in the signal's unit.
+/// Rounds the sum of `increment` and `remainder` to steps of `lsb` (0: no rounding), limits the result to the
+/// range of the signal, and returns it. Stores the difference between the sum and the result in `remainder`.
+/// All values are in the unit of the signal.
 inline double round_increment(double increment, double lsb, const SignalInfo& signal, double& remainder) {
   const double wanted = increment + remainder;
   const double near = lsb == 0 ? wanted : std::nearbyint(wanted / lsb) * lsb;
@@ -22,8 +22,8 @@ inline double round_increment(double increment, double lsb, const SignalInfo& si
   return sent;
 }
 
-/// Rounds a triad of increments to the resolution and range of a signal and carries the remainders. Without
-/// rounding, the remainder is only the part beyond the range.
+/// Rounds three increments to the resolution and the range of a signal, and keeps the remainder of each axis
+/// for the next call. Without rounding, a remainder is only the part of the value beyond the range.
 class IncrementRounding {
  public:
   explicit IncrementRounding(const SignalInfo& signal) : signal_(signal) {}

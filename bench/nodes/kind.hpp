@@ -51,7 +51,8 @@ struct Kind {
   NodeTable table;
   std::unique_ptr<Node> (*make)(const NodeSettings& node, const Run& run) = nullptr;
   /// Checks that the bus can carry every signal that the node sends in any run of a scenario; otherwise a
-  /// signal could saturate or round to zero unnoticed. Error: one line. Null: no check is needed.
+  /// signal could saturate or round to zero unnoticed. An error is one line of text. The pointer is null if
+  /// no check is needed.
   Result<void> (*fits)(const NodeSettings& node, const scenario::Scenario& scenario,
                        const world::FlightRecord& flight) = nullptr;
   bool at_every_epoch = false;  ///< the node's period defines the epochs of the flight record

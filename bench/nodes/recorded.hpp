@@ -1,11 +1,11 @@
 // A node that sends recorded samples. It can replace a node of any kind. The columns of the recording are
 // named after the signals of the node's sample group in the DBC. No error model is applied.
 //
-// In a CSV file (scenario/table.hpp) each row is a sample: its signals by name, its time of validity in t_s.
-// From a candump log with canhil's DBC, the frames of the group are sent unchanged, at the times that they
-// had in the time base of the recorded run (from the Sync frames of the log). So a run recorded with --log
-// can be flown again. To support another format, add a reader that returns a scenario::Table, and select this
-// reader in read_recorded(); the table is then sent like a CSV file.
+// In a CSV file (scenario/table.hpp) each row is a sample. The columns contain its signals and, in t_s, its
+// time of validity. From a candump log with canhil's DBC, the frames of the group are sent unchanged, at the
+// times that they had in the time base of the recorded run (from the Sync frames of the log). So a run
+// recorded with --log can be flown again. To support another format, add a reader that returns a
+// scenario::Table, and select this reader in read_recorded(); the table is then sent like a CSV file.
 #pragma once
 
 #include <memory>
@@ -37,7 +37,7 @@ struct RecordedFrames {
   std::vector<At> frames{};
 };
 
-/// The settings of any node's table with the key `recorded`.
+/// The settings of a node of any kind whose table has the key `recorded`.
 struct RecordedSettings {
   scenario::Schedule schedule{};
   std::string recorded_from;  ///< the file
@@ -48,7 +48,7 @@ struct RecordedSettings {
 /// Reads the keys `recorded` and `period_ms` and, for a CSV file, `latency_ms`, `from_s` and `gap_s`.
 NodeSettings read_recorded(const NodeTable& table, Section& section, std::int64_t duration_us);
 
-/// Error: one line about the file.
+/// An error is one line about the file.
 Result<RecordedSamples> read_samples(const NodeTable& table, const scenario::Table& rows,
                                      std::int64_t from_us, std::int64_t gap_us, std::int64_t period_us,
                                      std::int64_t end_us);

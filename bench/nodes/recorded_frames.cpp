@@ -90,7 +90,8 @@ class Reading {
     return whole;
   }
 
-  /// The full time of validity, unwrapped with the previous time of validity.
+  /// The full time of validity. The frame carries this time modulo a period; the previous time of validity
+  /// determines the number of whole periods.
   std::int64_t valid_us(const Frame& frame) {
     std::int64_t t_us = 0;
     each_message(closes_, [&]<class Message>() {

@@ -71,8 +71,8 @@ Result<std::vector<Source>> sources_of(const NodeTable& table, const Table& rows
   return sources;
 }
 
-/// The rows whose times of validity are after the start of the run and not after its end; Rows::last is
-/// excluded. Error: a gap is too long.
+/// The rows whose times of validity are after the start of the run and not after its end. Rows::last is the
+/// index after the last of these rows. It is an error if a gap between samples is too long.
 Result<scenario::Rows> within_run(const Table& table, const std::vector<std::int64_t>& t_us,
                                   std::int64_t gap_us, std::int64_t end_us) {
   scenario::Rows rows;
@@ -110,9 +110,9 @@ Result<double> value_of(const Source& source, const Table& table, std::size_t ro
   return value;
 }
 
-/// The interval of a sample reaches back to the previous sample and is rounded to the steps of its signal
-/// without accumulating rounding errors. Where samples are missing, the interval is one period, so that the
-/// target can detect the gap.
+/// The interval from the previous sample to this sample, rounded to the steps of its signal so that rounding
+/// errors do not accumulate. If samples are missing before this sample, the interval is one period, so that
+/// the target can detect the gap.
 std::int64_t interval_of(const std::vector<std::int64_t>& t_us, std::size_t row, std::int64_t period_us,
                          double step_us) {
   if (row == 0 || 2 * (t_us[row] - t_us[row - 1]) > 3 * period_us) return period_us;
@@ -154,7 +154,7 @@ class Samples final : public Node {
     const Role role = role_of(signal);
     double value = samples_->values[next_ * samples_->signals + index];
     if (role == Role::time_of_validity) {
-      // The 16-bit time signal has a resolution of 10 us, the 32-bit one of 1 us.
+      // Time signals with 16 bits have a resolution of 10 us, those with 32 bits a resolution of 1 us.
       const std::int64_t t_us = samples_->valid_us[next_];
       value = static_cast<double>(std::is_floating_point_v<Member> ? wrap_short_us(t_us) : wrap_us(t_us));
     } else if (role == Role::interval) {

@@ -46,8 +46,8 @@ std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run
   return run.faults == nullptr ? std::move(made) : run.faults->with_faults(std::move(made), node);
 }
 
-// The nodes are ordered by the truth that they sample (TruthOf), then by bus priority (the lower id first).
-// So a fin deflection arrives before the navigation group of the same instant is complete.
+// The nodes are first ordered by the truth that they sample (TruthOf), then by bus priority (the lower id
+// first). So a fin deflection arrives before the navigation group of the same instant is complete.
 std::vector<std::unique_ptr<Node>> make(const Run& run) {
   auto kinds = registered;
   std::ranges::sort(kinds, {},

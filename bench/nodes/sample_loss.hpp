@@ -20,8 +20,8 @@ constexpr bool in_outage(const SampleLoss& loss, std::int64_t valid_us) {
   return loss.outage_every_us > 0 && valid_us % loss.outage_every_us >= loss.outage_every_us - loss.outage_us;
 }
 
-/// Whether a sample is lost, by chance or in an outage. Always draws one number, also during an outage, so
-/// that a loss does not change later losses.
+/// Whether a sample is lost, by chance or in an outage. Every call draws one number, also during an outage,
+/// so that an outage does not change which later samples are lost.
 inline bool is_lost(const SampleLoss& loss, std::int64_t valid_us, world::Stream& losses) {
   const bool by_chance = losses.uniform() < loss.probability;
   return by_chance || in_outage(loss, valid_us);

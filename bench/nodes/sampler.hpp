@@ -32,7 +32,7 @@ class Sampler : public Node {
   const Run run_;
 
  private:
-  /// Appends the group valid at a time; false: the group is lost.
+  /// Appends the sample group that is valid at `valid_us`. Returns false if the group is lost.
   virtual bool sample(std::int64_t valid_us, Transmission& out) = 0;
 
   std::int64_t period_us_;

@@ -32,8 +32,8 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
          outcome == LosRateOutcome::updated || outcome == LosRateOutcome::coasting;
 }
 
-// Reads two keys: KEY is the constant part of an error; KEY with _sigma before its unit is the sigma of the
-// part that is drawn for each run.
+// Reads two keys. `key` is the constant part of an error. `sigma_key` is the sigma of a further part, which
+// is drawn for each run; its name is that of `key` with _sigma before the unit.
 world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
                                  std::string_view of, double sigma) {
   return {
@@ -126,8 +126,9 @@ Result<void> fits(const NodeSettings& node, const scenario::Scenario& scenario,
   return {};
 }
 
-// In closed loop the answer to a sample sent at t takes effect at t + the guidance delay, even if it arrives
-// earlier. So, with a delay of at least one Sync cycle, the flight is the same on every bus and clock.
+// In closed loop, the answer to a sample takes effect one guidance delay after the sample was sent, even if
+// the answer arrives earlier. So, if the delay is at least one Sync cycle, the flight is the same on every
+// bus and every clock.
 class Seeker final : public Node {
  public:
   Seeker(const NodeSettings& node, const Run& run)
@@ -248,10 +249,12 @@ void Seeker::hear(const Frame& frame) {
   put(std::type_identity<LosRateTarget>{});
 }
 
-// Extrapolates the estimated LOS rate over dt from the time of the sample to the time of use, with the
-// estimated target acceleration and the missile's own measurements: w' = (2 vc/r) w + (a - a_m)/r with
-// constant vc and accelerations (Na and Lee, eq. (1)). The extrapolation ends where the range has halved,
-// because the rate grows without bound. The result is in the antenna's axes at the sample.
+// Extrapolates the estimated LOS rate from the time of the sample over the time dt to the time of use. The
+// time derivative of the LOS rate w is (2 vc / r) w + (a - a_m) / r, see Na and Lee, eq. (1). The range is r
+// and decreases with the closing speed vc; a is the estimated acceleration of the target, and a_m is the
+// acceleration that the missile measured. vc, a and a_m are taken as constant. The extrapolation ends where
+// the range has halved, because the rate grows without bound. The result is in the axes of the antenna at the
+// time of the sample.
 world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& estimate,
                                    const LosRateTarget& target, double dt) {
   const double r0 = sample.range;

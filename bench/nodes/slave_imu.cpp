@@ -72,7 +72,8 @@ NodeSettings read(const NodeTable& table, Section& section) {
   return {table, node};
 }
 
-// Setting names of the terms in parts_of(), in the same order, for error messages.
+// For each term of parts_of(), in the same order: the name of the setting that causes the term. Error
+// messages contain these names.
 using Names = std::array<std::string_view, 7>;
 constexpr Names gyro_parts{"the flight",
                            "'slave_imu.gyro_bias_degph'",
@@ -89,9 +90,9 @@ constexpr Names accel_parts{"the flight",
                             "'slave_imu.accel_scale_factor_sigma_ppm'",
                             "'slave_imu.accel_misalignment_sigma_mrad'"};
 
-// Bounds of the terms of (I + M) exact + bias dt + noise sqrt(dt); random terms at six sigma. A row of M has
-// two misalignments. The sigma of the sum of their terms is the sigma of a misalignment times the length of
-// the other two components of `exact`.
+// An upper bound for each term of (I + M) exact + bias dt + noise sqrt(dt). A random term is taken as six
+// times its sigma. A row of the matrix M has two misalignments. The sum of their two terms has this sigma:
+// the sigma of one misalignment, times the length of the other two components of `exact`.
 std::array<double, 7> parts_of(const world::TriadErrorModel& model, const world::Vector3& exact, int axis,
                                double dt) {
   constexpr double certain = 6;
@@ -106,7 +107,7 @@ std::array<double, 7> parts_of(const world::TriadErrorModel& model, const world:
           certain * model.misalignment_sigma * across};
 }
 
-// The first three signals of an increment message are the axes.
+// The first three signals of an increment message are the increments of the axes x, y and z.
 template <class Message>
 std::string check_triad(const Names& names, const world::TriadErrorModel& model,
                         const world::FlightRecord& truth, world::Vector3 world::ImuIncrement::*delta) {

@@ -56,7 +56,8 @@ class Ssbl final : public Sampler<SsblSettings> {
     const world::Position ship = displaced(run_.flight.epochs().front().position, way);
     const Vector3 relative = displacement_n(ship, run_.flight.at(t_us).position);
 
-    // Angle errors cause position errors proportional to the range, added here as independent components.
+    // Angle errors cause position errors that are proportional to the range. Here they are added as an
+    // independent error of each component.
     const Vector3 range_noise = Vector3::Constant(config_.range_noise * relative.norm());
     const Vector3 sigma = (config_.noise.array().square() + range_noise.array().square()).sqrt();
     const Vector3 noise = sigma.cwiseProduct(stream_.normal3());

@@ -5,8 +5,8 @@
 
 namespace canhil::nodes {
 
-/// Sends Sync at the DBC's cycle time, from 0 to the first time at or after `end_us`, which ends the run. In
-/// lockstep a Sync ends a step.
+/// Sends Sync at the DBC's cycle time. The first Sync is at time 0. The last Sync is due at the first time at
+/// or after `end_us`; it ends the run. In lockstep each Sync ends a step.
 class TimeKeeper final : public Node {
  public:
   TimeKeeper(std::int64_t end_us, bool lockstep) : end_us_(end_us), lockstep_(lockstep) {}

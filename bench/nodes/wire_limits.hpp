@@ -14,7 +14,7 @@ namespace canhil::nodes {
 /// The error message for a value that does not fit its signal: one line.
 std::string misfit(std::string_view what, double value, const MessageInfo& message, const SignalInfo& signal);
 
-/// Error: the message's signal interval_us cannot carry the interval exactly.
+/// Returns an error if the signal interval_us of the message cannot carry `interval_us` exactly.
 Result<void> check_interval(std::string_view what, std::int64_t interval_us, const MessageInfo& message,
                             std::span<const SignalInfo> signals);
 

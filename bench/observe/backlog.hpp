@@ -17,8 +17,8 @@ class Shares {
   void add(const Frame& frame);
   void clear();
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
-  /// "id 0C0: 900 of 1000 frames"; "error frames: ..."; if no id has half of the frames, also the number of
-  /// ids.
+  /// Returns a text such as "id 0C0: 900 of 1000 frames" or "error frames: 600 of 1000 frames". If no id has
+  /// half of the frames, the text also contains the number of ids.
   [[nodiscard]] std::string to_text() const;
 
  private:
@@ -36,7 +36,7 @@ struct Flood {
                         ///< Shares::to_text()
 };
 
-/// "the bus was flooded by id 0C0: 900 of 1000 frames in 0.41 s".
+/// Returns a text such as "the bus was flooded by id 0C0: 900 of 1000 frames in 0.41 s".
 std::string to_text(const Flood& flood);
 
 class Backlog {
@@ -50,8 +50,8 @@ class Backlog {
   void pause(bool more, bool overflowed, std::int64_t now_ns);
   /// Whether frames were waiting at the last pause.
   [[nodiscard]] bool more() const { return more_; }
-  /// Whether frames were waiting a moment ago. If so, pause() must be called after each reading, even if no
-  /// frames are waiting any more.
+  /// Whether a backlog exists: frames were waiting at one of the last pauses. If so, pause() must be called
+  /// after each reading, even if no frames are waiting any more.
   [[nodiscard]] bool stands() const { return since_ns_.has_value(); }
 
   /// The longest flood so far. A backlog that the bench itself caused is shorter than a flood and does not

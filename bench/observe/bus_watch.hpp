@@ -16,13 +16,13 @@ class BusWatch final : public Observer {
   void received(const Received& received) override;
   void interface_changed(bool up, std::int64_t t_ns) override;
 
-  /// The current outage: its cause, and its start by Port::monotonic_ns().
+  /// The current outage: its cause, and its start on the clock of Port::monotonic_ns().
   struct Outage {
     std::string_view what;
     std::int64_t since_ns = 0;
   };
   [[nodiscard]] const std::optional<Outage>& outage() const { return outage_; }
-  /// The end of the last outage by Port::monotonic_ns(); 0: there was none.
+  /// The time at which the last outage ended, on the clock of Port::monotonic_ns(). 0: there was no outage.
   [[nodiscard]] std::int64_t ended_ns() const { return ended_ns_; }
 
   [[nodiscard]] const checks::BusRecord& record() const { return record_; }

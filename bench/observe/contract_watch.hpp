@@ -1,5 +1,6 @@
-// Watches a target that uses canhil's own DBC. Any message of the target shows that the target is present;
-// the heartbeat shows a fault; StepDone shows the end of the step that Sync closed.
+// Watches a target that uses canhil's own DBC. Any message of the target shows that the target is present.
+// The heartbeat tells whether the target has a fault. StepDone tells that the target has finished the step
+// that Sync closed.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,8 @@
 
 namespace canhil::observe {
 
-/// The first difference of two runs: the index n (from 0) of the compared frame, and this frame in each of
-/// the two logs.
+/// The first difference between two runs. The frames that are compared have indices from 0; `index` is the
+/// index of the first pair that differs, `a` and `b` are the two frames.
 struct Divergence {
   std::size_t index = 0;
   std::optional<LogEntry> a;  ///< none: this run has no further frame
@@ -25,10 +25,10 @@ struct Comparison {
   std::optional<Divergence> first;
 };
 
-/// Compares the target's frames in two logs, from the first Sync on. Ignores time stamps, frames about the
-/// host (TargetTiming) and frames that exist in virtual time only (StepDone). `steps`: allowed difference of
-/// a signal in steps of its resolution, not applied to whole numbers, states and flags; 0: all bits must be
-/// equal. Error: a log cannot be read.
+/// Compares the frames of the target in two logs, from the first Sync on. Ignores time stamps, frames about
+/// the host (TargetTiming) and frames that exist in virtual time only (StepDone). `steps`: how many steps of
+/// its resolution a signal may differ; 0: all bits must be equal. Whole numbers, states and flags must always
+/// be equal. An error is returned if a log cannot be read.
 Result<Comparison> compare(const std::string& log_a, const std::string& log_b, double steps = 0);
 
 /// A frame as text: message and signals with units.

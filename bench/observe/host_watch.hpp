@@ -29,8 +29,8 @@ class ClockSteps {
   std::int64_t largest_ns_ = 0;
 };
 
-/// CPU times from the kernel: those of the calling thread since the start of the thread, and those of the
-/// machine since the start of the machine.
+/// CPU times from the kernel. The times of the calling thread count from the start of the thread, those of
+/// the machine from the start of the machine.
 struct CpuAccount {
   std::int64_t run_ns = 0;   ///< the thread was running
   std::int64_t wait_ns = 0;  ///< the thread was ready to run but had no CPU

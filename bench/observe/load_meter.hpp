@@ -50,7 +50,7 @@ class LoadMeter final : public Observer {
   void time_set(std::int64_t t_ns) override {
     if (by_ == LoadBy::virtual_time) second_ = static_cast<std::size_t>(t_ns / 1'000'000'000);
   }
-  /// The length of all frames in each second, from time 0 on.
+  /// The total length of all frames of each second, from time 0 on.
   [[nodiscard]] const std::vector<wire::BitLength>& lengths() const { return lengths_; }
   /// If the mean load so far is at least 90 %: a phrase that explains why nothing is received; otherwise
   /// empty.

@@ -110,8 +110,9 @@ void ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int
   if (late) may_be_late_ += group.takers;
 }
 
-// The time of validity that the groups with shorter periods have reached. An estimator's time follows its
-// fastest samples: while these are missing, samples of slower groups that are valid later must wait.
+// The time of validity that all groups with shorter periods have reached. The time of an estimator follows
+// its fastest samples. While the fastest samples are missing, the estimator holds back samples of slower
+// groups if they are valid later.
 std::int64_t ReceiverModel::faster_reached_us(const Group& group) const {
   std::int64_t least_us = std::numeric_limits<std::int64_t>::max();
   for (const auto& [name, other] : groups_) {

@@ -24,12 +24,12 @@ class Recorder final : public Observer {
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
   void foreign(const Received& received) override;
-  /// Finishes the file. Error: not everything could be written; then there is no file `path`, and
-  /// `path`.incomplete contains the part that was written.
+  /// Finishes the file. If not everything could be written, returns an error; then there is no file `path`,
+  /// and `path`.incomplete contains the part that was written.
   Result<void> close();
   /// Finishes the log of a run that did not begin: as `path` or, if this file already exists, as
-  /// `path`.incomplete. Returns the name of the log; empty: no frame passed, so there is no log. Error: as
-  /// for close().
+  /// `path`.incomplete. Returns the name of the log; empty: no frame passed, so there is no log. The errors
+  /// are those of close().
   Result<std::string> close_early();
 
  private:

@@ -12,8 +12,8 @@ namespace {
 
 using namespace messages;
 
-// A target sends the heartbeats of all its estimators at once, so the last frame of another target may be
-// this many frames back.
+// The number of frames that are remembered. A target sends the heartbeats of all its estimators at once, so
+// several frames of one target may lie between two frames of another target.
 constexpr std::size_t longest_history = 8;
 constexpr std::int64_t history_ns = TargetHeartbeat::info.cycle_time_us * 2500;
 constexpr int strange_enough = 3;

@@ -13,8 +13,8 @@
 
 namespace canhil::observe {
 
-/// Looks for a defect in a frame that has the id of `message`, and counts the frame by its defect. True: the
-/// frame has no defect.
+/// Looks for a defect in a frame that has the id of `message`, and counts the frame by its defect. Returns
+/// true if the frame has no defect.
 bool look_at(const Frame& frame, const MessageInfo& message, checks::Sighting& sighting);
 
 class Sightings final : public Observer {
@@ -23,7 +23,8 @@ class Sightings final : public Observer {
   /// Resets all counts.
   void clear() { seen_ = {}; }
 
-  /// The frames with the id of a message, by index in all_messages.
+  /// The counts of the frames that had the id of one message. `message` is the index of this message in
+  /// all_messages.
   [[nodiscard]] const checks::Sighting& of(std::size_t message) const { return seen_.of_target[message]; }
   /// Defects of the target's frames: "TargetHeartbeat: 50 with a wrong CRC"; empty: none.
   [[nodiscard]] std::string faults() const;

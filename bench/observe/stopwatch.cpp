@@ -48,8 +48,8 @@ bool Stopwatch::answers(std::size_t index, std::string_view group) const {
   return std::ranges::find(groups, group) != groups.end();
 }
 
-/// The frame on the wire that ends with this message; none: the frame on the wire (a container) also contains
-/// later messages.
+/// The frame on the wire that ends with this message; none: the frame on the wire is a container that also
+/// contains later messages.
 std::optional<Frame> Stopwatch::closed_by(const Frame& message, FdPacker& packer) const {
   if (!record_.wire.fd || record_.messages.data() != messages::all_messages.data()) return message;
   if (packer.due_before(message)) packer.clear();  // the container was sent without its last message
@@ -62,9 +62,9 @@ std::int64_t Stopwatch::on_wire_ns(const Frame& frame) const {
 }
 
 /// The time to subtract from a frame's time on the wire, so that the difference is comparable with the time
-/// from hand-over to echo. The stamp comes before the intermission, so the intermission is subtracted for a
-/// container. For the last frame of a classic group nothing is subtracted: there, the time from hand-over to
-/// echo contains the intermission of the previous frame.
+/// from hand-over to echo. For a container this is the intermission, because the echo is stamped before the
+/// intermission. For the last frame of a classic group nothing is subtracted, because the time from hand-over
+/// to echo already contains one intermission: that of the previous frame.
 std::int64_t Stopwatch::no_intermission_ns() const {
   return record_.wire.fd ? wire::duration_ns({.nominal = wire::intermission_bits}, record_.wire.rates) : 0;
 }
@@ -87,8 +87,8 @@ void Stopwatch::stimulus(std::string_view name, const Stimulus& stimulus) {
   if (group.sent.size() > remembered) forget_oldest(name, group);
 }
 
-// Lateness is measured by CLOCK_MONOTONIC, stamps possibly by another clock. Therefore only differences of
-// stamps are used.
+// The clock of the lateness is CLOCK_MONOTONIC; the clock of the stamps may be another one. Therefore only
+// differences of stamps are used.
 void Stopwatch::echoed(const Received& received, std::string_view group, std::int64_t valid_us) {
   const std::size_t index = of_bench(received.frame);
   if (index == MessagePlaces::nowhere) return;
@@ -257,8 +257,9 @@ void Stopwatch::finish() {
   }
 }
 
-// Searches from the newest stimulus, because an answer comes soon or never. Among stimuli that are valid at
-// the same time, takes the one with the right counter.
+// Searches from the newest stimulus backwards, because an answer comes soon or never. If several stimuli are
+// valid at the same time, takes the one whose counter is equal to `counter` or, if there is none, the newest
+// of them.
 Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us,
                                  std::optional<std::uint8_t> counter) {
   const auto group = groups_.find(name);

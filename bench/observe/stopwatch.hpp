@@ -33,7 +33,7 @@ class Stopwatch {
         wire_ns_(record.messages.size()),
         last_(record.messages.size()) {}
 
-  /// The bench handed over a frame at `t_ns`, `late_ns` after its deadline.
+  /// The bench handed over a frame at `t_ns`. The hand-over was `late_ns` after the deadline of the frame.
   void sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
   /// The frame that was passed to the last call of sent() completed a sample group that the target answers.
   void stimulus(std::string_view name, const checks::Stimulus& stimulus);
@@ -52,8 +52,8 @@ class Stopwatch {
   void finish();
 
  private:
-  // Frames handed over and not yet echoed, the oldest first. If a message has more than `on_their_way` frames
-  // without an echo, the oldest counts as lost.
+  // The frames of a message that were handed over but not yet echoed, the oldest first. If there are more
+  // than `on_their_way` such frames, the oldest frame counts as lost.
   struct Pending {
     Frame frame;
     std::int64_t t_ns = 0;

@@ -29,12 +29,12 @@
 
 namespace canhil::papers {
 
-/// The functions that make curves, by the first word after the label in a `curve` line. The other words are
-/// the function's arguments.
+/// Maps the first word after the label in a `curve` line to the function that makes the curve. The other
+/// words of the line are the arguments of the function.
 using Curves = std::map<std::string, std::function<Curve(Words&)>, std::less<>>;
 
-/// Throws std::logic_error if the text does not have the form above; the message is one line that names the
-/// place.
+/// Throws std::logic_error if the text does not have the form above. The message of the error is one line
+/// that names the wrong place in the text.
 Page page_of(std::string_view text, const Curves& curves);
 
 }  // namespace canhil::papers

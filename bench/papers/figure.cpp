@@ -23,7 +23,7 @@ constexpr Layout desktop{
 constexpr Layout phone{
     .width = 390, .height = 410, .left = 62, .right = 0, .top = 12, .bottom = 54, .font = 13, .x_steps = 4};
 
-// 1, 2 or 5 times a power of ten, for a grid of approximately `steps` steps.
+// Returns a step for a grid of approximately `steps` steps: 1, 2 or 5 times a power of ten.
 double grid_step(double length, int steps) {
   const double wanted = length / steps;
   const double power = std::pow(10, std::floor(std::log10(wanted)));

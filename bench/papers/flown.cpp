@@ -83,7 +83,8 @@ std::span<const campaign::CurvePoint> Results::curve(Words& words, const campaig
 void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit) {
   constexpr double of_95_percent = 1.96;  // standard deviations of a normal distribution
   const double rms = point.rms / unit;
-  // This range is symmetric on a logarithmic axis, which figures of RMS values have, and is never below zero.
+  // The 95 % range reaches from rms / times to rms * times. So the range is symmetric on a logarithmic axis,
+  // which the figures of RMS values have, and it is never below zero.
   const double times = std::exp(of_95_percent * point.rms_error / point.rms);
   curve.points.emplace_back(x, rms);
   curve.ranges.push_back(std::isfinite(times) ? std::pair(rms / times, rms * times) : std::pair(rms, rms));

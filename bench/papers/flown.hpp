@@ -33,14 +33,14 @@ struct Flown {
   campaign::Campaign campaign;
   campaign::Evaluation evaluation;
 
-  /// RMS over the runs of a variant. The variant is given by its name in the file and, if any, its point of
-  /// the sweep: "kf master_ins.period_ms=20". This function and the next two throw std::logic_error if
-  /// there is no such answer.
+  /// RMS over the runs of a variant. `variant` is the name of the variant in the campaign file, followed by
+  /// its point of the sweep if the campaign has a sweep: "kf master_ins.period_ms=20". This function and the
+  /// next two throw std::logic_error if there is no such result.
   [[nodiscard]] std::span<const campaign::CurvePoint> curve(
       std::string_view variant, const campaign::Quantity& quantity = quantities::attitude_heading) const;
   /// The answer to a metric for a variant.
   [[nodiscard]] const campaign::Answer& answer(std::string_view metric, std::string_view variant) const;
-  /// The first answer of this kind of metric for a variant.
+  /// The answer for a variant to the first metric that is of this kind.
   [[nodiscard]] const campaign::Answer& answer_of_kind(std::string_view kind, std::string_view variant) const;
   /// The answers to the metrics with this requirement; empty: there are none.
   [[nodiscard]] std::vector<const campaign::Answer*> answers(std::string_view requirement) const;
@@ -60,8 +60,8 @@ struct Results {
       Words& words, const campaign::Quantity& quantity = quantities::attitude_heading) const;
 };
 
-/// Adds an RMS over runs to a curve at x, with its 95 % range from the scatter over the runs. `unit`: unit of
-/// the figure [SI].
+/// Adds a point to a curve: at x, the RMS over runs, with its 95 % range. The range follows from the scatter
+/// between the runs. `unit`: the unit of the figure, expressed in SI.
 void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit = 1);
 /// The RMS over time [s], every `step`-th point.
 Curve over_time(std::span<const campaign::CurvePoint> points, double unit = 1, std::size_t step = 1);
@@ -69,13 +69,15 @@ Curve over_time(std::span<const campaign::CurvePoint> points, double unit = 1, s
 /// The number that an answer has under a name (as in the JSON report); NaN: the answer has no such number.
 double figure(const campaign::Answer& answer, std::string_view name);
 
-/// A campaign with the answers computed from its results. Error: results cannot be read, or runs are missing.
+/// A campaign with the answers computed from its stored results. It is an error if results cannot be read or
+/// if runs are missing.
 Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const campaign::Store& store);
 
 /// The results file of a campaign in the folder.
 std::filesystem::path results_file(const FlyOptions& options, std::string_view campaign);
 
-/// Flies the runs that are missing in the results in the folder. None: stopped early. Error: one line.
+/// Flies those runs of the campaigns whose results are not yet in the folder. None: `stop` ended the flights
+/// early. An error is one line of text.
 Result<std::optional<Results>> fly(report::EmbeddedFiles campaigns, report::EmbeddedFiles scenarios,
                                    const FlyOptions& options, const std::atomic<bool>& stop);
 

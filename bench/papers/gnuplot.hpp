@@ -1,4 +1,4 @@
-// Runs Debian's gnuplot as a child process: reads a script, writes one SVG.
+// Runs Debian's gnuplot as a child process, which reads a script and writes one SVG.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 
 namespace canhil::papers {
 
-/// Error: gnuplot cannot be started; one line. Call this before a long run.
+/// Returns an error, one line of text, if gnuplot cannot be started. Call this before a long run.
 Result<void> check_gnuplot();
 
-/// The standard output of gnuplot for a script on its standard input; the script contains the data as
-/// here-documents. Error: one line; gnuplot cannot be started, or reports an error.
+/// Passes a script to the standard input of gnuplot and returns what gnuplot writes to its standard output.
+/// The script contains the data as here-documents. If gnuplot cannot be started or reports an error, the
+/// error is one line of text.
 Result<std::string> gnuplot(std::string_view script);
 
 }  // namespace canhil::papers

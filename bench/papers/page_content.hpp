@@ -20,14 +20,15 @@ struct PageContent {
 /// - runs, enough, flights, frames, #too_few_runs, #unrounded;
 /// - {{bars CAMPAIGN REQUIREMENT}}: a row for every answer with that requirement;
 /// - {{reproduces NAME}} and {{pass NAME}}: the verdict of a boolean name.
-/// `runs`: the number of runs of the campaign with the limits. `enough`: the number of runs for which the
+/// `runs`: the number of runs of the campaign that has the limits. `enough`: the number of runs for which the
 /// limits were derived.
 void add_shared_names(Names& names, const Results& results, std::uint64_t runs, std::uint64_t enough);
 
-// For each paper: the files built into the program (bench/monte_carlo/paper_NAME and its templates), and its
-// page content, which keeps references to the results. `exact`: for the transfer paper, a file with the
-// results of its campaign table2 flown without rounding on the bus; empty: none. Error, one line: stored
-// results cannot be read.
+// Each of the following namespaces belongs to one paper. It contains the files that are built into the
+// program (bench/monte_carlo/paper_NAME and its templates), and a function that computes the content of the
+// paper's page. The content keeps references to the results. `exact` is only used for the transfer paper: a
+// file with results of its campaign table2 that was flown without rounding on the bus; empty: no such file.
+// If stored results cannot be read, the error is one line of text.
 namespace transfer_alignment {
 extern const report::EmbeddedFiles campaigns, scenarios, templates;
 Result<PageContent> page_content(const Results& results, const FlyOptions& options,

@@ -14,7 +14,7 @@
 namespace canhil::papers {
 namespace {
 
-// A paper. Add a new paper to `papers` below and to paper_names.
+// A new paper must be added to `papers` below and to paper_names.
 struct Paper {
   std::string_view name;
   const report::EmbeddedFiles &campaigns, &scenarios, &templates;

@@ -24,11 +24,11 @@ struct Request {
   std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
 };
 
-/// too_few_runs: limits were not met, but the number of runs is too small for a verdict.
+/// too_few_runs: the limits were not met, but the number of runs is too small for a verdict.
 enum class Outcome : std::uint8_t { bars_met, bars_missed, too_few_runs, interrupted };
 
-/// `runs`: per variant of the campaign with the limits; `enough`: the number of runs for which the limits
-/// were derived.
+/// `runs`: the number of runs for each variant of the campaign that has the limits. `enough`: the number of
+/// runs for which the limits were derived.
 Outcome outcome_of(bool bars_met, std::uint64_t runs, std::uint64_t enough);
 
 struct Reproduced {
@@ -37,8 +37,8 @@ struct Reproduced {
   std::filesystem::path page;  ///< path of the HTML page
 };
 
-/// Error: one line; unknown paper, folder not writable, or gnuplot missing, all checked before the first
-/// flight.
+/// It is an error if the paper is unknown, the folder is not writable or gnuplot is missing; all this is
+/// checked before the first flight. The error is one line of text.
 Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& stop);
 
 }  // namespace canhil::papers

@@ -12,7 +12,8 @@
 
 namespace canhil::papers {
 
-/// The words of a tag, read one after another. Reading throws std::logic_error if no word is left.
+/// The words of a tag, which the caller reads one after another. Reading throws std::logic_error if no word
+/// is left.
 class Words {
  public:
   explicit Words(std::string_view text) : left_(text) {}
@@ -25,18 +26,19 @@ class Words {
   std::string_view left_;
 };
 
-/// Text for {{name}}, or a boolean that selects {{#name}}...{{/name}} or {{^name}}...{{/name}}.
+/// The value of a name: the text for {{name}}, or a boolean that selects {{#name}}...{{/name}} or
+/// {{^name}}...{{/name}}.
 using Value = std::variant<std::string, bool>;
-/// The functions that compute the values of tags, by the first word of the tag. The other words are the
-/// function's arguments: {{times table2 kf_p1}}.
+/// Maps the first word of a tag to the function that computes the value of the tag. The other words are the
+/// arguments of the function: {{times table2 kf_p1}}.
 using Names = std::map<std::string, std::function<Value(Words&)>, std::less<>>;
 
-/// Formats a number; the format may come from an argument: {{rms .3g ssbl ekf_90}}.
+/// Formats a number. The format may come from an argument of the tag: {{rms .3g ssbl ekf_90}}.
 std::string number(std::string_view format, double value);
 
 /// The template `page` with its names filled in; {{>other}} includes another template. Throws
-/// std::logic_error, one line with the tag, if the tag is unknown, has too many or too few words, or has no
-/// value. Templates are built into the program, and tests fill all of them.
+/// std::logic_error if a tag is unknown, has too many or too few words, or has no value; the message is one
+/// line that contains the tag. Templates are built into the program, and tests fill all of them.
 std::string filled(report::EmbeddedFiles templates, const Names& names);
 
 }  // namespace canhil::papers

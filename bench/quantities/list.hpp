@@ -11,7 +11,8 @@ inline constexpr Unit mrad{"mrad", "_mrad", world::units::mrad}, degrees{"deg", 
     mradps{"mrad/s", "_mradps", world::units::mrad}, mps{"m/s", "_mps"}, metres{"m", "_m"}, plain{};
 
 /// The attitude error of the body in two forms: as Euler angles (attitude.*), and as the rotation vector phi
-/// (misalignment.*) with C_estimated = exp(-[phi x]) C_true. Both refer to the axes north, east, down (NED).
+/// (misalignment.*), which is defined by C_estimated = exp(-[phi x]) C_true. Both forms refer to the axes
+/// north, east, down (NED).
 inline constexpr Quantity attitude_roll{
     .name = "attitude.roll", .meaning = "error of the roll angle", .unit = mrad, .once = "roll"};
 inline constexpr Quantity attitude_pitch{
@@ -74,8 +75,8 @@ inline constexpr Quantity innovation_nis{
 inline constexpr Quantity velocity_norm{
     .name = "velocity.norm", .meaning = "magnitude of the error of the velocity", .unit = mps};
 
-/// With this quantity a check finds a target whose errors are large although the target reports small sigmas,
-/// and reports neither `degraded` nor `blind`.
+/// With this quantity, a check finds a target that has large errors but reports small sigmas and reports
+/// neither `degraded` nor `blind`.
 inline constexpr Quantity trusted_over_sigma{
     .name = "trusted.over_sigma",
     .meaning =

@@ -27,9 +27,10 @@ struct Derived {
 struct Layout {
   std::span<const Quantity* const> kept{};
   std::span<const Derived> derived{};
-  /// If positive, a sample covers an interval of the time to go, of this length. The time of the sample is
-  /// then the negative of the time to go at the start of the interval, so the closest approach is at time 0.
-  /// If to_go_stretch_us is 0, a sample is one answer, and its time is the answer's time of validity.
+  /// If to_go_stretch_us is positive, each sample covers an interval of the time to go, and the interval has
+  /// this length. The time of the sample is then minus the time to go at the start of the interval, so the
+  /// closest approach is at time 0. If to_go_stretch_us is 0, a sample is one answer, and its time is the
+  /// answer's time of validity.
   std::int64_t to_go_stretch_us = 0;
   const Quantity* end_known_by = nullptr;  ///< if this quantity is NaN in the last sample, the end of the
                                            ///< flight is unknown

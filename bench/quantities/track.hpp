@@ -37,9 +37,9 @@ struct Track {
   Unit estimate_unit{};          ///< unit in the picture of estimate and truth
   bool only_if_judged = false;   ///< drawn only if a check has a limit for this quantity
   Spool<TrackPoint> points{};    ///< in order of time
-  /// Returns a description of where answers that were due are missing between two times, both included [us];
-  /// an empty string: nowhere. If this function is not set, any wait longer than longest_wait_us counts as a
-  /// gap.
+  /// Looks for missing answers that were due between two times [us], both included. Returns a description of
+  /// the place where they are missing, or an empty string if none is missing. If this function is not set,
+  /// any wait longer than longest_wait_us counts as a gap.
   std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
   double longest_wait_us = 0;       ///< the longest time between answers that does not count as silence
   std::int64_t answers_end_us = 0;  ///< no answers are expected after this time

@@ -11,7 +11,7 @@
 
 namespace canhil::recordings {
 
-/// The frames with one id: the differences between their stamps in the logs b and a (b minus a).
+/// The result for all frames with one id. A difference is the stamp in log b minus the stamp in log a.
 struct StampDifference {
   std::uint32_t id = 0;
   bool extended = false;
@@ -36,7 +36,7 @@ Result<StampsCompared> compare_stamps(const std::string& log_a, const std::strin
 /// A function that returns the name of a message; an empty string: the name is unknown.
 using MessageName = std::function<std::string(const StampDifference& message)>;
 
-/// A line for each message and a line for all messages, in us.
+/// One line for each message, and one line for all messages together. Times are in us.
 std::string to_text(const StampsCompared& compared, const MessageName& name);
 /// One object with the keys `messages`, `all` and `outside`. Each element of `messages` has the keys `id`,
 /// `extended`, `name`, `count`, `mean_s`, `sd_s`, `min_s`, `max_s`, `only_in_a` and `only_in_b`. If `count`

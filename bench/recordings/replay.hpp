@@ -17,7 +17,8 @@ struct ReplayOptions {
   double speed = 1;                   ///< 2 means twice as fast as recorded
   std::uint64_t loops = 1;            ///< number of repetitions; 0: repeats until stopped
   std::vector<std::uint32_t> only{};  ///< ids of the frames to send; empty: all
-  /// true: sends only frames that the recorder had sent; false: only frames that it had received; none: both.
+  /// true: sends only the frames that the recorder had sent; false: sends only the frames that the recorder
+  /// had received; nullopt: sends both.
   std::optional<bool> transmitted{};
 };
 
@@ -27,10 +28,11 @@ struct Replayed {
   checks::Histogram lateness{};  ///< transmission time minus deadline, for each frame
 };
 
-/// Sends each frame as long after the first frame as in the log. The deadlines are absolute, so that lateness
-/// does not accumulate. Error frames are not sent. `progress` receives the number of frames so far. Returns
-/// an error of one line if the log cannot be read or has no frame to send, if the bus rejects a frame, or if
-/// the bus accepts no frame for one second.
+/// Sends the frames of a log. The time from the first frame to each other frame is the time in the log,
+/// divided by the speed. The deadlines are absolute, so that lateness does not accumulate. Error frames are
+/// not sent. `progress` receives the number of frames so far. Returns an error of one line if the log cannot
+/// be read or has no frame to send, if the bus rejects a frame, or if the bus accepts no frame for one
+/// second.
 Result<Replayed> replay(Port& port, const std::string& log, const ReplayOptions& options,
                         const std::atomic<bool>& stop, const std::function<void(std::uint64_t)>& progress);
 

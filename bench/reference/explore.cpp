@@ -144,8 +144,8 @@ class Explorer {
     return all;
   }
 
-  /// The key at `path`, if a condition may list its permitted words: there must be at least two and at most
-  /// most_words of them. Null for any other key.
+  /// The key at `path`, if a condition may list the words that the key permits. A condition may list them if
+  /// their number is between two and most_words. Null for any other key.
   [[nodiscard]] const DescribedKey* word_key(const std::string& path) const {
     constexpr std::size_t most_words = 12;
     const auto found = std::ranges::find_if(found_, [&](const DescribedKey& key) {

@@ -21,7 +21,8 @@ using Json = nlohmann::ordered_json;
 // All of these conditions must hold for a latency to count as worse.
 constexpr double largest_p = 0.01;  // of a single test; divided by the number of tests
 constexpr double least_us = 2;      // increase of p50 or p99, larger than the resolution of two stamps
-// Further conditions with one run per side, which does not show the scatter between runs:
+// If each side has only one run, the scatter between runs is unknown. Then these further conditions must
+// hold:
 constexpr double least_effect = 0.64;  // a 'medium' effect of Vargha and Delaney (2000)
 constexpr double tail_times = 2;       // factor for the fraction beyond the 99 % quantile
 constexpr double least_share = 1;      // increase of p50 or p99, divided by the value on the first side
@@ -155,7 +156,7 @@ class Comparer {
     say("{:<8} latency of {}: {}", worse ? "worse" : "same", message, figures);
   }
 
-  // Compares the latencies of a message with one run per side.
+  // Compares the latencies of a message if each side has one run.
   void latency_of(const std::string& message, const Json& before, const Json& after, double p_bar) {
     const Buckets a = buckets_of(before), b = buckets_of(after);
     const RankTest ranks = rank_test(a, b);
@@ -178,7 +179,8 @@ class Comparer {
                     ranks.p, tail.share_a * 100, tail.share_b * 100, tail.p));
   }
 
-  // Compares the latencies of a message with several runs per side. The samples are the runs' quantiles.
+  // Compares the latencies of a message if the sides have several runs. The samples are the quantiles of the
+  // runs.
   void latency_of(const std::string& message, double p_bar) {
     bool worse = false;
     std::string figures;

@@ -19,8 +19,8 @@ struct Compared {
 
 using Reports = std::vector<nlohmann::ordered_json>;
 
-/// Compares the reports `after` with the reports `before`; each side has at least one report, made by
-/// document(). Error: one line about what a report lacks, or about an unknown value in a report.
+/// Compares the reports `after` with the reports `before`. Each side has at least one report, made by
+/// document(). An error is one line of text: what a report lacks, or which value in a report is unknown.
 Result<Compared> compare(const Reports& before, const Reports& after);
 
 }  // namespace canhil::report

@@ -19,8 +19,8 @@ struct Worded {
   std::string_view path, words;
 };
 
-// The words for paths. A path without an entry is shown unchanged, except that in_words() replaces the first
-// part of some paths.
+// For each path, the words that replace it in the output. A path without an entry is shown unchanged, except
+// that in_words() replaces the first part of some paths.
 constexpr std::array<Worded, 28> worded{
     {{"dbc_hash", "DBC"},
      {"latency_stamps", "latency stamps"},
@@ -67,7 +67,8 @@ std::string in_words(const std::string& path) {
   return path;
 }
 
-// A bus that the bench made for itself has the bench's process id in its name, which differs in every run.
+// A bus that the bench made for itself has the process id of the bench in its name, so the name differs in
+// every run.
 bool is_own_bus(std::string_view name) {
   constexpr std::string_view own = "local:canhil-";
   return name.starts_with(own) && name.size() > own.size() &&

@@ -117,7 +117,8 @@ Json object(const Series& series) {
   return json;
 }
 
-// The bus load of each second; for a long run the maximum of each stretch of seconds.
+// The bus load of each second. In a long run, several seconds are joined to a stretch, and the maximum of
+// each stretch is given.
 Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   const checks::LoadLine line = checks::load_line(checks::whole_seconds(seen), rates);
   Json json{{"bitrate_bitps", rates.nominal},

@@ -19,7 +19,8 @@ double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-// count, min, p50, p90, p99, p999, max [s], and buckets_us: [from, count] for each non-empty bucket.
+// An object with the keys count, min, p50, p90, p99, p999, max [s] and buckets_us. The value of buckets_us
+// has a pair [from, count] for each bucket that is not empty.
 Json object(const checks::Histogram& histogram) {
   const checks::Distribution d = checks::distribution_s(histogram);
   Json json{{"count", d.count}, {"min", d.min},   {"p50", d.p50}, {"p90", d.p90},
@@ -29,7 +30,8 @@ Json object(const checks::Histogram& histogram) {
   return json;
 }
 
-// stretch_s, and largest_s of each stretch from time 0 on; null for a stretch without a value.
+// An object with two keys: stretch_s is the length of a stretch of time, largest_s is an array with the
+// largest value in each stretch from time 0 on. A stretch without a value has the entry null.
 Json object(const checks::TimeLine& line) {
   Json json{{"stretch_s", seconds(line.stretch_ns())}, {"largest_s", Json::array()}};
   for (const std::int64_t largest_ns : line.largest_ns())

@@ -39,8 +39,10 @@ double squares_about(std::span<const double> values, double mean) {
 
 }  // namespace
 
-// U counts the pairs with b > a, and half of the equal pairs. With N = m + n and t_k values in bucket k: var
-// U = m n / 12 (N + 1 - sum (t_k^3 - t_k) / (N (N - 1))).
+// U counts the pairs with b > a, and half of the pairs with b equal to a. The variance of U is
+// m n / 12 (N + 1 - sum (t_k^3 - t_k) / (N (N - 1))),
+// where m and n are the sizes of the two samples, N is the sum of m and n, and t_k is the number of values in
+// bucket k.
 RankTest rank_test(const Buckets& a, const Buckets& b) {
   const double m = count_of(a), n = count_of(b);
   if (m == 0 || n == 0) return {};

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int most_depth = 32;  // limit for the depth of nested values; a report has depth 6
 
-// A plot needs one value for each time. Describes the first array that has another length; empty: none.
+// A plot needs one value for each time. This function describes the first array that has another length, and
+// returns an empty text if there is none.
 std::string length_differs(const Json& report) {
   for (const Json& series : report.at("series")) {
     const std::size_t times = series.at("t_s").size();

@@ -8,11 +8,11 @@
 
 namespace canhil::report {
 
-/// The page of a report that document() made. The page is drawn from the report alone. Error: one line about
-/// what the report lacks.
+/// The page of a report that document() made. The page is drawn from the report alone. An error is one line
+/// about what the report lacks.
 Result<std::string> html(const nlohmann::ordered_json& document);
 
-/// Reads a JSON report of hil-bench. Error: one line with the file and what was expected.
+/// Reads a JSON report of hil-bench. An error is one line with the file and what was expected.
 Result<nlohmann::ordered_json> read_document(const std::string& path);
 
 }  // namespace canhil::report

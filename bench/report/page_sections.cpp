@@ -53,7 +53,8 @@ void add_rows(Rows& rows, const std::string& name, const Json& value) {
     for (const auto& [key, inner] : value.items())
       add_rows(rows, name.empty() ? key : fmt::format("{}: {}", name, key), inner);
   } else if (value.is_array()) {
-    // Each file has rows labelled by its role, each adapter has rows labelled by its bus.
+    // The rows of a file are labelled by the role of the file; the rows of an adapter are labelled by its
+    // bus.
     if (!value.empty() && value.front().is_object()) {
       for (const Json& item : value)
         add_rows(rows, fmt::format("{}: {}", name, item_name(item)), without_name(item));

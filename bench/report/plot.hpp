@@ -59,7 +59,7 @@ struct LinePlot {
 std::string svg(const LinePlot& plot);
 
 /// The range of the picture. It includes `limit` and `bars` unless they are so large that they would hide the
-/// quantity, such as the sigma of the first instants.
+/// quantity, as the sigma of the first instants may be.
 Extent extent_of(const LinePlot& plot);
 /// Whether a check's limit lies within the picture.
 bool shows(const LinePlot& plot, const LinePlot::Bar& bar);

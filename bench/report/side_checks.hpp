@@ -13,14 +13,14 @@ struct ChecksCompared {
   std::string text;      ///< one line for each check that changed
 };
 
-/// A report contains an unknown outcome. Thrown by compare_checks().
+/// Thrown by compare_checks() if a report contains an unknown outcome.
 struct UnknownOutcome {
   std::string what;  ///< one line
 };
 
-/// A check got worse if it fails in a run of `after` and in none of `before`, or in most runs of `after` and
-/// not in most of `before`. In lockstep, timing is never judged, so a check that no run measured does not
-/// count as unknown.
+/// A check got worse in two cases: it fails in a run of `after` but in no run of `before`, or it fails in
+/// most runs of `after` but not in most runs of `before`. In lockstep, timing is never judged, so a check
+/// that no run measured does not count as unknown.
 ChecksCompared compare_checks(const std::vector<nlohmann::ordered_json>& before,
                               const std::vector<nlohmann::ordered_json>& after, bool lockstep);
 

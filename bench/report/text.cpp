@@ -128,7 +128,8 @@ std::string split_words(const checks::TimingRecord& timing) {
   return lines;
 }
 
-// The bus response times beside their bounds: the message nearest to its bound, and all messages beyond it.
+// The bus response times of messages, compared with their bounds: the message that is nearest to its bound,
+// and all messages beyond their bounds.
 std::string wire_words(const checks::Observations& seen) {
   if (seen.bit_rates.nominal == 0) return "";
   if (const std::string why = checks::no_bounds(seen); !why.empty())

@@ -1,6 +1,6 @@
-// The measurement uncertainty of the latencies of a run, after the GUM (JCGM 100:2008): each influence is of
-// type B with a rectangular distribution of half-width a, so u = a / sqrt(3). Several influences are combined
-// as the root of the sum of the squares of u.
+// The measurement uncertainty of the latencies of a run, after the GUM (JCGM 100:2008). Each influence is of
+// type B and has a rectangular distribution with half-width a; its standard uncertainty u is a / sqrt(3). The
+// combined uncertainty is the root of the sum of the squares of all u.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 
 namespace canhil::report {
 
-/// U = k u. With k = 2, a normal distribution has about 95 % of its values within U.
+/// The coverage factor k: the expanded uncertainty U is k times the combined standard uncertainty u. With k
+/// equal to 2, about 95 % of the values of a normal distribution lie within U.
 inline constexpr double coverage_factor = 2;
 
 /// The sources of uncertainty of a latency.
@@ -36,13 +37,16 @@ struct StampConditions {
 };
 StampConditions stamp_conditions(const drive::Run& run);
 
-/// Half-widths [s] by Influence, for a latency [s]. `lateness_s`: the bench's lateness at the same quantile.
-/// `bucket_s`: the width of the bucket of the figure; 0: an exact figure.
+/// The half-width [s] of each Influence, in the order of the enumeration, for a latency [s]. `lateness_s`:
+/// the lateness of the bench at the same quantile. `bucket_s`: the width of the histogram bucket that
+/// contains the latency; 0: the latency is exact.
 std::array<double, 5> half_widths_s(const StampConditions& conditions, double latency_s, double lateness_s,
                                     double bucket_s);
-/// u of one influence [s]. For `stamps`, the half-width is that of one of the two stamps.
+/// The standard uncertainty u [s] of one influence. For `stamps`, the half-width is that of a single stamp,
+/// and the result is for two stamps.
 double standard_s(Influence influence, double half_width_s);
-/// The combined standard uncertainty [s]: the root of the sum of the squares of all standard_s().
+/// The combined standard uncertainty [s]: the root of the sum of the squares of the standard uncertainties of
+/// all influences.
 double combined_s(const std::array<double, 5>& half_widths_s);
 
 /// A figure of a latency, with its uncertainty budget.

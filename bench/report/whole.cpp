@@ -66,7 +66,8 @@ std::uint64_t count(const At& at) {
   return at.value.get<std::uint64_t>();
 }
 
-// Checks buckets, [[from us, count], ...]: they must ascend, and their counts must add up to `counted`.
+// Checks the buckets of a histogram, which have the form [[from us, count], ...]. The buckets must be in
+// ascending order, and their counts must add up to `counted`.
 void buckets(const At& at, std::uint64_t counted) {
   constexpr std::uint64_t last_us = 10'000'000;  // the last bucket holds all larger values
   std::uint64_t next_us = 0, left = counted;

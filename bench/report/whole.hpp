@@ -6,8 +6,8 @@
 
 namespace canhil::report {
 
-/// Returns why a report is incomplete: "key 'latency_s.A.p50': is null, expected a number"; empty: it is
-/// complete.
+/// Returns why a report is incomplete, such as "key 'latency_s.A.p50': is null, expected a number". Empty:
+/// the report is complete.
 std::string why_not_whole(const nlohmann::ordered_json& report);
 
 }  // namespace canhil::report

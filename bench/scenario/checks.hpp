@@ -18,14 +18,15 @@ namespace canhil::scenario {
 class Section;
 struct DbcVocabulary;
 
-/// A part of a run, ends included. An answer belongs to the window that contains the time of validity of the
-/// answer's cause.
+/// A part of a run; both ends belong to it. An answer belongs to the window that contains the time of
+/// validity of the answer's cause.
 struct Window {
   std::int64_t from_us = 0;
   std::int64_t to_us = 0;
 };
 
-/// The time in which a fault of the scenario is active, by time of transmission.
+/// The interval in which a fault of the scenario is active. The interval refers to times of transmission, not
+/// to times of validity.
 struct FaultWindow {
   std::string name;
   Window window;
@@ -39,7 +40,7 @@ struct Check {
   std::shared_ptr<const checks::Rule> rule;
 };
 
-/// Facts about the scenario for the readers of all kinds of checks.
+/// Facts about the scenario, for the functions that read the different kinds of checks.
 struct CheckContext {
   std::int64_t duration_us = 0;
   const DbcVocabulary& contract;

@@ -46,7 +46,8 @@ struct Description {
   std::set<std::string> looked_for;  ///< paths of keys whose presence affects the reader
 };
 
-/// During its lifetime, records the keys that are requested from sections that this thread creates.
+/// While this object exists, it records every key that is requested from a section that the same thread
+/// created.
 class Describing {
  public:
   explicit Describing(Description& description);

@@ -1,5 +1,5 @@
-// Reads [engagement]: missile, target and guidance. This table replaces the carrier of [truth] or is added to
-// it.
+// Reads [engagement]: missile, target and guidance. A scenario has this table instead of [truth] (the flight
+// of a carrier) or in addition to it.
 #pragma once
 
 #include "bench/world/engagement/plan.hpp"

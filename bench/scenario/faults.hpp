@@ -28,7 +28,7 @@ struct Fault {
   std::shared_ptr<const faults::Rule> rule{};
 };
 
-/// Facts about the scenario for the readers of all kinds of faults.
+/// Facts about the scenario, for the functions that read the different kinds of faults.
 struct FaultContext {
   std::int64_t duration_us = 0;
   const DbcVocabulary& contract;

@@ -18,8 +18,8 @@ namespace canhil::scenario {
 class NodeSettings;
 class Section;
 
-/// The truth that a node samples: [truth], [glide] or [engagement]. [glide] and [engagement] require their
-/// nodes.
+/// The truth that a node samples. These are the tables [truth], [glide] and [engagement] of a scenario. A
+/// scenario with [glide] or [engagement] must also have the nodes that sample this truth.
 enum class TruthOf : std::uint8_t { navigation, glide, engagement };
 
 /// The properties of a node whose fixes an aided estimator uses.
@@ -36,8 +36,8 @@ struct Assumed {
   double value = 0;
 };
 
-/// An increment, summed over several samples when needed: "delta_theta_x_rad". A recording may contain the
-/// increment as a rate, "rate_x_radps", and a mapping may use that rate, "imu.rate.x".
+/// An increment ("delta_theta_x_rad"), which can be summed over several samples. A recording may contain a
+/// rate ("rate_x_radps") instead of the increment, and a mapping may use that rate ("imu.rate.x").
 struct Increment {
   std::string_view signal;
   std::string_view rate;

@@ -12,8 +12,8 @@
 
 namespace canhil::scenario {
 
-/// The value that the key names; `names` are in the order of the enumeration. Error: an unknown word, or a
-/// missing one without a fallback.
+/// The value that the key names; `names` are in the order of the enumeration. It is an error if the word is
+/// unknown, or if the key is missing and there is no fallback.
 template <class Enum>
 Enum read_enum(Section& section, const Key& key, std::span<const std::string_view> names,
                std::optional<Enum> fallback = {}) {

@@ -58,7 +58,7 @@ struct Scenario {
   std::vector<Fault> faults;
   std::vector<Check> checks;
 
-  /// False: answers cannot be compared with the carrier's flight.
+  /// If false, answers cannot be compared with the flight of the carrier.
   [[nodiscard]] bool truth_is_known() const { return !std::holds_alternative<world::Unknown>(truth.motion); }
   [[nodiscard]] bool runs(std::string_view estimator) const {
     return std::ranges::find(targets, estimator, &TargetSetup::estimator) != targets.end();
@@ -74,11 +74,12 @@ struct Scenario {
 Result<Scenario> read_file(const std::filesystem::path& path, const DbcVocabulary& contract);
 
 /// Reads a scenario's text; `name` is the file's name in messages. Settings replace values of the text and
-/// are validated in the same way. Files that the text names are in `folder`, by default the folder of `name`.
+/// are validated in the same way. `folder` contains the files that the text names; by default it is the
+/// folder of `name`.
 Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVocabulary& contract,
                        std::span<const Setting> settings = {}, std::optional<std::string> folder = {});
 
-/// Appends the [[fault]] tables of another text, or some of them. The error is one line.
+/// Appends the [[fault]] tables of another text, or some of them. An error is one line of text.
 Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
                         const DbcVocabulary& contract, const FaultPlaces* some = nullptr);
 

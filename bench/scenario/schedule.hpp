@@ -14,10 +14,11 @@ struct Schedule {
   std::int64_t latency_us = 0;  ///< from time of validity to the first frame of the group
 };
 
-/// The keys period_ms and latency_ms of a node's section.
+/// Reads the keys period_ms and latency_ms of a node's section.
 Schedule read_schedule(Section& section);
 
-/// The same for a node that samples a glide: the period of the node must be a multiple of the truth's step.
+/// Reads the keys period_ms and latency_ms of a node that samples a glide. The period of the node must be a
+/// multiple of the step of the truth.
 Schedule read_glide_schedule(Section& section);
 
 }  // namespace canhil::scenario

@@ -37,7 +37,7 @@ struct Section::State {
     if (std::ranges::find(asked, key) == asked.end()) asked.emplace_back(key);
     return table == nullptr ? nullptr : table->get(key);
   }
-  /// Requests a key, like ask(key), but an absent key counts as missing unless `may_be_absent` is set.
+  /// Requests a key, as ask(key) does. An absent key also counts as missing, unless `may_be_absent` is set.
   const toml::node* ask(std::string_view key, std::string_view expected, bool may_be_absent = false) {
     const toml::node* node = ask(key);
     if (node == nullptr && !may_be_absent) missing.emplace_back(key, expected);
@@ -53,8 +53,8 @@ struct Section::State {
   void fail(std::string_view key, std::size_t at, std::string_view what, std::string_view expected) const {
     file->fail(at, fmt::format("key '{}': {}, expected {}", path_of(key), what, expected));
   }
-  /// The text of a key; null: the key is absent, or the value is not a text; the latter is reported as an
-  /// error.
+  /// The text of a key. Null: the key is absent, or its value is not a text; only the second case is reported
+  /// as an error here.
   const std::string* text(std::string_view key, std::string_view expected, bool may_be_absent) {
     const toml::node* node = ask(key, expected, may_be_absent);
     if (node == nullptr) return nullptr;
@@ -62,8 +62,8 @@ struct Section::State {
     if (value == nullptr) fail(key, line_of(*node), type_of(*node), expected);
     return value == nullptr ? nullptr : &value->get();
   }
-  /// The elements of an array. Empty: `node` is null, or the node is not an array, or the array is empty; the
-  /// last two cases are reported as errors.
+  /// The elements of an array. The result is empty in three cases: `node` is null, the node is not an array,
+  /// or the array is empty. The last two cases are reported as errors.
   const toml::array& elements(std::string_view key, const toml::node* node, std::string_view expected) const {
     static const toml::array none;
     if (node == nullptr) return none;
@@ -72,7 +72,7 @@ struct Section::State {
     fail(key, line_of(*node), array == nullptr ? type_of(*node) : "is empty", expected);
     return none;
   }
-  /// The table at `node`, which may be null: then a table without keys.
+  /// The table at `node`. If `node` is null, returns a table without keys.
   [[nodiscard]] Section inside(std::string_view key, const toml::node* node, std::string inner_path) const {
     auto state = std::make_shared<State>();
     state->file = file;
@@ -375,7 +375,7 @@ void Section::missing(std::string_view key, std::string_view expected) {
 
 void Section::finish(std::string_view unasked) {
   if (state_->table == nullptr) return;
-  // Finds the unknown key that comes first in the file: the table is sorted by key, not by line.
+  // The table is sorted by key, not by line. This loop finds the unknown key that comes first in the file.
   const toml::node* unknown = nullptr;
   std::string unknown_key;
   for (const auto& [key, node] : *state_->table) {

@@ -24,8 +24,8 @@ namespace canhil::scenario {
 
 class Section {
  public:
-  /// The whole file; settings replace values of the file before any key is read. A text that is not TOML is
-  /// the file's first error. Errors about a setting have no line.
+  /// Parses a whole file. `settings` replace values of the file before any key is read. A text that is not
+  /// TOML is the file's first error. Errors about a setting have no line.
   static Section parse(std::string_view text, std::string_view file_name,
                        std::span<const Setting> settings = {});
 
@@ -37,7 +37,7 @@ class Section {
   /// The key, preceded by the path of its tables.
   [[nodiscard]] std::string path(std::string_view key) const;
 
-  /// "file:line" of a key, or "file" if a setting added the key.
+  /// The place of a key: "file:line", or "file" if a setting added the key.
   [[nodiscard]] std::string where(std::string_view key) const;
 
   /// Accepts a key and ignores its value.
@@ -50,7 +50,8 @@ class Section {
   double number(const Key& key, Limits limits, std::optional<double> fallback = {});
   /// A number in the unit of its key.
   double plain_number(const Key& key, Limits limits, std::optional<double> fallback = {});
-  /// One number for three axes, or an array of three, in SI; 0 if absent.
+  /// Three numbers in SI, from one number for all axes or from an array of three numbers; zeros if the key is
+  /// absent.
   world::Vector3 three(const Key& key, Limits limits = {});
   /// Lower and upper end of an interval, in SI.
   std::pair<double, double> interval(const Key& key, Limits limits);
@@ -88,8 +89,8 @@ class Section {
   /// The keys of the table, in the order of their lines in the file.
   [[nodiscard]] std::vector<std::string> keys() const;
   [[nodiscard]] bool holds_text(std::string_view key) const;
-  /// All values of this table, whatever their keys, as settings for another file. Nested tables become keys
-  /// with dots.
+  /// Returns all values of this table, whatever their keys are. The caller uses them as settings for another
+  /// file. Nested tables become keys with dots.
   std::vector<Setting> settings();
 
   /// A table. If the table is missing, finish() of the outer table reports this, and the returned table has
@@ -109,7 +110,7 @@ class Section {
   /// Makes finish() report that a key, or one of several keys, is missing; if the table also has an unknown
   /// key, finish() reports the unknown key instead.
   void missing(std::string_view key, std::string_view expected);
-  /// Rejects a key if it is present: a key that has no effect together with other keys.
+  /// Rejects a key if it is present. This is for a key that has no effect because of other keys in the file.
   void refuse(std::string_view key, std::string_view what, std::string_view expected);
   /// Must be called after all keys have been requested. Reports a key that is in the table but was not
   /// requested, with the given reason; if there is no such key, reports a missing key.
@@ -122,11 +123,12 @@ class Section {
   struct State;
   struct File;
   std::optional<std::int64_t> whole_number(const Key& key, std::int64_t least, bool required);
-  /// Reads one of `names`; the reference describes the value by `type` and lists `words`.
+  /// Reads one of `names`. The reference of all keys shows `type` as the type of the value, and lists
+  /// `words`.
   std::string choice(const Key& key, std::span<const std::string> names,
                      const std::optional<std::string>& fallback, std::string_view type,
                      std::vector<std::string> words);
-  /// Records, for the reference, a key that is requested only if it is present.
+  /// For a key that is requested only if it is present: records the key for the reference of all keys.
   void describe_optional(const Key& key, std::string_view type, const Limits& limits);
   explicit Section(std::shared_ptr<State> state) : state_(std::move(state)) {}
 

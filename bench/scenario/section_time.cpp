@@ -19,7 +19,8 @@ std::int64_t Section::time_us(const Key& key, Limits limits, std::optional<doubl
     return 0;
   }
   const double whole = std::round(us);
-  // A decimal fraction is not exact in binary: the error is 1e-16 of the time, 1e-5 us in a day.
+  // A decimal fraction is not exact in binary. The relative error is 1e-16, which is 1e-5 us for a time of
+  // one day.
   if (std::abs(us - whole) > 1e-3) reject(key.name, "is not whole in microseconds", "a multiple of 1 us");
   return static_cast<std::int64_t>(whole);
 }

@@ -21,7 +21,8 @@ constexpr std::array<Endings, 6> of_one_dimension{{{"_s", "_ms", "_us"},
                                                    {"_mps2", "_g", "_ug"},
                                                    {"_m"}}};
 
-/// The column's name with each permitted unit, first with the unit in `name`.
+/// The names under which a column may appear: `name`, then `name` with each other unit of the same quantity
+/// as suffix.
 std::vector<std::string> names_of(std::string_view name) {
   std::vector<std::string> names{std::string(name)};
   for (const Endings& endings : of_one_dimension) {

@@ -30,14 +30,15 @@ struct Table {
   }
   /// "flight.csv:17: column 'roll_rad': WHAT".
   [[nodiscard]] Error about(std::size_t row, std::size_t index, std::string_view what) const;
-  /// "flight.csv:1: column 'roll_deg': is missing, expected it, or 'roll_rad' ...".
+  /// Returns an error such as "flight.csv:1: column 'roll_deg': is missing, expected it, or 'roll_rad' ...".
   [[nodiscard]] Error missing(std::size_t index) const;
 };
 
-/// Reads a CSV text. Error: one line with file, line and column.
+/// Reads a CSV text. An error is one line with file, line and column.
 Result<Table> read_table(std::string_view text, std::string_view file, std::span<const std::string> names);
 
-/// Times of the rows [us] relative to `from_us`, from a column in s. Error: they do not ascend.
+/// The times of the rows [us], relative to `from_us`. The column `index` contains these times in s. It is an
+/// error if the times do not ascend.
 Result<std::vector<std::int64_t>> times_of(const Table& table, std::size_t index, std::int64_t from_us);
 
 /// A contiguous range of a table's rows.
@@ -45,8 +46,8 @@ struct Rows {
   std::size_t first = 0, last = 0;
 };
 
-/// The rows from the last row at or before time 0 to the first row at or after end_us. Error: there is no
-/// such row, or a gap between rows exceeds gap_us.
+/// The rows from the last row at or before time 0 to the first row at or after end_us. It is an error if one
+/// of these two rows does not exist, or if a gap between rows exceeds gap_us.
 Result<Rows> covering(const Table& table, std::size_t index, std::span<const std::int64_t> t_us,
                       std::int64_t end_us, std::int64_t gap_us);
 

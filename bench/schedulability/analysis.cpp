@@ -8,15 +8,16 @@ namespace {
 constexpr std::int64_t given_up_ns =
     3'600'000'000'000;  // one hour: a longer busy period gives no useful bound
 
-// The bits that an error costs: error flag 6, superposed error flag 6, error delimiter 8, intermission 3, and
-// suspend transmission of an error-passive node 8 (Tindell, Burns, Wellings 1995).
+// An error frame costs at most 31 bits: 6 for the error flag, 6 for the superposed error flag, 8 for the
+// error delimiter, 3 for the intermission, and 8 if an error-passive node suspends transmission (Tindell,
+// Burns, Wellings 1995).
 constexpr std::int64_t error_frame_bits = 31;
 
 constexpr std::int64_t divide_up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
 /// The number of instances of a stream that can be queued in an interval. The interval includes its first
-/// moment, but not its last. This is ceil(interval / T) for a stream with period T, and 1
-/// for a stream that has no period.
+/// moment, but not its last moment. The number is ceil(interval / T) for a stream with period T, and 1 for a
+/// stream that has no period.
 std::int64_t queued_within(const Stream& stream, std::int64_t interval_ns) {
   if (interval_ns <= 0) return 0;
   return stream.period_ns > 0 ? divide_up(interval_ns, stream.period_ns) : 1;
@@ -33,14 +34,16 @@ struct Level {
   std::int64_t per_error = 0;
   ErrorModel errors{};
 
-  /// The interference by the messages of higher priority: sum over hp(m) of ceil((t + J_k + extra) / T_k) C_k
+  /// The interference by hp(m), the set of all messages k that have a higher priority than message m:
+  ///   sum over k in hp(m) of ceil((t + J_k + extra) / T_k) C_k
   [[nodiscard]] std::int64_t interference(std::int64_t t, std::int64_t extra) const {
     std::int64_t sum = 0;
     for (std::size_t k = 0; k < higher.size(); ++k)
       sum += queued_within(higher[k], t + higher[k].jitter_ns + extra) * higher_c[k];
     return sum;
   }
-  /// The time that errors cost: E_m(t) = (burst + ceil(t / T_error) - 1) (31 bits + max over hep(m) of C_k)
+  /// The time that errors cost; hep(m) is the set of message m and all messages of higher priority:
+  ///   E_m(t) = (burst + ceil(t / T_error) - 1) (31 bits + max over k in hep(m) of C_k)
   [[nodiscard]] std::int64_t error_overhead(std::int64_t t) const {
     if (errors.burst == 0) return 0;
     return (errors.burst + divide_up(t, errors.interval_ns) - 1) * per_error;
@@ -74,20 +77,21 @@ Response analyse(const Level& level) {
   const std::int64_t c = level.own_c;
   Response result{.transmission_ns = c, .blocking_ns = level.blocking};
   if (level.demand() >= 1) return result;
-  // The busy period: t_m = E_m(t) + B_m + sum over hep(m) of ceil((t + J_k) / T_k) C_k
+  // The length t_m of the busy period is the smallest solution t of
+  //   t = E_m(t) + B_m + sum over k in hep(m) of ceil((t + J_k) / T_k) C_k
   const auto busy = fixed_point(c, [&](std::int64_t t) {
     return level.error_overhead(t) + level.blocking + level.interference(t, 0) +
            queued_within(level.own, t + level.own.jitter_ns) * c;
   });
   if (!busy) return result;
-  // The number of instances in the busy period: Q_m = ceil((t_m + J_m) / T_m). Each of them may have the
-  // longest response.
+  // The busy period contains Q_m instances of the message, with Q_m = ceil((t_m + J_m) / T_m). Each of these
+  // instances may have the longest response.
   result.instances = queued_within(level.own, *busy + level.own.jitter_ns);
   std::int64_t worst = 0;
   std::int64_t w = level.blocking;
   for (std::int64_t q = 0; q < result.instances; ++q) {
-    // The time for which instance q waits in the queue:
-    //   w_m(q) = E_m(w + C_m) + B_m + q C_m + sum over hp(m) of ceil((w + J_k + tau_bit) / T_k) C_k
+    // The time w_m(q) for which instance q waits in the queue is the smallest solution w of
+    //   w = E_m(w + C_m) + B_m + q C_m + sum over k in hp(m) of ceil((w + J_k + tau_bit) / T_k) C_k
     const auto queueing = fixed_point(w, [&](std::int64_t t) {
       return level.error_overhead(t + c) + level.blocking + q * c + level.interference(t, level.bit);
     });

@@ -8,8 +8,8 @@
 // The messages of one sample group become due together. The analysis covers this case, because it allows all
 // messages of the bus to become due together.
 //
-// fifo_responses() computes bounds for nodes that send their frames in the order of queueing. SocketCAN's
-// queues work in this way, and therefore the bench and hil-target do.
+// fifo_responses() computes bounds for nodes that send their frames in the order of queueing. The bench and
+// hil-target are such nodes, because the queues of SocketCAN keep this order.
 #pragma once
 
 #include <cstdint>
@@ -78,14 +78,15 @@ std::vector<Response> responses(std::span<const Stream> streams, const Bus& bus)
 
 /// The response of every stream if each node sends its frames in the order of queueing (FIFO). The method
 /// follows the idea of Davis, Kollmann, Pollex, Slomka, "Controller Area Network (CAN) schedulability
-/// analysis with FIFO queues" (ECRTS 2011). Let L be the frame of node N with the lowest priority. A frame m
-/// of N waits for three kinds of frames: the frames before m in the queue of N; one frame with a lower
-/// priority than L; and frames of other nodes with a higher priority than L, called hp(L). Let r_k be the
-/// longest time from the queueing of a frame k to its end. Then every frame k that is on the bus at time t
-/// was queued after t - r_k. Hence, with the period T, the jitter J and the duration C of each frame, the
-/// blocking B and the bit time tau_bit:
+/// analysis with FIFO queues" (ECRTS 2011). Let L be the frame that has the lowest priority among the frames
+/// of a node N. A frame m of N waits for three kinds of frames: the frames before m in the queue of N; one
+/// frame with a lower priority than L; and frames that other nodes send with a higher priority than L. These
+/// frames of other nodes are called hp(L). Let r_k be the longest time from the queueing of a frame k to the
+/// end of its transmission. Then every frame k that is on the bus at time t was queued after t - r_k. T, J
+/// and C are the period, the jitter and the duration of a frame, B is the blocking and tau_bit the bit time.
+/// Hence:
 ///   w_m = B_L + sum over k in N of ceil((r_k + J_k) / T_k) C_k - C_m
-///             + sum over other k in hp(L) of ceil((w_m + r_k + J_k + tau_bit) / T_k) C_k
+///             + sum over k in hp(L) of ceil((w_m + r_k + J_k + tau_bit) / T_k) C_k
 ///   r_m = w_m + C_m,  R_m = J_m + r_m
 /// This bound is sufficient, not exact. The streams must be sorted by wire::arbitration_rank(). Bus errors
 /// are not taken into account.

@@ -10,7 +10,7 @@
 
 namespace canhil::schedulability {
 
-/// Values that are used for messages for which the DBC has no such value.
+/// Default values. The analysis uses them for messages to which the DBC gives no value.
 struct Assumptions {
   std::int64_t event_interval_ns = 0;  ///< event messages without GenMsgDelayTime; 0: Release::once
   std::int64_t jitter_ns = 0;          ///< messages without GenMsgJitter

@@ -81,8 +81,8 @@ void SpoolFile::into_memory(std::size_t bytes) {
 
 void SpoolFile::enter(std::size_t block) const {
   last_block_.store(block, std::memory_order_relaxed);
-  // Access to the first most_blocks blocks is not counted. So the pages of a file with at most most_blocks
-  // blocks are never released, in whatever order they are accessed.
+  // Accesses to the first blocks of the file (most_blocks in number) are not counted. So if a file has no
+  // other blocks, its pages are never released, in whatever order they are accessed.
   if (file_ < 0 || block < most_blocks ||
       entered_.fetch_add(1, std::memory_order_relaxed) % most_blocks != most_blocks - 1)
     return;

@@ -114,7 +114,8 @@ class Spool {
     std::construct_at(static_cast<T*>(file_->data()) + filed_, value);
     file_->touch(filed_++ * sizeof(T));
   }
-  /// Reserves memory for those of `count` elements that are stored in memory.
+  /// `count`: the number of elements that are going to be added. Reserves memory for as many of them as a
+  /// Spool stores in memory.
   void reserve(std::size_t count) { few_.reserve(std::min(count, most_in_memory)); }
 
   [[nodiscard]] std::size_t size() const { return few_.size() + filed_; }

@@ -1,5 +1,5 @@
-// Attitude conventions of the bench: C_bn transforms from body axes b to navigation axes n (NED). Euler
-// angles are 3-2-1. Small attitude errors phi are resolved in n.
+// Attitude conventions of the bench. The matrix C_bn transforms from the body axes b to the navigation axes n
+// (NED). Euler angles have the order 3-2-1. A small attitude error phi has its components along the axes n.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ struct Euler {
 /// The equivalent angle in [-pi, pi]. An angle that is already in this range is returned unchanged.
 double wrapped(double angle);
 
-/// C_bn of Euler angles. Groves (2013), eq. (2.22), transposed.
+/// The matrix C_bn for given Euler angles: the transpose of Groves (2013), eq. (2.22).
 Matrix3 C_bn_from(const Euler& angles);
 
 /// Euler angles of C_bn: roll and heading in (-pi, pi], pitch in [-pi/2, pi/2]. Groves (2013), eq. (2.23).
@@ -31,15 +31,15 @@ Matrix3 skew(const Vector3& a);
 /// exp([a x]): the rotation by |a| about a (Rodrigues).
 Matrix3 rotation(const Vector3& a);
 
-/// Body rate w.r.t. navigation axes, in body axes [rad/s], from Euler angles and their time derivatives
-/// [rad/s].
+/// The angular rate of the body relative to the navigation axes, in body axes [rad/s]. It is computed from
+/// the Euler angles and their time derivatives [rad/s].
 Vector3 omega_nb_b(const Euler& angles, const Euler& rates);
 
 /// The attitude that a navigation system computes if its misalignment is phi [rad, NED]: exp(-[phi x]) C_bn.
 Matrix3 misaligned(const Matrix3& C_bn, const Vector3& phi);
 
-/// The misalignment phi [rad, NED] of a computed attitude: computed = exp(-[phi x]) C_bn. Inverse of
-/// misaligned().
+/// The misalignment phi [rad, NED] of the attitude `computed`, which is exp(-[phi x]) C_bn. This is the
+/// inverse of misaligned().
 Vector3 misalignment(const Matrix3& computed, const Matrix3& C_bn);
 
 }  // namespace canhil::world

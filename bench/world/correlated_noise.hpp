@@ -12,7 +12,8 @@ class CorrelatedNoise {
   /// correlation_time [s]. The process starts in its steady state.
   CorrelatedNoise(double fraction, double correlation_time, Stream& stream);
 
-  /// The noise dt [s] after the previous call. Takes six numbers from the stream, whatever the fraction is.
+  /// The noise at the time dt [s] after the previous call. Every call takes six numbers from the stream,
+  /// whatever the fraction is.
   Vector3 next(double dt, Stream& stream);
 
  private:

@@ -52,7 +52,7 @@ class CubicSpline {
 
  private:
   // Computes the second derivatives M at the knots (bends_) by elimination (Thomas). M is 0 at the two ends.
-  // Any three successive knots 0, 1, 2 satisfy
+  // If 0, 1 and 2 are the numbers of any three successive knots, then
   // h0 M0 + 2 (h0 + h1) M1 + h1 M2 = 6 ((y2 - y1) / h1 - (y1 - y0) / h0).
   void solve() {
     if (times_.size() < 3) return;

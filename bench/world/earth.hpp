@@ -29,7 +29,8 @@ Vector3 omega_en_n(const Position& position, const Vector3& v_eb_n);
 /// Normal gravity of WGS-84 in NED [m/s^2], including its north component, which vanishes on the ellipsoid.
 Vector3 gravity_n(const Position& position);
 
-/// d(position)/dt for a velocity in NED [rad/s, rad/s, m/s]. Groves (2013), eq. (2.111).
+/// The time derivative of the position (latitude and longitude in rad/s, height in m/s), for a velocity in
+/// NED [m/s]. Groves (2013), eq. (2.111).
 Position position_rate(const Position& position, const Vector3& v_eb_n);
 
 /// The position after dt [s], by one fourth-order Runge-Kutta step from the velocities in NED [m/s] at the
@@ -37,7 +38,8 @@ Position position_rate(const Position& position, const Vector3& v_eb_n);
 Position advanced(const Position& position, const Vector3& v_begin, const Vector3& v_middle,
                   const Vector3& v_end, double dt);
 
-/// The position at a small displacement in NED [m] (first order in displacement / Earth radius).
+/// The position at a small displacement in NED [m] (accurate to first order in the ratio of displacement to
+/// Earth radius).
 Position displaced(const Position& position, const Vector3& displacement_n);
 
 /// The displacement in NED [m] between two nearby positions, also across the meridian of 180 deg, computed

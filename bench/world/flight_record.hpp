@@ -36,11 +36,11 @@ struct ImuIncrement {
 /// The truth on the grid of the IMU, and exact increments between its epochs. Immutable.
 class FlightRecord {
  public:
-  /// Flies from 0 to the last epoch at or before duration_us; epochs every interval_us.
+  /// Flies from 0 to the last epoch at or before duration_us. There is an epoch every interval_us.
   /// interval_us must be positive; duration_us may be 0.
   FlightRecord(const Flight& flight, std::int64_t duration_us, std::int64_t interval_us);
 
-  /// False: only the initial state is known, so errors cannot be computed.
+  /// If false, only the initial state is known, so errors cannot be computed.
   [[nodiscard]] bool is_known() const { return !std::holds_alternative<Unknown>(flight_.motion); }
 
   /// Truth at epochs 0, 1, ...: epoch k is at k * interval_us().

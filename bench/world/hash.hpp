@@ -6,7 +6,7 @@
 
 namespace canhil::world {
 
-/// `hash`: the hash of the preceding text, to hash a text in parts.
+/// To hash a text in parts, pass the hash of the preceding part as `hash`.
 constexpr std::uint64_t fnv1a_64(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325U) {
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   return hash;

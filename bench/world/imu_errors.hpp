@@ -1,5 +1,5 @@
-// Errors of a strapdown IMU: delta = (I + M) exact + bias dt + white noise sqrt(dt), M = scale factor and
-// misalignment.
+// Errors of a strapdown IMU. A measured increment is (I + M) exact + bias dt + n sqrt(dt), where the matrix M
+// contains scale factors and misalignments, and n is white noise.
 #pragma once
 
 #include "bench/world/flight_record.hpp"
@@ -7,7 +7,8 @@
 
 namespace canhil::world {
 
-/// Errors of one triad (gyros: unit = rad/s; accelerometers: unit = m/s^2), body axes.
+/// The errors of three gyros or of three accelerometers, in body axes. The unit is rad/s for gyros and m/s^2
+/// for accelerometers.
 struct TriadErrorModel {
   RandomConstant bias;  ///< [unit]
   Vector3 noise =

@@ -1,5 +1,5 @@
-// Errors of a navigation solution: of a master INS (drawn anew at each sample), or of an initial state (drawn
-// once).
+// Errors of a navigation solution. The solution is either that of a master INS, whose errors are drawn anew
+// for each sample, or an initial state, whose errors are drawn once.
 #pragma once
 
 #include "bench/world/flight_record.hpp"
@@ -22,9 +22,9 @@ struct NavigationErrorModel {
   RandomConstant attitude;  ///< misalignment phi [rad]: computed attitude = exp(-[phi x]) C_bn
 };
 
-/// Errors of an initial state. A heading error psi, which may be large, is a rotation about the down axis; it
-/// is applied before the misalignment phi: computed attitude = exp(-[phi x]) Rz(-psi) C_bn. So psi does not
-/// change the size of the tilts.
+/// Errors of an initial state. The heading error psi, which may be large, is a rotation about the down axis.
+/// It is applied before the misalignment phi: the computed attitude is exp(-[phi x]) Rz(-psi) C_bn. So psi
+/// does not change the size of the tilts.
 struct InitialErrorModel : NavigationErrorModel {
   double heading_sigma = 0;      ///< sigma of psi [rad]
   double heading_magnitude = 0;  ///< added to psi with random sign [rad]

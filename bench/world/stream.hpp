@@ -28,7 +28,8 @@ class Stream {
   boost::random::normal_distribution<double> normal_;
 };
 
-/// A constant drawn for each run: value + sigma * N(0, 1), by axis. sigma = 0: exactly value.
+/// A constant that is drawn for each run: value + sigma * N(0, 1). Each axis has its own random number. If
+/// sigma is 0, the constant is exactly `value`.
 struct RandomConstant {
   Vector3 value = Vector3::Zero();
   Vector3 sigma = Vector3::Zero();

@@ -10,8 +10,9 @@
 namespace canhil::dbc {
 namespace {
 
-/// True if the signal's member is a double, and packing rounds it to a raw value. False for a multiplexor,
-/// whose raw value decides which signals are present.
+/// True if packing rounds the signal. The member of such a signal is a double, which packing converts to a
+/// raw value with a scale or an offset. False for a multiplexor, whose raw value decides which signals are
+/// present.
 bool is_rounded(const Message& message, const Signal& signal) {
   return !is_protection(message, signal) && !is_plain(signal) && !signal.multiplexor;
 }
@@ -32,8 +33,8 @@ std::string signals_text(const Message& message) {
   return text + "}};\n}  // namespace\n";
 }
 
-/// The range of the signal's physical values: that of a 64-bit float signal with scale 1, offset 0 and the
-/// same limits.
+/// The range of the signal's physical values. It equals the range of the raw values of a 64-bit float signal
+/// that has scale 1, offset 0 and the limits of this signal.
 RealRange physical_range(Signal signal) {
   signal.type = RawType::float64;
   signal.scale = 1;

@@ -79,8 +79,9 @@ bool zeros_are_no_message(const Message& message) {
   return e2e::crc(zeros, message.e2e_data_id) != 0;
 }
 
-/// Returns what is expected of the message so that the container of its group can carry it; nullopt: the
-/// container can carry it. `last` is the last message of the group.
+/// If the container of the group cannot carry the message, returns the properties that the message should
+/// have, as text for the error line. nullopt: the container can carry the message. `last` is the last message
+/// of the group.
 std::optional<std::string> objection(const Message& message, const Message& last) {
   if (message.size != FdContainer::slot_bytes || message.extended || message.e2e_data_id == 0)
     return "of 8 bytes with an 11-bit id and an E2eDataId";

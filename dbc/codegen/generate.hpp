@@ -11,8 +11,8 @@
 namespace canhil::dbc {
 
 /// The text of the header. The same database always gives the same text. Returns an error of one line if the
-/// database breaks a rule on which the generated code relies: a message with a data id has the E2E fields,
-/// and measurements have enough resolution.
+/// database breaks one of the rules on which the generated code relies (rules.hpp). For example, a message
+/// with a data id must have the E2E fields, and a measurement must have enough resolution.
 Result<std::string> generate_header(const Database& database, std::string_view name_space,
                                     std::string_view dbc_name);
 

@@ -123,7 +123,8 @@ int index_of(const Group& group, std::string_view name) {
   return -1;
 }
 
-// The name of the value table that has exactly the named values of the signal; empty: no table has them.
+// The name of the value table whose values and names are exactly those of the signal; empty: there is no such
+// table.
 std::string table_of(const Database& database, const Signal& signal) {
   const auto table = std::ranges::find_if(database.value_tables, [&](const ValueTable& one) {
     return ascending(one.values) == ascending(signal.values);

@@ -67,8 +67,8 @@ bool holds(const std::string& path, const std::string& text) {
   return file && std::string{std::istreambuf_iterator<char>(file), {}} == text;
 }
 
-// Writes `text` to a file. A file that has this content already keeps its time, so that sources that include
-// the file are not recompiled.
+// Writes `text` to a file. If the file already has this content, the function does not write the file. So the
+// file keeps its modification time, and sources that include it are not recompiled.
 int write_file(const std::string& path, const std::string& text) {
   if (holds(path, text)) return 0;
   std::ofstream file(path, std::ios::binary);

@@ -25,8 +25,8 @@ std::set<Word> words_of(const Message& message, const std::vector<const Signal*>
   return words;
 }
 
-/// A C++ expression for the raw value of the signal. Its type is std::int64_t for a signed signal, otherwise
-/// std::uint64_t.
+/// A C++ expression for the raw value of the signal. The type of the expression is std::int64_t for a signed
+/// signal, otherwise std::uint64_t.
 std::string raw_expression(const Message& message, const Signal& signal) {
   std::string text;
   const bool is_signed = signal.is_signed();
@@ -86,8 +86,8 @@ std::string pack_expression(const Message& message, const Signal& signal) {
 
 std::string raw_name(const Signal& signal) { return "raw_of_" + identifier(signal.name) + "_"; }
 
-/// A C++ condition on the raw values of the multiplexors that is true if the frame contains the signal.
-/// Empty: every frame of the message contains the signal.
+/// A condition in C++ that is true if the frame contains the signal. It compares the raw values of the
+/// multiplexors. Empty: every frame of the message contains the signal.
 std::string presence(const Message& message, const Signal& signal) {
   if (signal.multiplexed_by.empty()) return {};
   const Signal& multiplexor = *find_signal(message, signal.multiplexed_by);

@@ -51,8 +51,9 @@ std::vector<ValueName> sorted(std::vector<ValueName> values) {
   return values;
 }
 
-/// Of the signals that share an enumeration type: the lengths [bits] of the longest unsigned and of the
-/// longest signed signal. The type must be able to represent the raw values of both.
+/// Describes the signals that share an enumeration type: the length [bits] of the longest unsigned signal and
+/// the length of the longest signed signal. The type must be able to represent the raw values of both
+/// signals.
 struct Width {
   unsigned of_unsigned = 0;
   unsigned of_signed = 0;

@@ -15,8 +15,8 @@ std::vector<Piece> pieces_of(const Message& message, const Signal& signal) {
   if (begin + signal.length <= bits) {
     return {{word, motorola ? bits - begin - signal.length : begin, signal.length, 0}};
   }
-  // The signal has bits in nine bytes. Those that are not in `word` are at the end of `next`, the word that
-  // starts one byte later.
+  // The signal has bits in nine bytes. The bits that are not in `word` are in the last byte of `next`, which
+  // is the word that starts one byte later.
   const Word next{word.first + 1, 8, word.order};
   const unsigned here = 64 - begin;
   const unsigned rest = signal.length - here;

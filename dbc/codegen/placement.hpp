@@ -14,14 +14,15 @@ struct Word {
   unsigned first = 0;
   unsigned bytes = 8;
   ByteOrder order = ByteOrder::little_endian;
-  /// Compares by first byte, then by byte order. Two words of one message differ in one of the two.
+  /// Compares the first bytes and, if these are equal, the byte orders. Two different words of a message
+  /// always differ in the first byte or in the byte order.
   friend bool operator<(const Word& a, const Word& b) {
     return std::pair(a.first, a.order) < std::pair(b.first, b.order);
   }
 };
 
-/// A piece of a signal: `length` bits of a word from bit `shift` upwards. They are the bits of the raw value
-/// from bit `raw_shift` upwards.
+/// A piece of a signal: `length` bits of a word from bit `shift` upwards. In the raw value of the signal,
+/// these bits are at bit `raw_shift` and upwards.
 struct Piece {
   Word word;
   unsigned shift = 0;

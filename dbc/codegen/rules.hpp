@@ -17,8 +17,9 @@ struct Breach {
 /// The first breach of a rule; nullopt: the database follows all rules.
 std::optional<Breach> find_breach(const Database& database);
 
-/// A table with a row for every measurement. The columns are: signal; LSB; sensor sigma; (LSB / sqrt 12) /
-/// sigma; whether the remainder of the rounding is added to the next sample; verdict.
+/// A table with a row for every measurement. The columns are: signal; LSB; sensor sigma; ratio of the
+/// rounding noise to the sensor noise, i.e. (LSB / sqrt 12) / sigma; whether the remainder of the rounding is
+/// added to the next sample; verdict.
 std::string quantisation_table(const Database& database);
 
 }  // namespace canhil::dbc

@@ -51,9 +51,9 @@ class Command {
   Option add_option(const std::string& name, std::vector<std::string>& value, const std::string& help) const;
   Option add_flag(const std::string& name, bool& value, const std::string& help) const;
 
-  /// The value must be a decimal whole number from `least` to `most`; anything else is rejected with one
-  /// line. CLI11's own parser is not used, because it follows strtoull: it reads -1 as a large number and 010
-  /// as eight, and clips large numbers.
+  /// The value must be a decimal whole number from `least` to `most`; any other value is rejected with an
+  /// error of one line. CLI11's own parser is not used, because it follows strtoull: it reads -1 as a large
+  /// number and 010 as eight, and clips large numbers.
   Option add_number(const std::string& name, std::optional<int>& value, const std::string& help, int least,
                     int most) const;
   Option add_number(const std::string& name, std::optional<std::uint64_t>& value, const std::string& help,
@@ -70,7 +70,7 @@ class Command {
   Command add_subcommand(const std::string& name, const std::string& help) const;
   void require_subcommands(std::size_t least, std::size_t most) const;
   /// Sets a callback that runs at the end of parsing if the user gave this command. The callbacks of
-  /// subcommands run before it.
+  /// subcommands run before this callback.
   void on_given(std::function<void()> callback) const;
 
   /// May be called only after parsing.

@@ -52,7 +52,8 @@ std::optional<std::int64_t> time_of(std::string_view word) {
   return std::int64_t{*seconds} * ns_per_s + *ns;
 }
 
-// With these limits, the start of a log plus the time of an event relative to the start is below 2^63 ns.
+// These limits ensure that the time of every event is below 2^63 ns. This time is the sum of the start of the
+// log and the time since the start.
 constexpr int last_year = 2200;
 constexpr std::int64_t longest_ns = 1'000'000'000 * ns_per_s;
 
@@ -72,8 +73,8 @@ std::optional<std::int64_t> date_of(std::span<const std::string_view> words) {
   const auto hour = number_of<int>(clock.substr(0, 2), 10), minute = number_of<int>(clock.substr(3, 2), 10);
   const auto since = time_of(std::string(clock.substr(6)) + (clock.size() == 8 ? ".0" : ""));
   if (!hour || !minute || !since) return std::nullopt;
-  // python-can 4.1 shortens microseconds to milliseconds by a text replacement that also removes the same
-  // digits elsewhere in the date. So the year may be "2" instead of "2026".
+  // python-can 4.1 shortens microseconds to milliseconds: it deletes the last three digits. If these digits
+  // also occur elsewhere in the date, it deletes them there too. So the year may be "2" instead of "2026".
   const auto within = [](int value, int least, int most) { return least <= value && value <= most; };
   if (!within(*year, 1970, last_year) || !within(*day, 1, 31) || !within(*hour, 0, 23) ||
       !within(*minute, 0, 59) || *since >= 61 * ns_per_s)

@@ -1,11 +1,11 @@
-// The log format of can-utils (`candump -L`), compatible with candump, canplayer and log2asc: one frame per
-// line,
+// The log format of can-utils (`candump -L`), compatible with candump, canplayer and log2asc. Each line has
+// one frame, for example
 //     (1436509052.249713) vcan0 044#2A366C2BBA R
 // A CAN FD frame is ID##FDATA, where F is a hex digit with flags. Extended frames and error frames have an id
-// of 8 digits. An optional ` T` at the end marks a frame that the recorder sent, ` R` one that it received;
-// canplayer and log2asc accept lines with and without these letters. Times are written in microseconds,
-// rounded down, because canplayer misreads nine digits. The reader also accepts times with nine digits (newer
-// candump -N).
+// of 8 digits. An optional letter at the end of the line shows whether the recorder sent (` T`) or received
+// (` R`) the frame; canplayer and log2asc accept lines with and without this letter. The writer rounds times
+// down to microseconds and writes six digits after the point, because canplayer misreads nine digits. The
+// reader also accepts times with nine digits, which newer versions of `candump -N` write.
 #pragma once
 
 #include <string>

@@ -2,8 +2,8 @@
 // the content of the file:
 //   *.pcap   libpcap's format with link type SocketCAN, stamps in nanoseconds; for tcpdump, Wireshark and
 //            tshark. Contains neither the names of interfaces nor whether the recorder sent a frame
-//   *.asc    Vector's ASCII log, stamps in microseconds; for CANoe, CANalyzer and python-can. Contains only
-//            the time of an error frame
+//   *.asc    Vector's ASCII log, stamps in microseconds; for CANoe, CANalyzer and python-can. Of an error
+//            frame, it contains only the time
 //   others   candump's format (candump.hpp), stamps in microseconds; for can-utils and python-can
 #pragma once
 

@@ -20,7 +20,7 @@ std::string full_name(const Message& message, const Signal& signal);
 void resolve_multiplexors(Findings& findings, Message& message, LeftOut& left_out);
 /// Checks the types and values of multiplexors. Leaves out signals that are multiplexed in a cycle.
 void check_multiplexing(Findings& findings, const Message& message, LeftOut& left_out);
-/// Leaves out each signal whose multiplexor is left out, directly or by this rule.
+/// Leaves out each signal whose multiplexor is left out. Repeats this until no such signal remains.
 void leave_out_multiplexed(Findings& findings, const Message& message, LeftOut& left_out);
 
 }  // namespace canhil::dbc

@@ -23,8 +23,9 @@ void put_raw_bits(const Signal& signal, std::uint64_t raw, std::span<std::uint8_
 /// Converts raw bits (right-aligned) to the physical value raw * scale + offset, in the unit of the signal.
 double to_physical(const Signal& signal, std::uint64_t raw);
 
-/// Converts a physical value to raw bits. The raw value is rounded half to even, and saturated to [minimum,
-/// maximum] and to the range of the signal's bits. NaN becomes the minimum.
+/// Converts a physical value to raw bits. A value outside [minimum, maximum], or outside the range that the
+/// signal's bits can represent, becomes the nearest limit. The raw value of an integer signal is rounded half
+/// to even. NaN becomes the minimum.
 std::uint64_t to_raw(const Signal& signal, double value);
 
 /// The name of a raw value (right-aligned bits); empty: the raw value has no name.

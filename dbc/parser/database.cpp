@@ -33,7 +33,8 @@ bool disjoint(const std::vector<MuxRange>& a, const std::vector<MuxRange>& b) {
 
 constexpr double two_63 = 9223372036854775808.0;
 
-/// Converts a whole number to 64 bits (two's complement if signed), saturated to the range of the type.
+/// Converts a whole number to 64 bits (two's complement if signed). A number outside the range of the 64-bit
+/// type becomes the nearest limit of this range.
 std::int64_t to_bits(double value, bool is_signed) {
   if (is_signed) {
     if (value >= two_63) return std::numeric_limits<std::int64_t>::max();

@@ -35,7 +35,8 @@ enum class Owner : std::uint8_t {
   node_variable
 };
 
-/// The type of an attribute. In the order of the enumeration: INT, HEX, FLOAT, STRING, ENUM.
+/// The type of an attribute. In a DBC, these types are called INT, HEX, FLOAT, STRING and ENUM, in the same
+/// order.
 enum class AttributeType : std::uint8_t { integer, hexadecimal, real, text, enumeration };
 
 /// A definition of an attribute (BA_DEF_), with its default (BA_DEF_DEF_).
@@ -56,7 +57,7 @@ struct ValueName {
   friend bool operator==(const ValueName&, const ValueName&) = default;
 };
 
-/// A table of names of raw values, in the order of the text.
+/// A value table, which gives names to raw values. The entries are in the order of the text.
 struct ValueTable {
   std::string name;
   std::vector<ValueName> values;
@@ -194,8 +195,9 @@ const Signal* find_signal(const Message& message, std::string_view name);
 const AttributeValue* find_attribute(const Database& database, const Attributes& attributes, Owner owner,
                                      std::string_view name);
 
-/// True if `ms` is a valid time in an attribute of a message: 0 (no time), or 1 us to 1e9 ms. Negative or
-/// smaller times would be taken for 0, larger times would overflow in nanoseconds.
+/// True if `ms` is a valid time in an attribute of a message: 0 (no time), or 1 us to 1e9 ms. A negative
+/// time, or a time below 1 us, would be taken for 0. A time above 1e9 ms could overflow when it is converted
+/// to nanoseconds.
 bool is_message_time_ms(double ms);
 /// The times that is_message_time_ms() accepts, as text for error messages.
 inline constexpr std::string_view message_time_range = "0 (none) or 0.001..1e9";

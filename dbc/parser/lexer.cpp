@@ -90,8 +90,8 @@ class Lexer {
     return std::string("0x") + digits[code >> 4U] + digits[code & 15U];
   }
 
-  // A '-' or '+' belongs to a number only if a digit follows. In "@1- (" it does not: there it means that the
-  // signal is signed.
+  // A '-' or '+' belongs to a number only if a digit follows. In "@1- (" no digit follows: there the '-'
+  // means that the signal is signed.
   [[nodiscard]] bool starts_number() const {
     const std::size_t sign = (peek() == '-' || peek() == '+') ? 1 : 0;
     const std::size_t dot = peek(sign) == '.' ? 1 : 0;

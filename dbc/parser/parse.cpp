@@ -119,8 +119,8 @@ std::string line_of(const Finding& finding, std::string_view file_name) {
   return fmt::format("{}:{}:{}: {}", file_name, finding.at.line, finding.at.column, finding.what);
 }
 
-/// Returns the database if all findings are less severe than `refused`, otherwise an error with the first
-/// other finding.
+/// Returns the database if all findings are less severe than `refused`. If there are findings that are at
+/// least as severe as `refused`, returns an error with the first of them.
 Result<Database> database_unless(Inspection inspection, Severity refused, std::string_view file_name) {
   const auto worst = std::ranges::find_if(
       inspection.findings, [refused](const Finding& finding) { return severity_of(finding) >= refused; });

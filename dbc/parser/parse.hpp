@@ -1,6 +1,6 @@
-// Reads a DBC file. inspect() reports everything in a text that violates a rule as findings (finding.hpp).
-// The strict functions are for the contract from which code is generated; they reject a file with warnings or
-// errors. The lenient functions reject only a file with errors.
+// Reads a DBC file. inspect() returns a finding (finding.hpp) for each place in the text that violates a
+// rule. The strict functions are for the contract from which code is generated; they reject a file with
+// warnings or errors. The lenient functions reject only a file with errors.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,8 @@ Result<Database> read_file_leniently(const std::string& path);
 /// ends that a git checkout uses.
 std::uint64_t hash(std::string_view text);
 
-/// Shortens a 64-bit hash to 24 bits by exclusive or of its parts. Frames carry these 24 bits.
+/// Shortens a 64-bit hash to 24 bits: splits the hash into parts of 24, 24 and 16 bits and combines these
+/// parts by XOR. Frames carry the result.
 constexpr std::uint32_t fold24(std::uint64_t hash) {
   return static_cast<std::uint32_t>((hash ^ (hash >> 24U) ^ (hash >> 48U)) & 0xFF'FFFFU);
 }

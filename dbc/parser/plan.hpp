@@ -13,8 +13,9 @@
 
 namespace canhil::dbc {
 
-/// The position of a signal in a message: a window of eight bytes, and shift and mask in this window. A
-/// signal of 58 bits or more may also have bits in a ninth byte.
+/// The position of a signal in a message. It consists of a window of eight bytes, and of the shift and the
+/// mask that extract the signal from this window. A signal of 58 bits or more may also have bits in a ninth
+/// byte.
 struct BitPlacement {
   std::uint64_t mask = 0;
   std::uint8_t first_byte = 0;  ///< first byte of the window
@@ -66,8 +67,8 @@ struct RawLimits {
   explicit RawLimits(const Signal& signal);
 };
 
-/// Converts a physical value to raw bits, right-aligned. The raw value is rounded half to even and saturated
-/// to the limits. NaN becomes the minimum.
+/// Converts a physical value to raw bits, right-aligned. A raw value outside the limits becomes the nearest
+/// limit. The raw value of an integer signal is rounded half to even. NaN becomes the minimum.
 std::uint64_t quantised(const Conversion& conversion, const RawLimits& limits, double value);
 
 /// A plan for the decoding and encoding of one message at run time.
@@ -87,9 +88,9 @@ class MessagePlan {
   [[nodiscard]] bool decode(std::span<const std::uint8_t> data, std::span<double> values) const;
 
   /// Encodes physical values. Unused bits are 0. Signals that the multiplexors do not select are not written.
-  /// If two signals overlap, the signal with more multiplexors above it overwrites the other; if both have as
-  /// many, the later signal overwrites the earlier one. Bytes beyond the message do not change. Returns false
-  /// and writes nothing in the same cases as decode().
+  /// If two signals overlap, the signal with more multiplexors above it overwrites the other; if both signals
+  /// have the same number of multiplexors, the later signal overwrites the earlier one. Bytes beyond the
+  /// message do not change. Returns false and writes nothing in the same cases as decode().
   [[nodiscard]] bool encode(std::span<const double> values, std::span<std::uint8_t> data) const;
 
   /// Whether the frame contains the signal with this index, i.e. whether every multiplexor above the signal

@@ -70,8 +70,8 @@ bool Reader::at_section() const {
          (index_ == 0 || tokens_[index_ - 1].at.line != token.at.line);
 }
 
-// True if a name that begins with a digit follows, such as "2017_5". The lexer reads it as the number 2017
-// and the word _5.
+// True if the next two tokens together are a name that begins with a digit, such as "2017_5". The lexer reads
+// this name as the number 2017 and the word _5.
 bool Reader::at_name_with_digit() const {
   const Token& digits = peek();
   const Token& rest = peek(1);

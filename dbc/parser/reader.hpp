@@ -48,7 +48,8 @@ class Reader {
   double real(std::string_view what);
   std::int64_t integer(std::string_view what);
   std::uint64_t natural(std::string_view what, std::uint64_t maximum);
-  /// Like natural(), but for a number above the maximum adds a finding and returns maximum + 1.
+  /// Works like natural(), but does not reject a number above the maximum: for such a number, adds a finding
+  /// and returns maximum + 1.
   std::uint64_t natural_or(Rule rule, std::string_view what, std::uint64_t maximum);
   /// Reads an integer. For a number that is not an integer, adds a finding and returns the rounded number.
   std::int64_t whole(std::string_view what);

@@ -171,8 +171,8 @@ Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions opt
   if (joined || !is_local(bus)) return joined;
   options.fd = format != BusFormat::classic;
   auto hosted = host_local_bus(bus, options, std::move(rules));
-  // If joining and hosting both fail, the more helpful error is returned. If no process hosts the bus, this
-  // is the error of hosting, otherwise the error of joining.
+  // If joining and hosting both fail, the more helpful error is returned. If no process hosts the bus, the
+  // error of hosting is more helpful, otherwise the error of joining.
   if (!hosted && joined.error().message.starts_with(nobody_hosts)) return tl::unexpected(hosted.error());
   if (!hosted) return joined;
   return format == BusFormat::fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);

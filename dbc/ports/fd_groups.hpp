@@ -82,12 +82,13 @@ class FdUnpacked {
   std::size_t count_ = 0;
 };
 
-/// Makes the port of a node of an FD bus from the port `inner`. It packs sent frames and unpacks received
-/// ones, also own echoes; each unpacked frame has the stamp of its container. A frame that waits in a
-/// container for other frames of its group counts as sent. If these frames do not follow, the container is
-/// sent incomplete before the next frame that is not of the group; at the latest, this is a Sync or a
-/// heartbeat. Received classic frames are marked as foreign and counted. `inner` must have been opened with
-/// PortOptions::fd. If it has only_ids, these are ids of containers.
+/// Makes the port of a node of an FD bus from the port `inner`. The new port packs sent frames into
+/// containers and unpacks received containers, including the echoes of its own containers. Each unpacked
+/// frame has the stamp of its container. send() returns `sent` also for a frame that still waits in a
+/// container for the other frames of its group. If these frames do not follow, the container is sent
+/// incomplete before the next frame that does not belong to the group. At the latest, a Sync or a heartbeat
+/// is such a frame. Received classic frames are marked as foreign and counted. `inner` must have been opened
+/// with PortOptions::fd. If `inner` was opened with only_ids, these ids must be those of containers.
 std::unique_ptr<Port> in_fd_groups(std::unique_ptr<Port> inner);
 
 /// Reads a log of one of the two contracts and returns classic frames. Logs of `hil-bench run --log` contain
@@ -114,9 +115,9 @@ Result<std::unique_ptr<Port>> open_bus(std::string_view bus, PortOptions options
 Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions options, BusFormat format,
                                            HubRules rules = {});
 
-/// The contract for the value of `--dbc`: canhil, canhil-fd, or a file. The text of the file must be
-/// identical to the text of one of these two contracts with which this program was built. An error is one
-/// line.
+/// The contract for the value of `--dbc`: canhil, canhil-fd, or a file. This program was built with the texts
+/// of the contracts canhil and canhil-fd. The text of the file must be identical to one of these two texts.
+/// An error is one line.
 Result<BusFormat> named_contract(const std::string& name_or_file);
 
 }  // namespace canhil

@@ -12,7 +12,7 @@ namespace canhil::local {
 class HubWire {
  public:
   /// Adds two nodes to the wire: that of the hub, and a node that only acknowledges, so that frames can be
-  /// sent also if the bus has no other nodes.
+  /// sent even if the bus has no other nodes.
   explicit HubWire(const WireSettings& settings);
 
   static constexpr std::size_t host = 0;

@@ -1,11 +1,12 @@
 // The embedded bus `local:NAME`: CAN between processes of one machine, where the kernel has no AF_CAN.
 //
-// The port of the host is the hub. Each node has one Unix SOCK_SEQPACKET connection to the hub. So a frame is
-// sent over one socket between host and node, and over two between two nodes. The hub decides the order of
-// the frames and gives each frame a time stamp (CLOCK_MONOTONIC). No frame is lost: every frame that send()
-// accepts reaches all nodes, in the same order. If a node has no room for a frame, the bus stalls until this
-// node reads or dies; meanwhile send() returns queue_full. Therefore every node must read its frames: the hub
-// drops a node that stalls the bus for too long.
+// The port of the host is the hub. Each node has one Unix SOCK_SEQPACKET connection to the hub. So a frame
+// from the host to a node, or from a node to the host, takes one connection; a frame from one node to another
+// takes two connections. The hub decides the order of the frames and gives each frame a time stamp
+// (CLOCK_MONOTONIC). No frame is lost: every frame that send() accepts reaches all nodes, in the same order.
+// If a node has no room for a frame, the bus stalls until this node reads or dies; meanwhile send() returns
+// queue_full. Therefore every node must read its frames: the hub drops a node that stalls the bus for too
+// long.
 //
 // A bus belongs to one user. Its sockets are in a directory of mode 0700 (`canhil` in XDG_RUNTIME_DIR,
 // otherwise /tmp/canhil-uid-UID). In addition, the host checks the user of each node, and each node checks
@@ -63,8 +64,8 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
                                                  HubRules rules = {});
 
 /// Joins the bus `local:NAME`. Returns an error if the name is invalid, if no process hosts the bus (then the
-/// error begins with `nobody_hosts`), if the host belongs to another user, or if the bus has the other frame
-/// format.
+/// error begins with `nobody_hosts`), if the host belongs to another user, or if the frame format of the bus
+/// (classic or FD) is not that of options.fd.
 Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOptions& options);
 /// The beginning of the error that join_local_bus() returns if no process hosts the bus.
 inline constexpr std::string_view nobody_hosts = "no bus ";

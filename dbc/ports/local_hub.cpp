@@ -34,8 +34,8 @@ using local::Reading;
 constexpr int backlog = 64;                // how many connections may wait for accept()
 constexpr std::size_t ready_limit = 4096;  // how many frames may wait until the host receives them
 constexpr int accept_every = 64;           // the hub looks for new nodes at least once in so many reads
-// Nodes may send, join and leave without a pause. Therefore one call handles at most so many of these events.
-// If there are more, the descriptor remains readable.
+// Nodes may send, join and leave without a pause. Therefore one call handles at most this number of these
+// events. If more events are waiting, the descriptor remains readable.
 constexpr int most_at_once = 256;
 constexpr int most_let_in =
     4;  // at most so many nodes are admitted in one call: admission takes far longer than a frame
@@ -76,8 +76,8 @@ class Hub final : public LocalHub {
   }
 
   /// If a frame is waiting, receive() needs one system call. The search for new nodes needs another one.
-  /// Therefore receive() looks for new nodes only after two searches for a frame in a row have found none, or
-  /// after accept_every reads. No node is overlooked, because a new node wakes a host that waits.
+  /// Therefore receive() looks for new nodes only if two successive searches have found no frame, or after
+  /// accept_every reads. No node is overlooked, because a new node wakes a host that waits.
   std::optional<Received> receive() override {
     if (wire_) run_wire();
     if (!ready_.empty()) return next_ready();  // these frames are older than all frames in the sockets
@@ -156,7 +156,7 @@ class Hub final : public LocalHub {
   }
 
   /// Delivers the pending frame to the nodes that had no room for it, and drops nodes that have stalled the
-  /// bus for too long. True if no node still lacks the frame.
+  /// bus for too long. True if no frame is pending now.
   bool catch_up() {
     if (behind_ == 0) return true;
     const int before = behind_;
@@ -307,8 +307,8 @@ class Hub final : public LocalHub {
     if ((!own || own_echo_) && wants(carried.frame)) queue_ready(carried.frame, carried.delivered_ns, own);
   }
 
-  /// Moves at most `left` frames from the nodes into the queues of the wire, while these queues have room and
-  /// while not too many frames wait for the host.
+  /// Moves at most `left` frames from the nodes into the queues of the wire. Does not read from nodes whose
+  /// queue is full, and stops early if too many frames wait for the host.
   void take_in(int& left) {
     for (int n = 0; n < most_let_in && accept_nodes(); ++n) {
     }

@@ -25,8 +25,8 @@ struct Peer {
   std::size_t wire_node = 0;
   IdSet wanted;
   std::int64_t behind_since_ns = 0;  ///< if `behind`: since when, on CLOCK_MONOTONIC
-  /// The time for which the node has stalled the bus so far, minus worked_off_ns for each frame that the node
-  /// has received later; at least 0.
+  /// When a stall that the node causes ends, this value grows by the duration of the stall. It falls by
+  /// worked_off_ns for each frame that the node receives, but not below 0.
   std::int64_t arrears_ns = 0;
 };
 

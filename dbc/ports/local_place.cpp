@@ -41,8 +41,8 @@ Descriptor new_socket() {
   return Descriptor(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
 }
 
-// True if `path` is still the name of the opened file. A host that ends removes its lock file, and a lock on
-// a removed file does not exclude other processes.
+// True if `path` is still the name of the opened file. When a host ends, it removes its lock file; and a lock
+// on a removed file does not exclude other processes.
 bool still_named(const Descriptor& file, const std::string& path) {
   struct stat opened {
   }, named{};

@@ -49,7 +49,7 @@ bool Port::wait_for_frame(std::int64_t deadline_ns) {
 bool Port::wait_for_room(std::int64_t deadline_ns) { return wait_for(*this, room_wait(), deadline_ns); }
 
 bool wait(Port& port, WaitFor what, std::int64_t deadline_ns) {
-  // If an interface is down, poll() immediately reports room, and does not report when the interface is up
+  // If an interface is down, poll() immediately reports room, and gives no notice when the interface comes up
   // again. Therefore the wait ends after a pause, so that the caller checks the interface again.
   if (!port.up()) return wait_for(port, {.events = POLLIN, .pause_ns = look_again_ns}, deadline_ns);
   if (what == WaitFor::frame) return port.wait_for_frame(deadline_ns);

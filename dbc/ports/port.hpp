@@ -18,7 +18,7 @@
 
 namespace canhil {
 
-/// Where a time stamp was taken; the best source is the first.
+/// Where a time stamp was taken. The sources are in order of quality, from the best to the worst.
 enum class StampSource : std::uint8_t { hardware, kernel, hub, process, virtual_time };
 
 /// A frame that was received from a bus.
@@ -111,9 +111,10 @@ class Port {
   [[nodiscard]] virtual int descriptor() const = 0;
   /// How a caller waits for room after SendOutcome::queue_full.
   [[nodiscard]] virtual RoomWait room_wait() const = 0;
-  /// Waits for a frame like wait(). A port may read the frame in the same system call.
+  /// wait() calls this function to wait for a frame; the result is that of wait(). A port may read the frame
+  /// in the same system call.
   virtual bool wait_for_frame(std::int64_t deadline_ns);
-  /// Waits for room like wait().
+  /// wait() calls this function to wait for room; the result is that of wait().
   virtual bool wait_for_room(std::int64_t deadline_ns);
   /// True if the bus has ended (the hub has closed it, or the log is at its end).
   [[nodiscard]] virtual bool closed() const = 0;
@@ -151,8 +152,8 @@ enum class WaitFor : std::uint8_t { frame, room };
 /// A deadline that never comes.
 constexpr std::int64_t no_deadline = std::numeric_limits<std::int64_t>::max();
 
-/// Returns true when receive() or send() may succeed. Returns false at deadline_ns, on the clock of
-/// Port::monotonic_ns(), or after a signal. May return true although receive() then finds no frame.
+/// Returns true when receive() or send() may succeed. Returns false when Port::monotonic_ns() reaches
+/// deadline_ns, or when a signal interrupts the wait. May return true although receive() then finds no frame.
 bool wait(Port& port, WaitFor what, std::int64_t deadline_ns);
 
 }  // namespace canhil

@@ -14,10 +14,10 @@ namespace canhil {
 using PortRoute = std::function<std::size_t(const Frame&)>;
 
 /// Joins one or more ports into one port. `route` selects the port to which a frame is sent. receive()
-/// returns, of all waiting frames, the frame with the oldest stamp. This is the order on the buses, if the
-/// ports are read in time. The joined port closes when one of its ports closes, and has the name of the first
-/// port. Returns an error if the ports have stamps of different clocks (an embedded bus and a SocketCAN
-/// interface).
+/// returns, of all waiting frames, the frame with the oldest stamp. So frames are returned in the order in
+/// which they were on the buses, if the ports are read in time. The joined port closes when one of its ports
+/// closes, and has the name of the first port. Returns an error if the ports have stamps of different clocks,
+/// for example if one bus is an embedded bus and another is a SocketCAN interface.
 Result<std::unique_ptr<Port>> join_ports(std::vector<std::unique_ptr<Port>> ports, PortRoute route);
 
 /// Calls join_or_host() for each name, and joins the ports.

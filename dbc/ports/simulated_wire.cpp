@@ -14,7 +14,7 @@ constexpr int error_passive_above = 127;
 constexpr int bus_off_above = 255;
 constexpr int transmit_error = 8;
 constexpr int receive_error = 1;
-// Increment of the error counter of a receiver that reads a dominant bit after its own error flag.
+// If a receiver reads a dominant bit after its own error flag, its error counter increases by this number.
 constexpr int first_to_notice = 8;
 constexpr int receive_errors_after_success = 119;
 constexpr std::int64_t recovery_runs = 128;
@@ -113,7 +113,7 @@ std::int64_t SimulatedWire::first_start_ns() const {
   return first;
 }
 
-/// The frame that wins the arbitration. All frames that are queued before the first bit ends take part.
+/// The frame that wins the arbitration. A frame takes part if it is queued before the end of the first bit.
 std::optional<SimulatedWire::Candidate> SimulatedWire::winner(std::int64_t start_ns) const {
   const std::int64_t closed_ns = start_ns + bit_ns_;
   std::optional<Candidate> best;
@@ -141,8 +141,8 @@ bool SimulatedWire::acknowledged(std::size_t sender) const {
   return false;
 }
 
-/// The error in this attempt to send a frame; nullopt: there is none. The error is between the second bit of
-/// the frame and its end.
+/// The error in this attempt to send a frame; nullopt: there is none. The error occurs between the second bit
+/// and the end of the frame.
 std::optional<WireError> SimulatedWire::error_of(const Attempt& attempt, bool acknowledged) {
   const std::int64_t length_ns = attempt.end_ns - attempt.start_ns;
   std::optional<WireError> error = disturb_ ? disturb_(attempt) : std::nullopt;
@@ -265,8 +265,8 @@ void SimulatedWire::idle_until(std::int64_t t_ns) {
   see_recessive(runs, idle_ns_);
 }
 
-/// Counts `runs` more runs of 11 recessive bits, of which the last ends at last_ns. After 128 runs, a bus-off
-/// node takes part in the bus again.
+/// Counts `runs` more runs of 11 recessive bits each. The last of these runs ends at last_ns. After 128 runs,
+/// a bus-off node takes part in the bus again.
 void SimulatedWire::see_recessive(std::int64_t runs, std::int64_t last_ns) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     Node& node = nodes_[n];

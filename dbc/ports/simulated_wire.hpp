@@ -3,10 +3,10 @@
 // the time to each call.
 //
 // The model follows Bosch CAN 2.0 and ISO 11898-1:2015. A node takes part in an arbitration if it has a frame
-// before the first bit on the wire ends. A callback (Disturb) injects errors. The model decides which nodes
-// notice the errors, updates the error counters, and makes the reports of the controllers. Two things are not
-// modelled: overload frames, and collisions of two nodes that send the same id. In such a collision, the node
-// with the lower number sends first.
+// before the end of the first bit on the wire. A callback (Disturb) injects errors. The model decides which
+// nodes notice the errors, updates the error counters, and makes the reports of the controllers. Two things
+// are not modelled: overload frames, and collisions of two nodes that send the same id. In such a collision,
+// the node with the lower number sends first.
 #pragma once
 
 #include <cstdint>
@@ -104,8 +104,8 @@ class SimulatedWire {
   std::optional<Carried> next(std::int64_t until_ns);
 
   /// The next report of a node with reports_errors; nullopt: there is none. Reports are in order of time. If
-  /// the caller takes all reports before each call of next(), then the reports that exist when next() returns
-  /// a frame are not earlier than the delivered_ns of this frame.
+  /// the caller takes all reports before each call of next(), then every report that exists after next() has
+  /// returned a frame has a time at or after the delivered_ns of this frame.
   std::optional<WireReport> report();
   /// True if report() would return a report.
   [[nodiscard]] bool has_report() const { return !reports_.empty(); }

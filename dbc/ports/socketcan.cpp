@@ -130,7 +130,8 @@ class SocketCan final : public Port {
   }
 
   /// Waits and reads in one system call, which shortens the latency of the frame. The timeout of this call is
-  /// coarse. Therefore, for the last milliseconds before the deadline, poll() is used, whose timer is exact.
+  /// coarse. Therefore the last milliseconds before the deadline are spent in poll(), which has an exact
+  /// timer.
   bool wait_for_frame(std::int64_t deadline_ns) override {
     if (!batch_.empty()) return true;
     while (deadline_ns == no_deadline || deadline_ns - clock_ns(CLOCK_MONOTONIC) >= 2 * blocking_ns) {

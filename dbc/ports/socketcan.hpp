@@ -2,10 +2,11 @@
 //
 // Time stamps are those of the kernel (CLOCK_REALTIME), which takes them when the driver delivers the frame;
 // the echo of an own frame is stamped after the transmission. The send buffer of the socket has the minimum
-// size, 4 to 6 frames. This is smaller than the queue of an interface (txqueuelen 10). Therefore the socket
-// is full first: send() fails with EAGAIN, and poll() signals room correctly. Other senders can still fill
-// the queue of the interface. Then send() fails with ENOBUFS, and poll() is useless, because it reports room
-// immediately. In this case, room_wait() requires a pause of about one frame.
+// size, 4 to 6 frames. This is smaller than the queue of an interface (txqueuelen 10). Therefore, if the port
+// sends too fast, the send buffer becomes full before the queue does: send() fails with EAGAIN, and poll()
+// signals room correctly. Other senders can still fill the queue of the interface. Then send() fails with
+// ENOBUFS, and poll() is useless, because it reports room immediately. In this case, room_wait() requires a
+// pause of about one frame.
 #pragma once
 
 #include "dbc/ports/port.hpp"

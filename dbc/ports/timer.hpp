@@ -15,7 +15,7 @@ class Timer {
   Timer() : timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {}
 
   /// Sets the time at_ns at which the descriptor becomes readable. It then remains readable until the next
-  /// set(). With 0 it never becomes readable.
+  /// set(). If at_ns is 0, the descriptor never becomes readable.
   void set(std::int64_t at_ns) {
     constexpr std::int64_t ns_per_s = 1'000'000'000;
     itimerspec time{};

@@ -11,8 +11,9 @@
 
 namespace canhil::protection {
 
-/// The parameters of a CRC. `polynomial` does not contain the highest term. polynomial, start and final_xor
-/// have `width` bits; their most significant bit is the first one, also for a reflected CRC.
+/// The parameters of a CRC. `polynomial` does not contain the highest term. The members polynomial, start and
+/// final_xor have `width` bits. Their most significant bit belongs to the highest power of x, also for a
+/// reflected CRC.
 struct Crc {
   static constexpr unsigned narrowest = 4;
   static constexpr unsigned widest = 64;
@@ -41,7 +42,7 @@ std::span<const PublishedCrc> published_crcs();
 Result<Crc> published_crc(std::string_view name);
 
 /// Returns an error of one line if a parameter is impossible: the width is not 4..64; the polynomial is even;
-/// or a value is wider than the CRC. With an even polynomial one bit of the CRC would be constant. A
+/// or a value is wider than the CRC. If the polynomial were even, one bit of the CRC would be constant. A
 /// polynomial in reflected notation is usually even.
 Result<void> validate(const Crc& crc);
 

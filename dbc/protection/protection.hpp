@@ -69,7 +69,8 @@ class Sender {
   std::optional<std::uint64_t> next_;
 };
 
-/// The result of the check of a received message. It also depends on the messages before it.
+/// The result of the check of a received message. The result also depends on the counter value that the
+/// receiver stored last.
 enum class Check : std::uint8_t {
   ok,                   ///< checksum right, counter as expected
   some_lost,            ///< checksum right, but the counter jumped: messages were lost

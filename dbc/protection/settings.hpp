@@ -57,9 +57,9 @@ struct AddedByte {
 /// The kind of a sum.
 enum class Addition : std::uint8_t { bytes, nibbles, xor_of_bytes, xor_of_nibbles };
 
-/// A checksum that is a sum. It is computed in three steps: the sum (or xor) of `start` and of all bytes or
-/// nibbles; the two's complement of the result, if `negated`; the xor with final_xor. The lowest bits, as
-/// many as the place has, are sent.
+/// A checksum that is a sum. It is computed in three steps: first the sum (or xor) of `start` and of all
+/// bytes or nibbles; then, if `negated` is true, the two's complement; then the xor with final_xor. The place
+/// may have fewer bits than the result; then only the lowest bits of the result are sent.
 struct Sum {
   Addition addition = Addition::bytes;
   std::uint64_t start = 0;
@@ -70,7 +70,7 @@ struct Sum {
 
 /// A checksum covers, in this order: the bytes `before`, bytes of the message, the bytes `after`. The bits of
 /// the checksum itself are taken as 0. Bytes of the message that contain only bits of the checksum are
-/// skipped.
+/// skipped, unless own_bytes_as_zero is true.
 struct Checksum {
   static constexpr std::size_t most_added = 16;  ///< largest size of `before`, and of `after`
 
@@ -120,8 +120,8 @@ std::uint64_t modulo(const Counter& counter);
 /// A mask of the bits of the field at `place`. The field must be inside the first 64 bytes.
 std::array<std::uint8_t, Frame::max_size> bits_of(const Place& place);
 
-/// The indices of those bytes of a message of `size` bytes that a checksum covers, in the order of the
-/// checksum.
+/// Returns which bytes of a message a checksum covers. The result has the indices of these bytes, in the
+/// order in which the checksum processes them. The message has `size` bytes.
 std::vector<unsigned> covered_bytes(const Checksum& checksum, unsigned size);
 
 /// The checksum for a value of the key `kind` in a file. The values are "crc4".."crc64" (a Crc of that width,

@@ -11,9 +11,9 @@
 
 namespace canhil::realtime {
 
-/// The default must be below 50, the priority of interrupt threads under PREEMPT_RT. The interrupt thread
-/// that reads frames from the CAN controller must be able to interrupt the estimator; otherwise the few
-/// buffers of the controller overflow while the estimator computes.
+/// The default must be below 50, because interrupt threads have priority 50 under PREEMPT_RT. The interrupt
+/// thread that reads frames from the CAN controller must be able to interrupt the estimator; otherwise the
+/// few buffers of the controller overflow while the estimator computes.
 inline constexpr int default_priority = 40;
 
 /// The real-time settings for a process.

@@ -12,10 +12,10 @@
 
 namespace canhil::wire {
 
-/// The number of bits at the nominal bit rate and, for FD frames with bit rate switch, at the data bit rate.
-/// The rate changes at the sample points of the bit BRS and of the CRC delimiter. Together, these two bits
-/// take the time of one nominal bit and one data bit. Therefore BRS is counted as a nominal bit and the
-/// delimiter as a data bit.
+/// How many bits are sent at the nominal bit rate, and how many at the data bit rate. Only FD frames with bit
+/// rate switch have bits at the data bit rate. The rate changes at the sample points of the bit BRS and of
+/// the CRC delimiter. Together, these two bits take the time of one nominal bit and one data bit. Therefore
+/// BRS is counted as a nominal bit and the delimiter as a data bit.
 struct BitLength {
   std::int64_t nominal = 0;
   std::int64_t data = 0;
@@ -78,11 +78,12 @@ class BitStream {
   std::uint32_t crc_ = 0;
 };
 
-/// The intermission follows every frame, at the nominal bit rate. The time stamp of a frame is the time at
-/// which the intermission after the frame begins.
+/// The intermission follows every frame and is sent at the nominal bit rate. The time stamp of a frame is the
+/// time at which the intermission after the frame begins.
 inline constexpr std::int64_t intermission_bits = 3;
 
-/// The acknowledgement with its delimiter, the end of frame, and the intermission.
+/// The number of bits after the CRC delimiter. The three terms are: the acknowledgement with its delimiter;
+/// the end of frame; the intermission.
 inline constexpr std::int64_t frame_end_bits = 2 + 7 + intermission_bits;
 
 /// The data length code of a size. There must be a data length code for this size.
@@ -144,8 +145,8 @@ constexpr BitLength worst_case_length(unsigned size, bool extended) {
 /// in the 14 or 33 bits before FDF: at most floor((14 - 1) / 4) = 3 or floor((33 - 1) / 4) = 8. From ESI to
 /// the last data bit, there are 5 + 8 s bits. A run of equal bits may begin before ESI: without bit rate
 /// switch two bits before it, at res; with bit rate switch one bit before it, at BRS. A stuff bit that is due
-/// after the last data bit is replaced by a fixed stuff bit. So there are at most floor((5 + 8 s + 2 - 2) /
-/// 4) = 1 + 2 s stuff bits, also for error passive senders (ESI = 1).
+/// after the last data bit is replaced by a fixed stuff bit. So a run may extend over n = 2 + 5 + 8 s bits.
+/// These bits have at most floor((n - 2) / 4) = 1 + 2 s stuff bits, also for error passive senders (ESI = 1).
 constexpr BitLength worst_case_fd_length(unsigned size, bool extended, bool brs) {
   const std::int64_t arbitration = extended ? 36 + 8 : 17 + 3;
   const std::int64_t s = size;

@@ -14,8 +14,9 @@ namespace canhil::wire {
 static_assert(std::endian::native == std::endian::little, "canhil is written for little-endian hosts");
 
 /// The position of bit i of a signal in the message: byte * 8 + the bit in this byte (0: least significant).
-/// Bit 0 is the start bit of the DBC. For Intel this is the least significant bit of the signal, and i counts
-/// up from there. For Motorola it is the most significant bit, and i counts down from there, byte by byte.
+/// Bit i = 0 is the start bit of the DBC. For Intel, this is the least significant bit of the signal, and
+/// larger i mean more significant bits. For Motorola, this is the most significant bit of the signal, and
+/// larger i mean less significant bits.
 constexpr unsigned bit_position(unsigned start_bit, unsigned i, bool big_endian) {
   if (!big_endian) return start_bit + i;
   const unsigned sequential = (start_bit / 8) * 8 + (7 - start_bit % 8) + i;

@@ -20,8 +20,8 @@ inline constexpr std::size_t stride =
     7;  // bytes per step: after the CRC byte, an 8-byte frame needs one step, a 64-byte frame nine steps
 
 // advance[k][b] is the CRC of byte b followed by k zero bytes. The CRC is linear, so the CRC of several bytes
-// is the exclusive or of such entries. The look-ups of the entries do not depend on each other. In a loop
-// over single bytes, each look-up would have to wait for the previous one.
+// is the XOR of such entries. The look-ups of the entries do not depend on each other. In a loop over single
+// bytes, each look-up would have to wait for the previous one.
 consteval std::array<std::array<std::uint8_t, 256>, stride> crc_tables() {
   std::array<std::array<std::uint8_t, 256>, stride> advance{};
   for (unsigned b = 0; b < 256; ++b) {
@@ -68,7 +68,8 @@ constexpr std::uint8_t next(std::uint8_t counter) {
   return static_cast<std::uint8_t>(counter + 1 == counter_period ? 0 : counter + 1);
 }
 
-/// The result of the check of a received frame. It also depends on the frames before it.
+/// The result of the check of a received frame. The result also depends on the counter that the receiver
+/// stored last.
 enum class Check : std::uint8_t {
   ok,         ///< CRC right, counter as expected
   some_lost,  ///< CRC right, but the counter jumped: frames were lost
@@ -79,7 +80,7 @@ enum class Check : std::uint8_t {
 /// Stores the last counter of one received message.
 class Receiver {
  public:
-  /// Checks a frame, and stores its counter if the CRC is right.
+  /// Checks a frame, and stores its counter if the result is not wrong_crc.
   constexpr Check check(std::span<const std::uint8_t> data, std::uint16_t data_id) {
     lost_ = 0;
     if (data.size() < 2 || data[0] != crc(data, data_id) || counter(data) >= counter_period)
@@ -94,7 +95,7 @@ class Receiver {
   }
   /// The number of frames that were lost before the frame that was checked last (0..13).
   [[nodiscard]] constexpr int lost() const { return lost_; }
-  /// Deletes the stored counter. For the next frame with a right CRC, check() returns ok.
+  /// Deletes the stored counter. For the next frame, check() returns ok or wrong_crc.
   constexpr void reset() { last_ = none; }
 
  private:

@@ -22,7 +22,8 @@ struct FdContainer {
   std::array<std::uint16_t, max_slots> slots{};  ///< the ids of the classic frames
 };
 
-/// The container and the slot in which the message with a classic id is.
+/// The place of a classic message on CAN FD: the container that carries the message, and the slot in this
+/// container.
 struct FdPlace {
   static constexpr std::uint8_t nowhere = 0xFF;
   std::uint8_t container = nowhere;  ///< index of the container; nowhere: the message is in no container

@@ -35,8 +35,8 @@ constexpr bool is_sound(const MessageInfo& message, std::span<const SignalInfo> 
 /// The largest allowed ratio of the rounding noise to the sensor noise: LSB / sqrt(12) <= sigma / 4.
 inline constexpr double largest_quantisation_ratio = 0.25;
 
-/// The standard deviation of the rounding to multiples of `lsb`, divided by the sigma of one sample of the
-/// sensor.
+/// The standard deviation of the error that rounding to multiples of `lsb` causes, divided by the standard
+/// deviation `sensor_sigma` of the noise in one sample of the sensor.
 constexpr double quantisation_ratio(double lsb, double sensor_sigma) {
   constexpr double sqrt_12 = 3.4641016151377544;
   return lsb / sqrt_12 / sensor_sigma;

@@ -30,7 +30,8 @@ class MessagePlaces {
     }
   }
 
-  /// The index of the frame's message; nowhere: it is an error frame, or no message has its id.
+  /// The index of the frame's message; nowhere: the frame is an error frame, or no message has the id of the
+  /// frame.
   [[nodiscard]] std::size_t operator()(const Frame& frame) const {
     if (frame.error) return nowhere;
     if (!frame.extended) return frame.id < standard_.size() ? standard_[frame.id] : nowhere;

@@ -33,7 +33,8 @@ constexpr double bound(std::uint64_t raw) {
   const int spare = 64 - 53 - __builtin_clzll(raw);
   return static_cast<double>((raw >> spare) << spare);
 }
-/// Converts a limit of a signed raw integer to double, in the same way.
+/// Converts a limit of a signed raw integer to double. Rounds towards zero, like the function for unsigned
+/// limits.
 constexpr double bound(std::int64_t raw) {
   const auto bits = static_cast<std::uint64_t>(raw);
   return raw < 0 ? -bound(0 - bits) : bound(bits);

@@ -1,5 +1,5 @@
-// A value or an error of one line, for functions whose input may be wrong. Functions that are called for each
-// frame do not use it.
+// A Result contains a value or an error of one line. Functions whose input may be wrong return a Result; but
+// functions that are called for each frame do not.
 #pragma once
 
 #include <string>

@@ -36,8 +36,8 @@ class SampleGroup {
     return started_anew ? Outcome::dropped_previous : Outcome::waiting;
   }
 
-  /// The last message of this type. After put() has returned complete, the messages of all types belong
-  /// together.
+  /// The last message of this type. If the last put() returned Outcome::complete, the messages of all types
+  /// belong together.
   template <class Message>
   [[nodiscard]] const Message& get() const {
     return std::get<Message>(messages_);

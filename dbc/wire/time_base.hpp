@@ -1,5 +1,6 @@
-// Times of the bench's time base with 32 bits: they count microseconds and wrap every 71.6 minutes. Samples
-// that must fit into one frame use times with 16 bits, which count units of 10 us and wrap every 655.36 ms.
+// Converts times of the bench's time base to the times in messages, and back. Most messages have times of 32
+// bits, which count microseconds and wrap every 71.6 minutes. Samples that must fit into one frame have times
+// of 16 bits, which count units of 10 us and wrap every 655.36 ms.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,7 @@ constexpr std::int64_t unwrap_short_us(std::int64_t short_us, std::int64_t lates
   return latest_us - (age_us < 0 ? age_us + short_period_us : age_us);
 }
 
-/// A time [us] of the bench's time base modulo short_period_us.
+/// Reduces a time [us] of the bench's time base modulo short_period_us.
 constexpr std::int64_t wrap_short_us(std::int64_t t_us) {
   const std::int64_t rest_us = t_us % short_period_us;
   return rest_us < 0 ? rest_us + short_period_us : rest_us;

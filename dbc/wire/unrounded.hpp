@@ -1,6 +1,6 @@
 // Frames without rounding. They exist only inside one process: the frame contains the packed bytes of the
-// message and, behind them, its scaled signals as doubles. The comparison of a run with such frames and a
-// normal run shows the effect of the resolution of the signals on the bus.
+// message and, behind them, its scaled signals as doubles. If a run with such frames is compared with a
+// normal run, the difference shows the effect of rounding the signals for the bus.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the pictures of the report page anew. Flies the flights of docs/tutorial.md in virtual time with their seeds (the same bits on every
-# machine), and takes pictures of parts of their report pages with headless Chromium. Packages: chromium fonts-dejavu-core.
+# Makes the pictures of the report page anew. Flies the flights of docs/tutorial.md in virtual time with their seeds, so that every machine gets
+# the same bits, and takes pictures of parts of the report pages with headless Chromium. Packages: chromium fonts-dejavu-core.
 #   docs/images/make.sh [BUILD]        BUILD: folder of hil-bench (default: build/default)
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

@@ -11,13 +11,13 @@
 namespace canhil::target {
 
 /// Two control charts of exponentially weighted averages (Roberts, 'Control Chart Tests Based on Geometric
-/// Moving Averages', 1959). Each chart is a sum S <- keep S + z, with a factor keep < 1. If the filter is
-/// consistent, z has mean 0 and variance 1, so S has the variance 1/(1 - keep^2):
-///   size   z = (NIS - m)/sqrt(2 m), with a chi-squared NIS of m degrees of freedom: detects errors that are
-///          larger than the covariance indicates;
-///   bias   z = an innovation divided by its sigma: detects innovations that are not white because of a
-///          lasting error (a model's coefficient, a sensor's scale). It detects them even if the filter has
-///          raised its assumed noise so far that the NIS has its expected value again (Mehra, 'On the
+/// Moving Averages', 1959). Each chart updates a sum S by S <- k S + z, where the factor k (`keep`) is less
+/// than 1. If the filter is consistent, z has mean 0 and variance 1, so S has the variance 1/(1 - k^2):
+///   size   z = (NIS - m)/sqrt(2 m), where the NIS is chi-squared with m degrees of freedom. This chart
+///          detects errors that are larger than the covariance indicates.
+///   bias   z = an innovation divided by its sigma. This chart detects innovations that are not white because
+///          of a lasting error (of a model's coefficient, of a sensor's scale). It does so even if the filter
+///          has raised its assumed noise so far that the NIS has its expected value again (Mehra, 'On the
 ///          Identification of Variances and Adaptive Kalman Filtering', 1970).
 /// A NIS below its expected value m raises no alarm, as the errors are then smaller than the covariance
 /// indicates.
@@ -64,10 +64,10 @@ class ConsistencyMonitor {
     bool alarm_ = false;
   };
 
-  // size_: four outliers in a row raise an alarm, three do not. S of size_ reaches 6 standard deviations if
-  // the mean NIS is 1.8 times its expected value m, for m = 3 degrees of freedom; S of bias_ does so if the
-  // mean innovation is 0.19 sigma. If the filter is consistent, one or two in a million updates raise an
-  // alarm (5e6 random draws for each of m = 1, 2, 3 and 9).
+  // In size_, four outliers in a row raise an alarm, but three do not. The sum S of size_ reaches 6 standard
+  // deviations if the mean NIS is 1.8 times its expected value m (for m = 3 degrees of freedom). The sum S of
+  // bias_ reaches 6 standard deviations if the mean innovation is 0.19 sigma. If the filter is consistent,
+  // one or two of a million updates raise an alarm (5e6 random draws for each of m = 1, 2, 3 and 9).
   Chart<20, 6, false> size_;
   std::array<Chart<500, 4, true>, 9> bias_{};
   bool inconsistent_ = false, distrusted_ = false;

@@ -59,7 +59,7 @@ std::span<const Frame> Device::receive(const Frame& frame) {
       return {};
     case e2e::Check::repeated:
       // Commands are processed even with a repeated counter: the first command of a new bench may have the
-      // counter of the previous bench's last command.
+      // same counter value as the last command of the previous bench.
       if (frame.id != TargetCommand::info.id) {
         ++losses_.late;
         return {};

@@ -26,7 +26,7 @@ class Device {
   Device& operator=(const Device&) = delete;
   ~Device() = default;
 
-  /// Processes one frame and returns the answering frames, in order; valid until the next call.
+  /// Processes one frame and returns the answering frames in order. They stay valid until the next call.
   /// Frames that are not for the target are ignored. Allocates nothing.
   std::span<const Frame> receive(const Frame& frame);
 

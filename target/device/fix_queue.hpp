@@ -1,5 +1,5 @@
-// A queue of fixes whose time of validity is after the newest IMU epoch: they wait until the INS reaches this
-// time.
+// A queue of fixes whose time of validity is after the newest IMU epoch. The queue keeps each fix until the
+// INS reaches the fix's time of validity.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +31,8 @@ class FixQueue {
     return true;
   }
 
-  /// Removes the fixes whose time of validity the INS has reached, and calls update(fix) for each, in order,
-  /// until a call returns a fault.
+  /// Calls update(fix), in order, for each fix whose time of validity the INS has reached, and removes the
+  /// fix. Stops after a call that returns a fault.
   template <class Update>
   Health reached(std::int64_t ins_us, const Update& update) {
     std::size_t done = 0;

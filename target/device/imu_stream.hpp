@@ -156,7 +156,7 @@ class ImuStream {
   }
 
   // Bridges a gap with increments that are computed from the mean of the rates before and after the gap. The
-  // next answer has the mark coasting.
+  // next answer is marked as coasting.
   template <class Step>
   void bridge(const strapdown::ImuIncrement& after, std::int64_t gap_us, const Step& step) {
     coasting_ = true;

@@ -214,8 +214,8 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return refuse(fix, FixOutcome::future, context);
   }
 
-  // The filter's settings for one fix: the noise of the fix is the sigma that its source reports, or the
-  // sigma in the settings if that is larger.
+  // The filter's settings for one fix. The noise of the fix is the larger of two sigmas: the sigma that the
+  // source of the fix reports, and the sigma in the settings.
   [[nodiscard]] ia::Settings settings_for(const Fix& fix) const {
     ia::Settings filter = tuning_.filter;
     filter.fix_noise_horizontal = std::max(filter.fix_noise_horizontal, fix.horizontal_sigma);

@@ -239,7 +239,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // The interval of a group should begin where the last group ended. If the interval begins later, groups
+  // The interval of a group should begin where the previous group ended. If the interval begins later, groups
   // were lost in between. If the interval begins earlier, the increments of the group cover more than the
   // step and are not used. The first group has no previous step.
   los::Measurement measured(std::int64_t t_us) const {

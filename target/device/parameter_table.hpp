@@ -76,8 +76,8 @@ class ParameterTable {
  private:
   static constexpr std::size_t capacity = 64;
 
-  // Rounds a limit to float, as values on the bus are floats: otherwise a limit of 1e-9 would refuse the
-  // value 1e-9, whose nearest float is smaller.
+  // Rounds a limit to float, as values on the bus are floats. Without this rounding, a minimum of 1e-9 would
+  // refuse the value 1e-9, whose nearest float is smaller.
   static double on_the_wire(double limit) { return static_cast<double>(static_cast<float>(limit)); }
 
   [[nodiscard]] std::optional<std::size_t> find(messages::Parameter parameter) const {

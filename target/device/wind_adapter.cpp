@@ -22,9 +22,10 @@ constexpr double deg = std::numbers::pi / 180;
 
 constexpr std::int64_t lead_limit_us = 200'000;     // a sample further ahead of the last Sync is rejected
 constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of navigation is an error
-// For this time after a start the sigmas are reported as not valid. The sigmas assume that coefficient errors
-// are redrawn every 50 ms and average out over many intervals of 50 ms. The gains after a start are too high
-// for this averaging: of 200 flights with errors of 20 %, 15 erred by more than 5 sigma within 0.3 s.
+// During this time after a start, the adapter reports the sigmas as not valid. The sigmas assume that
+// coefficient errors are redrawn every 50 ms and average out over many intervals of 50 ms. The gains after a
+// start are too high for this averaging: of 200 flights with coefficient errors of 20 %, 15 had errors of
+// more than 5 sigma within 0.3 s.
 constexpr std::int64_t settling_us = 1'000'000;
 // Physical limits. They are below the limits of the bus, so that the bus can also carry invalid values.
 constexpr double ground_speed_most = 600;
@@ -48,8 +49,8 @@ std::optional<wind::Algorithm> algorithm_of(Algorithm algorithm) {
   }
 }
 
-// An angle [rad]. A value beyond half a turn becomes NaN: an encoder that does not check limits sends a value
-// beyond half a turn for a NaN.
+// An angle [rad]. A value beyond half a turn becomes NaN, because an encoder that does not check limits turns
+// a NaN into a value beyond half a turn.
 double angle(double value_deg) {
   return std::abs(value_deg) <= 180.5 ? value_deg * deg : std::numeric_limits<double>::quiet_NaN();
 }
@@ -158,8 +159,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
   }
 
   // Answers one group per output interval. In addition, answers every complete group that did not update the
-  // filter, and every group that updated it while a quantity was outside the range of the model, or while fin
-  // deflections were late or refused.
+  // filter, and every group that updated the filter while a quantity was outside the range of the model, or
+  // while fin deflections were late or refused.
   void on_navigation(Context& context) {
     const auto& horizontal = group_.get<GliderNavVelocityNE>();
     const auto& attitude = group_.get<GliderNavAttitude>();

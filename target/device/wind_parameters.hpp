@@ -94,7 +94,7 @@ inline constexpr std::array wind_parameters = [] {
       Row{P::fins_missing_ms, 100, 1, 1e4, real, any_time,
           "Answers have the mark `fins_missing` if the deflections of the fins are older than this time.",
           [](WindTuning& t, double v) { t.filter.fins_missing = v * ms; }},
-      // The filter bridges a gap while it processes one frame, in at most 400 parts of 25 ms.
+      // The filter bridges a whole gap while it processes one frame: 10 s take 400 parts of 25 ms.
       Row{P::glider_nav_coast_s, 2, 0, 10, real, any_time,
           "The filter bridges gaps between navigation samples up to this length. After a longer gap the "
           "filter restarts.",

@@ -9,8 +9,8 @@
 
 namespace canhil::target {
 
-/// Counts the events of a bus; news() reports the counts. The functions that are called for single frames
-/// only count, to be fast.
+/// Counts the events of a bus; news() reports the counts. The functions that are called for single frames do
+/// nothing but count, so that they are fast.
 class BusNotes {
  public:
   void error_frame(const Frame& frame) { add(errors_, frame); }

@@ -11,9 +11,8 @@
 
 namespace canhil::target {
 
-/// Receives on every bus and answers on the first, until `stop` is set or a bus is closed. `format` is the
-/// contract of all buses. Error: a bus cannot be opened, or another target already answers on one of the
-/// buses.
+/// Receives on every bus and answers on the first bus, until `stop` is set or a bus is closed. All buses have
+/// the same `format`. Error: a bus cannot be opened, or another target already answers on one of the buses.
 Result<void> serve(const std::vector<std::string>& buses, BusFormat format, const std::atomic<bool>& stop);
 /// Serves an open port. Error: another target already answers on its bus.
 Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop);

@@ -1,6 +1,6 @@
-// Faults of the wire, of a controller and of an interface: they must be reported, the run must continue if
-// possible, and no program may hang. wire/canhil_wire.c simulates the wire; the driver, the kernel and the
-// programs cannot distinguish it from a real one.
+// Tests faults of the wire, of a controller and of an interface. Each fault must be reported, the run must
+// continue if possible, and no program may hang. wire/canhil_wire.c simulates the wire; to the driver, the
+// kernel and the programs, the simulated wire looks like a real one.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -30,7 +30,7 @@ struct Outcome {
   }
 };
 
-/// Flies in real time. `trouble` is called during the run.
+/// Runs the scenario `name` in real time, and calls `trouble` during the run.
 Outcome run_with(const std::function<void()>& trouble, const std::string& name = "transfer_alignment_quick") {
   const std::string json = scratch("fault.json");
   Ended ended;
@@ -58,8 +58,8 @@ TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndReported) {
   EXPECT_EQ(outcome.ended.code, 1);
 }
 
-// The scenario injects an outage of the interface. It cannot inject error frames here, because only the
-// controller's driver generates them.
+// A scenario can set an interface down and up again. It cannot inject error frames on these interfaces,
+// because only the driver of the controller generates error frames.
 TEST(Interface, IsSetDownAndUpByAFaultOfTheScenario) {
   set_up_on_wire();
   const auto with_fault = [](const std::string& kind) {
@@ -104,13 +104,13 @@ TEST(Interface, DownAndUpAgainOnTheTargetsSideIsSurvivedAndReported) {
       << "nobody acknowledged the bench's frames meanwhile";
 }
 
-// If nobody acknowledges its frames, the bench's controller repeats the same frame endlessly, and the
-// transmit queue becomes full.
+// Nobody acknowledges the frames of the bench's controller. Therefore the controller repeats the same frame
+// endlessly, and the transmit queue becomes full.
 TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
   set_up_on_wire();
   const Outcome outcome = run_with([] { set_interface("can0", false); });
   EXPECT_FALSE(outcome.report["ending"]["completed"]);
-  // The message states when the first frame was due that the full queue did not accept.
+  // The full queue rejects frames. The message states the time at which the first rejected frame was due.
   EXPECT_THAT(outcome.ended.out, testing::ContainsRegex("fail: .*the bus took no frame since t="));
   EXPECT_THAT(outcome.incidents(), Contains("error passive"));
   EXPECT_EQ(outcome.ended.code, 1);
@@ -145,8 +145,9 @@ TEST(BusOff, OnTheBenchsSideWithRestartIsSurvivedAndReported) {
       << "the frame that failed is lost, and counted";
 }
 
-// While the bench is bus-off, it receives nothing for longer than a target may be silent. The run must not
-// fail because of this silence, but because the target reports a fault: the target has lost its input.
+// The bench is bus-off for longer than a target may be silent, and receives nothing in this time. The target
+// receives no input in this time, and reports this as a fault. The run must end because of the reported
+// fault, not because of the target's silence.
 TEST(BusOff, OnTheBenchsSideForLongEndsWithTheTargetsFaultNotItsSilence) {
   set_up_on_wire("", "restart-ms 700");
   const Outcome outcome = run_with([] {

@@ -33,7 +33,7 @@ void set_up(const std::string& can0_options, const std::string& can1_options) {
 }
 
 void set_up_on_wire(const std::string& can0_options, const std::string& can1_options) {
-  // canhil_wire attaches to the controllers when they are set up, so it must be loaded before.
+  // canhil_wire attaches to the controllers when they are set up. Therefore the module must be loaded first.
   run("ip link set can0 down && ip link set can1 down && "
       "{ [ -d /sys/module/canhil_wire ] || insmod \"$CANHIL_WIRE\"; }");
   wire("can0 sound");
@@ -76,7 +76,7 @@ void wire(const std::string& what) {
 }
 
 Target::Target() {
-  // Need not wait for the target's heartbeat, because the bench waits for this heartbeat.
+  // The constructor does not wait for the first heartbeat of the target, because the bench waits for it.
   const Ended started = shell(fmt::format("{} --bus can0 >{} 2>{} & echo $!", HIL_TARGET,
                                           scratch("target.out"), scratch("target.err")));
   pid_ = started.out;

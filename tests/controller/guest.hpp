@@ -1,5 +1,5 @@
-// Helper functions for tests in the guest system that tests/controller/run.sh starts. can0 is the interface
-// of the target, can1 that of the bench.
+// Helper functions for tests in the guest system that tests/controller/run.sh starts. The target uses the
+// interface can0; the bench uses can1.
 #pragma once
 
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace canhil::test {
 
-/// Sets both interfaces down and up again, as with `ip link set can0 up type can OPTIONS`.
+/// Sets both interfaces down, and then up with these options, as `ip link set can0 up type can OPTIONS` does.
 void set_up(const std::string& can0_options, const std::string& can1_options);
 
-/// Loads the kernel module of the wire, if it is not loaded, and sets up both interfaces at 1 Mbit/s. The
-/// arguments are further options of can0 and of can1.
+/// Loads the kernel module of the wire if it is not loaded yet, and sets up both interfaces at 1 Mbit/s. The
+/// arguments are additional options of can0 and of can1.
 void set_up_on_wire(const std::string& can0_options = "", const std::string& can1_options = "");
 
-/// Sets the interface up or down without waiting, as `ip link set INTERFACE up` does.
+/// Sets the interface up or down, as `ip link set` does. Does not wait until the interface has a carrier.
 void set_interface(const std::string& interface, bool up);
 
-/// Waits until the interface has a carrier (`there`) or has none (not `there`), for at most half a minute.
-/// The interface of a bus-off controller has no carrier.
+/// Waits until the interface has a carrier if `there` is true, or until it has none if `there` is false.
+/// Waits for at most half a minute. The interface of a bus-off controller has no carrier.
 void await_carrier(const std::string& interface, bool there);
 
 /// Waits for `count` Sync frames on can0.
@@ -45,10 +45,11 @@ class Target {
   std::string pid_;
 };
 
-/// Runs hil-bench run ARGUMENTS on can1. Ends it after two minutes (exit code 124).
+/// Runs `hil-bench run ARGUMENTS` on can1. If the program has not ended after two minutes, it is stopped, and
+/// the exit code is 124.
 Ended bench_run(const std::string& arguments);
 
-/// The outcome of the checks of this kind in a report, or "no such check".
+/// The outcome of the first check of this kind in a report, or "no such check".
 std::string outcome_of(const nlohmann::json& report, const std::string& kind);
 
 }  // namespace canhil::test

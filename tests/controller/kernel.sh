@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # kernel.sh: downloads Debian's kernel into a cache (once), unpacks the parts that a guest with CAN controllers needs, and prints the
-# folder of these parts: vmlinuz, modules/*.ko, and build/ (the headers, to build a module). Nothing is installed.
-# On failure: exit code 2 and one line.
+# path of the folder with these parts. The parts are vmlinuz, modules/*.ko, and build/ (the headers, to build a module). Nothing is
+# installed. On failure, prints one error line and ends with exit code 2.
 # The cache: ${XDG_CACHE_HOME:-~/.cache}/canhil/controller/, one folder per kernel. Remove the cache to get Debian's newest kernel.
 set -euo pipefail
 
@@ -30,8 +30,9 @@ exec 9>"$cache/lock"
 flock 9 # if several kernel.sh run at the same time, only one downloads
 if present; then exit 0; fi
 
-# Package lists in the cache: a user without root rights cannot write to apt's folders, and the machine's lists
-# may be old or absent. With these lists too, apt verifies downloads by the signatures of Debian's archive.
+# Package lists in the cache. They are needed because a user without root rights cannot write to apt's folders, and
+# because the machine's lists may be old or absent. If apt uses these lists, it also verifies downloads by the
+# signatures of Debian's archive.
 own_lists=(-o "Dir::State::Lists=$cache/lists" -o "Dir::Cache=$cache/apt" -o Debug::NoLocking=1 -o APT::Sandbox::User=root)
 options=(-o APT::Sandbox::User=root)
 depends() { apt-cache "${options[@]}" depends --important "$1" 2>/dev/null | sed -n 's/^ *Depends: //p'; }
@@ -67,7 +68,7 @@ mv "boot/vmlinuz-$release" "$release/vmlinuz"
 for module in "${modules[@]}"; do mv "lib/modules/$release/kernel/$module" "$release/modules/"; done
 printf '%s\n' "${modules[@]##*/}" >"$release/order" # the modules in the order in which they are loaded
 mv usr "$release/"
-# One Makefile of the headers contains an absolute path, which is wrong in the cache. It is made relative.
+# One Makefile of the headers contains an absolute path, which is wrong in the cache. sed makes this path relative.
 build=$release/usr/src/linux-headers-$release
 sed -i 's|^include /usr/src/|include $(dir $(lastword $(MAKEFILE_LIST)))../|' "$build/Makefile"
 ln -s "usr/src/linux-headers-$release" "$release/build"

@@ -1,5 +1,5 @@
-// Tests with a transmit queue of 10 frames that is full: the kernel then returns ENOBUFS, a state for whose
-// end poll() cannot wait.
+// Tests a full transmit queue of 10 frames. While the queue is full, the kernel returns ENOBUFS; poll()
+// cannot wait for the end of this state.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

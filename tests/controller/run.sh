@@ -61,8 +61,9 @@ setsid timeout -k 5 "$limit" qemu-system-x86_64 -nodefaults -no-user-config -dis
 qemu=$!
 wait $qemu
 ended=$?
-# If QEMU did not start, nobody has opened the pipes for writing, and their readers would wait forever. This line opens
-# and closes the pipes; opening them for both directions does not block.
+# If QEMU did not start, nobody has opened the pipes for writing, and the two cat processes would wait forever for a
+# writer. The next line opens the pipes and closes them. It opens them for reading and writing, because this does not
+# block.
 : <>"$dir/out" <>"$dir/err"
 wait $out $err
 if [ -s "$dir/status" ]; then exit "$(cat "$dir/status")"; fi

@@ -1,5 +1,5 @@
-// The four estimators over the emulated controllers and the kernel's driver: their outputs must pass, and
-// must equal those of a run in process bit for bit.
+// Runs the four estimators over the emulated controllers and the kernel's driver. Their outputs must pass the
+// checks, and must be equal, bit for bit, to their outputs in a run in process.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -8,8 +8,8 @@
 namespace canhil::test {
 namespace {
 
-// The run in process is flown in the guest too. On the host it could have other bits, because the host's
-// processor may compute a sine with other instructions.
+// The run in process takes place in the guest too. On the host, some bits of its frames could be different,
+// because the host's processor may compute a sine with other instructions.
 std::vector<Frame> frames_in_process(const std::string& name) {
   const std::string log = scratch("in_process.log");
   EXPECT_EQ(hil_bench(fmt::format("run {} --bus in-process --log {}", scenario(name), log)).code, 3);
@@ -44,8 +44,8 @@ TEST(LockstepAlso, TransferAlignmentPassesAt500kbps) {
   expect_pass_in_lockstep("transfer_alignment_quick");
 }
 
-// The emulated clock can disturb the timing, but not the outputs. If the host suspends the whole guest, bench
-// and target lose frames or time out; such a run is repeated.
+// The emulated clock can disturb the timing, but not the outputs. If the host suspends the guest, the bench
+// and the target may lose frames or wait for too long. Such a run is repeated.
 TEST(RealTime, TransferAlignmentPasses) {
   set_up("bitrate 1000000", "bitrate 1000000");
   const std::string name = "transfer_alignment_quick", report = scratch("report.json"),

@@ -22,8 +22,8 @@ from pages import Command, commands_of  # noqa: E402
 from rules import PLACEHOLDERS, PREPARED, Rule, rule_of  # noqa: E402
 
 LONGEST_S = 120
-# In this test no CPU is reserved for the target, so a busy host can stall the target. A run in real time then prints one of these. The command is
-# repeated, because a real defect occurs in every repetition.
+# In this test no CPU is reserved for the target, so a busy host can stall the target. A run in real time then prints a line that STALLED matches. The
+# command is repeated in this case, because a real defect occurs in every repetition.
 STALLED = re.compile(r"target silent|FAIL +(output_period|latency|heartbeat) ")
 WRITTEN_TO = ("docs", "dbc")  # copied, because commands write to them; all other folders are linked
 

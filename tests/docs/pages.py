@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-# An indented block need not contain commands. It is taken as commands if one of its lines begins with one of these programs.
+# An indented block need not contain commands. In such a block, only a line that begins with one of these programs begins a command.
 PROGRAMS = r"(?:sudo )?(?:hil-bench|hil-bench-campaign|hil-target|dbcgen|python3|bash|ctest|cmake|build/\S+|tests/\S+\.(?:sh|py))(?= |$)"
 SHELLS = ("sh", "bash", "shell", "console")
 

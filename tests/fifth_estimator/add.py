@@ -46,7 +46,7 @@ LINES = [
      "std::unique_ptr<Adapter> make_baro_inertial_adapter();"),
     ("target/device/adapters.hpp", "  adapters.push_back(make_wind_adapter());",
      "  adapters.push_back(make_baro_inertial_adapter());"),
-    # This folder is added before the other tests, because the campaign in its tests lasts longest.
+    # This folder is added before the other tests, because its tests contain the campaign that lasts longest.
     ("tests/CMakeLists.txt", "add_compile_options(${canhil_not_numerical})", "add_subdirectory(fifth_estimator)"),
 ]
 LAST_ESTIMATOR, ONE_MORE = '4 "wind"', '5 "baro_inertial" '

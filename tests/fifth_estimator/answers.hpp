@@ -9,8 +9,8 @@
 
 namespace canhil::estimators {
 
-/// Group Height: the state after the update with a barometric height, at the time of validity of this height.
-/// SI units.
+/// Group Height: the state after the update with a barometric height. The state and this height are valid at
+/// the same time. SI units.
 struct HeightAnswer {
   std::int64_t cause_us = 0;
   double height = 0;  ///< above the ellipsoid

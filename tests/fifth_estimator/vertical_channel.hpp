@@ -1,10 +1,11 @@
 // The vertical channel of an INS, aided by barometric heights: a Kalman filter estimates three errors, and
 // the estimates correct the INS.
 //
-// Errors (estimated - true) of height h, velocity down v and the bias b of the accelerometer along body z:
+// An error is the estimated value minus the true value. The three errors are dh of the height h, dv of the
+// downward velocity v, and db of the bias b of the accelerometer along body z:
 //   d(dh)/dt = -dv      d(dv)/dt = -(2 g0 / R) dh - C_zz db + noise      d(db)/dt = 0
-// Without aiding these errors grow, because gravity is computed at the wrong height. Groves (2013), section
-// 5.7.2 and 16.2.
+// Without aiding these errors grow, because gravity is computed at the wrong height. Groves (2013),
+// sections 5.7.2 and 16.2.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,9 +28,9 @@ enum class Outcome : bool { gated, used };
 class VerticalChannel {
  public:
   void start(const strapdown::NavState& nav, const Settings& settings);
-  /// Propagates INS and covariance over one IMU sample.
+  /// Propagates the INS and the covariance over one IMU sample.
   void propagate(const strapdown::ImuIncrement& imu, const Settings& settings);
-  /// Corrects INS and bias with a barometric height [m] that is valid at the time of the INS.
+  /// Corrects the INS and the bias with a barometric height [m], which must be valid at the time of the INS.
   Outcome update(double height, const Settings& settings);
 
   [[nodiscard]] const strapdown::NavState& nav() const { return nav_; }

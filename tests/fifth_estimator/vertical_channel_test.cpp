@@ -15,8 +15,8 @@ strapdown::ImuIncrement at_rest(double dt) {
   return {.delta_theta = {earth_rate * dt, 0, 0}, .delta_v = {0, 0, -gravity_of_equator * dt}, .dt = dt};
 }
 
-// Without aiding, a height error grows in proportion to cosh(sqrt(2 g / R) t). The error of the INS and the
-// sigma in its covariance must both grow so.
+// Without aiding, a height error grows in proportion to cosh(sqrt(2 g / R) t). Both the error of the INS and
+// the sigma in the covariance must grow by this factor.
 TEST(VerticalChannel, DivergesWithoutAidAsGravitySays) {
   VerticalChannel channel;
   const Settings settings{.height_sigma_0 = 100};

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs a command of this project on a machine with nothing installed: a minimal Debian 12 in a chroot, with a fresh clone of the project.
 #   sudo bash tests/fresh_machine/run.sh [--keep] COMMAND...        e.g.  bash tests/run.sh
-# To be run by hand before a release. The command must install the packages that it needs; tests/run.sh does.
+# Run this script by hand before a release. COMMAND must install the packages that it needs, as tests/run.sh does.
 # The chroot uses the package sources of the host: the configuration of the host's apt (sources, keys, proxies, credentials) is copied into it.
 # Uncommitted changes are not tested. Exit code: that of COMMAND; 2 if the chroot could not be made.
 set -euo pipefail
@@ -49,7 +49,7 @@ trap cleanup EXIT
 chmod 755 "$machine"
 tar -C "$machine" -xf "$minimal"
 
-# Copies the host's apt configuration, and the host names and certificates with which apt reaches its sources.
+# Copies what apt needs to reach the host's package sources: the configuration of apt, the host names and the certificates.
 rm -rf "$machine/etc/apt"
 cp -aL /etc/apt "$machine/etc/apt"
 cp -aL /usr/share/keyrings/. "$machine/usr/share/keyrings/"

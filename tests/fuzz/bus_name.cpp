@@ -1,5 +1,5 @@
-// Tests the functions that read the name of a bus (`--bus`). For any text, they must return settings within
-// their limits, or one error line that states what was expected.
+// Tests the functions that read the name of a bus (`--bus`). For any text, these functions must return either
+// settings with permitted values, or one error line that states what was expected.
 #include <cstdint>
 
 #include "bench/drive/buses.hpp"

@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t runs = 2;
 
-// The campaign file. Its metrics are of four kinds; all of them judge the runs with arbitrary samples.
+// The campaign file. It has metrics of four kinds. All of them are computed from the runs with arbitrary
+// samples.
 constexpr std::string_view asked = R"(title = "Two"
 runs = 2
 seed = 3
@@ -134,8 +135,8 @@ Sound make_sound(const fs::path& file) {
   return sound;
 }
 
-// Changes the file as the input says. For each change, the input has two bytes for the position, one for the
-// length, then the bits to flip.
+// Flips bits of the file. For each change, the input contains two bytes for the position, one byte for the
+// length, and then the bits to flip.
 void damage(const fs::path& file, const Sound& sound, std::span<const std::uint8_t> script) {
   std::string bytes = sound.bytes;
   while (script.size() >= 4) {
@@ -152,8 +153,8 @@ void damage(const fs::path& file, const Sound& sound, std::span<const std::uint8
   fuzz::expect(*report == sound.report);
 }
 
-// Stores four runs. The input for each run has its outcome, the number of its samples, and the values of the
-// samples. The input can select NaN and infinity with one byte.
+// Stores four runs. For each run, the input contains the outcome, the number of samples, and the values of
+// the samples. One byte of the input is enough to select NaN or infinity.
 void fill(const fs::path& file, const Sound& sound, std::span<const std::uint8_t> script) {
   const auto byte = [&]() -> std::uint8_t {
     if (script.empty()) return 0;

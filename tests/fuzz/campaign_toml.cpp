@@ -18,7 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect_one_line(campaign.error().message, "fuzz.toml:");
     return 0;
   }
-  // The store of a campaign contains the texts of its files. Reading them must give the same campaign.
+  // The store of a campaign contains the texts of the campaign's files. These texts must give the same
+  // campaign.
   const auto again = campaign::parse_campaign(campaign->sources);
   fuzz::expect(again && again->hash == campaign->hash && again->variants.size() == campaign->variants.size());
   for (const campaign::Metric& metric : campaign->metrics) {

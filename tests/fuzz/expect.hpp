@@ -12,8 +12,8 @@ inline void expect(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Expects a non-empty error message. The message may have line breaks, because it may quote text of the
-/// file.
+/// Expects a non-empty error message. The message may contain line breaks, because it may quote text of the
+/// file that was read.
 inline void expect_words(std::string_view message, std::string_view begins_with = "") {
   expect(!message.empty() && message.starts_with(begins_with));
 }

@@ -41,7 +41,8 @@ std::vector<Frame> unpacked(std::span<const Frame> wire) {
 
 }  // namespace
 
-// The input has for each frame: a byte for its kind, two bytes that select its id and size, and its data.
+// For each frame, the input contains a byte for the kind of the frame, two bytes that select its id and its
+// size, and its data.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   enum Kind : std::uint8_t { any_id = 1, fd = 2, any_size = 4, extended = 8 };
   std::span<const std::uint8_t> rest(data, size);
@@ -74,8 +75,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto again = packed(unpacked({&container, 1}));
     expect(again.size() == 1 && again.front() == container);
   }
-  // All CAN FD frames of the input in one stream, as a bus delivers them: packing and unpacking must not
-  // change the frames inside.
+  // `wire` contains all CAN FD frames of the input in one stream, as a bus delivers them. Packing and
+  // unpacking must not change the classic frames inside.
   auto inside = unpacked(wire);
   std::erase_if(inside, is_empty);
   expect(unpacked(packed(inside)) == inside);

@@ -1,7 +1,7 @@
 // Tests the hub of the embedded bus against peers (connected programs) that send arbitrary bytes. The hub
-// must forward valid frames unchanged, and disconnect peers that send anything else. A correct node must
-// receive no frame that neither a peer nor the host has sent. The input has for each step one byte that
-// selects a peer and an action, then the data of the action.
+// must forward valid frames unchanged, and disconnect peers that send anything else. A correct node may
+// receive only frames that a peer or the host has sent. For each step, the input contains one byte that
+// selects a peer and an action, and then the data of the action.
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>

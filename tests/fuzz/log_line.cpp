@@ -1,6 +1,6 @@
-// Tests the code that reads logs: lines of candump logs, packets of captures, and the lines of an ASC file
-// one after the other. A candump line must give an entry or one error line; an entry, written and read again,
-// must give the same frame.
+// Tests the code that reads logs: a line of a candump log, a packet of a capture, and successive lines of an
+// ASC file. A candump line must give an entry or one error line. If an entry is written and read again, the
+// frame must stay the same.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

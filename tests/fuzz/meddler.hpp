@@ -1,6 +1,6 @@
 // A bus with a target that may send anything. The target is a Device. The fuzzer's input decides which frames
-// of the Device are damaged, dropped, repeated or delayed, and which are followed by another frame. Time is
-// simulated: waiting advances the time.
+// of the Device are damaged, dropped, repeated or delayed, and after which frames an additional frame is
+// sent. Time is simulated: each frame and each wait advances it.
 #pragma once
 
 #include <algorithm>
@@ -65,8 +65,8 @@ class Meddler final : public Port {
     return first;
   }
 
-  // Reads the next act from the input: after how many frames it occurs (one byte), its kind (one byte). The
-  // act itself reads its parameters.
+  // Reads two bytes of the input: the number of frames before the next act, and the kind of the act. The act
+  // itself reads its parameters.
   void next_act() {
     left_ = script_.empty() ? -1 : byte();
     act_ = byte();

@@ -1,7 +1,7 @@
-// Tests the code that reads the report of a run. Any JSON must give a page and a comparison, or one line with
-// the missing key. The input is either the text of a report, or a list of changes (remove, move, replace
-// values) to the report of a run that is flown at the start. The fuzzer does not change single bytes of that
-// report (30 kB), because this would soon give invalid JSON.
+// Tests the code that reads the report of a run. Any JSON must give a page and a comparison, or an error
+// message. The input is either the text of a report, or a list of changes (replace, remove, copy, add or
+// scale a value) to the report of a run that this program flies at its start. The fuzzer does not change
+// single bytes of that report (30 kB), because this would soon give invalid JSON.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -25,8 +25,8 @@ namespace {
 using namespace canhil;
 using Json = nlohmann::ordered_json;
 
-// Flies a run over a simulated wire, so that the report has distributions of times. The report keeps
-// only two messages of each distribution and two series, because reading them takes most of the time.
+// Flies a run over a simulated wire, so that the report contains distributions of times. Removes all but two
+// messages from each table of times, and all but two series, because reading them takes most of the time.
 Json flown() {
   const auto scenario = scenario::parse(fuzz::short_scenario, "short.toml", drive::contract());
   fuzz::expect(scenario.has_value());
@@ -63,7 +63,7 @@ class Changes {
     return first;
   }
 
-  // Selects a value of the JSON document: begins at the root and goes down, at each step to one of the
+  // Selects a value of the JSON document: begins at the root, and at each step goes down to one of the
   // members. Sets `above` to the parent of the selected value.
   Json* walk(Json& root, Json*& above, std::size_t& place) {
     Json* at = &root;

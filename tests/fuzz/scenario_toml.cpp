@@ -1,6 +1,6 @@
 // Tests the code that reads a scenario. For any text, it must return a Scenario, or one error line that names
-// the file. If the flight is short, the scenario is then prepared for a run: its truth, its nodes and their
-// first transmissions.
+// the file. If the flight is short, the test also prepares a run of the scenario: it computes the truth,
+// makes the nodes, and takes their first transmissions.
 #include <cstdint>
 
 #include "bench/drive/contract.hpp"

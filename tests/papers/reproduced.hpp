@@ -29,7 +29,7 @@ struct Written {
   std::string html, text;
 };
 
-/// Reproduces the paper and writes its page to a new folder. Returns the page and the text.
+/// Reproduces the paper and writes its page to a new folder. Returns the page and the tables for a terminal.
 inline Written reproduced(const Request& asked) {
   std::filesystem::remove_all(asked.folder);
   const auto reproduced = reproduce(asked, go_on);

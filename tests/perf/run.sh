@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds and runs every benchmark of tests/perf, prints the figures, and stores them with a description of the machine.
 #   bash tests/perf/run.sh [BENCHMARK OPTIONS...]        e.g.  --benchmark_filter=unpack --benchmark_repetitions=5
-# Files in build/perf/DATE/: PROGRAM.json of each *_benchmark (its "context" contains processor, kernel, compiler and commit);
-# machine.txt with the same description of the machine; NAME.txt of each other program and of the instruction counts.
+# The results are in build/perf/DATE/: one PROGRAM.json for each *_benchmark (its "context" contains processor, kernel, compiler and
+# commit); machine.txt with the same description of the machine; one NAME.txt for each other program and for each count of instructions.
 # The figures are not judged: the exit code is 1 only if something did not build or run.
 set -euo pipefail
 exec </dev/null

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that this project needs. If all are installed it does nothing and needs no root rights.
+# Installs the Debian 12 packages that this project needs. If all packages are installed, it does nothing and needs no root rights.
 #   install.sh build       packages for building and running the programs (the default)
 #   install.sh tests       the set build, and the packages for tests/run.sh
 #   install.sh coverage    the set tests, and the packages for tests/run.sh --coverage

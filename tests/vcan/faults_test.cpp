@@ -14,7 +14,8 @@ namespace {
 
 using ::testing::EndsWith;
 
-/// Receives in a loop, as every user of a port does, until the interface is up (`up`) or down (not `up`).
+/// Receives in a loop, as every user of a port does, until the interface is up (if `up` is true) or down (if
+/// `up` is false).
 void wait_until(Port& port, bool up) {
   const std::int64_t deadline = in_seconds(5);
   while (port.up() != up && clock_ns(CLOCK_MONOTONIC) < deadline) {

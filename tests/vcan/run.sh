@@ -1,7 +1,7 @@
 #!/bin/bash
 # run.sh COMMAND...: runs COMMAND on a machine with vcan0 and vcan1 (mtu 72, so classic and FD). COMMAND has the directory and the environment of
 # the caller. The exit status, stdout and stderr of run.sh are those of COMMAND. run.sh uses the first of these ways that works:
-#   1. this kernel has vcan: a network namespace of its own, so that it does not disturb other runs or an existing vcan0;
+#   1. if this kernel has vcan: a separate network namespace, so that COMMAND does not disturb other runs or an existing vcan0;
 #   2. user-mode Linux: a kernel as a process, with this machine's files (Debian: user-mode-linux kmod iproute2 busybox gcc).
 #      /tmp, /run and /dev are private to the guest; one CPU.
 # CANHIL_VCAN_WAY selects a way: kernel or uml. CANHIL_VCAN_TIMEOUT_S (default 600) is the time limit of user-mode Linux.
@@ -52,8 +52,8 @@ in_uml() {
   limit=${CANHIL_VCAN_TIMEOUT_S:-600}
   say "user-mode Linux"
   # Bench and target run in this one guest system. Without real-time priority, a busy host would stall the guest for
-  # longer than a target may be silent. The guest is pinned to one processor of the host: it has only one itself, so
-  # with every system call one of its host processes continues and another one waits.
+  # longer than a target may be silent. The guest is pinned to one processor of the host, because it cannot use more:
+  # the guest has one processor, and at any time only one of its processes on the host runs, while the others wait.
   realtime="taskset -c $((RANDOM % $(nproc))) chrt -f 10"
   $realtime true 2>/dev/null || realtime="chrt -f 10"
   $realtime true 2>/dev/null || realtime=

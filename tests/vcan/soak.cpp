@@ -1,4 +1,4 @@
-// Sends frames through the port, for any time up to hours, from one process to another on the same interface.
+// Sends frames through the port from one process to another on the same interface, for any time up to hours.
 //   soak INTERFACE SECONDS [FRAMES_PER_S]
 // The sender has an absolute deadline for each millisecond; after a stall of the host, the deadlines are
 // moved. The sender receives the echo of its own frames, as the bench does. Sender and receiver check that no

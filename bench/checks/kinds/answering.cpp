@@ -48,7 +48,7 @@ Answering Answering::read(scenario::Section& /*section*/, const scenario::CheckC
     const std::vector<Subject> reported = always_reported(*one);
     rule.judged.insert(rule.judged.end(), reported.begin(), reported.end());
   }
-  // A sample measured before a fault may be transmitted during the fault.
+  // A sample that was measured before a fault may be transmitted during the fault.
   for (const scenario::FaultWindow& fault : context.faults)
     rule.excused.push_back(
         {.from_us = fault.window.from_us - context.latency_us, .to_us = fault.window.to_us});

@@ -1,4 +1,4 @@
-// Checks that a target keeps answering, whatever its inputs do: answers and heartbeats without gaps, finite
+// Checks that a target keeps answering, whatever its inputs are: answers and heartbeats without gaps, finite
 // values, whole frames.
 #pragma once
 
@@ -23,7 +23,7 @@ struct Answering {
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 
-/// The parts of a window that none of the other windows covers, in order of time.
+/// The parts of the window `whole` that no window of `others` covers, in order of time.
 std::vector<scenario::Window> without(const scenario::Window& whole, std::vector<scenario::Window> others);
 
 }  // namespace canhil::checks

@@ -1,12 +1,13 @@
-// Errors of the bus itself. Without this check any bus-off or outage fails the run.
+// Errors of the bus itself. If a scenario does not contain this check, any bus-off or outage makes the run
+// fail.
 #pragma once
 
 #include "bench/checks/rule.hpp"
 
 namespace canhil::checks {
 
-/// Limits of the counts. Bus-offs and outages have the limit 0 by default; another count without a limit is
-/// not judged.
+/// Limits of the counts. For bus-offs and outages the limit is 0 if the scenario gives none. All other counts
+/// are judged only if the scenario gives a limit.
 struct BusErrorLimits {
   static constexpr std::string_view kind = "bus_errors";
   static constexpr std::string_view meaning =

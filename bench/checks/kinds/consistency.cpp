@@ -10,8 +10,8 @@
 namespace canhil::checks {
 namespace {
 
-// The sum of n independent chi-squared values with k degrees of freedom each is chi-squared with n k degrees
-// of freedom; the mean is this sum divided by n.
+// If n independent values are chi-squared with k degrees of freedom each, their sum is chi-squared with n * k
+// degrees of freedom. Their mean is this sum divided by n.
 std::pair<double, double> interval(const Consistency& rule, std::size_t count) {
   if (const auto* between = std::get_if<MeanBetween>(&rule.bound)) return {between->low, between->high};
   const double probability = std::get<Probability>(rule.bound).value;
@@ -37,8 +37,8 @@ Consistency Consistency::read(scenario::Section& section, const scenario::CheckC
     return rule;
   }
   section.refuse("mean_between", "is given beside probability", "one of the two");
-  // Errors within one run are correlated in time, so the mean of their NEES is not chi-square distributed;
-  // innovations are white.
+  // Errors within one run are correlated in time, so the sum of their NEES is not chi-squared. Innovations
+  // are white, so the sum of their NIS is chi-squared.
   if (!rule.judged.quantity->white)
     section.reject("probability", "is for innovations (NIS) only", "mean_between = [low, high]");
   rule.bound =

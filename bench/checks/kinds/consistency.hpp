@@ -13,8 +13,8 @@ struct MeanBetween {
   double low = 0;
   double high = 0;
 };
-/// The mean lies in the central chi-square interval of this probability. Permitted only for white statistics
-/// (NIS).
+/// The mean must lie in the central chi-square interval that has this probability. This bound is permitted
+/// only for white statistics (NIS).
 struct Probability {
   double value = 0;
 };

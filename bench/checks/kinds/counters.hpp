@@ -23,8 +23,8 @@ struct CountLimit {
   std::optional<std::int64_t> at_most;  ///< none: the count is not judged
   std::uint64_t value = 0;
 };
-/// Passes if no count exceeds its limit. The texts of the finding: measured "bad CRC 0, late 2", expected
-/// "bad CRC <= 0, late <= 3".
+/// Passes if no count exceeds its limit. The finding contains two texts, for example "bad CRC 0, late 2" as
+/// the measured values and "bad CRC <= 0, late <= 3" as the expected values.
 Finding within_limits(std::span<const CountLimit> limits);
 
 }  // namespace canhil::checks

@@ -6,7 +6,7 @@
 
 namespace canhil::checks {
 
-/// Each count lies between the limits of ExpectedCounts, widened by a slack.
+/// Each count must lie between its limits in ExpectedCounts. A slack widens these limits on both sides.
 struct CountsMatch {
   static constexpr std::string_view kind = "counts_match";
   static constexpr std::string_view meaning =

@@ -25,8 +25,8 @@ Finding DetectedWithin::judge(const Evidence& evidence) const {
                   seconds_of(within_us), disturbance.to_text());
   const std::vector<Sign> signs = signs_of(evidence, disturbance, by);
   const std::int64_t onset_us = disturbance.window.from_us;
-  // The cause of a sign may be valid before the onset, if the sample was measured before the onset and sent
-  // after it.
+  // A sign may name a cause that is valid before the onset: the sample was measured before the onset and sent
+  // after the onset.
   const auto first = first_in(signs, disturbance.valid_from_us, evidence.truth.duration_us);
   if (!first) return {Outcome::fail, "no sign", expected};
   const std::int64_t after_us = std::max<std::int64_t>(first->t_us - onset_us, 0);

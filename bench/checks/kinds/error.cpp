@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> statistics{"max", "rms", "mean", "final"};
 
-// For each statistic, in the order of the enumeration: the value that is compared with the limit.
+// For each statistic, in the order of the enumeration: what is compared with the limit.
 constexpr std::array<std::string_view, 4> asked{"|error|", "RMS", "mean |error|",
                                                 "|error| of the last answer"};
 

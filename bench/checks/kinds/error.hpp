@@ -1,4 +1,5 @@
-// Checks that a statistic of |estimated - true| of a quantity is below a limit in a stretch of the run.
+// Checks that a statistic of a quantity's error, |estimated - true|, is below a limit in a stretch of the
+// run.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -1,4 +1,5 @@
-// Checks that every answer either reports degraded or blind, or has an error within a multiple of its sigma.
+// Checks every answer that has neither the mark `degraded` nor the mark `blind`: the error of the answer must
+// be at most a given multiple of its sigma.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"

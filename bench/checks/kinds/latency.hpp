@@ -20,7 +20,8 @@ struct Latency {
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 
-/// The key "message": a message that answers a stimulus and that an estimator of this scenario sends.
+/// Reads the key "message". Its value must be a message that answers a stimulus and that an estimator of this
+/// scenario sends.
 std::string read_answer(scenario::Section& section, const scenario::CheckContext& context);
 
 }  // namespace canhil::checks

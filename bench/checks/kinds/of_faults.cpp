@@ -105,7 +105,7 @@ std::string silence_of(const Evidence& evidence, const std::vector<Subject>& sub
                        const scenario::Window& window) {
   for (const Subject& subject : subjects) {
     for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity)) {
-      // The stretch ends with the flight at the latest, because no answers are expected after the flight.
+      // The stretch ends no later than the flight, because no answers are expected after the flight.
       const Stretch stretch{.window = {window.from_us, std::min(window.to_us, track->answers_end_us)}};
       if (static_cast<double>(stretch.window.to_us - stretch.window.from_us) <= track->longest_wait_us)
         continue;

@@ -12,11 +12,12 @@
 
 namespace canhil::checks {
 
-/// A disturbed interval of the run: a fault of the scenario, or times given in the check.
+/// A disturbed interval of the run: a fault of the scenario, or an event whose time the check gives.
 struct Disturbance {
   std::string fault;        ///< name of the fault; empty: the check gives times
   scenario::Window window;  ///< by time of transmission
-  /// The earliest time of validity that the disturbance can affect: nodes measure before they send.
+  /// The earliest time of validity that the disturbance can affect. It may lie before the window, because
+  /// nodes measure before they send.
   std::int64_t valid_from_us = 0;
   [[nodiscard]] std::string to_text() const;  ///< "fault 'NAME'", "10 s"
 };
@@ -25,7 +26,7 @@ struct Disturbance {
 /// message lists the known names.
 std::optional<Disturbance> read_fault(scenario::Section& section, const scenario::CheckContext& context);
 
-/// Reads `fault`, or the time of a disturbance, `from_s`.
+/// Reads the key `fault` or, if it is absent, the key `from_s`, which is the time of a disturbance.
 Disturbance read_disturbance(scenario::Section& section, const scenario::CheckContext& context);
 
 /// Reads `within_s` and returns it. `meaning`: text for the reference. Error: the sum of `after_us` and
@@ -33,7 +34,8 @@ Disturbance read_disturbance(scenario::Section& section, const scenario::CheckCo
 std::int64_t read_within(scenario::Section& section, const scenario::CheckContext& context,
                          std::int64_t after_us, std::string_view meaning);
 
-/// Reads `by`: the names of the signs that count; empty: every sign counts that was absent before the onset.
+/// Reads the key `by`: the names of the signs that count. Empty: every sign counts that was absent just
+/// before the onset.
 std::vector<std::string> read_signs(scenario::Section& section, const scenario::CheckContext& context);
 
 /// The signs of these names; without names, the signs that did not appear just before the disturbance.
@@ -43,13 +45,13 @@ std::vector<Sign> signs_of(const Evidence& evidence, const Disturbance& of,
 /// The estimators that run in this scenario and that the bench knows.
 std::vector<const estimators::Estimator*> running(const scenario::CheckContext& context);
 
-/// The quantities that every answer reports (no norms, innovations, NEES or NIS): their tracks show whether
-/// the estimator still answers.
+/// The quantities that every answer reports: no norms, innovations, NEES or NIS. The tracks of these
+/// quantities show whether the estimator still answers.
 std::vector<Subject> always_reported(const estimators::Estimator& estimator);
 
-/// Reports the first quantity that has no answers in a part of the window, and this part. Empty: there is no
-/// such quantity. If the window is at most as long as the longest regular wait for an answer, missing answers
-/// do not count as silence.
+/// Reports the first quantity that has no answers in some part of the window, and reports this part. Empty:
+/// there is no such quantity. If the window is not longer than the longest regular wait for an answer,
+/// missing answers do not count as silence.
 std::string silence_of(const Evidence& evidence, const std::vector<Subject>& subjects,
                        const scenario::Window& window);
 

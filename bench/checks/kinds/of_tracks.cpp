@@ -31,7 +31,8 @@ bool lies_in(const std::pair<double, double>& to_go_s, double value) {
   return value >= to_go_s.first && value < to_go_s.second;
 }
 
-// The unit of the key that consists of the stem and a unit.
+// The unit that the section uses for the key. The name of the key is the stem, followed by the suffix of this
+// unit.
 quantities::Unit read_unit(scenario::Section& section, std::string_view stem, const Quantity& quantity) {
   if (quantity.unit.name != quantities::mrad.name) return quantity.unit;
   const std::string mrad = key_of(stem, quantities::mrad), degrees = key_of(stem, quantities::degrees);
@@ -46,7 +47,8 @@ quantities::Unit read_unit(scenario::Section& section, std::string_view stem, co
 
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates,
                            std::string_view meaning) {
-  // A missing estimator is reported before errors of the keys that depend on the estimator.
+  // If the key `estimator` is missing, this error is reported first, because other keys depend on the
+  // estimator.
   if (candidates.size() > 1 && !section.has("estimator"))
     section.reject("estimator", "is missing", fmt::format("one of: {}", fmt::join(candidates, ", ")));
   const std::string name = section.given_name({"estimator", meaning}, candidates, "");

@@ -12,20 +12,23 @@
 
 namespace canhil::checks {
 
-/// Reads `quantity`, and `estimator` if several running estimators report the quantity. Error: no running
-/// estimator reports the quantity, or this kind of check cannot use the quantity.
+/// Reads the key `quantity`. If several running estimators report this quantity, also reads the key
+/// `estimator`. Error: no running estimator reports the quantity, or this kind of check cannot use the
+/// quantity.
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
                      const std::function<bool(const quantities::Quantity&)>& wanted);
-/// Reads `estimator`, which may be absent if there is only one candidate. Returns the name of the estimator.
+/// Reads the key `estimator`, which may be absent if there is only one candidate. Returns the name of the
+/// estimator.
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates,
                            std::string_view meaning);
 
-/// Reads `from_s` and `to_s`, or `time_to_go_s` if the flight of the quantity's estimator goes to a target.
+/// Reads the keys `from_s` and `to_s`. If the flight that the estimator observes goes to a target, the key
+/// `time_to_go_s` may replace these two keys.
 Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& context,
                      const Subject& subject);
 
-/// The value, converted to SI, of a key STEM_UNIT, and the unit of this key. For an angle the unit may be
-/// mrad or deg.
+/// Reads a key whose name is STEM_UNIT, such as below_deg. Returns its value, converted to SI, and its unit.
+/// For an angle the unit may be mrad or deg.
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
                                              std::string_view meaning, const quantities::Quantity& quantity);
 
@@ -35,10 +38,10 @@ std::pair<std::pair<double, double>, quantities::Unit> read_range(scenario::Sect
                                                                   std::string_view meaning,
                                                                   const quantities::Quantity& quantity);
 
-/// The parts of a quantity, or the quantity itself if it has none.
+/// The parts of a quantity. If the quantity has no parts, returns the quantity itself.
 std::vector<const quantities::Quantity*> parts_of(const quantities::Quantity& quantity);
 
-/// The number of decimals with which values in this unit are shown.
+/// The number of decimals that are shown for a value in this unit.
 int digits_of(const quantities::Unit& unit);
 
 /// "from 1 to 2 s", "from 3 to 2 s to go".
@@ -50,8 +53,8 @@ using Places = Spool<std::size_t>;
 /// The indices of the points within a stretch.
 Places inside(const quantities::Track& track, const Stretch& stretch);
 
-/// Describes where answers are missing in a stretch; empty: nowhere. `part`: the indices of the points in the
-/// stretch.
+/// Describes where in the stretch answers are missing; empty: no answers are missing. `part`: the indices of
+/// the track's points in the stretch.
 std::string silence(const quantities::Track& track, const Stretch& stretch, const Places& part);
 
 }  // namespace canhil::checks

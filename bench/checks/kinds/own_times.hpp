@@ -1,13 +1,13 @@
-// Timing: compares the times that the target measures itself and reports (TargetTiming) with the latency that
-// the bench measures.
+// Timing: the target itself measures times and reports them (TargetTiming). This check compares these times
+// with the latency that the bench measures.
 #pragma once
 
 #include "bench/checks/rule.hpp"
 
 namespace canhil::checks {
 
-/// Checks that the reported times cover at least one stimulus, and that mean queueing plus mean computing
-/// time is above 0 and not longer than the mean latency.
+/// Checks two conditions. The reported times cover at least one stimulus. The sum of mean queueing time and
+/// mean computing time is above 0 and not longer than the mean latency.
 struct OwnTimes {
   static constexpr std::string_view kind = "own_times";
   static constexpr std::string_view meaning =

@@ -1,5 +1,5 @@
-// Checks that the counter and checksum errors that the bench finds in the target's messages stay within
-// limits.
+// Limits the errors that the bench finds in the target's messages: wrong checksums, wrong counters, wrong
+// sizes, and lost messages.
 #pragma once
 
 #include "bench/checks/kinds/counters.hpp"

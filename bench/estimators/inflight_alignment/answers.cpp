@@ -26,7 +26,7 @@ std::string_view group_of(FixSource source) {
 struct FixGroup : AnswerGroup<FixInnovation, FixPositionLatitude, FixPositionLongitude, FixAttitudeSigma,
                               FixVelocitySigma, FixPositionSigma, FixGyroBias, FixGyroBiasSigma, FixAccelBias,
                               FixAccelBiasSigma, FixBias, FixBiasSigma, FixStatus, FixUpdate> {
-  /// The cause is a fix of one of the two sources, named in FixStatus.
+  /// The cause is a fix of one of two sources. The message FixStatus names the source.
   [[nodiscard]] Whole whole(std::int64_t now_us) const {
     Whole answer = AnswerGroup::whole(now_us);
     answer.cause_group = group_of(get<FixStatus>().source);

@@ -8,7 +8,8 @@
 
 namespace canhil::estimators {
 
-/// Group FixFilter: the outcome of an SSBL or GPS fix, and the filter after it. SI, rad.
+/// The message group FixFilter: the outcome of an SSBL or GPS fix, and the state of the filter after this
+/// fix. Units: SI, angles in rad.
 struct FixAnswer {
   std::int64_t cause_us = 0;
   std::int64_t navigation_us = -1;  ///< cause of the last navigation answer before this one; -1: none

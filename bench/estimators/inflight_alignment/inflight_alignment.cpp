@@ -86,9 +86,9 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   return samples;
 }
 
-// The longest time between answers to fixes that does not count as silence: several fixes in a row may go
-// unanswered. Computed from the median interval of the sent fixes, because the bench may withhold fixes on
-// purpose; with two sources, the interval of the slower source is used.
+// How long [us] the target may send no answer to a fix before this counts as silence. Several fixes in a row
+// may go unanswered. This time is computed from the median interval between sent fixes, because the bench may
+// withhold fixes on purpose; with two sources, the interval of the slower source is used.
 double wait_for_fixes_us(const InflightAnswers& answers) {
   double period_us = 0;
   for (const messages::FixSource source : messages::enumerators<messages::FixSource>) {

@@ -1,5 +1,5 @@
-// In-flight alignment with position fixes. In a campaign, a sample is a fix that was used or gated, with the
-// errors of the first navigation answer after the update by this fix.
+// In-flight alignment with position fixes. In a campaign, each sample belongs to a fix that was used or
+// gated, and contains the errors of the first navigation answer after the update by this fix.
 #pragma once
 
 #include "bench/checks/estimator.hpp"

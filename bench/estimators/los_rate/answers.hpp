@@ -9,7 +9,8 @@
 
 namespace canhil::estimators {
 
-/// Group LosRate: the LOS rate at the time of a seeker sample, in the antenna's axes. SI, rad.
+/// The message group LosRate: the LOS rate at the time of a seeker sample, in the axes of the antenna. Units:
+/// SI, angles in rad.
 struct LosAnswer {
   std::int64_t cause_us = 0;
   messages::LosRateOutcome outcome = messages::LosRateOutcome::waiting;
@@ -46,10 +47,11 @@ struct LosError {
 /// Errors of all answers that have an estimate and whose time of cause is an epoch of the engagement.
 Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement);
 
-/// NIS (2 degrees of freedom) of each answer that was an update.
+/// The normalised innovation squared (NIS, 2 degrees of freedom) of each answer that was an update.
 Spool<quantities::TrackPoint> nis_of(const LosAnswers& answers);
 
-/// RMS over both planes of the errors with time to go in [least, most); none: no errors in this range.
+/// The RMS of the errors of both planes, for the errors whose time to go is at least `least` and below
+/// `most`. None: no error has such a time to go.
 std::optional<double> los_rms(const Spool<LosError>& errors, double least, double most);
 
 std::unique_ptr<Reception> los_reception();

@@ -1,4 +1,5 @@
-// Line-of-sight rate of a seeker. In a campaign, a sample summarises the answers in 20 ms of the time to go.
+// Line-of-sight rate of a seeker. For a campaign, the time to go is divided into stretches of 20 ms, and each
+// sample summarises the answers of one stretch.
 #pragma once
 
 #include "bench/checks/estimator.hpp"

@@ -7,7 +7,8 @@
 
 namespace canhil::quantities {
 
-/// LOS rate errors in the antenna's axes; los_rate_both is the RMS of the two planes.
+/// The errors of the LOS rate in the axes of the antenna. los_rate_both is the RMS of the errors in the two
+/// planes.
 inline constexpr Quantity los_rate_pitch{
     .name = "los.rate.pitch",
     .meaning = "error of the LOS rate in pitch, antenna axes; in campaigns RMS over 20 ms of the time to go",
@@ -36,14 +37,16 @@ inline constexpr Quantity los_rate_over_sigma{.name = "los.rate.over_sigma",
                                                   "ratio of the error of the LOS rate to its sigma: RMS over "
                                                   "both planes and over 20 ms of the time to go",
                                               .unit = plain};
-/// Mean NIS (2 degrees of freedom) over the updates in 20 ms of the time to go; NaN without an update.
+/// The mean NIS (2 degrees of freedom) of the updates in a stretch of 20 ms of the time to go. NaN: the
+/// stretch has no update.
 inline constexpr Quantity los_mean_nis{
     .name = "los.nis.mean",
     .meaning = "mean NIS of the updates (2 degrees of freedom each) in 20 ms of the time to go",
     .unit = plain,
     .nan_allowed = true,
     .once = "los_nis"};
-/// Components of the miss in the axes at the start; NaN: the missile did not pass the target.
+/// The components of the miss vector in axes that do not rotate: x is the direction of the line of sight at
+/// the start of the run. NaN: the missile did not pass the target.
 inline constexpr Quantity miss_pitch{
     .name = "miss.pitch",
     .meaning = "component of the miss in the pitch plane, in the axes at the start of the run",

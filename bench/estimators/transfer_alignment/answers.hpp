@@ -7,7 +7,8 @@
 
 namespace canhil::estimators {
 
-/// Group AlignFilter: the filter after the velocity update at the time of a master INS sample. SI, rad.
+/// The message group AlignFilter: the state of the filter after a velocity update at the time of a master INS
+/// sample. Units: SI, angles in rad.
 struct FilterAnswer {
   std::int64_t cause_us = 0;
   std::int64_t navigation_us = -1;  ///< cause of the last navigation answer before this one; -1: none
@@ -26,8 +27,8 @@ struct TransferAnswers {
   Spool<FilterAnswer> filter;
 };
 
-/// Attitude NEES (3 degrees of freedom) after each velocity update: nees() of the misalignment from
-/// first_after().
+/// The attitude NEES (3 degrees of freedom) after each velocity update: the result of nees() for the
+/// misalignment that first_after() finds.
 Spool<quantities::TrackPoint> nees_of(const Spool<FilterAnswer>& filter,
                                       const Spool<NavigationError>& errors);
 

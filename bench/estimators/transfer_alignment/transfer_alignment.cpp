@@ -39,9 +39,9 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
-    // Only the attitude is compared with its sigma, because the reported velocity sigma is valid only at the
-    // time of the cause. Until the next answer, an acceleration of 1 g with a heading error adds a larger
-    // velocity error.
+    // Only the attitude is compared with its reported sigma. The reported velocity sigma is valid only at the
+    // time of the cause: during an acceleration of 1 g, a heading error causes a velocity error that exceeds
+    // this sigma before the next answer.
     const double trusted = update.degraded ? 0 : over_sigma(phi, update.attitude_sigma);
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),

@@ -1,5 +1,5 @@
-// Transfer alignment of a slave INS to a master INS by velocity matching. In a campaign, a sample is a
-// velocity update, with the errors of the first navigation answer after this update.
+// Transfer alignment of a slave INS to a master INS by velocity matching. In a campaign, each sample belongs
+// to a velocity update, and contains the errors of the first navigation answer after this update.
 #pragma once
 
 #include "bench/checks/estimator.hpp"

@@ -8,7 +8,8 @@
 
 namespace canhil::estimators {
 
-/// Group Wind: the result of the wind filter for a GliderNav group. SI, rad, NED.
+/// The message group Wind: the result of the wind filter for one GliderNav group. Units: SI, angles in rad;
+/// axes: NED.
 struct WindAnswer {
   std::int64_t cause_us = 0;
   bool started = false;  ///< the filter runs; false: only the wind is valid
@@ -29,9 +30,9 @@ struct WindAnswer {
 
 using WindAnswers = Spool<WindAnswer>;
 
-/// The error (estimated - true) of a wind answer of a started filter, at the time of validity of its cause.
-/// Along track means along the true horizontal air velocity, close to the heading. The air speed is the least
-/// observable quantity.
+/// The error (estimated - true) of a wind answer, at the time of validity of its cause. Only answers of a
+/// started filter have an error. "Along track" is the direction of the true horizontal air velocity, which is
+/// close to the heading. The air speed is the least observable quantity.
 struct WindError {
   std::int64_t t_us = 0;
   world::Vector3 error_n = world::Vector3::Zero();  ///< NED [m/s]

@@ -5,8 +5,8 @@
 
 namespace canhil::quantities {
 
-/// Wind errors: along the horizontal air velocity, to the right of this velocity, and down; and the norm of
-/// the three.
+/// The wind error: three components (along the horizontal air velocity, to the right of this velocity, and
+/// down), and the norm of the three.
 inline constexpr Quantity wind_along{.name = "wind.along",
                                      .meaning = "error of the wind along the horizontal air velocity",
                                      .unit = mps,

@@ -14,7 +14,7 @@ struct Frames {
   [[nodiscard]] std::string subject() const { return of.text; }
 };
 
-/// A kind that changes each frame by `Kind::change`, independently of the other frames.
+/// A kind whose function `Kind::change` changes each frame independently of the other frames.
 template <class Kind>
 struct EachFrame : Frames {
   static Kind read(scenario::Section& section, const scenario::FaultContext& context) {

@@ -59,8 +59,8 @@ struct Late : OfNode<Late> {
                                                   const InRun& run) const;
 };
 
-/// The node sends less often. Each time it sends its newest sample, with the sum of the increments since the
-/// previous transmission.
+/// The node sends less often. Each transmission contains the newest sample of the node, with the sum of the
+/// increments since the previous transmission.
 struct Slow : OfNode<Slow> {
   static constexpr std::string_view kind = "slow";
   static constexpr std::string_view meaning =

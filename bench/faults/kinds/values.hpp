@@ -18,8 +18,9 @@ struct Sampled {
 };
 using Becomes = std::function<double(double value, const Sampled& sample)>;
 
-/// Wraps the node so that the values `of` change; returns the node itself if it sends none of them.
-/// `exactly`: the rounding remainder of an increment is not added to the next increment.
+/// Wraps the node in a fault that changes the values named by `of`. Returns the node itself if it sends none
+/// of these values. If `exactly` is true, the rounding remainder of an increment is not added to the next
+/// increment.
 std::unique_ptr<nodes::Node> with_values(std::unique_ptr<nodes::Node> node,
                                          const scenario::NodeSettings& settings, const InRun& run,
                                          const OfValues& of, const When& when, Becomes becomes,

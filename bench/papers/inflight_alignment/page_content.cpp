@@ -82,7 +82,8 @@ void add_headings(Names& names, const Results& results) {
     return fmt::format("{:.3g} | {:.2g} to {:.2g} | {:.3g} | {:.3g} | {:.1f} %", h.rms, h.rms_low, h.rms_high,
                        h.median, h.p90, 100 * h.below_10_deg);
   };
-  // Whether the paper's RMS of 100 runs lies within the 5 % and 95 % quantiles of our RMS of 100 runs.
+  // Whether the RMS of 100 runs in the paper lies between the 5 % and the 95 % quantile of our RMS of 100
+  // runs.
   names["in_range"] = [=](Words& words) {
     const double paper_deg = std::stod(std::string(words.next()));
     const Heading ours = of(words);
@@ -103,7 +104,7 @@ void add_headings(Names& names, const Results& results) {
   };
 }
 
-// Adds names that compare the RMS of EKF and UKF on other flight paths.
+// Adds template names whose values compare the RMS of the EKF with the RMS of the UKF on other flight paths.
 void add_paths(Names& names, const Results& results) {
   const auto cells = [&results](std::string_view aid, std::string_view path) {
     std::string text;
@@ -131,8 +132,8 @@ void add_paths(Names& names, const Results& results) {
   names["reversed"] = [=](Words&) { return fmt::format("{} of {}", reversed, combinations); };
 }
 
-// Adds names for the paper's claims and for limits that are in no campaign file. Returns whether these limits
-// are met.
+// Adds template names for the paper's claims, and for those limits that are in no campaign file. Returns
+// whether these limits are met.
 bool add_claims(Names& names, const Results& results) {
   const auto claim = [&names](std::string name, bool holds) {
     names[std::move(name)] = [=](Words&) { return holds; };

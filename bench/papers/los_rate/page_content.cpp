@@ -48,7 +48,8 @@ std::string words_of(const Miss& one) { return fmt::format("{:.2f} / {:.2f}", on
 std::string two_digits(double value) { return fmt::format("{:.2f}", value); }
 
 void add_tables(Names& names, const Results& results) {
-  // Arguments: campaign, variant and, optionally, a reference value for each window, shown in brackets.
+  // Arguments: a campaign, a variant and, optionally, one reference value for each window. The reference
+  // values are shown in brackets.
   const auto by_window = [&results](std::size_t from) {
     return [&results, from](Words& words) {
       const Flown& flown = results.of(words.next());
@@ -92,15 +93,15 @@ void add_tables(Names& names, const Results& results) {
   };
 }
 
-// Adds names for the paper's claims: whether each claim holds, and the numbers that it depends on.
+// Adds template names for the paper's claims: whether each claim holds, and the numbers that decide this.
 void add_claims(Names& names, const Results& results) {
   const Flown &open = results.of("open_loop"), &closed = results.of("closed_loop");
   const auto claim = [&names](const char* name, bool holds) { names[name] = [=](Words&) { return holds; }; };
   const auto number = [&names](const char* name, const char* format, double value) {
     names[name] = [=](Words&) { return papers::number(format, value); };
   };
-  // The RMS of the variant is divided by the RMS of the Kalman filter. Returns the largest deviation of this
-  // ratio from 1, over the windows after the start-up.
+  // The RMS of the variant is divided by the RMS of the Kalman filter, for each window after the start-up.
+  // Returns the largest deviation of this ratio from 1.
   const auto departure = [&](const char* variant) {
     double largest = 0;
     for (std::size_t i = first_settled; i < windows.size(); ++i)
@@ -126,7 +127,8 @@ void add_claims(Names& names, const Results& results) {
       best = std::min(best, rms(open, variant, window));
     return rms(open, "combined", window) / best;
   };
-  // Before the manoeuvre: 3 to 2 s to go; at its onset: 1 to 0.5 s.
+  // `quiet` is for the window before the manoeuvre, from 3 to 2 s to go. `onset` is for the window at the
+  // onset of the manoeuvre, from 1 to 0.5 s to go.
   const double quiet = over_best_fixed(windows[2]), onset = over_best_fixed(windows[4]);
   number("over_best_in_the_quiet", ".2f", quiet);
   number("over_best_at_the_onset", ".2f", onset);
@@ -142,8 +144,10 @@ void add_claims(Names& names, const Results& results) {
   claim("better_by_miss", miss(closed, "combined").rms < best);
 }
 
-// Bandwidth of the displacement frame: 1.70 Om, Om = (q / (r^2 R Ts))^(1/6), if vc/r is small compared with
-// Om. q: jerk density, r: range, R: variance of the angle, Ts: sample period, vc: closing speed.
+// The bandwidth of the displacement frame [Hz]. In rad/s, the bandwidth is 1.70 omega with
+// omega = (q / (r^2 R Ts))^(1/6),
+// where q is the jerk density, r the range, R the variance of the angle and Ts the sample period. This holds
+// if vc / r is small compared with omega, where vc is the closing speed.
 double bandwidth_hz(double range, double thermal, double glint) {
   constexpr double jerk_density = 300, sample_period = 0.005;
   const double variance = std::pow(thermal * range * range, 2) + std::pow(glint / range, 2);

@@ -36,7 +36,7 @@ std::vector<CurvePoint> pooled(const std::vector<std::span<const CurvePoint>>& c
   return pool;
 }
 
-// RMS of the heading at the last update at or before a time [mrad].
+// The RMS of the heading [mrad] at the last update that is not later than t_s.
 double heading_mrad(std::span<const CurvePoint> curve, double t_s) {
   const auto found = campaign::value_at(curve, std::llround(t_s * 1e6));
   return found ? found->rms / mrad : std::nan("");
@@ -48,7 +48,7 @@ std::string cruise_cells(std::span<const CurvePoint> curve) {
                      end < 0.8 * initial_mrad ? "[partly] yes" : "[no] no");
 }
 
-// Times of cases 1 to 4 for one alpha and one period of the master [ms].
+// The times for cases 1 to 4, with one value of alpha and one period [ms] of the master INS.
 std::vector<Times> cases(const Results& results, std::string_view alpha, std::string_view period) {
   std::vector<Times> all;
   for (const int number : {1, 2, 3, 4})
@@ -131,8 +131,9 @@ void add_tables(Names& names, const Results& results) {
   };
 }
 
-// Adds comparisons in which the H2 filter is expected not to be better than the Kalman filter. The page must
-// not present these comparisons as a gain. Returns whether the expectation holds in all of them.
+// Adds template names for comparisons in which the H2 filter is expected not to be better than the Kalman
+// filter. The page must not present these comparisons as a gain. Returns whether the expectation holds in all
+// of them.
 bool add_guards(Names& names, const Results& results) {
   bool all = true;
   const auto add = [&](const std::string& name, double kf, double h2, const char* unit) {

@@ -24,10 +24,11 @@ inline constexpr std::array axes{Axis{"roll", &quantities::attitude_roll, world:
                                  Axis{"east", &quantities::velocity_east, 1, ".3f"},
                                  Axis{"down", &quantities::velocity_down, 1, ".3f"}};
 
-/// RMS over the eight combinations of signs of campaign `cruise`.
+/// The RMS over the runs of the campaign `cruise` with all eight combinations of the signs of the initial
+/// errors.
 std::vector<campaign::CurvePoint> all_signs(const Results& results);
 
-/// Adds the names of the claims and of the tables of Figs 3 to 7. Returns whether every limit is met.
+/// Adds template names for the claims, and for the tables of Figs 3 to 7. Returns whether every limit is met.
 bool add_claims(Names& names, const Results& results);
 
 }  // namespace canhil::papers::transfer_alignment

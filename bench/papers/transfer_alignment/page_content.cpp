@@ -33,7 +33,7 @@ Result<Flown> read_exact(const std::filesystem::path& path, const campaign::Camp
   return evaluated("exact", ours, *store);
 }
 
-// One row for each variant: results with and without the bus's rounding.
+// One row for each variant, with its results with rounding on the bus and without it.
 std::string exact_rows(const Flown& bus, const Flown& exact) {
   std::string rows;
   for (const campaign::Variant& variant : bus.campaign.variants) {
@@ -57,8 +57,8 @@ void add_times(Names& names, const Results& results) {
     return fmt::format("{:.1f}", times_of(results.curve(words)).end_mrad);
   };
   names["diverged"] = [&results](Words& words) { return diverged(times_of(results.curve(words))); };
-  // "27 of 300 runs (0 ended early)": runs beyond 20 mrad at the end. The campaign must have a metric that
-  // counts these runs.
+  // Returns a text such as "27 of 300 runs (0 ended early)": the number of runs whose heading error at the
+  // end is beyond 20 mrad. The campaign must have a metric that counts these runs.
   const auto diverged_runs = [](const Flown& flown, std::string_view variant) {
     return flown.answer_of_kind(campaign::Diverged::kind, variant).measured;
   };
@@ -119,7 +119,8 @@ Result<PageContent> page_content(const Results& results, const FlyOptions& optio
   if (!store) return tl::unexpected(store.error());
   auto spreads = spreads_of(table.campaign, *store);
   if (!spreads) return tl::unexpected(spreads.error());
-  // The cells of `compared` for the main campaign, with the spread over batches inserted before the verdict.
+  // The cells that `compared` gives for the main campaign. The spread over batches is inserted before the
+  // cell with the verdict.
   content.names["batched"] = [compared = content.names["compared"],
                               spreads = std::move(*spreads)](Words& words) {
     const std::string_view reference = words.next(), variant = words.rest();

@@ -15,12 +15,13 @@ constexpr double diverged_mrad = 20;
 constexpr double acceleration_begins_s = 10;
 constexpr std::array entries{&Times::within_3_mrad, &Times::within_2_mrad, &Times::within_1_mrad};
 
-// Compares two times of one filter that were computed from different runs. The RMS of n runs has a relative
-// sigma of 1/sqrt(2 n), and the heading error falls like (t - 10 s)^-p. The sigma of a time is therefore
-// (t - 10 s)/(p sqrt(2 n)). With p = 1.5 (3 to 2 mrad), three sigmas of the difference between the times of
-// 300 and of 150 runs are 15 % of (t - 10 s). For 1 mrad, where curves are flat, the spread over batches of
-// 30 runs gives 35 %. One update interval is added. "Never" agrees with any time from 18 s on, because the
-// times of batches ranged from 18.9 s to never.
+// Whether two times of one filter agree, although they were computed from different runs. The RMS of n runs
+// has a relative sigma of 1 / sqrt(2 n), and the heading error is proportional to the power -p of (t - 10 s).
+// Therefore a time has the sigma (t - 10 s) / (p sqrt(2 n)). From 3 to 2 mrad, p is 1.5: then three sigmas of
+// the difference between the times of 300 runs and of 150 runs are 15 % of (t - 10 s). At 1 mrad the curves
+// are flat; there, the spread over batches of 30 runs gives 35 %. One update interval is added to the
+// permitted difference. "Never" agrees with any time from 18 s on, because the times of batches ranged from
+// 18.9 s to never.
 bool close(double ours, double reference, double part, double step_s) {
   constexpr double as_good_as_never_s = 18;
   if (std::isinf(ours) || std::isinf(reference)) return std::min(ours, reference) >= as_good_as_never_s;

@@ -23,9 +23,11 @@ struct Times {
   double end_mrad = 0;  ///< RMS at the last update; NaN: no run reached it
 };
 Times times_of(std::span<const CurvePoint> curve);
-/// Parses "14.7 / 16.2 / never", with or without spaces, or "diverges". Throws std::logic_error.
+/// Parses "14.7 / 16.2 / never", with or without spaces, or "diverges". Throws std::logic_error if a number
+/// cannot be parsed.
 Times times_in(std::string text);
-/// "14.7 / 16.2 / never", or "diverges (71 mrad at the end)" if the heading is beyond 20 mrad at the end.
+/// Returns a text such as "14.7 / 16.2 / never", or "diverges (71 mrad at the end)" if the heading error is
+/// beyond 20 mrad at the end.
 std::string words_of(const Times& times);
 bool diverged(const Times& times);
 
@@ -36,8 +38,9 @@ std::string time_words(double t_s);
 /// number of runs from which the curve was computed.
 bool agrees(std::span<const CurvePoint> curve, const Times& reference, std::uint64_t runs);
 
-/// The sampling spread of the times of each variant, as text: the smallest and the largest time over ten
-/// batches, each with a tenth of the runs. The map is empty if there are fewer than ten runs.
+/// The spread of the times of each variant, as text: the runs are divided into ten batches, and the text
+/// contains the smallest and the largest time over the batches. The map is empty if there are fewer than ten
+/// runs.
 Result<std::map<std::string, std::string, std::less<>>> spreads_of(const campaign::Campaign& campaign,
                                                                    const campaign::Store& store);
 

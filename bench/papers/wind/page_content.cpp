@@ -68,7 +68,7 @@ void add_scores(Names& names, const Results& results) {
   };
 }
 
-// Adds names for the paper's claims: whether each claim holds, and the numbers that it depends on.
+// Adds template names for the paper's claims: whether each claim holds, and the numbers that decide this.
 void add_claims(Names& names, const Results& results) {
   const auto at = [&](const char* filter, int level) {
     return mean(results.of("table1").answer(all, fmt::format("{}_{}", filter, level)));

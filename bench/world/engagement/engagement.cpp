@@ -60,7 +60,8 @@ Engagement::Engagement(const EngagementPlan& plan, Stream stream) : plan_(plan) 
                                   .pitch = plan.pointing_error_sigma * pointing.pitch,
                                   .heading = plan.pointing_error_sigma * pointing.yaw});
   state_.segment<4>(attitude) = Quaternion(C_na).coeffs();
-  // Acceleration is omega x v with v along -x: a turn about y accelerates along z, a turn about z along y.
+  // The acceleration of the target is omega x v, and v has the direction -x. So a turn about y accelerates
+  // along z, and a turn about z accelerates along y.
   if (plan.target_speed > 0)
     turn_ = plan.manoeuvre.acceleration / plan.target_speed *
             Vector3(0, in_pitch * sides.pitch, in_yaw * sides.yaw);
@@ -77,7 +78,8 @@ Vector3 Engagement::target_acceleration(double t, const State& state) const {
   return turn_.cwiseProduct(share).cross(v);
 }
 
-// Proportional navigation perpendicular to the missile's velocity: a = N vc omega x v/|v|, limited.
+// Proportional navigation. The acceleration N vc omega x v / |v| is perpendicular to the missile's velocity
+// v; its size is limited.
 Vector3 Engagement::navigation_law(const Vector3& omega_los_n, double closing_speed,
                                    const Vector3& v_missile) const {
   const Vector3 a = plan_.navigation_constant * closing_speed * omega_los_n.cross(v_missile.normalized());
@@ -149,9 +151,9 @@ void Engagement::fly_to(std::int64_t t_us) {
     const double closing = -r.dot(v);
     std::int64_t end_us = std::min(t_us, t_us_ + longest_step_us);
     if (!commands_.empty()) end_us = std::min(end_us, commands_.front().from_us);
-    // The last step extrapolates along a straight line to the closest approach. During this step the
-    // deviation from straight flight is a dt^2 / 2 = 0.2 mm at 35 g, but the LOS turns too fast for any step
-    // size.
+    // The last step extrapolates along a straight line to the closest approach. At an acceleration of 35 g,
+    // the true path deviates by only 0.2 mm from this line. No integration step would be short enough here,
+    // because the LOS turns too fast.
     const double to_approach = closing / v.squaredNorm();
     if (to_approach <= 1e-6 * static_cast<double>(end_us - t_us_)) {
       miss_n_ = r + v * std::max(to_approach, 0.0);

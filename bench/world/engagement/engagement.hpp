@@ -11,7 +11,7 @@
 
 namespace canhil::world {
 
-/// The truth at one instant; angles and rates in the antenna's axes.
+/// The truth at one instant. Angles and rates are in the axes of the antenna.
 struct EngagementTruth {
   std::int64_t t_us = 0;
   double range = 0;                       ///< [m]
@@ -54,12 +54,14 @@ class Engagement {
  public:
   Engagement(const EngagementPlan& plan, Stream stream);
 
-  /// Flies to a time [us] or to the closest approach. Fourth-order Runge-Kutta in steps of at most 1 ms.
+  /// Flies to a time [us] or to the closest approach. The method is fourth-order Runge-Kutta with steps of at
+  /// most 1 ms.
   void fly_to(std::int64_t t_us);
 
-  /// Commands the acceleration a = N vc omega x v/|v| from an LOS rate in n [rad/s] and a closing speed
-  /// [m/s]. The acceleration is held from the time from_us until the next command takes effect. Commands must
-  /// be in order of time. False: the flight has already passed from_us, so the command takes effect at once.
+  /// Commands the acceleration N vc omega x v / |v|, where omega is the LOS rate in axes n [rad/s], vc is the
+  /// closing speed [m/s] and v is the velocity of the missile. The acceleration is held from the time from_us
+  /// until the next command takes effect. Commands must be in order of time. Returns false if the flight has
+  /// already passed from_us; then the command takes effect at once.
   bool command(std::int64_t from_us, const Vector3& omega_los_n, double closing_speed);
 
   [[nodiscard]] EngagementTruth truth() const;
@@ -67,7 +69,8 @@ class Engagement {
   SeekerIncrement take_increment();
 
   [[nodiscard]] bool over() const { return miss_n_.has_value(); }
-  /// Target relative to missile at the closest approach [m]; none: not reached yet.
+  /// The position of the target relative to the missile at the closest approach [m]. None: the flight has not
+  /// reached the closest approach yet.
   [[nodiscard]] const std::optional<Vector3>& miss_n() const { return miss_n_; }
   [[nodiscard]] std::int64_t t_us() const { return t_us_; }
 

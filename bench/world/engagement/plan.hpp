@@ -1,8 +1,10 @@
 // The plan of an engagement: a missile flies by proportional navigation at a target that may manoeuvre, and
-// the antenna of its seeker follows the line of sight. Defaults: head-on at 900 m/s from 5 km.
+// the antenna of its seeker follows the line of sight. By default, missile and target fly towards each other
+// from a distance of 5 km, with a closing speed of 900 m/s.
 //
-// Axes n do not rotate: x along the line of sight at the start, y right, z down. Gravity is omitted, because
-// gravity acts on missile and target alike. The antenna's axes a: x forward, y right, z down.
+// The axes n do not rotate: x is along the line of sight at the start, y to the right, z down. Gravity is
+// omitted, because gravity acts on missile and target alike. The axes a are those of the antenna: x forward,
+// y to the right, z down.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +23,8 @@ struct Planes {
   bool operator==(const Planes&) const = default;
 };
 
-/// The target's acceleration, perpendicular to its velocity. The sign of the acceleration in each plane is
-/// drawn for each run.
+/// The acceleration of the target, which is perpendicular to the target's velocity. For each run, the sign of
+/// the acceleration in each plane is drawn.
 struct Manoeuvre {
   enum class Kind : std::uint8_t { none, step, weave };
   Kind kind = Kind::step;
@@ -32,7 +34,8 @@ struct Manoeuvre {
   std::optional<double> at_time_to_go = 1;  ///< start when range over closing speed falls to this value [s]
 };
 
-/// The source of the LOS rate for the guidance. target: the answers of the device under test.
+/// The source of the LOS rate for the guidance: the truth, or the answers of the device under test
+/// (`target`).
 enum class Guidance : std::uint8_t { truth, target };
 /// The planes in which heading error and manoeuvre act. Noise always acts in both planes.
 enum class ActivePlanes : std::uint8_t { both, pitch, yaw };

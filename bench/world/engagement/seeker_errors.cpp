@@ -29,7 +29,8 @@ ErroneousSeeker::ErroneousSeeker(const SeekerErrorModel& model, Stream stream)
   closing_speed_bias_ = draw(model.closing_speed_bias, stream_);
 }
 
-// Gauss-Markov of unit variance: x' = phi x + sqrt(1 - phi^2) n, phi = exp(-dt/tau). White: phi = 0.
+// Glint is a Gauss-Markov process x with unit variance. The new x is phi x + sqrt(1 - phi^2) n, where n is a
+// standard normal number and phi is exp(-dt / tau). With phi equal to 0, x is white noise.
 Planes<double> ErroneousSeeker::glint(double dt) {
   const double phi = glinting_ && model_.glint_correlation > 0 ? std::exp(-dt / model_.glint_correlation) : 0;
   const double fresh = std::sqrt(1 - phi * phi);

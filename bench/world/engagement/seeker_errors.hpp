@@ -12,8 +12,8 @@ struct RandomValue {
   double sigma = 0;
 };
 
-/// Each noise is the 1-sigma of a sample. All noises are white except the glint, whose correlation is
-/// exp(-t/tau).
+/// Each noise is given as the 1-sigma of a sample. All noises are white except the glint. The correlation of
+/// the glint is exp(-t / tau).
 struct SeekerErrorModel {
   double thermal = 1e-10;                              ///< thermal noise divided by range^2 [rad/m^2]
   double glint = 0.5;                                  ///< glint noise multiplied by the range [m]

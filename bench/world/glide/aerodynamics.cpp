@@ -10,7 +10,9 @@ constexpr double area = 0.65;   // [m^2]
 constexpr double span = 2.6;    // [m]
 constexpr double chord = 0.25;  // [m]
 
-// Derivatives of one coefficient [1/rad]. Those for rates are with respect to p b/2V, q c/2V, r b/2V.
+// A coefficient at zero angles and rates (`zero`), and its derivatives [1/rad]. The derivatives p, q and r
+// are those with respect to the dimensionless rates p b / (2 V), q c / (2 V) and r b / (2 V), where b is the
+// span, c the chord and V the air speed.
 struct Derivatives {
   double zero, alpha, beta;
   double p, q, r;

@@ -1,9 +1,9 @@
 // The glider: a 500-lb body with a planar wing kit. The data are not those of a real weapon: the body has the
 // size of the Mk-82 class, and all coefficients are textbook estimates.
 //
-// Lift and drag act in stability axes, the side force along body y, moments about the centre of gravity: Park
-// and Park (2019), eq. (7), (8), corrected: the paper mixes stability and wind axes and assigns a moment to
-// gravity.
+// Lift and drag act in stability axes, the side force acts along body y, and the moments act about the centre
+// of gravity. These are eq. (7) and (8) of Park and Park (2019) with two corrections: the paper mixes
+// stability axes with wind axes, and assigns a moment to gravity.
 #pragma once
 
 #include <array>
@@ -41,7 +41,8 @@ struct Flow {
 };
 Flow flow(const Vector3& v_a, double speed_of_sound);
 
-/// Coefficients of lift, drag, side force, rolling, pitching and yawing moment; omega in rad/s.
+/// The coefficients of lift, drag and side force, and of the rolling, pitching and yawing moment. omega is in
+/// rad/s.
 std::array<double, coefficient_count> coefficients(const Flow& flow, const Vector3& omega, const Fins& fins,
                                                    const Factors& factors = nominal);
 

@@ -7,7 +7,8 @@
 
 namespace canhil::world::glide {
 
-// Hydrostatic: p' = -rho g, with T decreasing by 6.5 K/km up to 11 km and constant above.
+// The pressure follows from hydrostatics: its derivative with respect to height is -rho g. The temperature
+// decreases by 6.5 K/km up to 11 km, and is constant above.
 Air standard_air(double height) {
   constexpr double gas_constant = 287.05287;  // [J/(kg K)]
   constexpr double adiabatic_index = 1.4;

@@ -8,7 +8,8 @@ struct Air {
   double speed_of_sound = 0;  ///< [m/s]
 };
 
-/// Air at a height [m] from -2 km to 20 km; outside this range, the values at its nearest end.
+/// The air at a height [m] between -2 km and 20 km. Outside this range, the values at the nearest end are
+/// returned.
 Air standard_air(double height);
 
 }  // namespace canhil::world::glide

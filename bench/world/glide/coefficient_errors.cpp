@@ -23,7 +23,8 @@ void CoefficientErrors::advance(std::int64_t t_us, std::int64_t dt_us) {
   }
 }
 
-// n = kept n + sqrt(1 - kept^2) w, w standard normal. All parts are drawn, whether used or not.
+// Multiplies each random number n by `kept` and adds w sqrt(1 - kept^2), where w is a new standard normal
+// number. The numbers of all parts are drawn, whether they are used or not.
 void CoefficientErrors::draw(double kept) {
   for (std::size_t c = 0; c < coefficient_count; ++c) {
     const bool wrong = model_.moments || c <= static_cast<std::size_t>(Coefficient::side);

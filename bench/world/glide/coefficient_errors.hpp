@@ -1,5 +1,5 @@
-// Deviation of the true aerodynamic coefficients from the nominal ones: true = nominal (1 + level n), n
-// standard normal.
+// Errors of the nominal aerodynamic coefficients. A true coefficient is nominal (1 + level n), where n is a
+// standard normal random number.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class CoefficientErrors {
 
   /// The current factors.
   [[nodiscard]] const Factors& now() const { return factors_; }
-  /// Advances to t_us, which is dt_us after the time of the previous call.
+  /// Advances to the time t_us. dt_us is the time since the previous call.
   void advance(std::int64_t t_us, std::int64_t dt_us);
 
  private:

@@ -13,7 +13,7 @@ namespace {
 using glide::Factors;
 using glide::Fins;
 
-// position, v_eb_n, quaternion (w, x, y, z), omega, fins, integral of pitch
+// The elements of the state: position, v_eb_n, quaternion (w, x, y, z), omega, fins, integral of pitch.
 using State = Eigen::Matrix<double, 17, 1>;
 constexpr int position_at = 0;
 constexpr int velocity_at = 3;

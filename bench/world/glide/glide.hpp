@@ -3,8 +3,8 @@
 //
 // States: position and ground velocity (NED), attitude quaternion, rates, fins, and the autopilot's integral.
 // The air velocity is not a state, so the equations differ from those of any wind filter. The wind acts on
-// the glider only through its air velocity: v_a = C_nb (v_eb_n - wind(height) - gust). Fourth-order
-// Runge-Kutta.
+// the glider only through its air velocity: v_a = C_nb (v_eb_n - wind(height) - gust). The equations are
+// integrated by a fourth-order Runge-Kutta method.
 #pragma once
 
 #include <cstdint>

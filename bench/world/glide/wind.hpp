@@ -12,15 +12,15 @@ namespace canhil::world::glide {
 enum class Season : std::uint8_t { march, june, september, december };
 inline constexpr std::array<std::string_view, 4> season_names{"march", "june", "september", "december"};
 
-/// Mean wind at whole kilometres of height, 0 to 15, interpolated linearly by component. Below 0 and above
-/// 15 km, the value at the nearest end is used.
+/// The mean wind at whole kilometres of height, from 0 to 15 km. Between them, each component is interpolated
+/// linearly. Below 0 and above 15 km, the value at the nearest end is used.
 class WindProfile {
  public:
   static constexpr std::size_t levels = 16;
-  /// Speed [m/s] of the wind, and the direction from which it blows [deg clockwise from north], at 0, 1 ...
-  /// 15 km.
+  /// `speed`: the speed of the wind [m/s] at the heights 0, 1 ... 15 km. `from_deg`: the direction from which
+  /// the wind blows at these heights [deg clockwise from north].
   WindProfile(const std::array<double, levels>& speed, const std::array<double, levels>& from_deg);
-  /// A synthetic profile of a jet from the west, strong in winter.
+  /// A synthetic profile with a jet stream from the west, which is strong in winter.
   explicit WindProfile(Season season);
   /// The same wind at all heights, NED [m/s].
   explicit WindProfile(const Vector3& wind_n);

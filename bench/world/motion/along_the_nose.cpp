@@ -35,8 +35,8 @@ struct Dive {
   double rate = 0;   ///< [rad/s]
 };
 
-/// The pitch at which a vehicle with a given speed along its nose follows the profile: sin(pitch) =
-/// -depth'(t) / speed. `speed` must exceed steepest(profile).
+/// The pitch at which a vehicle with a given speed along its nose follows the profile. The sine of the pitch
+/// is -(d depth / dt) / speed. `speed` must exceed steepest(profile).
 Dive dive(const DepthProfile& profile, double speed, double t) {
   if (profile.depth == 0) return {};
   const double w = 2.0 * std::numbers::pi / profile.period;

@@ -18,9 +18,9 @@ double steepest(const DepthProfile& profile);
 /// S-turns about a mean heading: the path of an underwater vehicle in Kang, Kim, Park (2006). With amplitude
 /// 0 the path is straight.
 ///
-/// The heading is heading + heading_amplitude sin(w_h t), the roll is roll_amplitude cos(w_r t), and
-/// pitch_amplitude sin(w_p t) is added to the pitch of the dive. With roll_period = heading_period the roll
-/// is in phase with the heading rate.
+/// The heading at time t is the mean `heading` plus heading_amplitude sin(w_h t). The roll is roll_amplitude
+/// cos(w_r t). The pitch is that of the dive plus pitch_amplitude sin(w_p t). If roll_period equals
+/// heading_period, the roll is in phase with the heading rate.
 struct SPath {
   double speed = 0;              ///< constant, along the nose [m/s]
   double heading = 0;            ///< mean [rad]
@@ -35,9 +35,9 @@ struct SPath {
 
 Kinematics kinematics(const SPath& motion, double t);
 
-/// Straight legs joined by half turns to the right: a leg, a half turn, a leg, ... The rate of a turn,
-/// pi / turn (1 - cos(2 pi tau / turn)), and the roll rise and fall smoothly. So acceleration and rate have
-/// no jumps.
+/// Straight legs joined by half turns to the right: a leg, a half turn, a leg, ... During a turn, the turn
+/// rate is pi / turn (1 - cos(2 pi tau / turn)). The turn rate and the roll rise and fall smoothly, so
+/// acceleration and angular rate have no jumps.
 struct Racetrack {
   double speed = 0;    ///< constant, along the nose [m/s]
   double heading = 0;  ///< of the first leg [rad]
@@ -60,9 +60,9 @@ struct Spiral {
 
 Kinematics kinematics(const Spiral& motion, double t);
 
-/// At rest for a while, then accelerating to a constant speed along the nose. The acceleration rises and
-/// falls smoothly, speed / start (1 - cos(2 pi tau / start)), so it has no jumps. The dive begins with the
-/// acceleration.
+/// The vehicle is at rest for a while, then accelerates to a constant speed along the nose. The acceleration
+/// is speed / start (1 - cos(2 pi tau / start)); it rises and falls smoothly, so it has no jumps. The dive
+/// begins with the acceleration.
 struct RestThenGo {
   double speed = 0;    ///< final [m/s]
   double heading = 0;  ///< [rad]

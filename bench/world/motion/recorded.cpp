@@ -58,7 +58,8 @@ Movement RecordedPath::movement(double t) const {
   const auto correction = correction_.at(t);
   const auto quaternion = quaternion_.at(t);
   const Eigen::Quaterniond q(quaternion.value), rate(quaternion.rate);
-  // q' = q (0, omega / 2): the vector part of 2 q* q' / |q|^2 is the rate of the normalised quaternion.
+  // The derivative q' of a unit quaternion q is q (0, omega / 2). Therefore the rate of the normalised
+  // quaternion is the vector part of 2 q* q' / |q|^2.
   return {.v_eb_n = velocity.value + correction.rate,
           .v_eb_n_rate = velocity.rate + correction.rate_rate,
           .C_bn = q.normalized().toRotationMatrix(),

@@ -3,14 +3,15 @@
 // Velocity and the attitude quaternion are natural cubic splines through the samples. So acceleration and
 // angular rate are continuous, and they integrate back to the recorded velocity and attitude at every sample.
 // Position is the integral of velocity. A spline through recorded positions would be worse: at 50 Hz,
-// positions rounded to a centimetre cause acceleration errors of 25 m/s^2, velocities rounded to a millimetre
-// per second cause errors of only 0.05 m/s^2. To limit the drift from the recorded positions over a long
-// flight, the velocity is corrected by the rate of the position difference, averaged over `averaged_s`. The
-// additional acceleration is negligible.
+// positions rounded to a centimetre cause acceleration errors of 25 m/s^2, but velocities rounded to a
+// millimetre per second cause acceleration errors of only 0.05 m/s^2. Over a long flight, the integrated
+// positions would drift away from the recorded positions. Therefore the differences between the two are
+// averaged over stretches of about `averaged_s`, and the rate of change of the averages is added to the
+// velocity. The additional acceleration is negligible.
 //
-// The quaternion's components are splined and the result is normalised. The interpolation error is of fourth
-// order in the rotation angle between two samples. Unlike Euler angles, the quaternion has no singularity and
-// no wrap.
+// The components of the quaternion are interpolated by splines, and the result is normalised. The
+// interpolation error is of fourth order in the rotation angle between two samples. Unlike Euler angles, the
+// quaternion has no singularity and no wrap.
 #pragma once
 
 #include <cstdint>
@@ -37,13 +38,13 @@ class RecordedPath {
  public:
   static constexpr double averaged_s = 10;
 
-  /// At least two states, in ascending order of time. Without positions, `start` is the position of the first
-  /// state.
+  /// There must be at least two states, in ascending order of time. If the states have no positions, `start`
+  /// is the position of the first state.
   RecordedPath(std::span<const RecordedState> states, const Position& start);
 
   [[nodiscard]] Movement movement(double t) const;
   [[nodiscard]] Vector3 velocity(double t) const;
-  /// Position at a time [s] within the recording: integrated from the previous sample.
+  /// The position at a time [s] within the recording, integrated from the last sample before this time.
   [[nodiscard]] Position position(double t) const;
   /// Times of samples between two times, ends excluded [us].
   [[nodiscard]] std::vector<std::int64_t> samples_between(std::int64_t from_us, std::int64_t to_us) const;

@@ -1,5 +1,5 @@
-// A flight of which only the start is known. The motion continues straight as a placeholder; it must not be
-// used to compute errors.
+// A flight of which only the start is known. As a placeholder, the motion continues straight on. This motion
+// must not be used to compute errors.
 #pragma once
 
 #include "bench/world/kinematics.hpp"

@@ -13,7 +13,8 @@ Kinematics kinematics(const Weave& motion, double t) {
   const double w_pitch = turn / motion.pitch_period;
   const double w_cone = turn / motion.coning_period;
 
-  // The path: heading = heading_0 + A (1 - cos wt), climb angle = P sin(w_pitch t), at constant speed.
+  // The speed along the path is constant. The heading is heading_0 + A (1 - cos(w t)). The climb angle is P
+  // sin(w_pitch t).
   const double heading = motion.heading + motion.heading_amplitude * (1.0 - std::cos(w * t));
   const double heading_rate = motion.heading_amplitude * w * std::sin(w * t);
   const double heading_rate_rate = motion.heading_amplitude * w * w * std::cos(w * t);
@@ -24,13 +25,14 @@ Kinematics kinematics(const Weave& motion, double t) {
   const double sc = std::sin(climb);
   const double cc = std::cos(climb);
 
-  // Coordinated turn: tan(roll) = speed * heading' * cos(climb) / g, so the lateral specific force is
-  // (almost) zero.
+  // A coordinated turn: tan(roll) is speed times heading rate times cos(climb) / g, so the lateral specific
+  // force is almost zero.
   const double slope = motion.speed * heading_rate * cc / units::standard_gravity;
   const double slope_rate =
       motion.speed * (heading_rate_rate * cc - heading_rate * sc * climb_rate) / units::standard_gravity;
 
-  // The cone: pitch and heading vibrate in quadrature, so body x describes a cone about the path.
+  // The cone: pitch and heading vibrate with a phase difference of 90 deg, so body x describes a cone about
+  // the path.
   const double c = motion.coning_amplitude;
   Kinematics now;
   now.v_eb_n = motion.speed * Vector3(cc * ch, cc * sh, -sc);

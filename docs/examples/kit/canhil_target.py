@@ -315,7 +315,7 @@ class LocalBus:
         folder = f"{runtime}/canhil" if private else f"/tmp/canhil-uid-{os.geteuid()}"
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.socket.connect(f"{folder}/{name}.classic")
-        # The fields: magic "CHH1"; echo of own frames; whether only some ids are wanted; a bit for each wanted id; the name of the node.
+        # The fields: the magic "CHH1"; whether own frames are echoed; whether only some ids are wanted; a bit for each wanted id; node name.
         self.socket.send(struct.pack("<IBB256s66s", 0x31484843, 0, 0, b"", b"kit"))
 
     def receive(self):

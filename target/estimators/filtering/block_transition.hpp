@@ -15,12 +15,13 @@ struct Block {
 };
 
 /// (I + G) P (I + G)' for symmetric P [N x N]; reads only the 3x3 blocks of G in `pattern` (std::array of
-/// Block). Costs 27 N multiplications per block instead of 2 N^3.
+/// Block). Needs at most 18 N multiplications for each block of `pattern`; full matrix products would need
+/// 2 N^3 in total.
 template <auto pattern, int N>
 Matrix<N, N> propagate_covariance_blocks(const Matrix<N, N>& P, const Matrix<N, N>& G) {
   static_assert(N % 3 == 0);
-  // By columns (contiguous): X = P + P G', then P+ = X' + X' G', because P is symmetric. Only the lower
-  // triangle of P+ is computed.
+  // Works on whole columns, which are contiguous. As P is symmetric, X = P + P G' leads to P+ = X' + X' G'.
+  // Only the lower triangle of P+ is computed.
   Matrix<N, N> X = P;
   const auto right = [&]<std::size_t I>() {
     constexpr int i = 3 * pattern[I].row, j = 3 * pattern[I].column;
@@ -44,7 +45,7 @@ Matrix<N, N> propagate_covariance_blocks(const Matrix<N, N>& P, const Matrix<N, 
   return next;
 }
 
-/// (I + G) P (I + G)' for symmetric P [N x N] for a G that changes only the first K states: all rows of G
+/// (I + G) P (I + G)' for symmetric P [N x N] and for a G that changes only the first K states: all rows of G
 /// after the K-th are zero. times_Gt(M) returns M G' [rows x K] for any M [rows x N] and may exploit more
 /// zeros of G.
 template <int K, int N, class TimesGt>

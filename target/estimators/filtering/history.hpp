@@ -10,9 +10,9 @@
 
 namespace canhil::filtering {
 
-/// Keeps the increments of the last `longest_us`, at most `Capacity`. Epochs are the ends of increments, in
-/// integer microseconds of the measurements' time base. Every step and update of a State must be made by the
-/// same History. The Model defines:
+/// Keeps the increments of the last `longest_us` microseconds, but at most `Capacity` increments. Epochs are
+/// the ends of increments, in integer microseconds of the measurements' time base. Every step and update of a
+/// State must be made by the same History. The Model defines:
 ///   types State (with a member `ins`: the part that an increment changes), Increment, Measurement, Settings,
 ///     UpdateResult with a member `outcome` of enum Outcome (ok, not_reached, out_of_order,
 ///     older_than_history, ...)
@@ -20,8 +20,8 @@ namespace canhil::filtering {
 ///   update(state, earlier, share, measurement, settings): applies a measurement. If earlier == nullptr, the
 ///     measurement is valid at the state's epoch. Otherwise the measurement is older by the fraction `share`
 ///     of the last increment, and `*earlier` is the value of State::ins at the start of this increment
-///   keep_refusal(state, tried): copies from the tried state the members that a refused update changes
-///   applied_at(t_us, now_us, settings): the epoch at which to apply a measurement valid at t_us
+///   keep_refusal(state, tried): copies the members that a refused update changes from `tried` to `state`
+///   applied_at(t_us, now_us, settings): the epoch at which to apply a measurement that is valid at t_us
 /// For a filter that also predicts between measurements, Predictions > 0 is the largest number of predictions
 /// within the history, and the Model also defines
 ///   prediction_is_due(state, settings), predict(state, settings)
@@ -35,7 +35,8 @@ class History {
   using UpdateResult = typename Model::UpdateResult;
   using Outcome = typename Model::Outcome;
 
-  /// Starts at start_us; forgets epochs older than longest_us, or beyond Capacity.
+  /// Starts at start_us. Forgets each epoch that becomes older than longest_us, and the oldest epoch when
+  /// Capacity is reached.
   explicit History(std::int64_t start_us, std::int64_t longest_us = std::numeric_limits<std::int64_t>::max())
       : longest_us_(longest_us) {
     restart(start_us);
@@ -126,7 +127,7 @@ class History {
   }
 
   // Stores the state before the filter predicts at t_us. If there is no room, drops the oldest stored state:
-  // earlier epochs can then no longer be reached.
+  // epochs before its time can then no longer be reached.
   void remember_prediction(const State& state, std::int64_t t_us) {
     if (prediction_count_ == Predictions) {
       forgotten_us_ = predictions_.front().t_us;

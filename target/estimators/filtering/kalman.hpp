@@ -10,7 +10,8 @@ using Matrix = Eigen::Matrix<double, Rows, Cols>;
 template <int Rows>
 using Vector = Eigen::Matrix<double, Rows, 1>;
 
-/// The next even number of rows: Eigen uses whole SIMD packets only for an even number of rows.
+/// The number of rows, rounded up to an even number: Eigen uses whole SIMD packets only for an even number of
+/// rows.
 constexpr int even_rows(int rows) { return rows + rows % 2; }
 
 /// M with an additional row of zeros if its number of rows is odd.
@@ -48,10 +49,10 @@ Matrix<N, N> propagate_covariance(const Matrix<N, N>& P, const Matrix<N, N>& Phi
   return next;
 }
 
-/// The inverse of a symmetric S, of which only the lower triangle is read, by its Cholesky factor L:
-/// S = L L', then L Y = I, L' X = Y. False if S is not positive definite or not finite. Written by hand:
-/// Eigen's triangular solver would also instantiate Eigen's product of large matrices, which adds more than a
-/// second to every compilation.
+/// Computes the inverse of a symmetric S; reads only the lower triangle of S. Factorises S = L L' (Cholesky),
+/// solves L Y = I for Y, and then solves L' X = Y for the inverse X. False: S is not positive definite or not
+/// finite. Written by hand: Eigen's triangular solver would also instantiate Eigen's product of large
+/// matrices, which adds more than a second to every compilation.
 template <int M>
 bool invert_positive_definite(const Matrix<M, M>& S, Matrix<M, M>& inverse) {
   Matrix<M, M> L = S;
@@ -83,8 +84,8 @@ bool invert_positive_definite(const Matrix<M, M>& S, Matrix<M, M>& inverse) {
   return true;
 }
 
-/// The outcome of a measurement update: dx = K innovation, the posterior P, and the innovation statistic
-/// (NIS).
+/// The outcome of a measurement update: the correction dx (the gain K times the innovation), the posterior P,
+/// and the innovation statistic (NIS).
 template <int N, int M>
 struct Correction {
   bool positive_definite = false;  // S is positive definite; if false, only S is set
@@ -102,8 +103,8 @@ template <int N, int M>
 using Padded = Matrix<even_rows(N), M>;
 
 // Joseph form (I - K H) P (I - K H)' + K R K'. The caller provides the products with H: PHt = P H', and
-// times_Ht(W) = W H' for a W that is padded to an even number of rows. W = (I - K H) P; P+ = W + (K R - W H')
-// K', where the bracket vanishes for the optimal K.
+// times_Ht(W) = W H' for a W that is padded to an even number of rows. Computes W = (I - K H) P and then
+// P+ = W + (K R - W H') K'; for the optimal K, the expression in brackets is zero.
 template <int N, int M, class TimesHt>
 Correction<N, M> joseph(const Matrix<N, N>& P, const Matrix<N, M>& PHt, const Matrix<M, M>& HPHt,
                         const Matrix<M, M>& R, const Vector<M>& innovation, TimesHt times_Ht) {
@@ -127,7 +128,8 @@ Correction<N, M> joseph(const Matrix<N, N>& P, const Matrix<N, M>& PHt, const Ma
 
 }  // namespace detail
 
-/// Measurement update of covariance P with z = H x + v, v ~ (0, R), Joseph form, symmetrised.
+/// Updates the covariance P by a measurement z = H x + v, where v has zero mean and the covariance R. Uses
+/// the Joseph form and makes the result exactly symmetric.
 template <int N, int M>
 Correction<N, M> update(const Matrix<N, N>& P, const Matrix<M, N>& H, const Matrix<M, M>& R,
                         const Vector<M>& innovation) {
@@ -138,7 +140,7 @@ Correction<N, M> update(const Matrix<N, N>& P, const Matrix<M, N>& H, const Matr
   });
 }
 
-/// update() for a measurement of the states First .. First + M - 1 themselves, without products with H.
+/// update() for a direct measurement of the states First to First + M - 1; computes no products with H.
 template <int First, int N, int M>
 Correction<N, M> update_states(const Matrix<N, N>& P, const Matrix<M, M>& R, const Vector<M>& innovation) {
   return detail::joseph<N, M>(
@@ -146,8 +148,8 @@ Correction<N, M> update_states(const Matrix<N, N>& P, const Matrix<M, M>& R, con
       [](const auto& W) -> detail::Padded<N, M> { return W.template middleCols<M>(First); });
 }
 
-/// update() for a measurement of a difference: M states, beginning at First, minus M states, beginning at
-/// Less.
+/// update() for a measurement of the difference of two groups of M states: the group that begins at First
+/// minus the group that begins at Less.
 template <int First, int Less, int N, int M>
 Correction<N, M> update_state_difference(const Matrix<N, N>& P, const Matrix<M, M>& R,
                                          const Vector<M>& innovation) {

@@ -5,9 +5,9 @@
 
 namespace canhil::filtering {
 
-/// Scales the covariance P to a correlation matrix, raises its eigenvalues to at least `floor`, and scales
-/// back. Uses the magnitude of each variance, and at least 1e-30, so that the result is positive definite for
-/// every finite P.
+/// Scales the covariance P to a correlation matrix, raises the eigenvalues of this matrix to at least
+/// `floor`, and scales back. The scaling uses the magnitude of each variance, or 1e-30 if the magnitude is
+/// smaller, so that the result is positive definite for every finite P.
 template <int N>
 Matrix<N, N> with_eigenvalue_floor(const Matrix<N, N>& P, double floor = 1e-9) {
   const Vector<N> sigma = P.diagonal().cwiseAbs().cwiseMax(1e-30).cwiseSqrt();
@@ -19,7 +19,7 @@ Matrix<N, N> with_eigenvalue_floor(const Matrix<N, N>& P, double floor = 1e-9) {
   return scaled.lazyProduct(scaled.transpose());
 }
 
-/// Makes P positive definite if it is not; true: P was changed.
+/// Makes P positive definite if it is not. True: P was changed.
 template <int N>
 bool repair(Matrix<N, N>& P) {
   if (is_positive_definite<N>(P)) return false;

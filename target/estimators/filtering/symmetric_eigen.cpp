@@ -18,9 +18,9 @@ struct Tridiagonal {
     Eigen::internal::tridiagonalization_inplace(packed, h);
   }
 
-  // The coefficients of the reflections. Eigen sums in an order that depends on whether the result begins at
-  // a multiple of 16 bytes. Here the result has the same alignment as in a fixed-size SelfAdjointEigenSolver,
-  // so that its bits are the same too.
+  // The coefficients of the reflections. Eigen sums in an order that depends on whether the address of the
+  // result is a multiple of 16 bytes. Here the address has the same alignment as in a fixed-size
+  // SelfAdjointEigenSolver, so that the sums have the same bits too.
   Eigen::VectorBlock<ColumnVector> coefficients() {
     const Eigen::Index n = packed.rows();
     return storage.segment((n + 1) % 2, n - 1);

@@ -17,7 +17,8 @@ struct SymmetricEigen {
   SquareMatrix vectors;  // columns of length 1
 };
 
-/// Computes both for a symmetric matrix with at least 2 rows. Only the lower triangle is read.
+/// Computes the eigenvalues and eigenvectors of a symmetric matrix with at least 2 rows. Only the lower
+/// triangle is read.
 SymmetricEigen symmetric_eigen(const SquareMatrix& symmetric);
 
 namespace detail {

@@ -19,9 +19,9 @@ Matrix<N, N> symmetric_root(const Matrix<N, N>& P) {
   return scaled.lazyProduct(vectors.transpose());
 }
 
-/// For the images of x + d and x - d under a map. `even`: half of the sum of the two images, minus the image
-/// of the centre. `odd`: half of the difference of the two images. Both contain only the K states that
-/// change.
+/// Two combinations of the images of x + d and x - d under a map. `even`: half of the sum of the two images,
+/// minus the image of the centre. `odd`: half of the difference of the two images. Both contain only the K
+/// states that change.
 template <int K>
 struct Parts {
   Vector<K> even, odd;

@@ -1,12 +1,13 @@
 #pragma once
-// The common error model of the in-flight alignment filters: errors of the INS (INS - true), NED in the
-// computer frame c, over an interval T between fixes.
+// The common error model of the in-flight alignment filters: errors of the INS (INS minus true), in the NED
+// axes of the computer frame c, over an interval T between fixes.
 //   dR+ = dR + (dV + dV+) T/2 - w_en x dR T
 //   dV+ = dV + (force term) - (2 w_ie + w_en) x dV T + dg T      dg: gravity error, for an open loop
-// (Kang, Kim, Park 2006, eq. (9), corrected: gravity error). Each filter has its own attitude model; biases
-// of sensors and fixes are constant.
-// States: dR dV | attitude: psi (3) or tilts, sin, 1 - cos (4) | accelerometer, gyro [, fix] bias. With psi
-// there are 15 states, or 18 with fix bias; with sin and cos there are 16 or 19.
+// (Kang, Kim, Park 2006, eq. (9); corrected: the paper omits the gravity error). Each filter has its own
+// attitude model; biases of sensors and fixes are constant. The states are dR and dV; the attitude, which is
+// either three psi angles or two tilts and two functions of the heading error (sin and 1 - cos); and the
+// biases of accelerometer, gyro and optionally the fix. With psi there are 15 states, or 18 with fix bias;
+// with sin and cos there are 16 states, or 19 with fix bias.
 #include <Eigen/Core>
 
 #include "target/estimators/filtering/kalman.hpp"
@@ -38,15 +39,15 @@ struct Errors {
   SinCosForm form = SinCosForm::levelled;  // used only by sin_cos
 };
 
-/// The gravity error of an INS per metre of position error dR, NED: dg = gravity_error_per_m() o dR [m/s^2]
-/// (element-wise).
+/// The gravity error of an INS per metre of its position error dR, NED: the gravity error dg [m/s^2] is the
+/// element-wise product of gravity_error_per_m() and dR.
 inline Eigen::Vector3d gravity_error_per_m() {
   constexpr double rate = standard_gravity / 6378137;
   return {-rate, -rate, 2 * rate};
 }
 
-/// The non-zero blocks of G = dx+/dx - I for the moving states. The position rows of G follow from its
-/// velocity rows.
+/// The non-zero blocks of G = dx+/dx - I for the moving states. The position rows of G follow from the
+/// velocity rows of G.
 template <int A>
 struct Transition {
   double T = 0;
@@ -71,8 +72,9 @@ template <int N>
 Vector<N> moved(const Vector<N>& x, const Interval& interval, const Eigen::Vector3d& force_increment,
                 const Vector<Layout<N>::attitude_count>& attitude_increment);
 
-/// Adds the white noise of accelerometers and gyros over T [s] to the velocity and attitude blocks, and the
-/// random walk of the fix bias; attitude_shape is the covariance of the attitude states for unit noise.
+/// Adds the noise of an interval T [s] to P: the white noise of accelerometers and gyros to the velocity and
+/// attitude blocks, and the random walk of the fix bias to the block of the fix bias. attitude_shape is the
+/// covariance of the attitude states for unit noise.
 template <int N>
 void add_process_noise(Matrix<N, N>& P, const Settings& settings, double T,
                        const Matrix<Layout<N>::attitude_count, Layout<N>::attitude_count>& attitude_shape);

@@ -45,7 +45,8 @@ Errors<N> initial_errors(const Settings& settings) {
   Vector<N> sigma = Vector<N>::Zero();
   sigma.template segment<3>(At::position) = settings.position_sigma_0;
   sigma.template segment<3>(At::velocity) = settings.velocity_sigma_0;
-  // Levelling, a rotation by delta, adds the heading error (phi x delta)_z / 2 for a tilt phi.
+  // Levelling is a rotation by delta. If there is a tilt phi, levelling adds the heading error
+  // (phi x delta)_z / 2.
   double tilt = settings.tilt_sigma_0, heading = settings.heading_sigma_0;
   if (is_levelled_first(settings)) {
     heading = std::hypot(heading, tilt * levelling_sigma(settings) / std::numbers::sqrt2);
@@ -88,7 +89,7 @@ enum class SensorBiases : std::uint8_t { stay, fed_back };
 
 // Corrects position and velocity of the INS by their estimated errors, and its attitude by C_pc. Adds the
 // estimated errors of the fix bias and, with SensorBiases::fed_back, of the sensor biases to the bias
-// estimates. Zeroes these states except the attitude, which the caller zeroes.
+// estimates. Zeroes the states that it has fed back, except the attitude, which the caller zeroes.
 template <int N>
 void feed_back(State& state, Errors<N>& errors, const Matrix3d& C_pc, SensorBiases biases) {
   using At = Layout<N>;

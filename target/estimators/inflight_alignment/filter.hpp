@@ -86,7 +86,8 @@ UpdateResult update(State& state, const GeodeticPosition& fix, const Settings& s
 UpdateResult update(State& state, const GeodeticPosition& ins, const GeodeticPosition& fix,
                     const Settings& settings);
 
-/// The best current estimate: the INS minus its estimated errors, predicted to the last IMU epoch.
+/// The best current estimate: the INS minus its estimated errors, which are first predicted to the last IMU
+/// epoch.
 struct Estimate {
   strapdown::NavState nav;
   Eigen::Vector3d accel_bias, gyro_bias, fix_bias;  // [m/s^2], [rad/s], NED [m]

@@ -8,8 +8,8 @@ namespace canhil::inflight_alignment {
 template <int N>
 constexpr bool is_sin_cos = Layout<N>::attitude_count == 4;
 
-/// The update by a fix: z = dR - rho + noise with the fix bias rho (Kang, Kim, Park 2006, eq. (10)); without
-/// a fix bias z = dR + noise.
+/// The update by a fix. The measurement is z = dR - rho + noise, where rho is the fix bias (Kang, Kim, Park
+/// 2006, eq. (10)); in a filter without fix bias it is z = dR + noise.
 template <int N>
 filtering::Correction<N, 3> correction(const Errors<N>& prior, const Eigen::Vector3d& innovation,
                                        const Settings& settings);
@@ -20,7 +20,8 @@ GeodeticPosition position_of(const strapdown::NavState& nav);
 /// The position minus its errors [m].
 GeodeticPosition corrected(const GeodeticPosition& ins, const Eigen::Vector3d& dR);
 
-/// The INS minus position [m] and velocity errors, with its attitude turned to the computer frame by C_pc.
+/// The navigation state of an INS, corrected: position minus dR [m], velocity minus dV [m/s], and the
+/// attitude turned to the computer frame by C_pc.
 strapdown::NavState corrected(const strapdown::NavState& nav, const Eigen::Vector3d& dR,
                               const Eigen::Vector3d& dV, const Eigen::Matrix3d& C_pc);
 

@@ -25,7 +25,8 @@ struct HistoryModel {
     inflight_alignment::predict(state, settings);
   }
 
-  /// Applies a measurement; `earlier` and `share` interpolate between two epochs.
+  /// Applies a measurement. If there is an `earlier` state, interpolates the position by `share` between the
+  /// two epochs.
   static UpdateResult update(State& state, const Ins* earlier, double share, const Measurement& fix,
                              const Settings& settings) {
     const strapdown::NavState& nav = state.ins.nav;

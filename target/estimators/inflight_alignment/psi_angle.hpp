@@ -1,15 +1,18 @@
 #pragma once
 // The paper's model: heading and tilt errors are Euler angles psi from the platform p (NED according to the
-// INS's attitude) to the computer frame c, C_pc(psi) = Rz(psi_z) Ry(psi_y) Rx(psi_x), C_bc = C_pc C_bp. S and
-// A: the interval's integrals of C_bp f and C_bp; n and e: accelerometer and gyro biases; w = w_ie + w_en:
+// INS's attitude) to the computer frame c: C_pc(psi) = Rz(psi_z) Ry(psi_y) Rx(psi_x), C_bc = C_pc C_bp. S is
+// the integral of C_bp f over the interval, and A is the integral of C_bp; n is the accelerometer bias, e is
+// the gyro bias, and w = w_ie + w_en:
 //   dV   += S - C_pc (S - A n) + ...
 //   psi  += E(psi) [(w - C_pc' w) T - A e]
-// (Kang, Kim, Park 2006, eq. (9); corrected: the bias enters through C_pc, and the paper has C_cc for C_pc').
+// (Kang, Kim, Park 2006, eq. (9); corrected: the bias enters through C_pc, and C_pc' replaces the paper's
+// C_cc).
 #include "target/estimators/inflight_alignment/error_model.hpp"
 
 namespace canhil::inflight_alignment {
 
-/// C_pc of psi [rad] (eq. (7); corrected: -sin psi_z in row 1, column 2).
+/// C_pc of psi [rad] (eqs. (7) and (8); corrected: the printed (8) lacks the minus of -sin psi_z in row 1,
+/// column 2).
 Eigen::Matrix3d platform_to_computer(const Eigen::Vector3d& psi);
 
 /// The axes a_i, in the computer frame c, about which C_pc turns when psi_x, psi_y or psi_z changes:

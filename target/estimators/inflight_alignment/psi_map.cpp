@@ -19,7 +19,7 @@ Trig difference(const Trig& a, const Trig& b) {
           a.cos.cwiseProduct(b.cos) + a.sin.cwiseProduct(b.sin)};
 }
 
-// E(psi) times `rate`: the rates of the Euler angles of Rz Ry Rx for a rotation rate in p.
+// E(psi) times `rate`: how fast the Euler angles psi of Rz Ry Rx change if the rotation rate in p is `rate`.
 Vector3d euler_rates(const Trig& t, const Vector3d& rate) {
   const double across = (t.sin.x() * rate.y() + t.cos.x() * rate.z()) / t.cos.y();
   return {rate.x() + across * t.sin.y(), t.cos.x() * rate.y() - t.sin.x() * rate.z(), across};

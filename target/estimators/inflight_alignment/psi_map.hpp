@@ -1,7 +1,10 @@
 #pragma once
-// The prediction f of psi_angle.hpp over one interval, evaluated about a state x: f(x); its even part
-// (f(x + d) + f(x - d))/2 - f(x) and odd part (f(x + d) - f(x - d))/2; its Jacobian with respect to the
-// biases. f uses only the first 15 states, so it works for the filters with 15 and with 18 states.
+// The prediction f of psi_angle.hpp over one interval, evaluated about a state x:
+//   value       f(x)
+//   even part   (f(x + d) + f(x - d))/2 - f(x)
+//   odd part    (f(x + d) - f(x - d))/2
+//   Jacobian    of f with respect to the biases
+// The prediction uses only the first 15 states, so it works for the filters with 15 and with 18 states.
 #include "target/estimators/filtering/unscented.hpp"
 #include "target/estimators/inflight_alignment/error_model.hpp"
 
@@ -20,7 +23,7 @@ struct Trig {
 /// C_pc of psi.
 Eigen::Matrix3d rotation(const Trig& t);
 
-/// The interval's terms of the model that depend on psi and on the biases.
+/// The two terms of the model that depend on psi and on the biases, for one interval.
 struct Terms {
   Eigen::Vector3d force;  // C_pc (S - A n)
   Eigen::Vector3d rates;  // E [(w - C_pc' w) T - A e]

@@ -66,8 +66,8 @@ int predict_ukf(Errors<N>& errors, const Interval& interval, const Settings& set
   errors.x = moved<N>(errors.x, interval, centre.force_increment(), centre.attitude_increment());
   errors.x.template head<9>() += moments.shift;
   errors.P.template leftCols<9>() = moments.about_central.template topRows<N>();
-  // For any weight of the centre: the second moment about the mean is the second moment about the image of
-  // the centre, minus shift * shift^T.
+  // For any weight of the centre, the second moment about the mean equals the second moment about the image
+  // of the centre, minus shift * shift^T.
   if (settings.ukf_covariance == UkfCovariance::about_mean)
     errors.P.template topLeftCorner<9, 9>().noalias() -= moments.shift.lazyProduct(moments.shift.transpose());
   filtering::mirror_lower<N>(errors.P);

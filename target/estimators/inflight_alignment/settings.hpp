@@ -31,9 +31,10 @@ enum class UkfRoot : std::uint8_t { lower_cholesky, symmetric };
 /// then positive semi-definite for any weights.
 enum class UkfCovariance : std::uint8_t { about_mean, about_central };
 
-/// How sin_cos treats tilts and biases (sin_cos.hpp). published: first order in the tilts, which stay in the
-/// states until the heading is fed back; biases in body axes. levelled: tilts are fed back at each fix, the
-/// vertical force is second order in the tilts, and biases are turned with the heading error.
+/// How sin_cos treats tilts and biases (sin_cos.hpp). published: the model is of first order in the tilts,
+/// the tilts stay in the states until the heading is fed back, and the biases are in body axes. levelled: the
+/// tilts are fed back at each fix, the vertical force is of second order in the tilts, and the biases are
+/// turned with the heading error.
 enum class SinCosForm : std::uint8_t { published, levelled };
 
 /// When a late fix is applied.

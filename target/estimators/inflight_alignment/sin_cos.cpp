@@ -35,9 +35,9 @@ struct Turned {
   }
 };
 
-// Returns H. The vertical force differs from S_z by (phi x Rz S)_z - phi^2 S_z / 2, which is of second order
-// in a = (phi_x, phi_y, s, k): S_y phi_x - S_x phi_y + a' H a / 2. The horizontal force,
-// Rz S + phi x S_z e_z, is linear in a.
+// Returns H, the second derivative of the vertical force with respect to a = (phi_x, phi_y, s, k). The
+// vertical force minus S_z is (phi x Rz S)_z - phi^2 S_z / 2, which equals
+// S_y phi_x - S_x phi_y + a' H a / 2. The horizontal force, Rz S + phi x (S_z e_z), is linear in a.
 Matrix<4, 4> curvature(const Vector3d& S) {
   Matrix<4, 4> H;
   H << -S.z(), 0, S.x(), -S.y(),  //

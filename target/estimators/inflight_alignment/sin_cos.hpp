@@ -4,10 +4,12 @@
 // states phi_x phi_y s k, for a heading error of any size.
 //
 // SinCosForm::levelled keeps the model valid for large tilts, without using an estimate of the heading:
-//   horizontal force    Rz S + phi x S_z e_z                        linear in (phi, s, k)
-//   vertical force      S_z + (phi x Rz S)_z - phi^2 S_z / 2        second order: adds mean and variance
-//   biases              b' = Rz b: Rz A b = Rz A Rz' b', which is A b' if A turns about the vertical
-//   tilt                removed from the INS at each fix (take_out_tilt), so that phi stays small
+//   horizontal force    Rz S + phi x (S_z e_z), which is linear in (phi, s, k)
+//   vertical force      S_z + (phi x Rz S)_z - phi^2 S_z / 2; the filter includes the mean and the variance
+//                       of the terms of second order
+//   biases              The states are b' = Rz b. Then Rz A b = Rz A Rz' b', which equals A b' if the vehicle
+//                       only yaws.
+//   tilt                It is removed from the INS at each fix (take_out_tilt), so that phi stays small.
 #include "target/estimators/inflight_alignment/error_model.hpp"
 
 namespace canhil::inflight_alignment {
@@ -68,7 +70,7 @@ Eigen::Matrix3d take_out_tilt(Errors<N>& errors);
 /// states: the new s is s cos psi_z + k sin psi_z; the new k is 0, because k now follows from s. Biases: see
 /// turn_biases_back(). After the removal of the estimates the remaining rotation is
 ///   exp([phi x]) Rz(dpsi) exp([-phi_hat x]) = exp([phi' x]) Rz(dpsi),   phi' = phi - Rz(dpsi) phi_hat,
-/// so dphi' = dphi - dpsi e_z x phi_hat, a first-order term. The published form omits it.
+/// so in first order dphi' = dphi - dpsi e_z x phi_hat. The published form omits the term with dpsi.
 template <int N>
 Eigen::Matrix3d take_out_attitude(Errors<N>& errors);
 

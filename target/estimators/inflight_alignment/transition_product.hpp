@@ -4,8 +4,8 @@
 
 namespace canhil::inflight_alignment {
 
-/// The columns of a matrix [.. x N] that the product with G' reads: all except the fix bias, on which no
-/// other state depends.
+/// The columns of a matrix [.. x N] that the product with G' reads: all except those of the fix bias, on
+/// which no other state depends.
 template <int Rows, int A>
 using FirstStates = Eigen::Map<const Matrix<Rows, 12 + A>, Eigen::Aligned16>;
 

@@ -5,8 +5,8 @@
 namespace canhil::los_rate {
 namespace {
 
-// The largest root c1 of (c^2 - 35v^2/4)^2/4 = 2 c c3 + 259v^4/16, by Newton's method from above, where the
-// function is convex.
+// The coefficient c1: the largest root c of (c^2 - 35v^2/4)^2/4 = 2 c c3 + 259v^4/16. Newton's method starts
+// above the root, where the function is convex.
 double first_coefficient(double W, double v, double c3) {
   const double v2 = v * v;
   double c = 2 * W + 4.5 * v;
@@ -19,8 +19,9 @@ double first_coefficient(double W, double v, double c3) {
   return c;
 }
 
-// A real root of s^3 + d1 s^2 + d2 s + d3, which is Hurwitz, so the root is in (-d1, 0): Newton's method,
-// restricted to the bracket. For glint (the poles of a Butterworth filter) the start value is the root.
+// A real root of the polynomial s^3 + d1 s^2 + d2 s + d3. The polynomial is Hurwitz, so the root is between
+// -d1 and 0; Newton's method is restricted to this bracket. For glint, the roots are the poles of a
+// Butterworth filter, and the start value is already the real root.
 double real_pole(const Gain& d) {
   double low = -d.e, high = 0, s = -d.w / d.e;
   for (int i = 0; i < 100; ++i) {
@@ -43,8 +44,9 @@ double sample_variance(const Noise& noise, double range) {
 }
 
 Covariance riccati(double q, double s2, double v) {
-  // Closed-loop polynomial s^3 + c1 s^2 + c2 s + c3 by spectral factorisation of
-  // (z - v^2/4)(z - 9v^2/4)(z - 25v^2/4) = q/s2, z = s^2; k = P(1,:)/s2 by comparing coefficients.
+  // The closed-loop polynomial is s^3 + c1 s^2 + c2 s + c3. Its coefficients follow from the spectral
+  // factorisation of (z - v^2/4)(z - 9v^2/4)(z - 25v^2/4) = q/s2, where z is the square of s. Comparing
+  // coefficients then gives k = P(1,:)/s2.
   const double W6 = q / s2, W = std::cbrt(std::sqrt(W6)), v2 = v * v;
   const double c3 = std::sqrt(W6 + 3.515625 * v2 * v2 * v2);
   const double c1 = first_coefficient(W, v, c3);
@@ -52,7 +54,7 @@ Covariance riccati(double q, double s2, double v) {
   const double k1 = c1 + 4.5 * v;
   const double k2 = c2 - 1.25 * v2 + 3 * v * (k1 - 1.5 * v);
   const double k3 = c3 + v / 2 * k2 - 1.25 * v2 * (k1 - 1.5 * v);
-  // The other three entries follow from the elements (1,2), (1,3), (2,3) of the equation.
+  // The other three entries of P follow from the elements (1,2), (1,3), (2,3) of the Riccati equation.
   Covariance P{.ee = s2 * k1, .ew = s2 * k2, .ea = s2 * k3};
   P.ww = s2 * k1 * k2 - 4 * v * P.ew - P.ea;
   P.wa = s2 * k1 * k3 - 2 * v * P.ea;
@@ -90,9 +92,10 @@ Gain displacement(const Gain& K, Geometry at) {
 }
 
 Gain pole_matched(const Gain& d, double Ts) {
-  // One real pole, and the pair s^2 + b s + c. With u = 1 - z for the real pole, m = 1 - |z| and
-  // n = 2 (|z| - Re z) for the pair, alpha = 1 - z1 z2 z3, gamma = (1 - z1)(1 - z2)(1 - z3) and
-  // beta = sum (1 - z) - alpha - gamma/2 are computed without cancellation.
+  // There is one real pole, and there is a pair of poles, the roots of s^2 + b s + c. Each pole s becomes a
+  // discrete pole z = exp(s Ts). The gains are alpha = 1 - z1 z2 z3, gamma = (1 - z1)(1 - z2)(1 - z3) and
+  // beta = sum (1 - z) - alpha - gamma/2. To avoid cancellation they are computed from u = 1 - z of the real
+  // pole, and from m = 1 - |z| and n = 2 (|z| - Re z) of the pair.
   const double s = real_pole(d), b = d.e + s, c = d.w + s * b;
   const double u = -std::expm1(s * Ts), m = -std::expm1(-b / 2 * Ts);
   const double square = c - b * b / 4, half = std::sqrt(std::abs(square)) * Ts / 2;

@@ -1,8 +1,8 @@
 #pragma once
 // Covariance of one plane in polar states x = [e, w, a] (error angle, LOS rate, target acceleration):
-//   e' = w - q_n,   w' = (2 vc/r) w + (a - a_m)/r,   a' = white of PSD q,   vc = -r'
-// and in displacement states y = [r e, r w - vc e, a], a chain of integrators for constant vc.
-// a has the sign of yaw; in pitch (z down) a is minus the acceleration along z (NOTES.md).
+//   e' = w - q_n,   w' = (2 vc/r) w + (a - a_m)/r,   a' = white noise of PSD q,   vc = -r'
+// and in displacement states y = [r e, r w - vc e, a], a chain of integrators for constant vc. The
+// acceleration `a` has the sign of yaw; in pitch (z down), `a` is minus the acceleration along z (NOTES.md).
 
 namespace canhil::los_rate {
 
@@ -21,8 +21,9 @@ struct Geometry {
   double range = 0, closing_speed = 0;
 };
 
-/// Exact transition of x over dt until `end`, for constant closing speed, with r0 = r + vc dt:
-/// Phi = [1 ew ea; 0 ww wa; 0 0 1]; the input enters as (a - a_m) through the third column.
+/// The exact transition of x over a step dt that ends at `end`, for a constant closing speed:
+/// Phi = [1 ew ea; 0 ww wa; 0 0 1]. The range at the start of the step is r0 = r + vc dt. In the rows of e
+/// and w, the third column is multiplied by (a - a_m), so that a_m acts as the input.
 struct Transition {
   double ew, ea, ww, wa;
 };
@@ -32,7 +33,8 @@ Transition transition(Geometry end, double dt);
 /// Converts a covariance of y to one of x: M P M', M = [1/r 0 0; vc/r^2 1/r 0; 0 0 1].
 Covariance polar(const Covariance& y, Geometry at);
 
-/// P+ = Phi P Phi' + M Qd M', where Qd is the effect of white jerk with PSD q [m^2/s^5] over dt [s].
+/// P+ = Phi P Phi' + M Qd M', with M as in polar(). Qd is the effect on y of white jerk with the PSD
+/// q [m^2/s^5] over dt [s].
 Covariance predicted(const Covariance& P, Geometry end, double dt, double jerk_density);
 
 /// K = P H'/S with S = P_ee + R, H = [1 0 0].

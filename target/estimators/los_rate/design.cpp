@@ -47,9 +47,9 @@ CombinedTable make_combined_table(const Settings& settings, const Noise& noise) 
   return table;
 }
 
-// Matches the poles of s^2 + 2 zeta b s + b^2: 1 - alpha = rho^2, beta = 1 + rho^2 - 2 rho cos(theta). The
-// steady covariance for measurement noise of PSD 1 solves the Lyapunov equation of e' = w - 2 zeta b (e + n),
-// w' = -b^2 (e + n).
+// The gains match the poles of s^2 + 2 zeta b s + b^2: alpha is 1 - rho^2, and beta is
+// 1 + rho^2 - 2 rho cos(theta). The steady covariance for measurement noise n of PSD 1 solves the Lyapunov
+// equation of e' = w - 2 zeta b (e + n), w' = -b^2 (e + n).
 LowPass make_low_pass(const Settings& settings) {
   const double b = settings.low_pass_bandwidth, zeta = settings.low_pass_damping, Ts = settings.sample_period;
   const double rho = std::exp(-zeta * b * Ts), square = 1 - zeta * zeta;
@@ -59,7 +59,7 @@ LowPass make_low_pass(const Settings& settings) {
           {.ee = b * (1 + 4 * zeta * zeta) / (4 * zeta), .ew = b * b / 2, .ww = b * b * b / (4 * zeta)}};
 }
 
-// Position in a table: the node to the left and the fraction of the distance to the next.
+// A position in a table: the node to the left of it, and the fraction of the distance to the next node.
 struct Place {
   std::size_t node;
   double share;
@@ -123,7 +123,7 @@ Covariance steady_covariance(const Settings& settings, const Noise& noise, Geome
 }
 
 Covariance thermal_p_bar(const PBarTable& table, double closing_speed) {
-  // Lagrange interpolation over four nodes: P-bar is nearly cubic in vc.
+  // Lagrange interpolation over four nodes, because P-bar is nearly a cubic function of vc.
   const Place at = place(closing_speed * table.nodes_per_speed, PBarTable::nodes);
   const std::size_t first = std::clamp<std::size_t>(at.node, 1, PBarTable::nodes - 3) - 1;
   const double t = static_cast<double>(at.node) + at.share - static_cast<double>(first);

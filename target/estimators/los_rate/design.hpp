@@ -38,9 +38,9 @@ struct PBarTable {
   Gain glint_gain;  // pole-matched, for y
 };
 
-/// Pole-matched gain and steady sigmas for the sum of the noises, over range (equal logarithmic steps) and
-/// closing speed. The entries are chosen so that they vary little or in proportion to the bandwidth.
-/// Therefore linear interpolation is accurate.
+/// Pole-matched gain and steady sigmas for the sum of the noises, tabulated over range (equal logarithmic
+/// steps) and closing speed. The entries are chosen so that each is nearly constant or nearly proportional to
+/// the bandwidth. Therefore linear interpolation is accurate.
 struct CombinedTable {
   static constexpr int ranges = 128, speeds = 9;
   /// One entry of the table.
@@ -52,7 +52,7 @@ struct CombinedTable {
   double log2_range_min = 0, nodes_per_octave = 0, nodes_per_speed = 0;
 };
 
-/// Fixed gain of the classical filter, and its covariance for measurement noise of PSD 1.
+/// The fixed gain of the classical filter, and the covariance of this filter for measurement noise of PSD 1.
 struct LowPass {
   Gain gain;
   Covariance noise;  // for a PSD of 1 rad^2 s: ee [rad^2], ew [rad^2/s], ww [rad^2/s^2]
@@ -67,16 +67,17 @@ struct Design {
   LowPass low_pass;
 };
 
-/// Computes the tables of settings.algorithm (thousands of cubic equations for `combined`: call it at
-/// start-up). Noise, jerk density, sample period, bandwidth and the ends of the tables must be positive.
+/// Computes the tables of settings.algorithm. Call it at start-up: for `combined` it solves thousands of
+/// cubic equations. Noise, jerk density, sample period, bandwidth and the ends of the tables must be
+/// positive.
 Design make_design(const Settings& settings);
 
-/// The range [m] below which guidance must hold its command; transition and gain limit the range to at least
-/// this value.
+/// The range [m] below which guidance must hold its command; transition and gain use this value for any
+/// smaller range.
 double least_range(const Settings& settings, double closing_speed);
 
-/// Steady continuous-time covariance of x in the algorithm's own model: the initial P of a coast or of a
-/// Kalman update after a closed gain. Solves the equations at each call.
+/// The steady continuous-time covariance of x in the algorithm's own model. A coast begins with this P, and
+/// so does a Kalman update that follows a closed gain. Solves the equations at each call.
 Covariance steady_covariance(const Settings& settings, const Noise& noise, Geometry at);
 
 /// P-bar at a closing speed [m/s], by cubic interpolation, clamped to the table.
@@ -92,9 +93,9 @@ Gain glint_gain(const Covariance& p_bar, double psd, Geometry at);
 
 /// The gain of the switched tables for one sample: thermal above the crossing range, glint below.
 ClosedGain closed_gain(const PBarTable& table, const Settings& settings, Geometry at);
-/// The gain of the combined table for one sample, bilinear.
+/// The gain of the combined table for one sample, by bilinear interpolation.
 ClosedGain closed_gain(const CombinedTable& table, Geometry at);
-/// The fixed gain; its sigmas include only measurement noise, R = sample_variance().
+/// The fixed gain; its sigmas include only measurement noise, with the variance R = sample_variance().
 ClosedGain closed_gain(const LowPass& filter, double R, double Ts);
 
 }  // namespace canhil::los_rate

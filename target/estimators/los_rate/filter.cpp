@@ -100,8 +100,8 @@ void start(State& state, Plane error, const Design& design, UpdateResult& result
   result.outcome = Outcome::started;
 }
 
-// Predicts P over a leg and adds the variances of motion that was not measured. The sigmas of this motion:
-// `turn` [rad] of the antenna, `pull` [m/s] of the missile.
+// Predicts P over a leg and adds the variances of motion that was not measured. The sigmas of this motion are
+// `turn` [rad] for the antenna and `pull` [m/s] for the missile.
 void predict_covariance(State& state, Geometry end, double dt, double turn, double pull,
                         const Design& design) {
   const double w = pull / end.range;
@@ -177,8 +177,8 @@ void coast(State& state, double dt, const Sample& sample, const Settings& settin
     state.start_up_s = settings.start_up;
 }
 
-// The classical filter tracks the LOS angle itself: error+ = error + rate dt - antenna increment, turned by
-// the roll.
+// The classical filter tracks the LOS angle itself: error+ = error + rate dt - antenna increment. The error
+// and the rate are turned by the whole roll, the antenna increment only by half of the roll.
 void predict_low_pass(State& state, double dt, Plane antenna_increment, double roll_increment) {
   const Plane half = std::polar(1.0, roll_increment / 2), whole = half * half;
   state.error = (state.error + state.rate * dt) * whole - antenna_increment * half;
@@ -222,8 +222,8 @@ void advance(State& state, const Measurement& m, const Sample& sample, bool rang
         design, [&](auto plane) { return steady_covariance(settings, plane(settings.noise), begin); });
     state.covariance = true;
   }
-  // At the clamped range a long extrapolation would let the rate grow without bound, by w' = 2 vc/r w. So the
-  // closing speed is set to 0.
+  // At the clamped range a long extrapolation would let the rate grow without bound, because w' = (2 vc/r) w.
+  // So the closing speed is set to 0.
   const Geometry end{result.used.range, result.blind && !measured ? 0 : result.used.closing_speed};
   const bool covariance = !measured || kalman;
   if (sample.gap > 0) {
@@ -245,8 +245,8 @@ State initial() { return {}; }
 void predict(State& state, Geometry end, double dt, Plane antenna_increment, Plane missile_acceleration,
              double roll_increment) {
   const Transition phi = transition(end, dt);
-  // A roll rate p turns each state c by c' = j p c. The states are turned by the whole roll. The inputs are
-  // given in the axes at mid-roll, so they are first turned back by half of the roll.
+  // A roll rate p turns each complex state c according to c' = j p c. The states are turned by the whole
+  // roll. The inputs are given in the axes at mid-roll, so they are first turned back by half of the roll.
   const Plane half = std::polar(1.0, roll_increment / 2), whole = half * half;
   antenna_increment *= std::conj(half);
   missile_acceleration *= std::conj(half);

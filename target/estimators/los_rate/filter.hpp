@@ -1,6 +1,7 @@
 #pragma once
-// LOS rate of a seeker by range-only gains (Na and Lee), in two planes with roll coupling. Call make_design()
-// at start-up, initial(), then step() at each sample. NOTES.md has equations, signs and corrections.
+// Estimates the LOS rate of a seeker with gains that depend only on range and closing speed (Na and Lee), in
+// two planes, which roll couples. Call make_design() at start-up, then initial(), then step() at each sample.
+// NOTES.md has equations, signs and corrections.
 #include <cstdint>
 
 #include "target/estimators/los_rate/design.hpp"
@@ -9,7 +10,7 @@
 
 namespace canhil::los_rate {
 
-/// One sample of the seeker, with increments over the `interval` that ends at it.
+/// One sample of the seeker, with increments over the `interval` that ends at this sample.
 struct Measurement {
   double dt = 0;                       // since the last step [s]
   double interval = 0;                 // [s]; less than dt: samples were lost before; 0: equal to dt
@@ -71,9 +72,9 @@ State initial();
 UpdateResult step(State& state, const Measurement& measurement, const Design& design);
 
 /// The sigmas to report for a step. Those of Algorithm::combined include the lag after a sudden turn of the
-/// target, which white jerk does not model. The rate lags by up to 0.885 a/(Om r) (third-order Butterworth
-/// poles of bandwidth Om, a step of the acceleration); the lag for a = acceleration_sigma_0 is taken as 3
-/// sigma.
+/// target, which white jerk does not model. After a step A of the acceleration, the rate of a filter with
+/// third-order Butterworth poles of bandwidth Om lags by up to 0.885 A/(Om r). The lag for
+/// A = acceleration_sigma_0 is taken as 3 sigma.
 Planes<Sigma> reported_sigma(const UpdateResult& result, const Design& design);
 
 /// The estimate of a state, with the signs of pitch and yaw.
@@ -82,7 +83,7 @@ Estimate estimate(const State& state);
 /// Predicts the three states over one step; `end` is the geometry at the end of the step. Error angle and
 /// rate follow transition() with the input a - a_m; the antenna increment is subtracted from the error angle;
 /// then the states are turned by the roll increment. Inputs are given in the axes at mid-roll, so they are
-/// turned by half of the roll.
+/// turned by only half of the roll.
 void predict(State& state, Geometry end, double dt, Plane antenna_increment, Plane missile_acceleration,
              double roll_increment);
 

@@ -4,8 +4,9 @@
 
 namespace canhil::los_rate {
 
-/// A pair of planes as yaw + j pitch: angles and rates are z + j y, accelerations are y - j z (antenna axes:
-/// x forward, y right, z down). Then both planes obey the same equations and roll turns them by exp(j phi).
+/// A pair of planes as the complex number yaw + j pitch. Angles and rates are z + j y, and accelerations are
+/// y - j z (antenna axes: x forward, y right, z down). Then both planes obey the same equations, and a roll
+/// by phi multiplies the number by exp(j phi).
 using Plane = std::complex<double>;
 
 /// Means over one sample, in the antenna's axes.
@@ -25,10 +26,10 @@ struct Leg {
   double pull = 0;             // sigma of the change of the missile's velocity [m/s]
 };
 
-/// Bridges lost samples over `gap` [s] with the mean of the motions before and after the gap. If the rate
-/// changes abruptly from the first to the second at a random time in the gap, the error of the integral is
-/// uniform in +-|change| gap/2, with the sigma |change| gap/sqrt(12). Each plane gets half of the squared
-/// change of both planes.
+/// Bridges lost samples over `gap` [s] with the mean of the motions before and after the gap. If the motion
+/// changes abruptly at a random time in the gap, the error of its integral is uniform within
+/// +-|change| gap/2, so the sigma of this error is |change| gap/sqrt(12). The squared changes of both planes
+/// are added, and each plane gets half of this sum.
 Leg bridge(const Motion& before, const Motion& after, double gap);
 
 }  // namespace canhil::los_rate

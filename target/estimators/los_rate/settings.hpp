@@ -19,8 +19,8 @@ struct Planes {
   bool operator==(const Planes&) const = default;
 };
 
-/// White noise of an error angle, 1-sigma values; variance of a sample: R(r) = thermal^2 r^4 + glint^2 / r^2
-/// + constant^2.
+/// White noise of an error angle, as 1-sigma values. The variance of a sample is R(r) = thermal^2 r^4 +
+/// glint^2 / r^2 + constant^2.
 struct Noise {
   double thermal = 1e-10;  // of an active radar [rad/m^2]
   double glint = 0.5;      // [m]

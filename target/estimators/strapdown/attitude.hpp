@@ -17,7 +17,7 @@ Eigen::Matrix3d exp_rotation(const Eigen::Vector3d& phi);
 /// The rotation vector [rad], |phi| <= pi, of a direction cosine matrix: the inverse of exp_rotation.
 Eigen::Vector3d log_rotation(const Eigen::Matrix3d& C);
 
-/// The attitude error phi [rad], n axes, of C_computed = exp(-[phi x]) C_true.
+/// The attitude error phi [rad] in n axes, which is defined by C_computed = exp(-[phi x]) C_true.
 Eigen::Vector3d misalignment(const Eigen::Matrix3d& C_computed, const Eigen::Matrix3d& C_true);
 
 /// Euler angles, yaw-pitch-roll sequence [rad].
@@ -31,7 +31,8 @@ Eigen::Matrix3d dcm_from_euler(const Euler& e);
 /// Roll, pitch, heading [rad] of C_bn; pitch in [-pi/2, pi/2]. Roll and heading are not unique at +-pi/2.
 Euler euler_from_dcm(const Eigen::Matrix3d& C);
 
-/// One Newton step C (3 I - C'C)/2 to the nearest orthonormal matrix: reduces an error e to the order of e^2.
+/// One Newton step C (3 I - C'C)/2 towards the nearest orthonormal matrix: it reduces an error e to the order
+/// of e^2.
 Eigen::Matrix3d reorthonormalised(const Eigen::Matrix3d& C);
 
 }  // namespace canhil::strapdown

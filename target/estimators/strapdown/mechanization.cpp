@@ -8,9 +8,9 @@
 namespace canhil::strapdown {
 namespace {
 
-// Trapezoidal position from the velocities at both ends, with radii and height of the start (Groves 2013, eq.
-// 5.56). The rate of the longitude is computed with the radius of the circle of latitude at the start
-// (share_of_end 0) or at the end (share_of_end 1) of the step.
+// Advances the position by the mean of the velocities at both ends of the step, with the radii and the height
+// at the start (Groves 2013, eq. 5.56). The rate of the longitude is computed with the radius of the circle
+// of latitude at the start (share_of_end 0) or at the end (share_of_end 1) of the step.
 void advance_position(NavState& nav, const NavState& from, const LocalEarth& earth, double dt,
                       double share_of_end = 0) {
   const Eigen::Vector3d mean = 0.5 * (from.v_eb_n + nav.v_eb_n);
@@ -44,8 +44,9 @@ MechanizationStep mechanize_reference(const NavState& nav, const ImuIncrement& i
 MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& previous,
                                        const ImuIncrement& imu) {
   const double dt = imu.dt;
-  // With T the previous sample time and w = a + b t: coning = a x b dt^3/12 and previous x current =
-  // a x b T dt (T + dt)/2. Their ratio is `factor` (1/12 for T = dt); sculling has the same factor.
+  // Let T be the length of the previous sample, and let the rate be w = a + b t. Then the coning term is
+  // (a x b) dt^3/12, and the previous increment x the current increment is (a x b) T dt (T + dt)/2. The ratio
+  // of the two is `factor` (1/12 for T = dt); sculling has the same factor.
   const double factor = previous.dt > 0 ? dt * dt / (6 * previous.dt * (previous.dt + dt)) : 0;
   const Eigen::Vector3d phi = imu.delta_theta + factor * previous.delta_theta.cross(imu.delta_theta);
   const Eigen::Vector3d turned = imu.delta_theta.cross(imu.delta_v);

@@ -43,8 +43,8 @@ MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& 
 /// Turns the specific force by half of the sample's rotation. The earth terms keep their values of the start
 /// of the sample, as in the published test vectors of in-flight alignment:
 /// C1 = C exp([(dtheta - C' w_in dt) x]), V1 = V + C (dv + dtheta x dv/2) + (g - (2w_ie + w_en) x V) dt.
-/// Gravity is proportional to 1 - 2h/a. The rate of the longitude uses the radius of the circle of latitude
-/// at the end. Requires dt > 0.
+/// Gravity is proportional to 1 - 2h/a, where a is the earth's semi-major axis. The rate of the longitude
+/// uses the radius of the circle of latitude at the end of the sample. Requires dt > 0.
 MechanizationStep mechanize_one_sample(const NavState& nav, const ImuIncrement& imu);
 
 /// A step of the given kind; only two_sample uses `previous`.

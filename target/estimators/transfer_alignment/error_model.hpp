@@ -24,8 +24,8 @@ enum Index : int { velocity_state = 0, attitude_state = 3, accel_bias_state = 6,
 
 using strapdown::Interval;  // since the last update
 
-/// The non-zero blocks of G = A dt; the H2 term adds P N'N/beta dt, after which every block of the attitude
-/// column is non-zero.
+/// The non-zero blocks of G = A dt; the H2 filter adds (P N'N/beta) dt, which makes every block of the
+/// attitude column non-zero.
 inline constexpr std::array<filtering::Block, 5> kalman_blocks{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 3}}};
 /// The non-zero blocks with the H2 term.
 inline constexpr std::array<filtering::Block, 7> h2_blocks{

@@ -57,7 +57,8 @@ Prediction predict(const State& state, const Settings& settings) {
   return next;
 }
 
-// V -= dV, C <- exp(+[phi x]) C (n axes, from the left), biases += their errors.
+// Corrects the INS by x: V -= dV; C <- exp([phi x]) C, where phi is in n axes; each bias += its estimated
+// error.
 Ins corrected(const Ins& ins, const StateVector& x) {
   Ins better = ins;
   better.nav.v_eb_n -= x.segment<3>(velocity_state);
@@ -105,8 +106,8 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
   result.beta = prior.beta;
   result.degraded = prior.degraded;
   result.innovation = difference - prior.x.segment<3>(velocity_state);
-  // The master's noise is a density: its variance over an interval is R/dt, so the result does not depend on
-  // the update rate.
+  // The settings state the master's noise as a density. The variance over an interval is the density divided
+  // by the length of the interval, so the result does not depend on the update rate.
   const Eigen::Matrix3d R = Eigen::Matrix3d::Identity() * (settings.velocity_noise_density / duration);
   const auto correction =
       filtering::update_states<velocity_state, state_count, 3>(prior.P, R, result.innovation);
@@ -128,7 +129,7 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
     result.outcome = Outcome::non_finite;
     return result;
   }
-  // A variance of zero is valid: a bias that is known exactly.
+  // A variance of zero is valid: it means that a bias is known exactly.
   if (!(correction.P.diagonal().minCoeff() >= 0)) return result;
 
   result.outcome = Outcome::ok;

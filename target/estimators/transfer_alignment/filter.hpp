@@ -62,7 +62,7 @@ State initial(const strapdown::NavState& nav, const Settings& settings);
 void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings);
 
 /// Processes the master's velocity [m/s, NED] valid at the last IMU epoch: propagates P over the interval
-/// since the last update in one step, updates it by the measurement, and in a closed loop corrects the INS.
+/// since the last update in one step, updates P by the measurement, and in a closed loop corrects the INS.
 UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, const Settings& settings);
 
 /// update() with the difference V_slave - V_master [m/s], for a caller that has interpolated V_slave.

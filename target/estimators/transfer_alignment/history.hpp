@@ -18,7 +18,8 @@ struct HistoryModel {
   static void step(State& state, const Increment& imu, const Settings& settings) {
     propagate(state, imu, settings);
   }
-  /// Applies a measurement; `earlier` and `share` interpolate between two epochs.
+  /// Applies a measurement. If there is an `earlier` state, interpolates the velocity by `share` between the
+  /// two epochs.
   static UpdateResult update(State& state, const Ins* earlier, double share,
                              const Measurement& master_velocity, const Settings& settings) {
     Eigen::Vector3d velocity = state.ins.nav.v_eb_n;

@@ -19,12 +19,12 @@ inline constexpr double rad_per_deg = std::numbers::pi / 180;
 enum class Algorithm : std::uint8_t { kalman, robust_h2 };
 
 /// Structure of the uncertain block A_v,phi = L Delta N. With S = [(1 1 1) x], cases one to four have
-/// (L, N) = (alpha I, I), (alpha S, I), (I, alpha S), (I, alpha I). Cases one and four are the same filter,
-/// as alpha cancels in beta.
+/// (L, N) = (alpha I, I), (alpha S, I), (I, alpha S), (I, alpha I). Cases one and four are the same filter:
+/// their values of beta differ such that their H2 terms are equal.
 enum class H2Case : std::uint8_t { one = 1, two, three, four };
 
-/// cov_df: alpha = sqrt(tr([f x] P_phi [f x]')), capped, computed at each step (the paper's ||dC f|| needs
-/// the unknown dC).
+/// cov_df: alpha is sqrt(tr([f x] P_phi [f x]')) with an upper limit, computed at each step
+/// (the paper's ||dC f|| needs the unknown dC).
 enum class AlphaRule : std::uint8_t { cov_df, constant };
 
 /// How an update uses its correction. open: the correction is stored separately from the INS. published: the
@@ -46,7 +46,7 @@ struct Settings {
 
   // Loop::invariant: the gate refuses velocities with a larger NIS; 0: no gate. Velocities in a turn must
   // pass the gate even with a heading error of three sigmas (90 deg), for which the first-order model is far
-  // from valid. With a gate of 250, one run of 200 became inconsistent (NEES).
+  // from valid. With a gate of 250, one of 200 runs became inconsistent (NEES).
   double gate_nis = 2000;
   std::uint32_t gate_recovery = 5;  // the gate refuses at most this many velocities in a row
 

@@ -16,16 +16,16 @@ struct Uncertainty {
 };
 
 /// alpha [m/s^2]: the settings' constant, or sqrt(tr([f x] P_phi [f x]')) for the mean specific force f_n
-/// [m/s^2] and the posterior P; at most 2 sin(min(3 |sigma_0|, pi)/2) |f|, the largest |dC f| of a 3-sigma
-/// start error.
+/// [m/s^2] and the posterior P. The second value is limited to 2 sin(min(3 |sigma_0|, pi)/2) |f|, which is
+/// the largest |dC f| of a 3-sigma start error.
 double uncertainty_size(const Settings& settings, const Covariance& P, const Eigen::Vector3d& f_n);
 
 /// L and N for an H2 case; lmax(S S') = 3.
 Uncertainty uncertainty(H2Case h2_case, double alpha);
 
-/// Adds the two H2 terms for a step of `duration` [s] to G = A dt and to the velocity block of Q dt; returns
-/// beta. beta = 0: the terms vanish and nothing was added. P is the posterior of the last update. SI units
-/// and radians are part of the definition, as beta mixes units.
+/// Adds the two H2 terms for a step of `duration` [s]: one to G = A dt, the other to the velocity block of
+/// Q dt. Returns beta, or 0 if it added nothing. P is the posterior of the last update. SI units and radians
+/// are part of the definition, as beta mixes units.
 double add_h2_terms(const Uncertainty& uncertain, const Covariance& P, double duration, Covariance& G,
                     Eigen::Matrix3d& Q_velocity);
 

@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-// Clamps `value` to the range; `outside` becomes true if it was outside.
+// Clamps `value` to the range; sets `outside` to whether the value was outside the range.
 double held(double value, const Range& range, bool& outside) {
   outside = !(value >= range.least && value <= range.most);
   return std::clamp(value, range.least, range.most);
@@ -50,7 +50,7 @@ Flow flow(const Vector3d& v_a, const Vector3d& omega, const Air& air, const Airf
     f.speed = f.mach * air.speed_of_sound;
   }
   f.alpha = held(std::atan2(v_a.z(), v_a.x()), airframe.alpha, f.outside.alpha);
-  // Equals asin(v/V), but rounding cannot make an argument larger than 1.
+  // Equals asin(v/V); but in this form, rounding cannot make an argument larger than 1.
   f.beta = held(std::atan2(v_a.y(), std::hypot(v_a.x(), v_a.z())), airframe.beta, f.outside.beta);
   f.sin_alpha = std::sin(f.alpha);
   f.cos_alpha = std::cos(f.alpha);
@@ -91,7 +91,7 @@ Loads loads(const Flow& f, const Coefficients& c, const Air& air, const Airframe
 LoadsByPart loads_by_part(const Flow& f, const Deflection& fins, const Coefficients& c, const Air& air,
                           const Airframe& airframe) {
   // Rate part: the coefficient minus its value at zero rates. Fin part: the value at zero rates minus the
-  // value at zero rates and deflections.
+  // value at zero rates and zero deflections.
   Flow steady = f;
   steady.rates.setZero();
   const Coefficients with_fins = coefficients(steady, fins, airframe);
@@ -138,8 +138,8 @@ LoadsJacobian loads_jacobian(const Flow& f, const Coefficients& c, const Vector3
   drag.flow.x() += t.wave * (1 - wave * wave) / (t.wave_width * air.speed_of_sound);
   drag.flow.z() += 2 * t.sideslip_squared * f.beta;
 
-  // Derivatives with respect to V, alpha, beta (columns) of force coefficients along body x, y, z and of b
-  // Cl, c Cm, b Cn.
+  // Derivatives with respect to V, alpha, beta (columns). The rows of force_flow are the force coefficients
+  // along body x, y, z; the rows of moment_flow are b Cl, c Cm and b Cn.
   const double sa = f.sin_alpha, ca = f.cos_alpha, b = airframe.span;
   Matrix3d force_flow, force_rates, moment_flow, moment_rates;
   force_flow << sa * lift.flow.transpose() - ca * drag.flow.transpose(), side.flow.transpose(),
@@ -155,8 +155,8 @@ LoadsJacobian loads_jacobian(const Flow& f, const Coefficients& c, const Vector3
   force_flow.col(0) += (2 / V) * Vector3d(c.lift * sa - c.drag * ca, c.side, -c.lift * ca - c.drag * sa);
   moment_flow.col(0) += (2 / V) * Vector3d(b * c.roll, airframe.chord * c.pitch, b * c.yaw);
 
-  // Derivatives of V, alpha, beta with respect to u, v, w; zero where clamped. The lower limit of 0.1 m/s
-  // keeps the derivatives finite at speeds far below the model's range.
+  // Derivatives of V, alpha, beta with respect to u, v, w. They are zero for a clamped quantity. The lower
+  // limit of 0.1 m/s keeps the derivatives finite at speeds far below the model's range.
   const double s = std::max(std::hypot(v_a.x(), v_a.z()), 0.1), V_true = std::max(v_a.norm(), 0.1);
   Matrix3d flow_v_a = Matrix3d::Zero();
   if (!f.outside.speed && !f.outside.mach) flow_v_a.row(0) = v_a.transpose() / V_true;

@@ -1,6 +1,7 @@
 #pragma once
-// Aerodynamic force and moment from the table: stability axes and body side force (Park and Park 2019, eq.
-// (7); corrected: the paper mixes stability and wind axes and has the sign of S sin(beta) wrong).
+// Aerodynamic force and moment from the table. Lift and drag are in stability axes, the side force is along
+// body y (Park and Park 2019, eq. (7); corrected: the paper mixes stability and wind axes, and its
+// S sin(beta) has the wrong sign).
 #include <Eigen/Core>
 
 #include "target/estimators/wind/airframe.hpp"

@@ -1,6 +1,7 @@
 #pragma once
-// The form of the aerodynamic model; airframe_table.hpp has its values. Coefficients per rad; rates p b/2V,
-// q c/2V, r b/2V; body x forward, y right, z down; moments about the centre of gravity.
+// The form of the aerodynamic model; airframe_table.hpp has its values. Coefficients are per rad. Rates are
+// the reduced rates p b/(2V), q c/(2V), r b/(2V). Body axes are x forward, y right, z down. Moments are about
+// the centre of gravity.
 
 namespace canhil::wind {
 
@@ -40,7 +41,8 @@ struct Airframe {
   Lateral side, roll, yaw;                    // CY, Cl, Cn
   Drag drag;                                  // CD
   double mach_squared = 0;                    // compressibility
-  // Beyond these three ranges the model is clamped and the estimate is flagged.
+  // If alpha, beta or speed is outside its range, the model uses the limit of the range, and the estimate is
+  // flagged.
   Range alpha, beta;  // [rad]
   Range speed;        // [m/s]
   double mach_most = 0;

@@ -12,8 +12,8 @@ struct Air {
   double speed_of_sound = 0;  // [m/s]
 };
 
-/// Density and speed of sound of the standard atmosphere at an altitude [m]: 6.5 K/km to 11 km, isothermal
-/// above; the altitude is clamped to the range (ISO 2533).
+/// Density and speed of sound of the standard atmosphere (ISO 2533) at an altitude [m]. The temperature falls
+/// by 6.5 K per km up to 11 km and is constant above. The altitude is clamped to the range.
 Air standard_atmosphere(double altitude);
 
 }  // namespace canhil::wind

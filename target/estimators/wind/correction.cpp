@@ -11,8 +11,8 @@ namespace {
 using Matrix6 = filtering::Matrix<6, 6>;
 using ByShare = Eigen::Matrix<double, 1, part_count>;
 
-// Updates by one scalar measurement h x, element `index` of the observation: Ph = P h', S = h P h' + R,
-// residual = innovation - h dx.
+// Updates by one scalar measurement h x, which is element `index` of the observation. The caller provides
+// Ph = P h', S = h P h' + R and residual = innovation - h dx.
 void absorb(Correction& c, int index, const StateVector& Ph, double S, double residual) {
   const double scale = 1 / std::sqrt(S);
   const StateVector q = scale * Ph;  // the factors of q q' are the same vector, so P stays exactly symmetric

@@ -1,6 +1,6 @@
 #pragma once
-// The measurement update as a sequence of scalar updates, exact for the uncorrelated noises of a sample,
-// without inverse or factorisation; and the H-infinity step that follows it, in the same form.
+// The measurement update as a sequence of scalar updates. It is exact, because the noises of a sample are
+// uncorrelated, and it needs no inverse and no factorisation. The H-infinity step after it has the same form.
 #include "target/estimators/wind/model.hpp"
 
 namespace canhil::wind {
@@ -16,18 +16,19 @@ struct Correction {
   double determinant = 1;  // of S, in the units of the innovation
 };
 
-/// The Kalman update of P by an observation with the given innovation and diagonal noise variances; also
-/// updates the sensitivity, S+ = (I - K H) S, if it is given.
+/// The Kalman update of P by an observation with the given innovation and with uncorrelated noises of the
+/// given variances. Also updates the sensitivity, S+ = (I - K H) S, if the caller passes one.
 Correction corrected(const Covariance& P, const Observation& innovation, const GroundVelocity& at,
                      const Observation& noise_variance, Sensitivity* sensitivity = nullptr);
 
-/// The largest theta, but at most the given theta, with theta lambda_max(S^1/2 L P L' S^1/2) <= cap; L
-/// selects the air velocity and the rates, S = diag(1, 1, 1, w, w, w).
+/// The given theta, lowered if necessary so that theta lambda_max(S^1/2 L P L' S^1/2) <= cap. L selects the
+/// air velocity and the rates; S is diag(1, 1, 1, w, w, w) with the rate weight w.
 double capped_theta(double theta, double cap, const Covariance& P, double rate_weight);
 
-/// H-infinity (Park and Park 2019, eqs. (25)-(27) without an inverse of P; NOTES.md): reduces the information
-/// of the Kalman update about the air velocity and the rates, P~^-1 = P^-1 - theta L' S L, by scalar updates
-/// with negative noise variance -1/(theta S_j); dx becomes P~ H' R^-1 innovation. Needs theta lambda_max < 1.
+/// The H-infinity step after a Kalman update (Park and Park 2019, eqs. (25)-(27) without an inverse of P;
+/// NOTES.md). It reduces the information about the air velocity and the rates: P~^-1 = P^-1 - theta L' S L.
+/// For this it uses scalar updates with the negative noise variances -1/(theta S_j). dx becomes
+/// P~ H' R^-1 innovation. Requires theta lambda_max < 1.
 void inflate(Correction& correction, double theta, double rate_weight);
 
 }  // namespace canhil::wind

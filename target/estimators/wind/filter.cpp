@@ -52,8 +52,8 @@ void forget(State& state) {
   state.noise_factor = 1;
 }
 
-// Starts from navigation and the known wind: v_a = C_nb (v_eb_n - v_w), with the error C_nb (dv - dv_w - D
-// dPhi).
+// Starts from navigation and the known wind: v_a = C_nb (v_eb_n - v_w). The error of v_a is
+// C_nb (dv - dv_w - D dPhi), where D is the derivative of C_bn v_a with respect to Phi.
 void start(State& state, const Navigation& n, const Settings& settings) {
   const Matrix3d P_wind = state.P.block<3, 3>(wind_at, wind_at);
   const Matrix3d C_nb = C_bn(n.attitude).transpose();

@@ -99,7 +99,7 @@ struct Start {
 /// The state before a start. It contains only a wind [m/s, NED] with the sigma settings.wind_sigma_0.
 State initial(const Design& design, const Eigen::Vector3d& wind = Eigen::Vector3d::Zero());
 
-/// The state at release, sigmas from the settings; wind = v_eb_n - C_bn v_a.
+/// The state at release, with the sigmas of the settings and with the wind v_eb_n - C_bn v_a.
 State initial(const Start& start, const Design& design);
 
 /// Processes one sample: prediction with the deflections since the last sample, and an update if the sample

@@ -28,14 +28,14 @@ struct ActingFins {
 /// The last 64 samples of the fins.
 class FinHistory {
  public:
-  /// Adds deflections [rad] valid at t_us, each at most `limit`. Times must ascend; an earlier sample is
-  /// refused as out of order. If two consecutive samples are out of order, but the second is later than the
-  /// first and more than 0.1 s earlier than the newest, the newest had a wrong time. The history then
-  /// restarts with these two samples.
+  /// Adds deflections [rad] that are valid at t_us. Refuses them as not physical if one of them is not finite
+  /// or beyond `limit`, and as out of order if they are not later than the newest sample. If two consecutive
+  /// samples are out of order, but the second is later than the first and more than 0.1 s earlier than the
+  /// newest sample, then the newest sample had a wrong time, and the history restarts with these two samples.
   FinOutcome push(std::int64_t t_us, const Deflection& deflection, double limit);
 
-  /// The mean over [from, to] of the deflections, linearly interpolated between samples; constant after the
-  /// newest sample and before the oldest.
+  /// The mean of the deflections over [from, to]. The deflections are linearly interpolated between samples,
+  /// and are constant after the newest sample and before the oldest.
   ActingFins over(std::int64_t from_us, std::int64_t to_us) const;
 
  private:

@@ -14,7 +14,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using strapdown::skew;
 
-// Sines and cosines of roll and pitch. For the kinematics the pitch is clamped before the pole at 90 deg.
+// Sines and cosines of roll and pitch. The kinematics have a pole at a pitch of 90 deg, so for them the pitch
+// is clamped below 90 deg.
 struct Tilt {
   double sin_roll, cos_roll, sin_pitch, cos_pitch;
   double tan_pitch, sec_pitch;

@@ -54,8 +54,9 @@ Linearisation linearise(const StateVector& x, const Inputs& inputs, const Design
 StateVector predicted(const StateVector& x, const StateVector& f, double dt, const Inputs& inputs,
                       const Design& design, RangeFlags& outside);
 
-/// G = A dt + (A dt)^2/2, where Phi = I + G. Only 9 x 8, as the rest is zero: the wind is constant (rows),
-/// and no derivative depends on heading or wind (columns).
+/// G = A dt + (A dt)^2/2, where Phi = I + G. Only 9 x 8 elements are stored. The rows of the wind are zero,
+/// because the wind is constant; the columns of heading and wind are zero, because no derivative depends on
+/// heading or wind.
 using Growth = filtering::Matrix<9, 8>;
 /// G for a step of dt [s].
 Growth growth(const Jacobian& A, double dt);

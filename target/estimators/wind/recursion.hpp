@@ -4,7 +4,7 @@
 
 namespace canhil::wind {
 
-/// Each density, or its value in `least` if that is larger.
+/// For each density, the larger of its values in `density` and in `least`.
 Densities raised(Densities density, const Densities& least);
 
 /// Predicts x and P over dt [s] with constant inputs. `density` is the process noise; it is raised to
@@ -25,7 +25,8 @@ struct Answer {
   bool theta_capped = false;
 };
 
-/// Updates x and P by an observation; theta is computed for `interval` [s]. Algorithm::h_infinity inflates P.
+/// Updates x and P by an observation; theta is computed for `interval` [s]. With Algorithm::h_infinity the
+/// update also inflates P.
 Answer update(StateVector& x, Covariance& P, const Observation& y, double interval, const Design& design);
 
 /// update() for a caller that has computed the innovation, and optionally has a sensitivity.

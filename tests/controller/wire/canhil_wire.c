@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR GPL-2.0
-// Adds a wire that can fail to the emulated SJA1000 controllers. QEMU's controllers send without delay, at any bit rate, even without a receiver, and
-// without errors. This kernel module sits between the controllers and their driver (kvaser_pci, sja1000), at the two functions by which the driver
-// reads and writes registers, and shows the driver the registers of a controller with errors. The driver, the kernel's CAN and everything above are
-// the real ones.
+// Gives the emulated SJA1000 controllers a wire that can have faults. QEMU's controllers send without delay, at any bit rate, even without a receiver,
+// and never have errors. This kernel module sits between the controllers and their driver (kvaser_pci, sja1000), at the two functions by which the
+// driver reads and writes registers. The module shows the driver the registers of a controller with errors. The driver, the CAN code of the kernel and
+// all programs are real.
 //
 // The wire of each controller has a state.
 // Two controllers with different bit timings disturb each other. If one controller is down or bus-off, the other one has the state `alone` (see below).
-// Other states are set by /sys/module/canhil_wire/parameters/wire. Load the module while the controllers are down: the module reads their bit timings
-// when the controllers are set up.
+// The other states are set by writing to /sys/module/canhil_wire/parameters/wire. Load the module while the controllers are down: the module reads their
+// bit timings when the controllers are set up.
 //   echo can1 sound              QEMU's behaviour
 //   echo can1 held               can1 sends nothing until its state is sound again, as if other nodes occupied the bus
 //   echo can1 slow US            each frame takes US microseconds
 //   echo can1 broken             each frame ends with an error until the controller is bus-off
 //   echo can1 alone              nobody acknowledges frames: can1 becomes error passive and repeats its frame endlessly
-//   echo can1 raise IR SR ECC ALC TXERR RXERR    one interrupt with these register values (hex)
+//   echo can1 raise IR SR ECC ALC TXERR RXERR    can1 raises one interrupt with these register values (hex)
 #include <linux/can/dev.h>
 #include <linux/hrtimer.h>
 #include <linux/interrupt.h>
@@ -112,7 +112,7 @@ static void write_chip(struct controller *c, int reg, u8 value)
 	passing = false;
 }
 
-// If a frame has another bit rate, its receiver counts errors too, but a receiver never becomes bus-off.
+// The receiver of a frame with another bit rate counts errors too, but a receiver never becomes bus-off.
 static void disturb(struct controller *c, u8 ir, u8 rxerr)
 {
 	if (netif_running(c->dev) && !c->seen[TXERR] && c->seen[RXERR] < rxerr)

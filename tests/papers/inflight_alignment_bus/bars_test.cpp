@@ -20,8 +20,8 @@ TEST(InflightAlignmentPaperOverTheBus, MeetsTheBarsWith40Runs) {
     EXPECT_EQ(found->figures.front().first, "rms_deg");
     return found->figures.front().second.value_or(0);
   };
-  // Bar C: with 400 runs, the two RMS may differ by 20 %. Both variants have the same random numbers in each
-  // run, so their ratio hardly depends on the number of runs. Here the limit is 30 %.
+  // Bar C: with 400 runs, the two RMS may differ by 20 %; here the limit is 30 %. Both variants have the same
+  // random numbers in each run, so the ratio of the two RMS hardly depends on the number of runs.
   EXPECT_NEAR(rms_deg("gps_sincos_180") / rms_deg("gps_sincos_30"), 1, 0.3);
   EXPECT_NEAR(rms_deg("ssbl_sincos_180") / rms_deg("ssbl_sincos_30"), 1, 0.3);
 }

@@ -1,6 +1,7 @@
 #pragma once
-// A Monte Carlo simulation of the paper's flight with the filter alone, without a bus: 20 s, IMU of 100 Hz,
-// master velocity at 10 Hz. In each run, all filters have the same errors and the same noise.
+// A Monte Carlo simulation of the paper's flight, with the filter alone and without a bus. In a
+// flight of 20 s, there are 100 IMU samples and 10 master velocities per second. In each run, all filters
+// have the same errors and the same noise.
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
@@ -33,7 +34,7 @@ struct RunResult {
   double mean_nis = 0;
 };
 
-/// Flies `runs` runs with each filter. Returns the results: the first index is the filter, the second the
+/// Flies `runs` runs with each filter. The first index of the result is the filter, the second index is the
 /// run. The same seed gives the same results.
 inline std::vector<std::vector<RunResult>> monte_carlo(const std::vector<Settings>& filters,
                                                        const Truth& truth, int runs, std::uint64_t seed) {

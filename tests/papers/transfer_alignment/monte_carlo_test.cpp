@@ -1,8 +1,8 @@
 // Tests the claims that compare the robust H2 filter with the Kalman filter (Yang, Shim, Park 2001). The
 // settings are those that reproduce the paper's Table 2: P0 of the attitude is 1 deg although the true errors
-// are 5 deg, and R is far above the master's noise. Each test has 300 runs and a fixed seed. The limits are
-// wider than two scatters: that of five seeds with 300 runs each, and that of ten batches of 30 runs of the
-// reference simulation. Seeds 1, 1000, 2000 and 5000 meet the limits.
+// are 5 deg, and R is far above the master's noise. Each test has 300 runs and a fixed seed. Two scatters are
+// known: between five seeds with 300 runs each, and between ten batches of 30 runs of the reference
+// simulation. The limits are wider than both. Seeds 1, 1000, 2000 and 5000 meet the limits.
 #include <gtest/gtest.h>
 
 #include "tests/papers/transfer_alignment/monte_carlo.hpp"
@@ -23,8 +23,8 @@ Settings filter(Algorithm algorithm, double sigma_0_deg) {
 const Settings kalman_1 = filter(Algorithm::kalman, 1), kalman_5 = filter(Algorithm::kalman, 5),
                h2_filter = filter(Algorithm::robust_h2, 1);
 
-// The time in which the filter converges to 3 / 2 / 1 mrad [s] is, in the paper, 14.4 / 15.6 / never, and in
-// the reference simulation 14.7 / 16.2 / never.
+// In the paper, the heading error falls below 3 mrad after 14.4 s and below 2 mrad after 15.6 s. In the
+// reference simulation, these times are 14.7 s and 16.2 s. In both, the error never falls below 1 mrad.
 TEST(TransferAlignmentPaper, KalmanFilterConfiguredWithOneDegreeIsSlow) {
   const auto runs = monte_carlo({kalman_1}, {}, run_count, first_seed).front();
   EXPECT_GT(convergence_time(runs, k3mrad), 13.8);
@@ -32,9 +32,9 @@ TEST(TransferAlignmentPaper, KalmanFilterConfiguredWithOneDegreeIsSlow) {
   EXPECT_GT(convergence_time(runs, k1mrad), 18.0);
 }
 
-// The time in which the H2 filter converges to 3 / 2 / 1 mrad is, in the paper, 11.4 / 11.7 / 12.9 s, and in
-// the reference simulation 12.3 / 12.9 / 15.5 s. The test and the simulation use the same alpha, one that can
-// be implemented.
+// In the paper, the heading error of the H2 filter falls below 3, 2 and 1 mrad after 11.4, 11.7 and 12.9 s.
+// In the reference simulation, the times are 12.3, 12.9 and 15.5 s. The test and the simulation compute alpha
+// in the same way, without the true errors, which a real filter cannot know.
 TEST(TransferAlignmentPaper, H2IsFasterThanThatKalmanFilter) {
   const auto results = monte_carlo({h2_filter, kalman_1}, {}, run_count, first_seed);
   const auto &h2 = results[0], &kalman = results[1];
@@ -57,8 +57,9 @@ TEST(TransferAlignmentPaper, KalmanFilterConfiguredWithTheTruthIsFasterThanH2) {
 }
 
 // With P0 of 1 deg and fading memory, the Kalman filter is as fast as the H2 filter. In the reference
-// simulation it converges to 3 / 2 / 1 mrad in 12.0 / 12.4 / 13.6 s if P is multiplied by exp(2 a dt) with a
-// = 0.1 /s, and in 13.1 / 13.9 / 16.5 s if P is multiplied by exp(a dt).
+// simulation, the heading error of the Kalman filter falls below 3, 2 and 1 mrad after 12.0, 12.4 and 13.6 s
+// if P is multiplied by exp(2 a dt), and after 13.1, 13.9 and 16.5 s if P is multiplied by exp(a dt). In both
+// cases a is 0.1 /s.
 TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
   Settings fading = kalman_1;
   fading.fading_per_s = 0.1;
@@ -81,9 +82,9 @@ TEST(TransferAlignmentPaper, KalmanFilterConvergesWithMasterNoise) {
                  std::to_string(1e3 * heading_rms(results[1], update_count - 1)));
 }
 
-// With true P0, Q and R the innovations are consistent: the mean NIS is 3. The standard error of this mean is
-// 0.01 (300 runs with 200 updates each; chi-square with 3 degrees of freedom). The linearisation error, of
-// the order of the square of 5 deg, affects only the first updates.
+// If P0, Q and R have the true values, the innovations are consistent: the mean NIS is 3. The standard error
+// of this mean is 0.01 (300 runs with 200 updates each; chi-square with 3 degrees of freedom). The
+// linearisation error is of the order of the square of 5 deg, and affects only the first updates.
 TEST(TransferAlignmentPaper, HonestKalmanFilterIsConsistent) {
   Truth truth;
   truth.master_noise_sigma = std::sqrt(kalman_5.velocity_noise_density / update_interval);

@@ -30,8 +30,8 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
   EXPECT_THAT(html, Not(HasSubstr("src=")));  // the page needs no other file
   EXPECT_THAT(html, Not(HasSubstr("url(")));
   EXPECT_THAT(text, HasSubstr("The limits are for 300 runs: with fewer they may fail by chance."));
-  // The first paragraph must agree with the verdicts below it: with two runs, these claims are not
-  // reproduced.
+  // The first paragraph must agree with the verdicts below it. With only two runs, the paper's claims about
+  // the Kalman filter and about H2 case 2 have the verdict 'does not reproduce'.
   EXPECT_THAT(html,
               HasSubstr("errors are 5 deg. Table 2, Kalman filter: does not reproduce; its heading enters"));
   EXPECT_THAT(html, HasSubstr("Table 2, H2 case 2 is faster: does not reproduce; its heading enters"));

@@ -1,4 +1,4 @@
-// Tests that each of a paper's acceptance limits ('bars') has an effect: if a figure is just beyond a limit,
+// Tests that each acceptance limit ('bar') of a paper has an effect: if a figure is just beyond the limit,
 // the claim fails, and so does the whole page.
 #include <gmock/gmock.h>
 
@@ -12,8 +12,9 @@
 namespace canhil::papers {
 namespace {
 
-// One limit: the figure named `figure` must be at most `value` or, if not `at_most`, at least `value`. If
-// `figure` is empty, the limit applies to the value of the quantity itself.
+// One limit of a figure. `value` is the upper limit if `at_most` is true, and the lower limit if `at_most` is
+// false. `figure` is the name of the figure. If `figure` is empty, the limit applies to the value of the
+// quantity itself.
 struct Bar {
   std::string figure;
   double value = 0;  // in the unit of the report
@@ -53,7 +54,7 @@ class BarsOf {
     if (rule.at_most) at_most("", rule.beyond, rule.quantity->unit.factor);
     return bars_;
   }
-  // Other kinds of metric have no limits in these papers.
+  // Metrics of other kinds have no limits in these papers.
   template <class Rule>
   std::vector<Bar> operator()(const Rule&) {
     return {};
@@ -69,8 +70,8 @@ class BarsOf {
   std::vector<Bar> bars_;
 };
 
-// The value of a quantity if all stored quantities are 1. Quantities that are derived from others may differ
-// from 1.
+// The value of the quantity in a run in which all stored quantities are 1. A quantity that is derived from
+// stored quantities may differ from 1.
 double itself(const campaign::Variant& variant, const campaign::Answer& answer) {
   return run_at(variant, 0, 1).samples.value(0, *answer.quantity) / answer.quantity->unit.factor;
 }

@@ -11,7 +11,8 @@
 namespace canhil::papers {
 namespace {
 
-// Windows of the time to go in the LOS campaigns: two during the start-up of the filters, five after it.
+// Names of windows in the LOS campaigns. Each name contains the limits of the time to go [s]. Two windows are
+// during the start-up of the filters, five windows are after it.
 constexpr std::array starting{"RMS 5.6-4.5", "RMS 4.5-3"};
 constexpr std::array settled{"RMS 3-2", "RMS 2-1", "RMS 1-0.5", "RMS 0.5-0.2", "RMS 0.2-0.08"};
 
@@ -55,8 +56,8 @@ TEST_F(LosClaims, NoStartUpIsNeeded) {
   EXPECT_FALSE(made_up_.holds("no_start_up"));
 }
 
-// The claim requires a smaller RMS than each of three fixed bandwidths, before the manoeuvre and at its
-// onset.
+// The claim requires a smaller RMS than that of each of the three filters with a fixed bandwidth, both before
+// the manoeuvre and at its onset.
 TEST_F(LosClaims, BetterThanAFixedBandwidthByRms) {
   for (const char* window : {"RMS 3-2", "RMS 1-0.5"}) rms("combined", window, 0.999);
   EXPECT_TRUE(made_up_.holds("better_by_rms"));

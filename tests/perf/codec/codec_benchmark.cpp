@@ -1,5 +1,5 @@
-// Time of the codecs in nanoseconds. Compare only figures of the same run, because other programs use the
-// machine too.
+// Measures the time that the codecs need, in nanoseconds. Compare only figures of the same run, because other
+// programs use the machine too.
 #include <benchmark/benchmark.h>
 
 #include "dbc/parser/codec.hpp"

@@ -1,5 +1,6 @@
-// Time of one IMU step, of processing one fix (prediction since the fix before, and update), and of both
-// together.
+// Measures the time of one IMU step, the time of processing one fix, and the time of both together.
+// Processing a fix consists of the prediction since the previous fix, and of the update. The prediction is
+// also measured alone.
 #include <benchmark/benchmark.h>
 
 #include "tests/perf/estimators/warm_inflight_filter.hpp"

@@ -1,6 +1,6 @@
 // A program for callgrind. Each measured call is in a function of its own, which is called once; callgrind
-// counts the instructions of this function. Processing a fix includes the prediction since the fix before,
-// and the update.
+// counts the instructions of this function. Processing a fix consists of the prediction since the previous
+// fix, and of the update.
 #include <cstdio>
 
 #include "tests/perf/estimators/warm_inflight_filter.hpp"

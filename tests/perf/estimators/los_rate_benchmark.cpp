@@ -1,5 +1,5 @@
-// Time of one step of each algorithm (both planes, with roll), of the parts in which the algorithms differ,
-// and of the start-up.
+// Measures the time of one step of each algorithm (both planes, with roll), the time of the parts in which
+// the algorithms differ, and the time of the start-up.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -27,8 +27,8 @@ void copy_seeker_state(benchmark::State& bench) {
   }
 }
 
-// The following functions measure the computation of one plane's gain by each algorithm. The range r
-// decreases a little with each call, so that no call repeats the one before.
+// The following functions measure how long each algorithm takes to compute the gain of one plane. The range r
+// decreases a little with each call, so that successive calls have different inputs.
 Geometry moving(double& r) {
   r = r > 1800 ? r - 1e-3 : 2000;
   return {r, 900};
@@ -56,7 +56,8 @@ void gain_kalman(benchmark::State& bench) {
     benchmark::DoNotOptimize(P);
   }
 }
-// What the combined gain would cost per sample if it were computed each time, without its table.
+// What the combined gain would cost per sample if it were computed for each sample instead of read from its
+// table.
 void gain_combined_solved(benchmark::State& bench) {
   const Settings settings;
   double r = 2000;

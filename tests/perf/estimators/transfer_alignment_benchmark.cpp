@@ -1,4 +1,5 @@
-// Time of one IMU step, of one velocity update, of both together, and of the covariance prediction alone.
+// Measures the time of one IMU step, of one velocity update, of both together, and of the covariance
+// prediction alone.
 #include <benchmark/benchmark.h>
 
 #include "target/estimators/filtering/block_transition.hpp"
@@ -55,8 +56,8 @@ void predict_covariance(benchmark::State& bench) {
   }
 }
 
-// An update with a measurement that arrives 200 ms late. The IMU has 100 Hz, so after the update the
-// mechanisation processes 20 increments again.
+// An update with a measurement that arrives 200 ms late. The IMU sends 100 samples per second, so after the
+// update the mechanisation processes 20 increments again.
 void late_update(benchmark::State& bench) {
   const WarmFilter warm = warm_filter(Algorithm::robust_h2, Mechanization::two_sample);
   History<32> history(0);

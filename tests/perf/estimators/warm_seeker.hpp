@@ -12,8 +12,8 @@ struct WarmSeeker {
 };
 
 /// The filter processes samples until the range has decreased to `range` [m]. Above 1710 m, thermal noise is
-/// larger than glint; below, glint is larger. If not `equal`, the noise differs in the two planes, so the
-/// filter needs two sets of gains.
+/// larger than glint; below 1710 m, glint is larger. If `equal` is false, the noise differs in the two
+/// planes, so the filter needs two sets of gains.
 inline WarmSeeker warm_seeker(Algorithm algorithm, double range = 2000, bool equal = true) {
   EngagementSetup setup;
   setup.settings.algorithm = algorithm;

@@ -1,4 +1,4 @@
-// Time of one step of each algorithm, and of the parts of a step.
+// Measures the time of one step of each algorithm, and of the parts of a step.
 #include <benchmark/benchmark.h>
 
 #include <memory>

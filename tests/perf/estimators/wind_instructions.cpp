@@ -10,8 +10,8 @@ using namespace canhil::wind;
 
 #define MEASURED extern "C" [[gnu::noinline]]
 
-// The recommended filter, a bank of filters. Each begins with the state that a single filter has after five
-// seconds.
+// The recommended filter is a bank of filters. Each filter of the bank begins with the state that a single
+// filter has after five seconds.
 struct WarmBank {
   WarmGlider glider;
   BankDesign design = make_bank({});

@@ -1,10 +1,11 @@
-// Compares, in one run, round trips between two processes over the embedded bus and over a bare
-// SOCK_SEQPACKET socketpair.
-//   round_trip [ROUNDS [LIMIT]]: prints p50, p99 and maximum of both ways, and the ratios. With LIMIT, the
+// Measures round trips between two processes over two paths, in one run of the program. One path is the
+// embedded bus, the other path is a bare SOCK_SEQPACKET socketpair.
+//   round_trip [ROUNDS [LIMIT]]: prints p50, p99 and maximum of both paths, and the ratios. With LIMIT, the
 //   program fails if the ratio of the two p50 is larger than LIMIT.
 //
-// Both ways wait in the same manner: they read the socket, and call poll() if it is empty. Blocks of rounds
-// over the one and the other way alternate, so that other load of the machine affects both equally.
+// On both paths, the processes wait in the same manner: they read the socket, and call poll() if it is empty.
+// The program measures a block of rounds on one path, then a block on the other path, and so on, so that
+// other load of the machine affects both paths equally.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>

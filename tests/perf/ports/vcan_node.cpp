@@ -2,8 +2,10 @@
 // end is a second process of this program, a program of can-utils, or python-can (vcan.py).
 //   vcan_node ROLE port|raw INTERFACE COUNT
 //   ping: for each line on stdin, makes COUNT round trips, one after the other, to a node that answers each
-//   frame; prints the times of the round trips [ns] on one line. echo: answers COUNT frames with the id 0x77
-//   by frames with the id 0x78, as canfdtest does. send: sends COUNT numbered frames as fast as possible.
+//   frame; prints the times of the round trips [ns] on one line.
+//   echo: receives COUNT frames with the id 0x77, and answers each of them with a frame that has the id 0x78,
+//   as canfdtest does.
+//   send: sends COUNT numbered frames as fast as possible.
 //   receive: receives COUNT frames; prints how many were lost or out of order.
 // The program waits for frames without a time limit; vcan.py limits its time.
 #include <fmt/format.h>

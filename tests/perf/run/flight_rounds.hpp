@@ -14,7 +14,8 @@
 
 namespace canhil {
 
-/// The frames from the bench up to and including one that the target answers, and the frames of the answer.
+/// One exchange between the bench and the target: the frames that the bench sends until the target answers,
+/// and the frames of the answer.
 struct Round {
   std::vector<Frame> stimulus;
   std::vector<Frame> answers;
@@ -53,8 +54,8 @@ class RecordingPort final : public Port {
   std::size_t next_ = 0;
 };
 
-/// Flies run `run_index` of a scenario and records its rounds, beginning with the reset of the target.
-/// `algorithm` replaces the scenario's algorithm. In case of an error returns its message, one line.
+/// Flies run `run_index` of a scenario with the algorithm `algorithm` instead of the scenario's algorithm.
+/// Returns the rounds of the run, which begin with the reset of the target, or one error line.
 inline Result<std::vector<Round>> record_flight(const std::string& file, const std::string& algorithm,
                                                 std::uint64_t run_index) {
   auto scenario = scenario::read_file(file, drive::contract());

@@ -1,5 +1,5 @@
-// The time of one run in process (20 s, IMU of 100 Hz), including packing and unpacking of frames. A campaign
-// consists of such runs.
+// Measures how long the program needs for one run in process, including packing and unpacking of frames. The
+// flight lasts 20 s and has an IMU of 100 Hz. A campaign consists of such runs.
 #include <benchmark/benchmark.h>
 
 #include "bench/drive/contract.hpp"

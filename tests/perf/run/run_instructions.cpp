@@ -1,4 +1,5 @@
-// Runs of the paper's flight, for callgrind: stages.py has callgrind count the instructions of one_run().
+// Flies the paper's flight under callgrind. stages.py starts this program; callgrind counts the instructions
+// of one_run().
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>

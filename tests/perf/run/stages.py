@@ -16,8 +16,8 @@ SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, MONITOR = "sensor and truth", "pack", "wi
 LOOP = "device and run loop"
 STAGES = (SENSOR, PACK, WIRE, UNPACK, ESTIMATOR, LOOP, MONITOR)
 GOALS = (("pack + wire + E2E + unpack", (PACK, WIRE, UNPACK), 10), (SENSOR, (SENSOR,), 25))
-# The stage of a source file is that of the first entry whose text occurs in the path of the file. None: the function
-# that contains the line decides whether the line belongs to pack or to unpack.
+# A source file belongs to the stage of the first entry whose text occurs in the path of the file. If this entry has no stage (None), each line of the
+# file belongs to pack or to unpack; the function that contains the line decides which of the two.
 FILES = (
     ("bench/world/", SENSOR), ("bench/nodes/", SENSOR),
     ("messages/canhil.hpp", None), ("dbc/wire/bits", None), ("dbc/wire/quantise", None), ("dbc/wire/message.hpp", None),

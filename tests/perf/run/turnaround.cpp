@@ -1,14 +1,15 @@
-// Measures the time from the last frame of a stimulus to the last frame of its answer, for the target and for
-// an echo. The echo is a process that computes nothing: it sends the recorded answer to each stimulus.
+// Measures the turnaround of the target and of an echo. The turnaround is the time from the last frame of a
+// stimulus to the last frame of its answer. The echo is a process that computes nothing: it sends the
+// recorded answer to each stimulus.
 //   turnaround [--flights N] [--only NAME] [--bus BUS ECHO_BUS]
-// Target and echo are on different buses, so that neither receives the frames of the other: on two embedded
-// buses or, with --bus, on two CAN interfaces of the same kind. For every estimator and each message that
-// ends an answer, the program prints p50, p99 and maximum of target and echo, the missing answers, and the
-// ratios.
+// Target and echo are on different buses, so that neither receives the frames of the other. These buses are
+// two embedded buses or, with --bus, two CAN interfaces of the same kind. For every estimator and each
+// message that ends an answer, the program prints p50, p99 and maximum of both turnarounds, the numbers of
+// missing answers, and the ratios of the turnarounds.
 //
 // Target and echo take turns in blocks, so that other load of the machine affects both equally. The flight is
-// sent faster than real time, which is possible because the target uses only the time that the frames
-// contain.
+// sent faster than real time. This is possible because the target computes its answers from the times in the
+// frames, not from a clock.
 #include <fcntl.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>
@@ -169,8 +170,8 @@ void rest(std::int64_t since_ns) {
   ::usleep(static_cast<unsigned>((clock_ns(CLOCK_MONOTONIC) - since_ns) / breath / 1000));
 }
 
-/// Sends the rounds to both sides in blocks: each block first to the echo, then to the target. The first
-/// block is a warm-up.
+/// Sends the rounds to both sides in blocks. Each block goes to the echo first, and then to the target. The
+/// first block is a warm-up.
 void alternate(const std::vector<Round>& rounds, Side& device, Side& bare) {
   for (std::size_t first = 0; first < rounds.size() && device.alive() && bare.alive(); first += block) {
     const std::size_t end = std::min(first + block, rounds.size());

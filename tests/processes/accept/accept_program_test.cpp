@@ -172,8 +172,8 @@ TEST_F(Accept, BadInputIsOneLine) {
   expect_one_line(accept("--record"), "small/suite.toml:7: key 'requirement[1].family'");
 }
 
-// If the bench cannot store the results of a campaign, for example on a full disk, this is not a defect of
-// the target.
+// If the bench cannot store the results of a campaign, for example because the disk is full, it must not
+// report this as a defect of the target.
 TEST_F(Accept, ACampaignWhoseResultsCannotBeKeptIsNoFailureOfTheTarget) {
   std::ofstream(folder_ + "/small/suite.toml", std::ios::app) << "\n[[campaign]]\nfile = \"campaign.toml\"\n";
   std::ofstream(folder_ + "/small/campaign.toml") << R"(title = "Two flights"

@@ -1,5 +1,5 @@
-// Tests hil-bench campaign: neither threads nor shards nor kills change the merged file; an error is one
-// line.
+// Tests hil-bench campaign: neither the number of threads nor shards nor kills change the merged file, and an
+// error message has one line.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -177,8 +177,8 @@ TEST(Export, IsATableOfWhatTheRunsReported) {
   EXPECT_THAT(ended.out,
               testing::StartsWith("variant,run,t_s,quantity,unit,value\nKF master_ins.latency_ms=0,0,"));
   // The output has a header line and a line for each quantity (14) of each update. There are four variants
-  // with 30 runs each. In two variants a run has 29 updates; in the others, whose master INS is 100 ms late,
-  // 28.
+  // with 30 runs each. In two variants a run has 29 updates. In the other two, the master INS is 100 ms late,
+  // and a run has 28 updates.
   EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1 + 30 * (2 * 29 + 2 * 28) * 14);
   EXPECT_THAT(ended.out, testing::ContainsRegex(
                              "\nKF master_ins.latency_ms=0,29,[0-9.]+,attitude.heading,rad,-?[0-9.e-]+\n"));
@@ -418,7 +418,7 @@ TEST(CampaignBadInput, ReadOnlyFolderIsOneLineAndLeavesWhatIsThere) {
   const std::string stored = read(half);
   fs::permissions(at, fs::perms{0555});
   fs::permissions(half, fs::perms{0444});
-  // Root may ignore the modes of files, unless the process drops these capabilities.
+  // Root may ignore the modes of files. Without these two capabilities, root must respect them.
   const std::string bound_by_modes = without_capabilities("-dac_override,-dac_read_search") + HIL_BENCH;
   const auto campaign = [&](const std::string& out) {
     return shell(fmt::format("{} campaign {} --out {}", bound_by_modes, campaign_file(), out));

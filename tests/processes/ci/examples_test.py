@@ -99,7 +99,7 @@ class Pipeline(unittest.TestCase):
             xml.etree.ElementTree.parse(f"{self.here}/reports/{bus}.xml")
             self.assertTrue(os.path.exists(f"{self.here}/reports/{bus}.html"))
         self.assertNotIn("no worse", output, "nothing to compare with yet")
-        # A second run with equal results is 'no worse'. A run is worse if a check fails that passed in the earlier run.
+        # A second run with equal results is 'no worse'. A run is worse if a check that passed in the earlier run fails.
         compare = [step for step in steps if "hil-bench compare" in step]
         self.assertEqual(len(compare), 1)
         self.keep()

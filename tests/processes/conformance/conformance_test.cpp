@@ -77,8 +77,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Defect{"SlowBeat", {"P-BEAT"}}, Defect{"AnyContract", {"P-CONTRACT"}},
         Defect{"AnyEstimator", {"P-ESTIMATOR"}}, Defect{"UnknownCommand", {"P-COMMAND"}},
-        // Both rules fail: a target that starts without an initial state also starts with an
-        // incomplete one.
+        // NoStateNeeded violates two rules: a target that starts without an initial state also
+        // starts with an incomplete one.
         Defect{"NoStateNeeded", {"P-NO-STATE", "P-WHOLE-STATE"}}, Defect{"HalfState", {"P-WHOLE-STATE"}},
         Defect{"DeafToRepetition", {"P-REPEAT"}}, Defect{"EarlyAnswers", {"P-BEFORE"}},
         Defect{"NoStop", {"P-STOP"}}, Defect{"Once", {"P-AGAIN"}},

@@ -1,5 +1,5 @@
-// The kit for user-written targets: the examples in C and Python send the same bits, a run with each of them
-// comes to its verdict, and the tables of the kit match the DBC.
+// Tests the kit for user-written targets: the examples in C and in Python send the same bits, a run with each
+// example reaches a verdict, and the tables of the kit match the DBC.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -69,8 +69,8 @@ TEST(Kit, CAndPythonAnswerWithTheSameBits) {
   EXPECT_THAT(hil_bench("diverge" + logs).out, HasSubstr("same: "));
 }
 
-// The target receives the arguments in --target. With other arguments, its answers differ from the recorded
-// ones.
+// The option --target may contain arguments of the target. If the target does not receive them, its answers
+// differ from the recorded ones.
 TEST(Kit, ArgumentsReachTheTarget) {
   const std::string folder = scratch("kit_golden");
   shell("rm -rf " + folder);
@@ -86,7 +86,7 @@ TEST(Kit, ArgumentsReachTheTarget) {
 
 const std::string own_target = read(SOURCE_DIR "/docs/own-target.md");
 
-// If the host stalls, the bench repeats commands. Then the test records the handshake again.
+// If the host stalls, the bench repeats commands. In this case the test records the handshake again.
 TEST(Documentation, HandshakeIsThatOfARun) {
   const std::string log = scratch("handshake.log");
   Ended annotated;

@@ -22,8 +22,8 @@ nlohmann::json line_of(const nlohmann::json& page, const std::string& subject) {
   return nullptr;
 }
 
-// On a loaded machine, the doctor may find bad timing. Therefore the test expects no particular exit code,
-// but one that matches the findings.
+// On a loaded machine, the doctor may find bad timing. Therefore the test does not expect a fixed exit code,
+// but the exit code that matches the findings.
 void expect_code_of_its_lines(const Ended& ended, const nlohmann::json& page) {
   const bool bad =
       std::ranges::any_of(page["lines"], [](const auto& line) { return line["grade"] == "bad"; });
@@ -44,7 +44,7 @@ TEST(Doctor, ExaminesABusAndItsMachine) {
   EXPECT_GE(page["jitter_s"]["count"], 1);
   EXPECT_LE(page["jitter_s"]["count"], 1000);
   EXPECT_EQ(page["loop"]["sent"], 200);
-  // A frame counts as lost if its answer takes more than 0.1 s, which can happen once on a busy host.
+  // A frame counts as lost if its answer takes more than 0.1 s. On a busy host this can happen once or twice.
   const int lost = page["loop"]["lost"];
   EXPECT_LE(lost, 2);
   EXPECT_EQ(page["loop"]["round_trip_s"]["count"], 200 - lost);

@@ -1,5 +1,5 @@
-// Tests hil-bench faults: the content of the matrix; kills and shards do not change the matrix; a reduced
-// scenario still shows the violation.
+// Tests hil-bench faults: the matrix has the correct content, kills and shards do not change the matrix, and
+// a reduced scenario still shows the violation.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -93,8 +93,8 @@ to_s = 2.3
               HasSubstr("| angles away | detected in"));
 }
 
-// Only one of three faults causes the violation: the target does not detect that the signal of the
-// accelerometer is stuck, and reports small sigmas.
+// Only one of three faults causes the violation: a signal of the accelerometer is stuck. The target does not
+// detect this, and reports small sigmas.
 TEST(Faults, AViolationIsMadeSmallAndShowsAgain) {
   const std::string storm = file("storm.toml", R"(
 [[fault]]
@@ -162,7 +162,7 @@ TEST(Faults, ShardsAndAKillGiveTheSameBytes) {
   EXPECT_GT(json_in(whole).size(), 1000U);
   EXPECT_TRUE(json_in(whole) == json_in(shards));
 
-  // The program is killed when it has stored some cells; then the file is truncated in the middle of a line.
+  // The program is killed when it has stored some cells. Then half a line is appended to the file.
   const std::string cells = killed + "/faults.jsonl";
   const pid_t child = fork();
   if (child == 0) {

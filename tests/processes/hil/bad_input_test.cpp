@@ -362,7 +362,7 @@ TEST(BadInput, ARunThatDoesNotBeginLosesNothingAndLeavesNothing) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 4) << "nothing unfinished stays";
 }
 
-// A run that is killed writes no report. After it, the file of an earlier run's report must not exist either.
+// A run that is killed writes no report. A report of an earlier run must not remain in the file either.
 TEST(BadInput, ARunThatBeganLeavesNoReportOfAnEarlierOne) {
   const std::string report = scratch("stale.json");
   std::ofstream(report) << "of an earlier run";

@@ -1,5 +1,5 @@
-// The tested property: the frames that the target sends depend only on the frames that the bench sends. It
-// holds on every bus, in lockstep and in real time, and in a replay.
+// The tested property: the frames that the target sends depend only on the frames that the bench sends. This
+// must be so on every bus, in lockstep, in real time, and in a replay.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -52,8 +52,8 @@ TEST_P(BitsOfScenario, InProcessAndLockstepAgree) {
   EXPECT_TRUE(in_process == lockstep);
 }
 
-// In the scenario los_closed_loop, answers act on the flight. Its frames agree only if each answer takes
-// effect at the same time on every bus.
+// In the scenario los_closed_loop, the answers of the target change the flight. The frames on two buses are
+// equal only if each answer takes effect at the same time on both.
 INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
                          testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "los_quick",
                                          "los_closed_loop", "los_closed_loop_500hz", "wind_quick",

@@ -48,7 +48,8 @@ std::string fault(const std::string& kind, const std::string& keys) {
   return fmt::format("[[fault]]\nkind = \"{}\"\n{}\n", kind, keys);
 }
 
-/// The names of the counters of losses that are not 0 in the target's report, for example "bad_crc late".
+/// The target's report contains counters of losses. Returns the names of those that are not 0, for example
+/// "bad_crc late".
 std::string causes(const Flown& flown) {
   std::string causes;
   for (const auto& [cause, count] : flown.report["target_counters"].items()) {

@@ -59,7 +59,7 @@ def main(wire, classic, fd_dbc, classic_dbc, decoder):
     for message, signals in ours.items():
         for name, values in signals.items():
             there = theirs[message][name]
-            # The log of the bus also has frames from before and after the log of the bench.
+            # The log of the bus also has frames that were sent before the log of the bench begins or after it ends.
             begin = next((i for i in range(len(there) - len(values) + 1)
                           if all(math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-12)
                                  for a, b in zip(there[i:], values))), None)

@@ -111,7 +111,7 @@ bool of_target(const Frame& frame) {
   return info != nullptr && info->sender == messages::TargetHeartbeat::info.sender;
 }
 
-// Begins at the first Sync, because during the handshake the bench is silent while it waits for the target.
+// Silences before the first Sync do not count: during the handshake, the bench waits for the target.
 double longest_silence_of_bench_s(const std::string& log_path) {
   std::optional<std::int64_t> last_ns;
   std::int64_t longest_ns = 0;

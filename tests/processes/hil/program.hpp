@@ -24,15 +24,15 @@ Ended hil_target(const std::string& arguments);
 
 /// The bus of these tests: "local:", or the value of the environment variable CANHIL_TEST_BUS.
 std::string bus();
-/// A prefix for a shell command: with it, the command runs without those capabilities of root that `dropped`
-/// lists, for example "-sys_nice,-ipc_lock". Empty if the caller is not root.
+/// A prefix for a shell command. The command with the prefix runs without the capabilities of root that
+/// `dropped` lists, for example "-sys_nice,-ipc_lock". The prefix is empty if the caller is not root.
 std::string without_capabilities(const std::string& dropped);
 std::string scenario(const std::string& name);
 /// The path of the file `name` in a temporary folder that only this process uses.
 std::string scratch(const std::string& name);
 std::string read(const std::string& path);
 nlohmann::json read_json(const std::string& path);
-/// The value of the figure `name` in the line `line` of an estimator's results in a report.
+/// The value of a figure in a report: the figure `name` in the line `line` of the results of `estimator`.
 double figure(const nlohmann::json& report, const char* estimator, const char* line, const char* name);
 /// Parses JSON. This function is compiled once for all tests, because every source that instantiates a JSON
 /// parser takes over a second longer to compile.
@@ -49,20 +49,22 @@ struct RealTimeRun {
 };
 
 /// Describes how the host disturbed a run: the run did not complete, or frames were lost. If there is a
-/// recording, also whether the bench was silent for 1 s or more: a target that receives nothing for 2 s sends
-/// additional heartbeats. Empty if none of this happened; only then can tests count frames and compare their
-/// bits. A bench that is late, but not silent for so long, does not change the frames.
+/// recording, a silence of the bench of 1 s or more is a disturbance too, because a target that receives
+/// nothing for 2 s sends additional heartbeats. The text is empty if nothing disturbed the run; only then can
+/// tests count frames and compare their bits. A bench that is late, but not silent for so long, does not
+/// change the frames.
 std::string disturbance(const RealTimeRun& run);
 
-/// Calls `fly` until a run is undisturbed or its configuration is rejected, at most four times. Returns an
-/// empty string then, and the disturbances of all four runs if each run was disturbed.
+/// Calls `fly` until a run is undisturbed or its configuration is rejected, but at most four times. Returns
+/// an empty string if the last run was undisturbed or rejected. If all four runs were disturbed, returns the
+/// disturbances of all of them.
 std::string fly_undisturbed(const std::function<RealTimeRun()>& fly);
 
 /// The largest lateness of the bench itself; 0 in virtual time.
 double largest_lateness_s(const nlohmann::json& report);
 
-/// Calls hil_bench(arguments) by fly_undisturbed(); the arguments make hil-bench write the file `report`.
-/// Returns the result of the last call.
+/// Calls hil_bench(arguments) again and again, as fly_undisturbed() does, until a run is undisturbed. The
+/// arguments must make hil-bench write the file `report`. Returns the result of the last call.
 Ended hil_bench_whole(const std::string& arguments, const std::string& report);
 
 /// Expects that a program rejected bad input: exit code 2, one line on stderr that contains `what`, an empty

@@ -203,8 +203,8 @@ TEST(SimulatedWire, OnCanFdEveryContainerKeepsItsBoundAndTheWholeLatencyIsExplai
   EXPECT_THAT(read(scratch("bounds.html")), HasSubstr("Over the bus at 500 and 2000 kbit/s"));
 }
 
-// A run in real time, in which the target reports its own times. How long these times are is not tested,
-// because it depends on the host.
+// A run in real time, in which the target reports its own times. The test does not check how long these times
+// are, because this depends on the host.
 TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
   const std::string report = scratch("fd.json");
   const Ended ended = hil_bench(

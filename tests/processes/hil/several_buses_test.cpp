@@ -96,9 +96,9 @@ Flown fly(const Command& command) {
   return std::move(*flown);
 }
 
-// In the flight of 3 s, the slave IMU sends 100 samples per second, the master INS 10. The bench sends a Sync
-// with each IMU sample and one at the start. The target answers each IMU sample, and each master sample that
-// it receives.
+// In the flight of 3 s, the slave IMU sends 100 samples per second, and the master INS sends 10 per second.
+// The bench sends a Sync with each IMU sample, and one more Sync at the start. The target answers each IMU
+// sample and each master sample that it receives.
 void expect_from_bench(const Flown& flown) {
   EXPECT_EQ(flown.aiding, (Counts{{"MasterInsVelocityNE", 30},
                                   {"MasterInsAttitude", 30},

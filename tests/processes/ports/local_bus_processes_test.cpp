@@ -172,8 +172,8 @@ TEST_F(LocalBusProcesses, AStuckNodeStopsTheBusUntilItIsKilled) {
   Process stuck("ignore", bus_, 2, 0);
   wait_for_nodes(2);
   std::uint64_t sent = 0;
-  // Until the hub reports that node 2 (`stuck`) holds up the bus. The other node is slow too, but continues
-  // to read.
+  // This loop ends when the hub reports that node 2 (`stuck`) holds up the bus. The other node is slow too,
+  // but continues to read.
   while (hub_->held_up_by() != "2") {
     wait(*hub_, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + 1'000'000);
     if (hub_->send(streamed(0, sent)) == SendOutcome::sent) ++sent;

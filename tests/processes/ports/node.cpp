@@ -1,5 +1,6 @@
 // A program that is a node or the host of an embedded bus, for local_bus_processes_test.
-//   node ROLE BUS SENDER COUNT; ends with 0 on success, otherwise prints what failed.
+//   node ROLE BUS SENDER COUNT
+// On success, the exit code is 0. On failure, the program prints what failed, and the exit code is 1.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -37,7 +38,8 @@ void wait_for(Port& port, WaitFor what) {
   wait(port, what, no_deadline);
 }
 
-/// Waits for the first frame of sender 0; then sends its own stream while it receives the stream of sender 0.
+/// Waits for the first frame of sender 0. Then sends the stream of this node, and at the same time receives
+/// the stream of sender 0.
 void exchange(const Task& task) {
   const auto port = join(task, false);
   wait_for(*port, WaitFor::frame);

@@ -23,8 +23,8 @@ using namespace std::chrono_literals;
 int some_cpu() { return std::stoi(shell("taskset -cp $$ | sed 's/.*[ ,-]//'").out); }
 bool may_have_priority(int priority) { return shell(fmt::format("chrt -f {} true", priority)).code == 0; }
 
-// The path of a quick scenario whose latency check limits this quantile to 3 ms. If it is the median, some
-// answers may be late, as happens on a shared machine.
+// The path of a quick scenario whose latency check limits this quantile of the latency to 3 ms. If the
+// quantile is the median, a few answers may be late, as happens on a shared machine.
 std::string judged_by(const std::string& quantile) {
   std::string path = scratch(fmt::format("quantile_{}.toml", quantile));
   const Ended edited = shell(fmt::format(
@@ -99,9 +99,9 @@ class Hog {
   std::jthread thread_;
 };
 
-// The two reasons that the bench can report if a CPU hog delays it. Which of them it reports depends on the
-// scheduler: the bench sleeps most of the time, so it can be late each time although it waits for a CPU for
-// less than 5 % of the run. The host of a virtual machine can delay the machine too; the bench reports this
+// If a CPU hog delays the bench, the bench reports one of these two reasons. The scheduler decides which one:
+// the bench sleeps most of the time, so it can be late each time although it waits for a CPU during less than
+// 5 % of the run. The host of a virtual machine can take CPU time too. If it does, the bench reports this
 // first.
 const std::string no_cpu =
     "(no CPU was free for the bench for|the hypervisor gave) [0-9.]+ % of (the run|this machine's .*)";
@@ -137,8 +137,8 @@ TEST(CpuHog, BesideTheBenchLeavesTimingNotMeasured) {
   expect_not_measured(ended, read_json(report));
 }
 
-// The hog runs too rarely to take a noticeable share of CPU time, but each time for longer than the 10 ms
-// between two stimuli.
+// The hog runs too rarely to take a noticeable share of CPU time. But each time it runs for longer than the
+// 10 ms between two stimuli.
 TEST(CpuHog, OfAHigherPriorityLeavesTheWorstLatencyNotMeasured) {
   if (!may_have_priority(41)) {
     std::cerr << "SCHED_FIFO 41 is not permitted here: only the hog of the bench's own priority is tried\n";

@@ -104,8 +104,8 @@ std::map<std::string, std::string> measured(const nlohmann::json& report) {
 
 class Recorded : public testing::TestWithParam<const char*> {};
 
-// A flight that is recorded in each format and judged again. The flights are in open loop, in closed loop,
-// and with four estimators at once.
+// Records a flight in each format, and judges each recording again. There are flights in open loop, in closed
+// loop, and with four estimators at once.
 TEST_P(Recorded, IsJudgedAsItWasFlown) {
   const std::string flight = scenario(GetParam());
   for (const char* ending : {"log", "pcap", "asc"}) {
@@ -287,9 +287,10 @@ TEST(Decode, SaysWhatItLeavesOut) {
   expect_one_line(hil_bench(fmt::format("decode {} --dbc none.dbc", log)), "none.dbc");
 }
 
-// The clock of b is 5 s ahead. The stamps of the frames with id 123 are later by 5 s plus 100, 300, 200 and
-// 200 us: the mean is 5 s plus 200 us, the standard deviation sqrt((100^2 + 100^2) / 3) = 81.6 us. Frame 03
-// is only in a, 06 only in b; FF was sent before the beginning of a.
+// The clock of b is 5 s ahead of the clock of a. Four frames with the id 123 are in both logs. In b, their
+// stamps are later by 5 s plus 100, 300, 200 and 200 us. So the mean is 5 s plus 200 us, and the standard
+// deviation is sqrt((100^2 + 100^2) / 3) = 81.6 us. The frame with the data 03 is only in a, and the frame
+// with the data 06 is only in b. The frame with the data FF was sent before a begins.
 TEST(LogCompare, ReportsHowFarStampsAreApart) {
   const std::string a =
       file("a.log",

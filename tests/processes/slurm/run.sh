@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# run.sh HIL_BENCH: runs the documented job array on a real Slurm and compares it with the same campaign in one process, byte for byte.
+# run.sh HIL_BENCH: runs the documented job array on a real Slurm, runs the same campaign in one process, and compares the two result files byte for
+# byte.
 set -euo pipefail
 bench=$(realpath "$1")
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../../..")

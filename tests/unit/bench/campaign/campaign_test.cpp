@@ -1,4 +1,4 @@
-// Reading campaigns: variants, sweeps, and one error line for every mistake.
+// Tests how a campaign file is read: its variants and sweeps, and one error line for every mistake.
 #include "bench/campaign/campaign.hpp"
 
 #include <gmock/gmock.h>

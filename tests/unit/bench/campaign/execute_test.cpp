@@ -102,7 +102,8 @@ TEST(Execute, AScenarioOfWhichNoRunCanBeFlownEndsItWithOneLine) {
 }
 
 TEST(Execute, ARunThatCannotBeFlownIsOneFailedRun) {
-  // In some runs, the random initial velocity exceeds the range of its message (1048 m/s down).
+  // In some runs, the random initial velocity exceeds the range of its message. This range ends at 1048 m/s
+  // down.
   auto campaign = parse(two_variants +
                         "[[metric]]\nkind = 'divergence'\nquantity = 'attitude.heading'\nbeyond_mrad = "
                         "9000\nat_most = 0\n[sweep]\n\"initial_error.velocity_sigma_mps\" = [900.0]\n");

@@ -63,7 +63,8 @@ inline RunSeries ended_with(std::uint64_t run, const std::vector<double>& values
   return series;
 }
 
-/// Values up to 3 s, the end of the quick flight: the given values, then the last of them repeated.
+/// The values of all updates until the quick flight ends at 3 s. The given values come first; then the last
+/// given value is repeated.
 inline std::vector<double> held(std::vector<double> values) {
   constexpr std::size_t updates = 30;
   values.resize(updates, values.back());

@@ -83,7 +83,8 @@ TEST(Series, QuantitiesThatFollowFromOthers) {
 TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
   drive::Collected flown{.ending = {}, .seen = {}};
   world::EngagementRecord record;
-  // 100 Hz, 1000 m/s: two answers per sample; errors of 3 and 4 mrad/s in pitch, 1 in yaw.
+  // At 1000 m/s, answers at 100 Hz give two answers for each sample. In each sample, the errors in pitch are
+  // 3 and 4 mrad/s, and the errors in yaw are 1 mrad/s.
   for (std::int64_t t_us = 10'000; t_us <= 90'000; t_us += 10'000) {
     world::EngagementTruth epoch;
     epoch.t_us = t_us;
@@ -112,7 +113,8 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
       7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000), estimators::los_rate);
   ASSERT_EQ(&series.samples.layout(), &estimators::los_rate.layout)
       << "by what was asked for, whatever else was seen";
-  // Times to go: 90.5, 80.5 | 70.5, 60.5 | 50.5, 40.5 | 30.5, 20.5 | 10.5 ms.
+  // The times to go of the answers, grouped by sample: 90.5, 80.5 | 70.5, 60.5 | 50.5, 40.5 | 30.5, 20.5 |
+  // 10.5 ms.
   ASSERT_EQ(series.samples.size(), 5U);
   EXPECT_EQ(series.samples.times()[0], -100'000) << "begins at 100 ms to go";
   EXPECT_EQ(series.samples.times()[4], -20'000);

@@ -101,8 +101,8 @@ TEST(RunDistribution, BootstrapsTheRmsOfABatch) {
   std::vector<RunSeries> runs;
   for (std::uint64_t run = 0; run < 400; ++run) runs.push_back(run_with(run, {run % 4 == 0 ? 10.0 : 0.0}));
   const auto found = run_distribution(runs, heading, 100'000, 1, 100);
-  // A quarter of the runs have the value 10, so the number of tens among 100 drawn runs has the distribution
-  // B(100, 1/4), with the 5 % and 95 % quantiles 18 and 32.
+  // A quarter of the runs have the value 10, so the number of such runs among 100 drawn runs has the
+  // distribution B(100, 1/4). The 5 % quantile of this distribution is 18, and its 95 % quantile is 32.
   EXPECT_NEAR(found.rms_low, std::sqrt(18.0), 0.13);
   EXPECT_NEAR(found.rms_high, std::sqrt(32.0), 0.13);
   EXPECT_EQ(run_distribution(runs, heading, 100'000, 1, 100).rms_low, found.rms_low) << "seeded";
@@ -175,8 +175,8 @@ TEST(Consistency, HasTheBoundsOfChiSquareForTheMeanOverRuns) {
 }
 
 TEST(Consistency, IsOfTheRunsThatWereAsked) {
-  // The fixes of the second update were gated in all runs except one, the fixes of the third update in all
-  // runs.
+  // At the second update, the gate rejected the fixes of all runs except one. At the third update, the gate
+  // rejected the fixes of all runs.
   std::vector<RunSeries> runs(10, run_with(0, {3, nan, nan}, quantities::innovation_nis));
   runs[4] = run_with(4, {3, 9.3, nan}, quantities::innovation_nis);
   const auto found = consistency(runs, quantities::innovation_nis, 0, 1'000'000, 0.95);

@@ -292,7 +292,7 @@ TEST_F(Judged, CountersByEachBar) {
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
-// The bench stalls for 5 of 400 stimuli. So few late frames hardly change the p99 of the lateness of all
+// The bench sends 5 of 400 stimuli too late. The lateness of only 5 frames hardly changes the p99 over all
 // frames, but the periods of the answers would exceed their limit.
 TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
   const OutputPeriod period{.message = "AlignAttitude", .window = whole, .within = 0.25, .quantile = 0.99};

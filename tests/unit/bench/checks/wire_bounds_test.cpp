@@ -63,7 +63,7 @@ TEST_F(OnTheWire, TheBoundIsOfTheMessagesThatWereSeen) {
 
 TEST_F(OnTheWire, TheBoundIsThatOfTheOrderInWhichNodesSend) {
   heartbeats(4);
-  // A heartbeat can be on the wire, but none is queued before the answer.
+  // A heartbeat can be on the wire already, but in the queue no heartbeat is ahead of the answer.
   seen_.timing.wire.urgent_first = true;
   EXPECT_EQ(bound_of("SlaveImuStatus"), 2 * frame_ns);
   EXPECT_EQ(bound_of("AlignAttitude"), 3 * frame_ns);

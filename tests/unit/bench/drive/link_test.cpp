@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 
-// Delivers frames with the id 0C0; every tenth frame has the id 123.
+// Delivers `most` frames. Every tenth frame has the id 123; all other frames have the id 0C0.
 class FloodedPort final : public FakePort {
  public:
   std::optional<Received> receive() override {
@@ -112,7 +112,7 @@ TEST(LinkFlood, FramesThatWaitedForABenchWithoutACpuAreNone) {
   EXPECT_FALSE(link.flood());
 }
 
-// A flood can leave the bench only short periods of CPU time.
+// During a flood, the bench may get the CPU only for short periods.
 TEST(LinkFlood, FramesThatWereLostMeanwhileHadBeenWaiting) {
   FloodedPort port;
   port.simulated = true;

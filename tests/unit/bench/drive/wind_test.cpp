@@ -81,9 +81,9 @@ TEST(Wind, IsEstimatedThroughTheBus) {
   EXPECT_LT(flown.mean_error(norm), 2);
 }
 
-// The first answer contains exactly the initial state from the carrier. All other errors are off: with
-// navigation noise and coefficient errors of 20 %, the error would be 1.2 m/s RMS even if the carrier sent
-// the true wind.
+// The first answer contains exactly the initial state from the carrier. All other errors are set to 0,
+// because with navigation noise and coefficient errors of 20 %, the error would be 1.2 m/s RMS even if the
+// carrier sent the true wind.
 TEST(Wind, StartsFromWhatTheCarrierReports) {
   const auto first_error = [](const std::string& sigma) {
     std::vector<scenario::Setting> settings{set("glide.initial_error.air_velocity_sigma_mps", sigma)};

@@ -28,8 +28,8 @@ using Kind = Response::Kind;
 
 constexpr std::int64_t second_us = 1'000'000, duration_us = 20 * second_us;
 
-// A flight of 20 s with a fault from 8 to 10 s, in which all checks pass; the tests set the reports of the
-// target.
+// A flight of 20 s in which all checks pass, although there is a fault from 8 to 10 s. The tests set what the
+// target reports.
 class Flown : public testing::Test {
  protected:
   Flown() {

@@ -46,8 +46,8 @@ const std::string rate = "quantity = \"imu.rate.z\"\nfrom_s = 1\nto_s = 2\n";
 constexpr double degps = M_PI / 180;
 
 TEST(SensorFaults, ABiasOfARateIsInItsIncrementsAndNothingIsLostByRounding) {
-  // 1e-3 deg/s is 1.7e-7 rad per sample, a twelfth of a step. Such an increment reaches the bus only because
-  // the remainder of each rounding is carried to the next sample.
+  // 1e-3 deg/s gives 1.7e-7 rad per sample, which is a twelfth of the resolution of the signal. Such an
+  // increment reaches the bus only because the remainder of each rounding is carried to the next sample.
   double sum = 0;
   each<SlaveImuDeltaTheta>(Flight(fault("bias", rate + "by_degps = 1e-3")), 1, 2, rate_z,
                            [&](double was, double is, double) { sum += 0.01 * (is - was); });

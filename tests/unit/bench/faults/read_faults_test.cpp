@@ -1,4 +1,5 @@
-// Reading [[fault]]: one line per error; and docs/faults.md lists all kinds.
+// Tests that each error in a table [[fault]] gives one line, and that docs/faults.md lists all kinds of
+// faults.
 #include <regex>
 
 #include "bench/faults/kinds.hpp"

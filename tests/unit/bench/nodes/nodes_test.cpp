@@ -1,4 +1,4 @@
-// The messages of the emulated nodes, and their times.
+// The messages that the emulated nodes send, and the times at which they send them.
 #include <gmock/gmock.h>
 
 #include "bench/nodes/increment_rounding.hpp"

@@ -1,4 +1,4 @@
-// The messages of the seeker in an engagement, and guidance on the target's answers.
+// The messages of the seeker in an engagement, and the guidance that uses the target's answers.
 #include "bench/nodes/seeker.hpp"
 
 #include <gmock/gmock.h>
@@ -272,9 +272,9 @@ TEST_F(GuidedSeeker, AnswersInTheAxesOfARollingAntenna) {
   EXPECT_LT(miss(bench, truthful), 0.5);
 }
 
-// With 100 ms from sample to command and a manoeuvring target, the seeker extrapolates an answer from the
-// time of its sample to the time of the command. A missing term or a wrong sign increases the miss distance
-// by half a metre or more.
+// A command is due 100 ms after its sample, and the target manoeuvres. Therefore the seeker extrapolates each
+// answer from the time of its sample to the time of the command. A missing term or a wrong sign increases the
+// miss distance by half a metre or more.
 TEST_F(GuidedSeeker, ReckonsTheAnswerOnToItsUse) {
   SeekerSettings late = exact();
   late.schedule.latency_us = 90'000;
@@ -316,7 +316,7 @@ TEST_F(GuidedSeeker, TheSameFlightHoweverEarlyAnswersAreHeard) {
   Bench at_once(exact(), guided()), in_pairs(exact(), guided());
   const double first = miss(at_once, truthful);
   const double second = miss(in_pairs, [](Bench& bench, const world::EngagementTruth& epoch) {
-    // The answers to the samples of 5 and 10 ms arrive together after 10 ms.
+    // Samples are taken every 5 ms; every 10 ms, the answers to the last two samples arrive together.
     if (epoch.t_us % 10'000 != 0) return;
     const auto& epochs = bench.record().epochs;
     if (epochs.size() > 1) truthful(bench, epochs[epochs.size() - 2]);

@@ -13,7 +13,7 @@ using namespace messages;
 
 class Model : public testing::Test {
  protected:
-  // Passes the group of a sample; `spoil` may remove or change frames.
+  // Passes the frames of one IMU sample to the model. Before this, `spoil` may remove or change frames.
   template <class Spoil>
   void imu(std::int64_t valid_us, const Spoil& spoil, Validity validity = Validity::valid) {
     out_.clear();

@@ -24,7 +24,7 @@ using messages::TargetHeartbeat;
 
 constexpr std::int64_t cycle_ns = TargetHeartbeat::info.cycle_time_us * 1000;
 
-// The frames of targets that the watch receives; a target is represented by its counter.
+// Passes frames of targets to the watch. The frames of a target are recognised only by their counter.
 class Watch : public testing::Test {
  protected:
   template <class Message = TargetHeartbeat>

@@ -48,10 +48,11 @@ TEST(RankTest, IsThatOfAllPairs) {
   EXPECT_NEAR(rank_test(buckets_of(a), buckets_of(b)).effect, effect_by_pairs(a, b), 1e-12);
 }
 
-// Computed by hand for a = 1 2 2, b = 2 3 3 1. The numbers of pairs with b > a, for each b, are 1, 3, 3 and
-// 0: in total 7 of 12. Ties: 2 with 2 twice, 1 with 1 once, in total 3, each counted as a half, so
-// U = 7 + 1.5. N = 7 with ties of 2, 3 and 2: sum t^3 - t = 6 + 24 + 6 = 36, var = 12 / 12 (8 - 36 / 42) =
-// 7.142857; z = (8.5 - 6 - 0.5) / 2.672612 = 0.748331; P(Z > z) = 0.227130.
+// Computed by hand for the samples a = {1, 2, 2} and b = {2, 3, 3, 1}, which form 12 pairs. The four values
+// of b are greater than a in 1, 3, 3 and 0 pairs, in total in 7 pairs. In 3 pairs, both values are equal;
+// each of these pairs counts as a half. So U is 7 + 1.5. Among all N = 7 values, the value 1 occurs twice, 2
+// three times, and 3 twice. The sum of t^3 - t over these counts t is 6 + 24 + 6 = 36, so the variance is
+// 12/12 * (8 - 36/42) = 7.142857. Then z is (8.5 - 6 - 0.5) / 2.672612 = 0.748331, and P(Z > z) is 0.227130.
 TEST(RankTest, HandComputedWithTies) {
   const RankTest test = rank_test(buckets_of({1, 2, 2}), buckets_of({2, 3, 3, 1}));
   EXPECT_NEAR(test.effect, 8.5 / 12, 1e-12);

@@ -48,8 +48,8 @@ inline drive::Run run_of() {
   return run;
 }
 
-// A run at 500 kbit/s: 100 stimuli with 0.3 ms until their echo, of which the frame takes 0.2 ms, and 1 ms
-// from the echo to the answer.
+// A run at 500 kbit/s with 100 stimuli. On average, the echo of a stimulus comes after 0.3 ms; 0.2 ms of this
+// time is the duration of its frame. The answer comes 1 ms after the echo.
 inline drive::Run run_on_a_wire() {
   drive::Run run = run_of();
   run.seen.bit_rates = {.nominal = 500'000};

@@ -93,7 +93,7 @@ TEST(PageSections, ShowsEachMessageBesideItsBound) {
   EXPECT_THAT(text(scenario_of(), run_on_a_wire()), Not(HasSubstr("bus load at 1000 kbit/s")));
 }
 
-// The page shows the same results of the estimators as the text report, drawn from the JSON.
+// The page takes the results of the estimators from the JSON, and shows the same results as the text report.
 TEST(PageSections, ShowsTheResultsOfAnAlignment) {
   const std::string page = page_of(run_of());
   EXPECT_THAT(page, AllOf(HasSubstr("<h2>Results</h2>"), HasSubstr("href=\"#results\""),
@@ -113,7 +113,7 @@ TEST(PageSections, ShowsTheWordsOfEveryFigureThatHasSome) {
 }
 
 // The master INS sends 200 samples, and the target answers none of them. An estimator that is in use should
-// answer each of them with AlignUpdate.
+// answer each sample with AlignUpdate.
 TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
   drive::Run run = run_of();
   for (int i = 0; i < 200; ++i)

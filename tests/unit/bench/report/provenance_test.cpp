@@ -1,4 +1,5 @@
-// Who ran what, where, with which files: the same in JSON, JUnit, page and text.
+// The provenance of a run (who ran what, where, and with which files) is the same in JSON, JUnit, page and
+// text.
 #include "bench/report/provenance.hpp"
 
 #include <gmock/gmock.h>

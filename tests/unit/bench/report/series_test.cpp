@@ -1,5 +1,5 @@
-// Series over a run: limits of checks are drawn over the quantities that they judge, and missing values are
-// gaps.
+// Tests the plots of quantities over a run: the limit of a check is drawn in the plot of the quantity that
+// the check judges, and missing values are gaps.
 #include "bench/report/series.hpp"
 #include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"

@@ -19,14 +19,15 @@ using testing::Not;
 
 constexpr double us = 1e-6;
 
-// Latency 1 ms, bench 30 us late, bucket of 1 us.
+// A latency of 1 ms, measured while the bench was 30 us late, in a bucket of 1 us.
 std::array<double, 5> of(const StampConditions& conditions) {
   return half_widths_s(conditions, 1000 * us, 30 * us, 1 * us);
 }
 
 TEST(Uncertainty, OfTheKernelsStampsAt500KbitPerSecond) {
   const auto half = of({.bit_s = 2 * us});
-  // 1 ns of resolution; 500 ppm of 1 ms; the bench's lateness; a bit; half a bucket.
+  // The half-widths are: half of the resolution of 1 ns, 500 ppm of 1 ms, the bench's lateness, the duration
+  // of a bit, and half of a bucket.
   EXPECT_THAT(half, ElementsAre(0.5e-9, testing::DoubleNear(0.5 * us, 1e-15), 30 * us, 2 * us, 0.5 * us));
   // u^2 = (2 * 0.0005^2 + 0.5^2 + 30^2 + 2^2 + 0.5^2) / 3 = 904.5000005 / 3 us^2
   EXPECT_NEAR(combined_s(half), 17.363755 * us, 1e-12);
@@ -34,7 +35,8 @@ TEST(Uncertainty, OfTheKernelsStampsAt500KbitPerSecond) {
 
 TEST(Uncertainty, OfTheControllersStampsTheHostHasNoPart) {
   const auto half = of({.hardware = true, .usb_poll_s = 0, .bit_s = 2 * us});
-  // 1 us of resolution, twice; 100 ppm of 1 ms: u^2 = (2 * 0.25 + 0.01 + 4 + 0.25) / 3 = 4.76 / 3 us^2
+  // The resolution of 1 us counts twice, once for each stamp. The clock contributes 100 ppm of 1 ms. Together
+  // with a bit and half of a bucket, u^2 = (2 * 0.25 + 0.01 + 4 + 0.25) / 3 = 4.76 / 3 us^2.
   EXPECT_EQ(half[static_cast<std::size_t>(Influence::host)], 0);
   EXPECT_NEAR(combined_s(half), 1.259630 * us, 1e-12);
 }
@@ -42,7 +44,7 @@ TEST(Uncertainty, OfTheControllersStampsTheHostHasNoPart) {
 TEST(Uncertainty, OfAUsbAdapterIsItsPolling) {
   const auto half = of({.usb_poll_s = 1000 * us});
   EXPECT_EQ(half[0], 500 * us);
-  // a sqrt(2 / 3) = 500 * 0.81649658
+  // For two stamps, the half-width of 500 us gives 500 us * sqrt(2 / 3) = 500 us * 0.81649658.
   EXPECT_NEAR(standard_s(Influence::stamps, half[0]), 408.248290 * us, 1e-12);
   // u^2 = (2 * 500^2 + 0.25 + 900 + 0.25) / 3 = 500900.5 / 3 us^2
   EXPECT_NEAR(combined_s(half), 408.615753 * us, 1e-12);

@@ -1,4 +1,4 @@
-// A report that was truncated or edited is rejected with the name of the wrong key.
+// A report that was truncated or edited is rejected, and the error names the wrong key.
 #include "bench/report/whole.hpp"
 
 #include <gtest/gtest.h>

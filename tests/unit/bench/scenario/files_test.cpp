@@ -74,7 +74,8 @@ TEST(ScenarioFiles, TheKalmanFilterIsConfiguredWithTheTruth) {
   for (const Parameter& parameter : s.targets.front().parameters) {
     const auto imu = node_of<nodes::SlaveImuSettings>(s).errors;
     if (parameter.name == "velocity_noise_m2ps") {
-      // Density = sigma^2 * interval: 100 ms, the cycle time of the master's velocity in the DBC.
+      // The density is sigma^2 times the interval. The interval is 100 ms, the cycle time of the master's
+      // velocity in the DBC.
       EXPECT_NEAR(parameter.value,
                   0.1 * std::pow(node_of<nodes::MasterInsSettings>(s).errors.velocity.sigma.x(), 2), 1e-15);
     } else if (parameter.name == "accel_bias_sigma_ug") {

@@ -50,7 +50,7 @@ TEST(ScenarioMutations, BytesReplacedInsertedRemoved) {
 TEST(ScenarioMutations, ValuesOfOtherTypesAndSizes) {
   const std::string original = quick();
   EXPECT_TRUE(holds([&] {
-    // Replaces any "= value" up to the end of its line by another value.
+    // Chooses any " = " of the file, and replaces the rest of its line by another value.
     std::vector<std::size_t> values;
     for (std::size_t at = original.find(" = "); at != std::string::npos; at = original.find(" = ", at + 1)) {
       values.push_back(at + 3);

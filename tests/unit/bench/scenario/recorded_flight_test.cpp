@@ -28,8 +28,8 @@ const Row header{"t_s",
                  "pitch_deg",
                  "heading_deg"};
 
-/// Rows at 50 Hz of a flight of 21 s to the north at 10 m/s, whose heading turns slowly through north. The
-/// file's clock begins at 5 s.
+/// The rows of a recorded flight, at 50 Hz. The flight goes north at 10 m/s for 21 s, and the heading turns
+/// slowly through north. The file's clock begins at 5 s.
 std::vector<Row> rows() {
   std::vector<Row> all{header};
   for (int i = 0; i <= 1050; ++i) {
@@ -58,7 +58,7 @@ Result<Scenario> read(const std::string& csv, const std::string& keys = "from_s 
   return parse(text, "s.toml", contract, {}, folder());
 }
 
-/// The error about the file, after "s.toml:10: key 'truth.file': FOLDER/".
+/// The part of the error message that follows "s.toml:10: key 'truth.file': FOLDER/".
 std::string complaint(const std::function<void(std::vector<Row>&)>& change,
                       const std::string& keys = "from_s = 5") {
   std::vector<Row> all = rows();

@@ -32,9 +32,9 @@ const std::vector<Stream> refuted{stream("A", 125, 2'500 * us, 2'500 * us),
                                   stream("B", 125, 3'500 * us, 3'250 * us),
                                   stream("C", 125, 3'500 * us, 3'250 * us)};
 
-// The analysis of 1994 considers only the first instance of message C; its response time of 3 ms is within
-// the deadline. The second instance, due at 3.5 ms, has a response time of 3.5 ms, because B and C delay each
-// other.
+// The analysis of 1994 considers only the first instance of message C. This instance has a response time of
+// 3 ms, which is within the deadline. The second instance, due at 3.5 ms, has a response time of 3.5 ms,
+// because B and C delay each other.
 TEST(Davis2007, TheSecondInstanceOfCMissesItsDeadline) {
   const auto r = responses(refuted, bus_125k);
   EXPECT_THAT(bounds_us(refuted, bus_125k), ElementsAre(2'000, 3'000, 3'500));
@@ -106,8 +106,9 @@ TEST(Responses, QueueingJitterOfTheOthersIsInterferenceOwnJitterIsAdded) {
   EXPECT_THAT(bounds_us(streams, bus), ElementsAre(2'000 + 9'990, 3'500));
 }
 
-// A frame that becomes due during the first bit of another frame still takes part in the arbitration. If the
-// queueing delay is 9.995 ms, `high` becomes due again 5 us later, which is half a bit.
+// A frame that becomes due during the first bit of another frame still takes part in the arbitration. In the
+// second case, `low` begins after a queueing delay of 9.995 ms. `high` becomes due again at 10 ms, half a bit
+// after the start of `low`, and still wins.
 TEST(Responses, TheFirstBitIsStillOpenToHigherPriority) {
   const std::vector<Stream> streams{stream("high", 100, 10 * ms, 10 * ms),
                                     stream("low", 100, 100 * ms, 100 * ms)};
@@ -124,9 +125,9 @@ TEST(Responses, ErrorsCostAnErrorFrameAndTheLongestRetransmission) {
   EXPECT_THAT(with({}), ElementsAre(190, 190));
   EXPECT_THAT(with({.burst = 1, .interval_ns = 10 * ms}), ElementsAre(190 + 161, 190 + 161));
   EXPECT_THAT(with({.burst = 3, .interval_ns = 10 * ms}), ElementsAre(190 + 3 * 161, 190 + 3 * 161));
-  // One more error every 200 us: 1 + ceil(t / 200) - 1 errors within t.
+  // With one more error every 200 us, the number of errors within t us is ceil(t / 200). Here t is 995 us.
   EXPECT_THAT(with({.burst = 1, .interval_ns = 200 * us}), ElementsAre(190 + 5 * 161, 190 + 5 * 161));
-  // So many errors that the bus cannot recover.
+  // With an error every 100 us, the bus cannot recover.
   EXPECT_THAT(with({.burst = 1, .interval_ns = 100 * us}), ElementsAre(-1, -1));
 }
 

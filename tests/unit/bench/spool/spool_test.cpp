@@ -110,7 +110,8 @@ TEST(Spool, LetsGoOfWhatItPassed) {
     ASSERT_TRUE(is_right(found, index));
     if (index++ % 10'000 == 0) look();
   }
-  // 2 MiB in memory, 1 MiB more while this memory grows, 2 MiB of the file, and the heap's own memory.
+  // The spool uses 2 MiB of memory, 1 MiB more while this memory grows, and 2 MiB of the mapped file. The
+  // limit leaves room for the heap's own memory.
   EXPECT_LT(most, 10 * megabyte);
 }
 #endif

@@ -73,7 +73,8 @@ TEST(Attitude, BodyRateIsTheDerivativeOfC) {
 }
 
 TEST(Attitude, MisalignmentHasTheSignOfThePaper) {
-  // computed = (I - [phi x]) C for small phi: a positive phi about down turns the computed heading to port.
+  // For a small phi, the computed attitude is (I - [phi x]) C. A positive phi about the down axis turns the
+  // computed heading to port.
   const Matrix3 C = C_bn_from({0.1, 0.2, 0.3});
   const Vector3 small(1e-8, -2e-8, 3e-8);
   EXPECT_LT((misaligned(C, small) - (Matrix3::Identity() - skew(small)) * C).norm(), 1e-15);

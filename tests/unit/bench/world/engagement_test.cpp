@@ -66,7 +66,8 @@ TEST(Engagement, SignsOfErrorAndRate) {
   const EngagementTruth start = Engagement(plan, Stream(1, 0, "engagement")).truth();
   EXPECT_NEAR(std::abs(start.los_rate.pitch), 600 * std::sin(0.05) / 5000, 1e-6);
   EXPECT_LT(std::abs(start.los_rate.yaw), 1e-4) << "but for the antenna's pointing";
-  // A target above the antenna's axis is at positive pitch, a target to the right at positive yaw.
+  // A target above the antenna's axis has a positive pitch error. A target to the right of this axis has a
+  // positive yaw error.
   const Vector3 los_a = start.C_na.transpose() * start.relative_n;
   EXPECT_NEAR(start.error.pitch, -los_a.z() / los_a.x(), 1e-5);
   EXPECT_NEAR(start.error.yaw, los_a.y() / los_a.x(), 1e-5);
@@ -84,8 +85,8 @@ TEST(Engagement, RatesAreTheDerivativesOfWhatTheyAreRatesOf) {
   });
 }
 
-// e_y' = w_y - q_n + p e_z, e_z' = w_z - r_n - p e_y for small angles; the error of these equations is of the
-// order e^2 w.
+// For small angles, e_y' = w_y - q_n + p e_z and e_z' = w_z - r_n - p e_y. The error of these equations is of
+// the order e^2 w.
 TEST(Engagement, ErrorAnglesObeyTheFiltersEquations) {
   fly(rolling(), 3,
       [](const EngagementTruth& before, const EngagementTruth& after, const SeekerIncrement& increment) {

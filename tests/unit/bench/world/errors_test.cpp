@@ -20,8 +20,8 @@ struct Moments {
     sum += x;
     squares += x.cwiseProduct(x);
   }
-  // Limits of 5 sigma: the mean of n numbers has the standard deviation sigma/sqrt(n), the mean square
-  // sigma^2 sqrt(2/n).
+  // The limits are 5 standard deviations. The standard deviation of the mean of n numbers is sigma/sqrt(n);
+  // that of their mean square is sigma^2 sqrt(2/n).
   void expect_normal(const Vector3& mean, const Vector3& sigma) const {
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(sum(i) / n, mean(i), 5 * sigma(i) / std::sqrt(n)) << "axis " << i;
@@ -98,7 +98,7 @@ TEST(ErroneousImu, NoiseIsWhiteWithTheDensityGiven) {
     accel_gyro.add(v.cwiseProduct(theta));
     last = theta;
   }
-  // White noise of density N integrated over dt has sigma N sqrt(dt).
+  // If white noise of density N is integrated over dt, the integral has the standard deviation N sqrt(dt).
   const Vector3 theta_sigma = model.gyro.noise * std::sqrt(dt);
   const Vector3 v_sigma = model.accel.noise * std::sqrt(dt);
   gyro.expect_normal(Vector3::Zero(), theta_sigma);

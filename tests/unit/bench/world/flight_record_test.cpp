@@ -147,7 +147,7 @@ Inertial navigate(const FlightRecord& record) {
 
 // At 1 kHz the errors of the two-sample algorithms are below the limits: these errors are of the order
 // (rate * h)^4, with rates of 1 rad/s. The trapezoid rule for the position has an error of h^2/12 times the
-// change of acceleration, 1e-6 m.
+// change of acceleration; this is 1e-6 m.
 class IndependentNavigator : public testing::TestWithParam<Flight> {};
 
 TEST_P(IndependentNavigator, FliesTheIncrementsBackToTheTruth) {
@@ -174,7 +174,8 @@ TEST(FlightRecord, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
       theta += fine.increments()[j].delta_theta;
       v += fine.increments()[j].delta_v;
     }
-    // The limits are 1e-13 of the sizes per sample, which are 2 mrad and 0.1 m/s.
+    // The increments of a sample are about 2 mrad and 0.1 m/s. Each limit is 1e-13 times the size of its
+    // increment.
     EXPECT_LT((coarse.increments()[k].delta_theta - theta).norm(), 2e-3 * 1e-13);
     EXPECT_LT((coarse.increments()[k].delta_v - v).norm(), 0.1 * 1e-13);
   }
@@ -221,8 +222,8 @@ TEST(FlightRecord, ThePapersFlightIsAsThePaperSays) {
   EXPECT_NEAR(end.v_eb_n.x(), 500 / 3.6 + 98.0665, 1e-9);
   EXPECT_EQ(end.position.height, seoul.height);
   EXPECT_EQ(end.position.longitude, seoul.longitude);
-  // 10 s cruise + 10 s at 1 g: 2777.78 + 490.33 m + 10 s * 138.9 m/s north. The mean radius is accurate to
-  // 1e-6.
+  // 20 s at the initial speed give 2777.78 m to the north, and 1 g during the last 10 s adds 490.33 m.
+  // displacement_n() uses the radius at the start, which causes an error of 8 mm.
   const double north = 20 * 500 / 3.6 + 0.5 * 9.80665 * 100;
   EXPECT_NEAR(displacement_n(seoul, end.position).x(), north, 0.02);
   EXPECT_NEAR(record.at(15'000'000).f_ib_b.x(), units::standard_gravity, 1e-3);

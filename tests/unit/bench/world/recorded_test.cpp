@@ -61,8 +61,8 @@ RC_GTEST_PROP(RecordedPath, PassesThroughItsSamplesWithTheRatesOfItsCurve, ()) {
   const FlightRecord record(again, states.back().t_us, 10'000);
   // The velocity of the repeated flight differs from the recorded one, because a cubic spline through
   // velocities has an error of up to 5/384 h^4 v''''. The fastest part of the velocity is a product of two
-  // oscillations with periods of 6 s or more: 4e-4 m/s for 250 m/s, sampled at 50 ms. Therefore the positions
-  // agree within this error times the 12 s of the flight.
+  // oscillations with periods of 6 s or more. For a speed of 250 m/s sampled every 50 ms, the error is
+  // 4e-4 m/s. Therefore the positions agree within this error times the 12 s of the flight.
   const double h = 1e-6 * static_cast<double>(every_us);
   const double w = 2 * std::numbers::pi / 6;
   const double bend = weave.speed * std::pow(2 * w, 4) * 5 / 384 * std::pow(h, 4) + 1e-9;
@@ -84,8 +84,8 @@ RC_GTEST_PROP(RecordedPath, PassesThroughItsSamplesWithTheRatesOfItsCurve, ()) {
   }
 }
 
-// Integrates the increments as an INS without errors: the project's strapdown navigation, which shares no
-// code with the record.
+// Integrates the increments as an INS without errors does. The strapdown navigation used here is that of the
+// target, which shares no code with the record.
 strapdown::NavState navigated(const FlightRecord& record) {
   const Truth& start = record.epochs().front();
   strapdown::NavState nav{.C_bn = start.C_bn,
@@ -130,9 +130,9 @@ TEST_P(RecordedEvery, StrapdownNavigationOfItsIncrementsReturnsToWhatWasRecorded
 
 INSTANTIATE_TEST_SUITE_P(Rates, RecordedEvery, testing::Values(10'000, 20'000, 40'000));
 
-// Rounded velocities at irregular times: the derivatives of the spline jump at each recorded time, so a
-// quadrature must not step across a recorded time. The increments of 2 mrad and 0.1 m/s then differ from the
-// sums of their parts by rounding errors only: less than 1e-14 rad and 1e-12 m/s.
+// The velocities are rounded, so the derivatives of the spline jump at each recorded time. If the quadrature
+// never steps across a recorded time, the increments differ from the sums of their parts by rounding errors
+// only. These are below 1e-14 rad for increments of 2 mrad, and below 1e-12 m/s for increments of 0.1 m/s.
 TEST(RecordedPath, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
   const FlightRecord flown(turning, 4'000'000, 1'000);
   auto states = states_of(flown, 37'000);

@@ -33,7 +33,8 @@ constexpr Message repacked(const Message& message) {
   return Message::unpack(packed(message));
 }
 
-// 0.1 / 2e-6 = 50000 = 0xC350 at bit 12; -0.131 / 2e-6 = -65500 at bit 29; validity at bit 63. By hand.
+// By hand: x is 0.1 / 2e-6 = 50000 at bit 12. y is limited to -0.131, and -0.131 / 2e-6 = -65500 is at bit
+// 29. The validity is at bit 63.
 TEST(Generated, PacksSlaveImuDeltaThetaAsTheDbcLaysItOut) {
   constexpr SlaveImuDeltaTheta message{
       .delta_theta_x_rad = 0.1, .delta_theta_y_rad = -1, .gyro_validity = Validity::valid};
@@ -95,7 +96,8 @@ TEST(Generated, FloatsKeepTheirBitsInsideTheRange) {
   EXPECT_EQ(packed(Single{.big = 0.5F})[4], 0x3F);
 }
 
-// Motorola, by hand: start 7|12 is byte 0 and the high nibble of byte 1; (25.3 + 40) / 0.1 = 653 = 0x28D.
+// By hand: the raw value is (25.3 + 40) / 0.1 = 653 = 0x28D. A Motorola signal of 12 bits from bit 7 on lies
+// in byte 0 and in the high nibble of byte 1.
 TEST(Generated, MotorolaMostSignificantByteFirst) {
   using test_messages::motorola::Classic;
   const auto bytes = packed(Classic{.temperature = 25.3, .pressure = 100, .wide = 7});

@@ -23,7 +23,7 @@ std::string breach(std::string_view name, double scale, double sigma, bool carri
   return found ? found->what : "";
 }
 
-// sqrt(12) / 4 = 0.8660254: the coarsest LSB for a sigma of 1.
+// For a sigma of 1, the coarsest permitted LSB is sqrt(12) / 4 = 0.8660254.
 TEST(QuantisationRule, LsbOverSqrt12IsAtMostAQuarterOfSigma) {
   EXPECT_EQ(breach("v", 0.8660, 1, false), "");
   EXPECT_EQ(breach("v", -0.8660, 1, false), "");

@@ -28,7 +28,7 @@ double decoded(const Message& message, std::span<const std::uint8_t> data, std::
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// By hand: 0x28D from bit 7 of byte 0 on is 653; 653 * 0.1 - 40 = 25.3.
+// By hand: the 12 bits from bit 7 of byte 0 on contain 0x28D = 653, and 653 * 0.1 - 40 = 25.3.
 TEST(RunTimeCodec, DecodesMotorola) {
   const Database database = database_of("motorola.dbc");
   const std::array<std::uint8_t, 8> data{0x28, 0xD0};

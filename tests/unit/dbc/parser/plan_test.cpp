@@ -22,8 +22,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-/// The position in the message of bit i of the raw value (bit 0 is the least significant), as the DBC format
-/// defines it.
+/// The place in the message at which bit i of the raw value lies, as the DBC format defines it. Bit 0 of the
+/// raw value is its least significant bit.
 unsigned position(const Signal& signal, unsigned i) {
   const bool big_endian = signal.byte_order == ByteOrder::big_endian;
   return wire::bit_position(signal.start_bit, big_endian ? signal.length - 1 - i : i, big_endian);

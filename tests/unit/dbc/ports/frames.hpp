@@ -1,4 +1,4 @@
-// Frames and waiting for the tests of ports.
+// Functions that make frames and wait for frames, for the tests of ports.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -71,7 +71,8 @@ TEST(E2eProfile1, HasThePublishedExamples) {
   EXPECT_EQ(zeros("autosar-e2e-1c", id, 8, 1), at(0, {0x77, 0x11}, 8));
 }
 
-// torsko/autosar-e2e, E2E_P01Protect_tests: the CRC in the last byte, counter and nibble in the first.
+// torsko/autosar-e2e, E2E_P01Protect_tests: the last byte contains the CRC, the first byte contains the
+// counter and the nibble.
 TEST(E2eProfile1, TakesOtherPlaces) {
   ProfileChoice choice = with_id(0x123);
   choice.checksum = Place{56, 8, false};
@@ -92,7 +93,8 @@ TEST(E2eProfile11, HasThePublishedExamples) {
   EXPECT_EQ(zeros("autosar-e2e-11c", with_id(0x123, 64), 16, 0), at(8, {0x7D, 0x10}, 16));
 }
 
-// R23-11, tables 6.101 and 6.102 (E2E Profile 22 Protocol Examples): data id list 0x01..0x10, zeros.
+// R23-11, tables 6.101 and 6.102 (E2E Profile 22 Protocol Examples): the data ids of the list are 0x01 to
+// 0x10, and all data bytes are zeros.
 constexpr std::array<std::uint8_t, 16> crc_of_counter{0x0E, 0x1B, 0x98, 0x31, 0x0D, 0x18, 0x9B, 0x65,
                                                       0x08, 0x1D, 0x9E, 0x37, 0x0B, 0x1E, 0x9D, 0xCD};
 
@@ -118,8 +120,9 @@ TEST(E2eProfile2, HasTheExamplesOfProfile22) {
   EXPECT_EQ(data, (Bytes{0x61, 1, 2, 3, 4, 5, 6, 7}));
 }
 
-// Computed without the library from the text of the standard (profile 2: CRC-8H2F, polynomial 0x2F, start and
-// final xor 0xFF, over the bytes after the CRC and then the data id of the counter).
+// The test computes the CRC without the library, from the text of the standard. Profile 2 uses CRC-8H2F,
+// which has the polynomial 0x2F; the start value and the final xor are 0xFF. The CRC covers the bytes after
+// the CRC, and then the data id that belongs to the counter.
 RC_GTEST_PROP(E2eProfile2, IsThatOfTheText, ()) {
   ProfileChoice choice;
   choice.data_id_list = *rc::gen::container<Bytes>(16, rc::gen::arbitrary<std::uint8_t>());

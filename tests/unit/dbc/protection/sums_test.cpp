@@ -37,7 +37,7 @@ Bytes summed(const Checksum& checksum, Bytes data, std::uint32_t id = 0) {
   return data;
 }
 
-// 01 ^ 02 ^ 04 ^ 08 ^ 10 ^ 20 = 3F, ^ 41 = 7E.
+// In hexadecimal: 01 ^ 02 ^ 04 ^ 08 ^ 10 ^ 20 = 3F, and 3F ^ 41 = 7E.
 TEST(Sums, XorOfAllOtherBytes) {
   Checksum checksum;
   checksum.place = {0, 8, false};
@@ -45,7 +45,7 @@ TEST(Sums, XorOfAllOtherBytes) {
   EXPECT_EQ(summed(checksum, {0, 0x01, 0x02, 0x04, 0x08, 0x10, 0x20, 0x41})[0], 0x7E);
 }
 
-// F0 + 20 + 03 = 113, modulo 256: 13. Bytes 3..6 are not covered.
+// In hexadecimal: F0 + 20 + 03 = 113, and the lowest 8 bits of this sum are 13. Bytes 3 to 6 are not covered.
 TEST(Sums, SumOfAListOfBytes) {
   Checksum checksum;
   checksum.place = last_byte;
@@ -54,7 +54,7 @@ TEST(Sums, SumOfAListOfBytes) {
   EXPECT_EQ(summed(checksum, {0xF0, 0x20, 0x03, 9, 9, 9, 9, 0})[7], 0x13);
 }
 
-// F0 + 20 + 03 = 113; the complement of its lowest 8 bits is FF - 13 = EC.
+// In hexadecimal: F0 + 20 + 03 = 113; the complement of the lowest 8 bits of this sum is FF - 13 = EC.
 TEST(Sums, ComplementOfASum) {
   Checksum checksum;
   checksum.place = last_byte;
@@ -62,7 +62,8 @@ TEST(Sums, ComplementOfASum) {
   EXPECT_EQ(summed(checksum, {0xF0, 0x20, 0x03, 0, 0, 0, 0, 0})[7], 0xEC);
 }
 
-// F0 + 20 + 03 + 7 (start) = 11A, two's complement of 1A: 100 - 1A = E6.
+// In hexadecimal: the start value 7 and the bytes give 07 + F0 + 20 + 03 = 11A. The two's complement of the
+// lowest 8 bits, 1A, is 100 - 1A = E6.
 TEST(Sums, NegatedSumWithAStart) {
   Checksum checksum;
   checksum.place = last_byte;
@@ -70,7 +71,7 @@ TEST(Sums, NegatedSumWithAStart) {
   EXPECT_EQ(summed(checksum, {0xF0, 0x20, 0x03, 0, 0, 0, 0, 0})[7], 0xE6);
 }
 
-// Two bytes, Motorola: FF + FF + FF = 2FD, the more significant byte first.
+// The sum has two bytes in Motorola byte order. In hexadecimal: FF + FF + FF = 2FD, sent as 02 FD.
 TEST(Sums, SumOfSixteenBits) {
   Checksum checksum;
   checksum.place = {55, 16, true};
@@ -79,7 +80,8 @@ TEST(Sums, SumOfSixteenBits) {
             (Bytes{0xFF, 0xFF, 0xFF, 0, 0, 0, 0x02, 0xFD}));
 }
 
-// Sum with the CAN id, as Tesla uses it. Id 488: 88 + 04 = 8C, + 10 + 80 = 11C, modulo 256: 1C.
+// The sum includes the CAN id, as in messages of Tesla. In hexadecimal: the id 488 gives 88 + 04 = 8C, the
+// data give 10 + 80 = 90, and 8C + 90 = 11C. The lowest 8 bits of this sum are 1C.
 TEST(Sums, SumWithTheMessageId) {
   Checksum checksum;
   checksum.place = {24, 8, false};
@@ -88,7 +90,8 @@ TEST(Sums, SumWithTheMessageId) {
   EXPECT_EQ(summed(checksum, {0x10, 0x80, 0x00, 0x00}, 0x488)[3], 0x1C);
 }
 
-// Sum of length, CAN id and bytes, as Toyota uses it: 05 + 02 + E4 = EB, + 80 + 0A = 175, modulo 256: 75.
+// The sum includes the length and the CAN id, as in messages of Toyota. In hexadecimal: length and id give
+// 05 + 02 + E4 = EB, the data give 80 + 0A = 8A, and EB + 8A = 175. The lowest 8 bits of this sum are 75.
 TEST(Sums, SumWithLengthAndMessageId) {
   Checksum checksum;
   checksum.place = {32, 8, false};
@@ -97,9 +100,10 @@ TEST(Sums, SumWithLengthAndMessageId) {
   EXPECT_EQ(summed(checksum, {0x80, 0x00, 0x0A, 0x00, 0xEE}, 0x2E4)[4], 0x75);
 }
 
-// Sum of nibbles, as Honda uses it: 8 - (sum of the nibbles of the CAN id and of the bytes, without the
-// checksum) modulo 16. Id E4: E + 4 = 18. Data 12 34 56 79 2_: 1 + 2 + 3 + 4 + 5 + 6 + 7 + 9 + 2 = 39. 8 - 57
-// = -49 = 15 - 64: F. As a negated sum: -(8 + 57) = -65 = 15 - 80, since 8 and -8 are equal modulo 16.
+// The checksum of Honda is 8 minus the sum of all other nibbles of the CAN id and of the data, modulo 16. In
+// decimal: the nibbles of the id E4 give 14 + 4 = 18, and the nibbles of the data 12 34 56 79 2_ give 39.
+// Modulo 16, 8 - 18 - 39 = -49 is equal to 15, the nibble F. The test uses a negated sum with the start value
+// 8: -(8 + 18 + 39) = -65 is also equal to 15 modulo 16.
 TEST(Sums, NibblesInANibble) {
   Checksum checksum;
   checksum.place = {32, 4, false};
@@ -108,7 +112,8 @@ TEST(Sums, NibblesInANibble) {
   EXPECT_EQ(summed(checksum, {0x12, 0x34, 0x56, 0x79, 0x2B}, 0xE4), (Bytes{0x12, 0x34, 0x56, 0x79, 0x2F}));
 }
 
-// 1 ^ 2 ^ 3 ^ 4 = 4, ^ 5 ^ 6 = 7, ^ A = D, in the high nibble of the last byte; its low nibble A is covered.
+// The checksum is the high nibble of the last byte, and covers all other nibbles, including the low nibble A
+// of the last byte: 1 ^ 2 ^ 3 ^ 4 ^ 5 ^ 6 = 7, and 7 ^ A = D.
 TEST(Sums, XorOfNibbles) {
   Checksum checksum;
   checksum.place = {28, 4, false};
@@ -128,8 +133,9 @@ TEST(Sums, CrcWithItsOwnByteAsZero) {
   EXPECT_EQ(summed(checksum, {0x01, 0xEE})[1], 0x15);
 }
 
-// A data id that the counter selects from a list, appended to the data, as Volkswagen uses it
-// (CRC-8/AUTOSAR): one entry changes the checksum of one counter.
+// As in messages of Volkswagen, the counter selects a data id from a list, and the CRC-8/AUTOSAR covers the
+// data and this data id. If one entry of the list changes, the checksum changes only for the counter that
+// selects this entry.
 TEST(Sums, DataIdOfTheCounter) {
   const auto crc_with = [](std::uint8_t entry, std::uint64_t counter) {
     Settings settings;

@@ -59,16 +59,17 @@ TEST(BitLength, AStuffBitOpensTheNextRun) {
   EXPECT_EQ(wire.length(), 11);
 }
 
-// By hand: the bits before FDF, 0|00000000000|0|0, have stuff bits after bits 5 and 10 only. Then follow FDF
-// 1, res 0, BRS 1; ESI 0, DLC 0000. The last five bits are zeros, but the first fixed stuff bit replaces the
-// stuff bit after them.
+// By hand: the 14 bits before FDF are zeros; here, stuff bits follow only bits 5 and 10. FDF is 1, res is 0,
+// and BRS is 1. Then ESI and DLC are five zeros, but the first fixed stuff bit replaces the stuff bit that
+// would follow these zeros.
 TEST(BitLength, OfAnFdFrameByHand) {
   EXPECT_EQ(bit_length(filled(0, 0, 0, true, true)),
             (BitLength{.nominal = 14 + 2 + 3 + 12, .data = 5 + 4 + 17 + 6 + 1}));
   EXPECT_EQ(bit_length(filled(0, 0, 0, true, false)), (BitLength{.nominal = 31 + 33 + 1}));
 }
 
-// ISO 11898-1:2015, 10.4.2.6: CRC 17 up to 16 bytes, CRC 21 above, with 6 and 7 fixed stuff bits.
+// ISO 11898-1:2015, 10.4.2.6: frames of up to 16 bytes have CRC 17 with 6 fixed stuff bits; longer frames
+// have CRC 21 with 7 fixed stuff bits.
 TEST(BitLength, FdFramesChangeTheCrcAbove16Bytes) {
   static_assert(fd_crc_field_bits(16) == 4 + 17 + 6 + 1);
   static_assert(fd_crc_field_bits(20) == 4 + 21 + 7 + 1);
@@ -91,7 +92,7 @@ RC_GTEST_PROP(BitLength, LiesBetweenTheBareAndTheWorst,
   Frame frame{
       .id = extended ? id & 0x1FFF'FFFFU : id & 0x7FFU, .extended = extended, .fd = fd, .brs = fd && brs};
   frame.size = static_cast<std::uint8_t>(*rc::gen::elementOf(sizes));
-  // Random bytes, half of which contain long runs of equal bits.
+  // About half of the bytes are arbitrary; the others consist of long runs of equal bits.
   for (std::size_t i = 0; i < frame.size; ++i)
     frame.data.at(i) =
         *rc::gen::oneOf(rc::gen::arbitrary<std::uint8_t>(),
@@ -105,8 +106,8 @@ RC_GTEST_PROP(BitLength, LiesBetweenTheBareAndTheWorst,
   RC_ASSERT(length.bits() >= stuffable + (fd ? fd_crc_field_bits(frame.size) + 12 : 13));
 }
 
-// ESI 0, DLC 1111, then 1 0000 1111 0000 ...: a stuff bit after the first data bit and after every four bits.
-// The bound has one more bit, for error passive senders.
+// The bits are ESI 0, DLC 1111, and the data 1 0000 1111 0000 ... A stuff bit follows the first data bit, and
+// then every group of four data bits. The bound has one more bit, for error passive senders.
 TEST(BitLength, TheWorstOfTheFdDataPhaseIsMet) {
   EXPECT_EQ(bit_length(filled(0x555, 64, 0x87, true, true)).data,
             worst_case_fd_length(64, false, true).data - 1);

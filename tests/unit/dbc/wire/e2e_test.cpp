@@ -21,8 +21,9 @@ TEST(E2e, KnownVectorsOfProfile11) {
   EXPECT_EQ(protected_frame(1), (Bytes{0x91, 0x01}));
 }
 
-// The catalogue's check value of CRC-8/SAE-J1850 on "123456789" is 0x4B, with start 0xFF and final 0xFF; the
-// same polynomial with both 0 (CRC-8/GSM-A) gives 0x37. A data id of "12" leaves "3456789" for the frame.
+// The catalogue's check value of CRC-8/SAE-J1850 on "123456789" is 0x4B; this CRC has 0xFF as start value and
+// as final xor. CRC-8/GSM-A has the same polynomial, but both values are 0; its check value is 0x37. The test
+// passes "12" as data id, so the frame contains "3456789".
 TEST(E2e, PolynomialIsThatOfTheCatalogue) {
   const std::array<std::uint8_t, 8> data{0, '3', '4', '5', '6', '7', '8', '9'};
   EXPECT_EQ(crc(data, ('2' << 8U) | '1'), 0x37);

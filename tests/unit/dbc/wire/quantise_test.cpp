@@ -61,9 +61,9 @@ TEST(QuantisedWide, ReachesTheUpperHalf) {
   EXPECT_EQ(quantised_wide(nan, 1, 0, 0, highest), 0U);
 }
 
-// raw -> physical -> raw is the identity for every raw value of up to 40 bits and offsets of up to 1e6 LSB:
-// the error of raw * scale, + offset, - offset and / scale is a few parts in 2^53 of 2^41 LSB, far below half
-// an LSB.
+// If a raw value is converted to a physical value and back, the result is the same raw value. This holds for
+// raw values of up to 40 bits and offsets of up to 1e6 LSB: the values are below 2^41 LSB, and the four
+// operations cause a relative error of a few parts in 2^53. This error is far below half an LSB.
 RC_GTEST_PROP(Quantised, GivesBackEveryRawValue,
               (std::int64_t any, std::uint16_t scale_bits, std::int32_t offset_lsb)) {
   const std::int64_t raw = any % (std::int64_t{1} << 40U);

@@ -190,7 +190,8 @@ TEST(Device, KeepsAFixThatIsAheadOfTheImu) {
 }
 
 TEST(Device, EveryFixThatIsAheadOfASlowImuWaits) {
-  // A fix is sent every 20 ms; the IMU is 50 ms behind. Each fix waits until the IMU reaches its time.
+  // A fix is sent every 20 ms; the IMU is 50 ms behind. The device holds back each fix until an IMU sample
+  // with the time of this fix arrives.
   BenchSide bench;
   bench.start();
   for (int k = 1; k <= 30; ++k) {

@@ -113,8 +113,8 @@ TEST(LosRate, TheEstimateIsTheTruthOfANoiseFreeEngagement) {
   }
 }
 
-// Error angles with 15 times the configured noise: answers and heartbeat report degraded until the noise
-// returns to the configured level.
+// The noise of the error angles is 15 times the configured noise. The answers and the heartbeat report
+// `degraded` until the noise returns to the configured level.
 TEST(LosRate, SaysThatItIsDegradedWhileItsInnovationsAreBeyondItsCovariance) {
   Missile missile;
   missile.fly_until(3);

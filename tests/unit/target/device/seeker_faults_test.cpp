@@ -19,7 +19,7 @@ struct BadSample {
 
 class BadSamples : public testing::TestWithParam<BadSample> {};
 
-// From 2.6 to 2.3 s to go every group has one kind of fault.
+// From 2.6 s to 2.3 s before the closest approach, every group has the same fault.
 TEST_P(BadSamples, AreNamedCoastedOverAndRecoveredFrom) {
   for (const Algorithm algorithm :
        {Algorithm::switched_table, Algorithm::combined, Algorithm::kalman, Algorithm::low_pass}) {

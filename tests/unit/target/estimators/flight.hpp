@@ -19,8 +19,8 @@ strapdown::NavState with_errors(strapdown::NavState nav, const Eigen::Vector3d& 
 /// The start of the published runs, with errors of 5 deg and 1 m/s on each axis.
 strapdown::NavState published_start();
 
-/// The true state one sample of dt [s] after `nav`, which is at t [s]: constant acceleration, latitude by the
-/// trapezoidal rule.
+/// The true state at t + dt [s]; `nav` is the true state at t [s]. The acceleration is constant during the
+/// sample, and the latitude is integrated by the trapezoidal rule.
 strapdown::NavState flight_next(const strapdown::NavState& nav, double t, double dt);
 
 /// The increments of the sample from t to t + dt: mean rate and mean specific force, with the earth terms at

@@ -62,7 +62,7 @@ bool operator==(const Dense& a, const Dense& b);
 std::ostream& operator<<(std::ostream& out, const Dense& m);
 
 double dot(const Dense& a, const Dense& b);
-/// norm: the root of the sum of squares of all entries; largest: the largest magnitude of an entry.
+/// norm() is the root of the sum of squares of all entries; largest() is the largest magnitude of an entry.
 double norm(const Dense& m);
 double largest(const Dense& m);
 inline double largest_difference(const Dense& a, const Dense& b) { return largest(a - b); }
@@ -77,7 +77,7 @@ double largest_stretch(const Dense& m);
 /// The largest magnitude of an eigenvalue, for any square matrix.
 double spectral_radius(const Dense& m);
 double determinant(const Dense& m);
-/// L of m = L L', upper triangle zero.
+/// The matrix L with m = L L'. The upper triangle of L is zero.
 Dense lower_cholesky(const Dense& m);
 /// The matrix exponential by its power series in extended precision, for matrices of size up to about 10.
 Dense matrix_exponential(const Dense& m);

@@ -76,7 +76,7 @@ TEST(Glide, MomentumFollowsForceAndMoment) {
   const GlideRecord record = flown(in_steady_wind({10, -30, 0}), 5);
   const auto epochs = record.epochs();
   const auto spin = [](const GlideTruth& t) { return Vector3(t.C_bn * glide::inertia() * t.omega_nb_b); };
-  // The motion after release is too fast for finite differences.
+  // Skips the motion after release, which is too fast for finite differences.
   for (std::size_t k = 40; k + 1 < epochs.size(); k += 20) {
     const glide::Loads loads = loads_at(epochs[k]);
     const Vector3 acceleration = (epochs[k + 1].v_eb_n - epochs[k - 1].v_eb_n) / 0.02;
@@ -95,7 +95,7 @@ TEST(Glide, ObeysTheTargetsEquations) {
   const GlideRecord record = flown(in_steady_wind({20, 40, 0}), 10);
   const wind::Design design = wind::make_design({});
   const auto epochs = record.epochs();
-  // The motion after release is too fast for finite differences.
+  // Skips the motion after release, which is too fast for finite differences.
   for (std::size_t k = 80; k + 1 < epochs.size(); k += 20) {
     const auto state = [](const GlideTruth& t) {
       const Euler angles = euler_from(t.C_bn);

@@ -46,8 +46,8 @@ TEST(Gusts, HaveTheirSigmaAndTheirTime) {
     power += north[i] * north[i] / (count - lag);
     product += north[i] * north[i + lag] / (count - lag);
   }
-  // 6667 correlation times. One standard error is sigma^2 sqrt(2 / 6667), 1.7 % of sigma^2; the limits are
-  // about five standard errors.
+  // The series lasts 6667 correlation times. One standard error of the mean square is sigma^2 sqrt(2 / 6667),
+  // 1.7 % of sigma^2; the limits are about five standard errors.
   EXPECT_NEAR(power, 4, 0.4);
   EXPECT_NEAR(product / power, std::exp(-1), 0.06);
 }

@@ -49,7 +49,7 @@ TEST(RobustH2, StepBoundsEveryUncertainSystem) {
     Delta = Delta / largest_stretch(Delta);
     const Dense uncertain = A + L * Delta * N;
     const Dense truth = propagate_h2<4, 2, 2>(P, uncertain.fixed<4, 4>(), Q, L, N, 0, dt);
-    // -0.05 allows for the neglected terms of the order dt * |A|^2 |P|.
+    // The limit of -0.05 allows for the neglected terms of the order dt * |A|^2 |P|.
     EXPECT_GT(symmetric_eigenvalues((bound - truth) / dt)[0], -0.05);
   }
 }

@@ -1,4 +1,4 @@
-// Updates by a difference of states, compared with the update by the equivalent matrix H.
+// Compares the update that measures a difference of states with the update that uses the equivalent matrix H.
 #include "target/estimators/filtering/kalman.hpp"
 
 #include <gtest/gtest.h>

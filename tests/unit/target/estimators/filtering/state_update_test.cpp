@@ -1,4 +1,4 @@
-// Updates by single states, compared with the update by the equivalent matrix H.
+// Compares the update that measures states directly with the update that uses the equivalent matrix H.
 #include "target/estimators/filtering/kalman.hpp"
 
 #include <gtest/gtest.h>

@@ -50,7 +50,7 @@ constexpr Case cases[] = {{Algorithm::ekf, Aiding::ssbl},     {Algorithm::ekf, A
                           {Algorithm::sin_cos, Aiding::ssbl}, {Algorithm::sin_cos, Aiding::gps}};
 
 // Acceptance limit D. In sin_cos, after the handover of the heading, the variance of k = 1 - cos psi may be
-// 0; no other variance may.
+// zero. All other variances must be positive.
 TEST(InflightFilter, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
   for (const auto [algorithm, aiding] : cases) {
     for (const double start_deg : {90.0, 170.0}) {
@@ -83,9 +83,9 @@ TEST(InflightFilter, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
 }
 
 // With the published platform frame, the reset rotates the tilts in P by the heading that is fed back. Open
-// and closed loop then agree to second order: the measured differences are 0.16 and 0.08 deg (ekf), 0.41 and
-// 0.37 deg (ukf, which draws its sigma points anew). Without the rotation, the heading of the ekf is off by
-// 2.4 and 4.7 deg at the end.
+// and closed loop then agree to second order: with SSBL and with GPS, the measured differences are 0.16 and
+// 0.08 deg for the ekf. For the ukf, which draws its sigma points anew, they are 0.41 and 0.37 deg. Without
+// the rotation, the differences of the ekf at the end are 2.4 and 4.7 deg.
 TEST(InflightFilter, ClosedLoopWithItsResetEstimatesWhatTheOpenLoopDoes) {
   for (const auto [algorithm, aiding] : cases) {
     if (algorithm == Algorithm::sin_cos) continue;
@@ -116,9 +116,9 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnywhere) {
   }
 }
 
-// The tilts are up to 40 deg, with a configured sigma of 30 deg. The first sample levels the INS, so heading
-// and sigma are as after a level start. Without this levelling, the heading of one run is off by 3.4 sigma at
-// the end.
+// The tilts are up to 40 deg, with a configured sigma of 30 deg. The first sample levels the INS, so the run
+// ends with the same heading and sigma as after a level start. Without this levelling, the heading of one run
+// is off by 3.4 sigma at the end.
 TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   for (const double tilt_deg : {-40.0, 8.0, 40.0}) {
     RecordedRun from = inputs(Aiding::ssbl);
@@ -249,7 +249,8 @@ TEST(InflightFilter, AFixAcrossTheDateLineIsNear) {
   EXPECT_NEAR(result.innovation.y(), -2e-7 * 6.38e6 * std::cos(fix.latitude), 1.0);
 }
 
-// Without fixes the filter predicts at intervals of its own, so that the steps stay short.
+// If no fixes arrive, the filter itself starts a prediction in time, so that no step is longer than
+// `longest_interval`.
 TEST(InflightFilter, PredictsByItselfWithoutFixes) {
   Settings settings = recorded_settings(Algorithm::sin_cos, Aiding::gps);
   settings.longest_interval = 0.995;
@@ -300,7 +301,7 @@ State run_late(const Settings& settings, Late late) {
 
 TEST(InflightHistory, LateFixesGiveTheStateOfFixesInTimeBitForBit) {
   for (const auto [algorithm, aiding] : cases) {
-    // 0.495 s: each fix coincides with a prediction of the filter.
+    // With an interval of 0.495 s, each fix coincides with a prediction of the filter.
     for (const double longest : {1.5, 0.3, 0.495}) {
       Settings settings = recorded_settings(algorithm, aiding);
       settings.longest_interval = longest;

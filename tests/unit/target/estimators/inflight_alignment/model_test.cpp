@@ -100,9 +100,9 @@ struct Flight {
   }
 };
 
-// Tolerances: the model is of first order in T. Each term of the model changes the result by more than the
-// tolerance: Coriolis 1e-3 m/s, gravity error 8e-5 m/s, rotation of the frame 7e-4 m, earth rate through C_pc
-// 7e-6 rad, E 1e-7 rad.
+// The tolerances are needed because the model is of first order in T. But every term of the model changes the
+// result by more than its tolerance: the Coriolis term by 1e-3 m/s, the gravity error by 8e-5 m/s, the
+// rotation of the frame by 7e-4 m, the earth rate through C_pc by 7e-6 rad, and E by 1e-7 rad.
 TEST(PsiAngle, PredictsTheErrorsOfAnIns) {
   const Flight flight(0.01);
   Vector<15> x;
@@ -114,7 +114,8 @@ TEST(PsiAngle, PredictsTheErrorsOfAnIns) {
   EXPECT_LT(strapdown::log_rotation(off).norm(), 1e-8);
 }
 
-// C_pc = exp([phi x]) Rz(psi_z): heading from the upper left 2x2 block, tilts from the remaining rotation.
+// Splits C_pc into exp([phi x]) Rz(psi_z). The heading comes from the upper left 2x2 block, and the tilts
+// come from the remaining rotation.
 Vector<4> states(const Matrix3d& C_pc) {
   const double psi = std::atan2(C_pc(1, 0) - C_pc(0, 1), C_pc(0, 0) + C_pc(1, 1));
   const Vector3d phi = strapdown::log_rotation(C_pc * strapdown::exp_rotation({0, 0, -psi}));
@@ -190,7 +191,8 @@ TEST(PsiAngle, JacobianIsThatOfCentralDifferences) {
   const auto without_E = [&](const Vector<18>& at) {
     Vector<18> next = predicted<18>(at, flight.interval);
     const Vector3d psi = at.segment<3>(6), rates = next.segment<3>(6) - psi;
-    // The rotation rate in p is C_pc' (axes rates); the axes are given in c.
+    // The axes are given in frame c, so the axes times the rates are the rotation rate in c. C_pc' transforms
+    // this rate to p.
     next.segment<3>(6) = psi + platform_to_computer(psi).transpose() * rotation_axes(psi) * rates;
     return next;
   };
@@ -263,7 +265,8 @@ TEST(SinCos, TiltIsTakenOutBeforeTheHeadingIsKnown) {
   errors.x(9) = 1;  // (s, 1 - k) = 0: any heading
   const Vector3d platform_tilt(0.05, -0.03, 0);
   errors.P(8, 8) = errors.P(9, 9) = 0.5;
-  // phi = Rz phi_p: dphi_x = -phi_px dk - phi_py ds, dphi_y = -phi_py dk + phi_px ds
+  // The tilt is phi = Rz phi_p. So errors ds and dk cause the errors dphi_x = -phi_px dk - phi_py ds and
+  // dphi_y = -phi_py dk + phi_px ds.
   errors.P(6, 8) = errors.P(8, 6) = -0.5 * platform_tilt.y();
   errors.P(6, 9) = errors.P(9, 6) = -0.5 * platform_tilt.x();
   errors.P(7, 8) = errors.P(8, 7) = 0.5 * platform_tilt.x();

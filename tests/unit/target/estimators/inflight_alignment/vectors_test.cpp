@@ -55,8 +55,8 @@ TEST_P(Recorded, IsReplayed) {
     ++rows;
   });
   EXPECT_EQ(rows, outputs.rows());
-  // The limit is 1e-6; the filters reach 1e-13 to 3e-12. The deviations that the published text permits
-  // would cause 1e-8.
+  // The acceptance limit is 1e-6, but the filters reach 1e-13 to 3e-12, so the test uses 1e-10. It also
+  // detects deviations that the published text permits, because they would cause 1e-8.
   EXPECT_LT(worst_heading, 1e-10);
   EXPECT_LT(worst_sigma, 1e-10);
   EXPECT_LT(worst_x, 1e-10) << "in sigmas";

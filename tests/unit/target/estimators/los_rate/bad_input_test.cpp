@@ -67,7 +67,7 @@ std::vector<Breakage> breakages() {
   };
 }
 
-// From 2.6 to 2.3 s to go every sample is invalid.
+// From 2.6 s to 2.3 s before the closest approach, every sample is invalid.
 TEST(BadInput, IsNamedCoastedOverAndRecoveredFrom) {
   for (const Algorithm algorithm : algorithms) {
     for (const Breakage& breakage : breakages()) {

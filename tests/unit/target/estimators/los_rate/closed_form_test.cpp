@@ -60,7 +60,8 @@ TEST(Riccati, SolvesItsEquationWhateverTheRatioOfSpeedToNoise) {
     const Dense size =
         entrywise_sizes(A * P) + P_size * transposed(A) + P_size.column(0) * P_size.row(0) / s2 + Q;
     EXPECT_LT(largest(entrywise_quotient(residual, size)), 1e-12) << x;
-    // These conditions select the stabilising solution: (A - k C)' is stable for every x.
+    // Only the stabilising solution satisfies these two conditions. With it, (A - k C)' is stable for every
+    // x.
     const double c1 = P(0, 0) / s2 - 4.5 * v;
     EXPECT_GT(c1, 0);
     EXPECT_GT(determinant(P), 0);
@@ -120,7 +121,7 @@ TEST_P(DifferentialRiccati, CatchesPrintedEquation9) {
   EXPECT_GT(worst_gain_error(thermal, vc, matrix(thermal_covariance(p_bar, 5000)), 5000, printed), 0.9);
 }
 
-// Eq. (10) as printed, P4 = vc^2 P4bar/r^4 + ..., compared with P of the integrated equation.
+// Compares eq. (10) as printed, P4 = vc^2 P4bar/r^4 + ..., with P of the integrated equation.
 TEST_P(DifferentialRiccati, CatchesPrintedEquation10) {
   const double vc = GetParam();
   const Covariance p_bar = riccati(q, glint_psd, 0);
@@ -137,7 +138,7 @@ TEST_P(DifferentialRiccati, CatchesPrintedEquation10) {
   EXPECT_GT(printed, 1e-2) << "everywhere on the way";
 }
 
-// Eq. (11) as printed, K3 = P3bar/(s2 r), instead of r P3bar/s2.
+// Uses eq. (11) as printed, K3 = P3bar/(s2 r), although r P3bar/s2 would be correct.
 TEST_P(DifferentialRiccati, CatchesPrintedEquation11) {
   const double vc = GetParam();
   const Covariance p_bar = riccati(q, glint_psd, 0);
@@ -214,7 +215,8 @@ TEST(PoleMatch, IsStableForAnyStepWhereEulerIsNot) {
   EXPECT_GT(spectral_radius({20 * T, 200 * T, 1000 * T}, T), 1);
 }
 
-// -3 dB bandwidth [rad/s] from true to estimated LOS rate: (d2 s + d3)/(s^3 + d1 s^2 + d2 s + d3).
+// The bandwidth [rad/s] at which the gain from true to estimated LOS rate has fallen by 3 dB. The transfer
+// function is (d2 s + d3)/(s^3 + d1 s^2 + d2 s + d3).
 double bandwidth(const Gain& d) {
   const auto gain = [&](double w) {
     const std::complex<double> s(0, w);

@@ -14,9 +14,9 @@
 namespace canhil::los_rate {
 namespace {
 
-// The largest relative error of the continuous gains, compared with the equation that is integrated from P at
-// 5 km. The tests use the sum of thermal and glint noise after 2.2 s, and constant noise alone; the closed
-// form is exact for neither of them.
+// The largest relative difference between the continuous closed-form gains and the gains of the Riccati
+// equation, integrated from 5 km on. One test uses the sum of thermal and glint noise, from 2.2 s after the
+// start on; another test uses constant noise alone. The closed form is exact for neither of these noises.
 double worst_of_combined(const Noise& noise, double r_first, double r_last) {
   const double T = 0.005, q = 300, vc = 900;
   double worst = 0;
@@ -61,8 +61,8 @@ TEST(LowPass, HasItsPolesAndItsNoise) {
   }
 }
 
-// Compares the combined table with the full Kalman filter, gain by gain, at 100 to 500 Hz, from 2.2 s after
-// the start to 0.05 s to go.
+// Compares the combined table with the full Kalman filter, gain by gain, at 100 to 500 Hz. The comparison
+// begins 2.2 s after the start and ends 0.05 s before the closest approach.
 TEST(ClosedGain, CombinedTableIsWithinThreePercentOfTheKalmanFilter) {
   for (const double T : {0.01, 0.005, 0.002}) {
     for (const double vc : {600.0, 900.0, 1200.0}) {

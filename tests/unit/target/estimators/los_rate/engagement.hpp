@@ -41,7 +41,8 @@ class Engagement {
   Measurement next() {
     const double T = Ts(), vc = setup_.closing_speed;
     const Plane before_error = displacement_ / range_ - antenna_;
-    // Mean missile acceleration over the step; target acceleration by white jerk or by the manoeuvre.
+    // The missile acceleration is the mean over the step. The target acceleration is the sum of two parts,
+    // one from white jerk and one from the manoeuvre.
     const double to_go = range_ / vc;
     const Plane rate = (speed_ + vc * displacement_ / range_) / range_;
     Plane missile = setup_.guidance * vc * rate;

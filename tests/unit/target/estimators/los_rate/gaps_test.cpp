@@ -43,8 +43,8 @@ TEST(Gaps, AreBridgedWithTheMeanOfTheRatesBeforeAndAfter) {
   EXPECT_LT(std::abs(leg.antenna_increment - Plane(0.005, 0)), 1e-15);
   EXPECT_DOUBLE_EQ(leg.roll_increment, 0.04);
   EXPECT_EQ(leg.missile_acceleration, Plane(25, 0));
-  // The variance of the increment over both planes, if the rate changes at a random time, in a step of (0.3,
-  // -0.4) rad/s.
+  // The variance of the increment, summed over both planes. The rate changes suddenly by (0.3, -0.4) rad/s,
+  // at a random time.
   double variance = 0;
   for (int k = 0; k < 1000; ++k) {
     const double share = (k + 0.5) / 1000;
@@ -55,8 +55,8 @@ TEST(Gaps, AreBridgedWithTheMeanOfTheRatesBeforeAndAfter) {
   EXPECT_NEAR(leg.pull / leg.turn, 50 / 0.5, 1e-9) << "changes of 50 m/s^2 and 0.5 rad/s";
 }
 
-// The flight from 2.5 to 0.2 s to go, with a turning missile, a tracking antenna and noise as modelled. One
-// sample in ten is lost.
+// The flight from 2.5 s to 0.2 s before the closest approach, with a turning missile, a tracking antenna and
+// noise as modelled. One sample in ten is lost.
 TEST(Gaps, CostLittleMoreThanTheSamplesThatAreGone) {
   for (const Algorithm algorithm : algorithms) {
     SCOPED_TRACE(static_cast<int>(algorithm));

@@ -20,8 +20,8 @@ inline double relative_difference(const Dense& value, const Dense& reference) {
   return largest(entrywise_quotient(value - reference, reference));
 }
 
-/// P' = F P + P F' + q G G' - P H'H P/(R(r) Ts) from r_begin to r_end [m] at constant vc, by the classical
-/// Runge-Kutta method, handing (r, P) to `inspect` after each step.
+/// Integrates P' = F P + P F' + q G G' - P H'H P/(R(r) Ts) from r_begin to r_end [m] at constant vc, by the
+/// classical Runge-Kutta method. Calls inspect(r, P) after each step.
 template <class Inspect>
 Eigen::Matrix3d integrate_riccati(Eigen::Matrix3d P, const Noise& noise, double q, double Ts, double vc,
                                   double r_begin, double r_end, Inspect inspect) {

@@ -52,8 +52,8 @@ inline Gain switched_gain(Geometry at) {
   return discrete(exact_gain(at.range > crossing_range(vector_noise) ? thermal_part : glint_part, at), at);
 }
 
-/// Runs the rows through predict() and correct(), including the signs of a Measurement; `gain` is called once
-/// per row.
+/// Passes the rows to predict() and correct(), with the signs that a Measurement has. Calls `gain` once per
+/// row.
 inline std::vector<Point> run_vector(const std::vector<Row>& rows,
                                      const std::function<Gain(Geometry)>& gain) {
   std::vector<Point> points;

@@ -19,8 +19,8 @@ double largest(const std::string& name) {
 
 double relative(double value, double reference) { return std::abs(value / reference - 1); }
 
-// Compares every row of a run with the columns of `name`. Limits: for gains 1e-9 relative; for estimates 1e-9
-// plus 1e-8 times the largest value of the column.
+// Compares every row of a run with the columns of `name`. The relative error of a gain may be 1e-9. The error
+// of an estimate may be 1e-9 plus 1e-8 times the largest value of its column.
 void expect_published(const std::vector<Point>& points, const std::string& name) {
   const Csv& csv = vector_file();
   const double e_bar = 1e-9 + 1e-8 * largest(name + "_e"), w_bar = 1e-9 + 1e-8 * largest(name + "_w");
@@ -116,7 +116,8 @@ TEST(Vector, TablesThroughTheWholeStep) {
 }
 
 // Rows are changed as a wrong sign in a driver or in the filter would change them. The result must fail the
-// same comparison. Between 3 and 1 s to go the result is nearly right, so start and end are compared.
+// same comparison. Between 3 s and 1 s before the closest approach, the result is nearly right, so only the
+// start and the end are compared.
 using Change = void (*)(Row&);
 double wrong_over_right(Change change, double from, double to) {
   std::vector<Row> rows = vector_rows();

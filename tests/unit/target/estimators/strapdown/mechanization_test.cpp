@@ -81,9 +81,9 @@ TEST_P(BothKinds, StaysAtRest) {
   EXPECT_LT(errors.velocity, 1e-12 * 9.8 * 60);  // a tilt of this size under gravity for 60 s
 }
 
-// A tilted INS at rest oscillates with Schuler's period: after a quarter of this period,
-// |V_N| = g tilt / w_s, w_s = sqrt(g/R). At the equator the coupling through the earth rate is of order
-// (w_ie/w_s)^2 = 0.3 %.
+// A tilted INS at rest oscillates with Schuler's period: after a quarter of this period, |V_N| is
+// g tilt / w_s, where w_s is sqrt(g/R). At the equator the coupling through the earth rate is of order
+// (w_ie/w_s)^2, which is 0.3 %.
 TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   const LocalEarth earth = local_earth(0, 0);
   const double omega = std::sqrt(earth.gravity / earth.meridian_radius), tilt = 1e-4, dt = 0.5;
@@ -125,9 +125,10 @@ TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
   EXPECT_LT((step.C_bn_mean - 0.5 * (nav.C_bn + step.nav.C_bn)).norm(), 1e-15);
 }
 
-// Coning: rotation vector theta (0, cos wt, sin wt); body rate (-w (1 - cos theta), -w sin theta sin wt, w
-// sin theta cos wt) up to the axis's sign. With x = w dt, the one-sample mechanisation drifts by theta^2 (x -
-// sin x)/2 per sample, the two-sample mechanisation by theta^2 x^5/60.
+// A coning motion. Its rotation vector is theta (0, cos wt, sin wt), and its body rate has the components
+// -w (1 - cos theta), -w sin theta sin wt and w sin theta cos wt. With x = w dt, the drift per sample is
+// theta^2 (x - sin x)/2 for the one-sample mechanisation, and theta^2 x^5/60 for the two-sample
+// mechanisation.
 Motion coning(double theta, double omega) {
   const auto phi = [=](double t) {
     return Vector3d(0, theta * std::cos(omega * t), theta * std::sin(omega * t));
@@ -162,9 +163,9 @@ TEST(Mechanization, TwoSamplesFollowConingAtUnequalSampleTimes) {
   EXPECT_LT(two.attitude, one.attitude / 30);
 }
 
-// Sculling: roll theta sin wt with an eastward acceleration A sin wt, x = w dt. The rectified acceleration is
-// theta A/2. The error of the one-sample step is x^2/6 of this acceleration, the error of the two-sample step
-// is x^4/30 of this acceleration.
+// Sculling: the roll is theta sin wt, the eastward acceleration is A sin wt, and x is w dt. The rectified
+// acceleration is theta A/2. The error of the one-sample step is x^2/6 of this acceleration, the error of the
+// two-sample step is x^4/30 of this acceleration.
 TEST(Mechanization, TwoSamplesFollowSculling) {
   const double theta = 0.02, A = 10, omega = 2 * std::numbers::pi * 5;
   const Motion motion{[=](double t) {
@@ -181,7 +182,7 @@ TEST(Mechanization, TwoSamplesFollowSculling) {
 }
 
 // The specific force must be rotated by half of the rotation during the step, which leaves an error of second
-// order in this rotation. Otherwise the velocity would be off by 0.5 |omega| dt |f| t.
+// order in this rotation. Without this half rotation, the velocity would be off by 0.5 |omega| dt |f| t.
 TEST(Mechanization, OneSampleFollowsATurnAtConstantRate) {
   const double rate = 0.3;
   const Motion turn{
@@ -194,7 +195,8 @@ TEST(Mechanization, OneSampleFollowsATurnAtConstantRate) {
       [&](double t) { return Vector3d(3 * std::cos(rate * t), 3 * std::sin(rate * t), 0); },
       [&](double t) { return Vector3d(-3 * rate * std::sin(rate * t), 3 * rate * std::cos(rate * t), 0); }};
   const Errors errors = fly(turn, Mechanization::one_sample, 20, 0.02);
-  // The step's free-air gradient, 2 g/a, differs from that of the test by 1e-8 1/s^2, at 1000 m for 20 s.
+  // The step uses 2 g/a as the free-air gradient. This differs from the gradient of the test by 1e-8 1/s^2,
+  // which acts at 1000 m for 20 s.
   EXPECT_LT(errors.velocity, 5e-4);
   // The step uses the earth rate in the body axes at the start of the step. The error is the earth's rotation
   // in 20 s, 1.5e-3 rad, times half of the rotation in a step, 3e-3 rad.

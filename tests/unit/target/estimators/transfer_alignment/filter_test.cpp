@@ -150,7 +150,8 @@ TEST(TransferAlignment, OpenLoopEstimatesWhatTheClosedLoopDoesForSmallErrors) {
   EXPECT_EQ(largest(a.x), 0);
   EXPECT_GT(norm(Dense(b.x).block(attitude_state, 0, 3, 1)), 1e-4) << "the open loop leaves the INS alone";
   const Ins from_a = estimate(a), from_b = estimate(b);
-  // The differences are of second order: |phi|^2 with |phi| = 2e-4, and 20 s of g times |phi|^2.
+  // The differences are of second order. With |phi| = 2e-4, the attitudes differ by about |phi|^2, and the
+  // velocities by about 20 s times g |phi|^2.
   EXPECT_LT(norm(strapdown::misalignment(from_a.nav.C_bn, from_b.nav.C_bn)), 2e-7);
   EXPECT_LT(norm(Dense(from_a.nav.v_eb_n) - from_b.nav.v_eb_n), 1e-5);
 }

@@ -60,7 +60,8 @@ TEST(History, LateUpdatesGiveTheStateOfUpdatesInTimeBitForBit) {
     propagate(in_time, samples[i].imu, settings);
     if (samples[i].master_velocity) update(in_time, *samples[i].master_velocity, settings);
   }
-  // 0 to 200 ms; beyond 100 ms two velocities are under way.
+  // The velocities are 0 to 200 ms late. If they are more than 100 ms late, two velocities are under way at a
+  // time.
   for (const std::size_t late : {0, 1, 3, 7, 10, 15, 20}) {
     SCOPED_TRACE(late);
     expect_same_bits(run_late(late), in_time);

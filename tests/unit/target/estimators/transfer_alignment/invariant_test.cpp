@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// J(phi) is the mean of exp([s phi x]) over s from 0 to 1: Simpson's rule.
+// J(phi) is the mean of exp([s phi x]) over s from 0 to 1, computed with Simpson's rule.
 Dense left_jacobian(const Vector3d& phi) {
   constexpr int steps = 100;
   Dense sum(3, 3);

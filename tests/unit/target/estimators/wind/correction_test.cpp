@@ -46,7 +46,8 @@ struct Posterior {
   Dense dx, P;
 };
 
-// Runs the vector and compares each update with expected(H, P_prior, innovation) -> {dx, P}.
+// Runs the published vector. Compares each update with the dx and P that expected(H, P_prior, innovation)
+// returns.
 Misses compared(const RecordedRun& run, const Settings& settings,
                 const std::function<Posterior(const Dense&, const Dense&, const Dense&)>& expected) {
   Misses worst;
@@ -87,7 +88,8 @@ TEST(WindCorrection, ScalarUpdatesAreTheKalmanUpdate) {
   EXPECT_EQ(worst.asymmetry, 0);
 }
 
-// P~ = Pu + Pu L' S^1/2 [I/theta - B]^-1 S^1/2 L Pu, K = P~ H' R^-1, with rates of weight 3 in S.
+// The expected covariance is P~ = Pu + Pu L' S^1/2 [I/theta - B]^-1 S^1/2 L Pu, and the expected gain is
+// K = P~ H' R^-1. In S, the rates have the weight 3.
 TEST(WindCorrection, HInfinityIsTheFormWithoutInverseOfP) {
   const RecordedRun run;
   Settings settings = run.settings;
@@ -107,7 +109,7 @@ TEST(WindCorrection, HInfinityIsTheFormWithoutInverseOfP) {
   EXPECT_EQ(worst.asymmetry, 0);
 }
 
-// Eqs. (24)-(27) as printed: P~^-1 = P^-1 - theta L' S L + H' R^-1 H, K = P~ H' R^-1.
+// Eqs. (24)-(27) as printed: P~^-1 = P^-1 - theta L' S L + H' R^-1 H, and K = P~ H' R^-1.
 TEST(WindCorrection, Eq24To27PrintedRecursionMatches) {
   const RecordedRun run;
   Settings settings = run.settings;

@@ -248,8 +248,8 @@ TEST(WindModel, Eq3NoiseWindNoiseDoesNotMoveTheGroundVelocity) {
 }
 
 // Doubles each part of each coefficient, one at a time, in a copy of the airframe data. The change of the
-// loads is the contribution of this part; the covariance is the sum of the squares. The drag polar
-// always uses the nominal lift, also if a part of the lift is doubled.
+// loads is the contribution of this part; the covariance is the sum of the squares. The drag polar always
+// uses the nominal lift, even if a part of the lift is doubled.
 TEST(WindModel, CovarianceOfTheLoadsIsTheSumOverTheParts) {
   const Deflection fins{0.05, -0.03, 0.02};
   const Air air = standard_atmosphere(9000);

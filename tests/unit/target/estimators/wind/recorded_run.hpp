@@ -49,8 +49,8 @@ struct RecordedRun {
     return state;
   }
 
-  /// Runs the recorded inputs in the published order: update with the row, inspect(k, x, P, answer, prior P),
-  /// predict with the row.
+  /// Runs the recorded inputs in the published order. For each row k, updates with the row, calls
+  /// inspect(k, x, P, answer, prior x, prior P), and then predicts with the row.
   template <class Inspect>
   void run(const Design& design, Inspect inspect) const {
     StateVector x = x0;
