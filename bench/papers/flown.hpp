@@ -46,7 +46,7 @@ struct Flown {
   [[nodiscard]] std::vector<const campaign::Answer*> answers(std::string_view requirement) const;
 };
 
-/// Whether answers with this requirement exist and all of them meet their limits.
+/// Whether there are answers to metrics with this requirement, and all of these answers meet their limits.
 bool passed(const Flown& flown, std::string_view requirement);
 
 /// The campaigns of a paper.
