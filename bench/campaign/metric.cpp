@@ -139,8 +139,7 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
   rule.at_us = read_at(section, context);
   rule.below =
       read_limit(section, rule.unit, "below",
-                 "Bound for the fraction of runs: the fraction is the share of runs whose absolute value "
-                 "is below this bound.");
+                 "The fraction of runs is the share of the runs whose absolute value is below this value.");
   rule.rms_at_most = read_limit(section, rule.unit, "rms_at_most", "Limit: the RMS is at most this value.");
   rule.rms_at_least =
       read_limit(section, rule.unit, "rms_at_least", "Limit: the RMS is at least this value.");

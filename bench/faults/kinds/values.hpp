@@ -26,7 +26,7 @@ std::unique_ptr<nodes::Node> with_values(std::unique_ptr<nodes::Node> node,
                                          const OfValues& of, const When& when, Becomes becomes,
                                          bool exactly = false);
 
-/// Shared by all kinds in this file: `Kind::becomes` computes the wrong value.
+/// The part that all kinds in this file share. The function `becomes` of a kind computes the faulty value.
 template <class Kind>
 struct EachValue {
   static constexpr Stage stage = Stage::sensor;
