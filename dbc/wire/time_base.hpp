@@ -7,8 +7,8 @@
 
 namespace canhil {
 
-/// Of all times [us] whose low 32 bits are `low_us`, returns the time nearest to `reference_us`. This is the
-/// right time if it is within 35 minutes of the reference.
+/// Of all times [us] whose low 32 bits are `low_us`, returns the time nearest to `reference_us`. The result
+/// is right if the true time is within 35 minutes of the reference.
 constexpr std::int64_t unwrap_us(std::uint32_t low_us, std::int64_t reference_us) {
   const auto difference = static_cast<std::int32_t>(low_us - static_cast<std::uint32_t>(reference_us));
   return reference_us + difference;
@@ -21,7 +21,7 @@ constexpr std::uint32_t wrap_us(std::int64_t t_us) { return static_cast<std::uin
 inline constexpr std::int64_t short_period_us = std::int64_t{65'536} * 10;
 
 /// Of all times [us] that equal `short_us` modulo short_period_us, returns the latest one that is not after
-/// `latest_us`. This is the right time if it is at most 0.65 s before latest_us.
+/// `latest_us`. The result is right if the true time is not after latest_us and at most 0.65 s before it.
 constexpr std::int64_t unwrap_short_us(std::int64_t short_us, std::int64_t latest_us) {
   const std::int64_t age_us = (latest_us - short_us) % short_period_us;
   return latest_us - (age_us < 0 ? age_us + short_period_us : age_us);

@@ -66,8 +66,9 @@ constexpr std::array rows{
         "the gain comes from the tables.",
         [](Tuning& t, double v) { t.start_up = v; }},
     Row{Parameter::gap_limit_ms, standard.gap_limit / ms, 0, 1e4, real, stopped_only,
-        "`combined`, `switched_table`: if the error angle is missing for longer than this time, the Kalman "
-        "filter runs again for `start_up_s`.",
+        "Longest gap of lost samples that the filter bridges by the motion measured before and after the "
+        "gap. With `combined` and `switched_table`, if the error angle is missing for longer than this time, "
+        "the Kalman filter runs again for `start_up_s`.",
         [](Tuning& t, double v) { t.gap_limit = v * ms; }},
     Row{Parameter::low_pass_bandwidth_radps, standard.low_pass_bandwidth, 0.1, 200, real, stopped_only,
         "`low_pass`: bandwidth of the filter.", [](Tuning& t, double v) { t.low_pass_bandwidth = v; }},

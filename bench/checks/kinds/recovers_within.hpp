@@ -10,8 +10,8 @@ namespace canhil::checks {
 struct RecoversWithin {
   static constexpr std::string_view kind = "recovers_within";
   static constexpr std::string_view meaning =
-      "Passes when the signs of the fault stop within `within_s` after the end of the fault, and answers "
-      "come after this time (scenarios.md defines the signs).";
+      "Passes when, at all times later than `within_s` after the end of the fault, there is no sign of the "
+      "fault and answers come without a gap (scenarios.md defines the signs).";
   Disturbance disturbance;
   std::int64_t within_us = 0;
   std::vector<std::string> by;     ///< names of signs; empty: any sign that was absent before the fault
