@@ -92,7 +92,7 @@ struct ClockDrift : OfNode<ClockDrift> {
   static constexpr std::string_view kind = "clock_drift";
   static constexpr std::string_view meaning =
       "The clock of the node runs at a wrong rate. If the clock is too fast, the node's times of validity "
-      "get more and more ahead of the true times, and the intervals that the node sends are too long. If the "
+      "get more and more ahead of the true times, and the time intervals in its samples are too long. If the "
       "clock is too slow, the opposite is true.";
   double rate = 0;
   static ClockDrift read(scenario::Section& section, const scenario::FaultContext& context);

@@ -65,7 +65,8 @@ Settings vector_settings(Algorithm algorithm) {
   return settings;
 }
 
-// Passes the rows to step(), down to the estimator's least range of 10 vc Ts.
+// Passes the rows to step() until the range falls to the estimator's least range: 10 times the closing speed
+// times the sample interval.
 std::vector<Point> run_steps(const std::vector<Row>& rows, const Design& design) {
   State state = initial();
   std::vector<Point> points;
