@@ -1,7 +1,5 @@
 #include "bench/conformance/talk.hpp"
 
-#include <ranges>
-
 #include "bench/drive/session.hpp"
 
 #include "bench/conformance/groups.hpp"
@@ -145,8 +143,9 @@ void Talk::begin_flight() {
 bool Talk::closes(std::uint16_t step) {
   const std::int64_t deadline_ns = link_.now_ns() + step_ns;
   const auto closed = [&] {
-    for (const Received& one : listener_.frames | std::views::reverse) {
-      if (const auto done = observe::decode_from_target<StepDone>(one)) return done->step == step;
+    // Clang 14 cannot compile std::views::reverse. NOLINTNEXTLINE(modernize-loop-convert)
+    for (auto one = listener_.frames.rbegin(); one != listener_.frames.rend(); ++one) {
+      if (const auto done = observe::decode_from_target<StepDone>(*one)) return done->step == step;
     }
     return false;
   };

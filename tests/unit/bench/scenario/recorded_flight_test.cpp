@@ -4,7 +4,6 @@
 
 #include <fstream>
 #include <functional>
-#include <ranges>
 
 #include "bench/scenario/table.hpp"
 #include "bench/world/units.hpp"
@@ -141,8 +140,9 @@ const auto put = [](std::size_t row, std::size_t column, const std::string& text
 const auto without = [](std::initializer_list<std::size_t> columns) {
   return [places = std::vector<std::size_t>(columns)](std::vector<Row>& all) {
     for (Row& row : all)
-      for (const std::size_t place : places | std::views::reverse)
-        row.erase(row.begin() + static_cast<std::ptrdiff_t>(place));
+      // Clang 14 cannot compile std::views::reverse. NOLINTNEXTLINE(modernize-loop-convert)
+      for (auto place = places.rbegin(); place != places.rend(); ++place)
+        row.erase(row.begin() + static_cast<std::ptrdiff_t>(*place));
   };
 };
 
