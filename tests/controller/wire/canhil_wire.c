@@ -90,19 +90,24 @@ static enum wire wire_of(const struct controller *c)
 	return rates_differ() ? BROKEN : c->wire;
 }
 
-static void raise(struct controller *c, u8 ir, u8 sr, u8 ecc, u8 alc, u8 txerr, u8 rxerr)
+static void interrupt(struct controller *c)
 {
 	unsigned long flags;
 
+	local_irq_save(flags);
+	sja1000_interrupt(c->dev->irq, c->dev);
+	local_irq_restore(flags);
+}
+
+static void raise(struct controller *c, u8 ir, u8 sr, u8 ecc, u8 alc, u8 txerr, u8 rxerr)
+{
 	c->seen[IR] = ir & c->written[IER];
 	c->seen[SR] = sr;
 	c->seen[ECC] = ecc;
 	c->seen[ALC] = alc;
 	c->seen[TXERR] = txerr;
 	c->seen[RXERR] = rxerr;
-	local_irq_save(flags);
-	sja1000_interrupt(c->dev->irq, c->dev);
-	local_irq_restore(flags);
+	interrupt(c);
 }
 
 static void write_chip(struct controller *c, int reg, u8 value)
@@ -135,6 +140,13 @@ static enum hrtimer_restart next_stage(struct hrtimer *timer)
 	enum wire wire = wire_of(c);
 	u8 ecc = wire == ALONE ? ECC_NO_ACKNOWLEDGE : ECC_FORM_ERROR_IN_DATA;
 
+	// If the timer interrupts a probe, the kernel does not call the probes of the driver's interrupt routine. Then the driver
+	// has not read the register, and the interrupt must be repeated.
+	if (c->seen[IR]) {
+		interrupt(c);
+		hrtimer_forward_now(timer, ns_to_ktime(step_ns));
+		return c->seen[IR] || c->request ? HRTIMER_RESTART : HRTIMER_NORESTART;
+	}
 	if (!c->request || wire == HELD)
 		return HRTIMER_NORESTART;
 	if (wire != BROKEN && wire != ALONE) {
@@ -154,7 +166,7 @@ static enum hrtimer_restart next_stage(struct hrtimer *timer)
 		c->request = 0;
 		write_chip(c, MOD, MOD_RESET); // the chip also enters reset mode when it becomes bus-off
 		raise(c, IR_WARNING | IR_BUS_ERROR, SR_WARNING | SR_BUS_OFF, ecc, 0, 255, 0);
-		return HRTIMER_NORESTART;
+		return c->seen[IR] ? HRTIMER_RESTART : HRTIMER_NORESTART;
 	}
 	return HRTIMER_RESTART;
 }
