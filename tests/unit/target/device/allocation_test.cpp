@@ -59,14 +59,14 @@ std::vector<Frame> transfer_session(messages::Algorithm algorithm) {
   bench.command(Command::start);
   for (int k = 1; k <= 200; ++k) {
     if (k % 37 == 0) {
-      bench.lose_imu(k * 10'000LL);
+      bench.lose_imu(k * 10'000L);
     } else {
-      bench.imu(k * 10'000LL);
+      bench.imu(k * 10'000L);
     }
     if (k % 10 == 5) bench.master((k - 5) * 10'000L, BenchSide::speed + 0.1);
-    bench.sync(k * 10'000LL, k > 100);
+    bench.sync(k * 10'000L, k > 100);
   }
-  for (int k = 201; k <= 260; ++k) bench.sync(k * 10'000LL);  // the IMU falls silent, which causes a fault
+  for (int k = 201; k <= 260; ++k) bench.sync(k * 10'000L);  // the IMU falls silent, which causes a fault
   return bench.fed();
 }
 

@@ -95,10 +95,10 @@ TEST(Allocation, TransferAlignmentAllocatesNothing) {
       Outcome worst = Outcome::ok;
       const std::size_t before = allocations;
       for (int k = 1; k <= 200; ++k) {
-        history.propagate(state, imu, k * 10'000LL, settings);
+        history.propagate(state, imu, k * 10'000L, settings);
         if (k % 10 != 0) continue;
         const UpdateResult result =
-            history.update(state, flight_start().v_eb_n, k * 10'000LL - 55'000, settings);
+            history.update(state, flight_start().v_eb_n, k * 10'000L - 55'000, settings);
         if (result.outcome != Outcome::ok) worst = result.outcome;
       }
       const std::size_t made = allocations - before;
