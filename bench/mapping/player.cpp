@@ -71,7 +71,7 @@ Player::Player(Conversation& conversation, const nodes::Run& run)
 }
 
 std::int64_t Player::due_us() const {
-  std::int64_t due_us = due_.empty() ? nodes::never_us : due_.front().due_us;
+  std::int64_t due_us = due_.empty() ? nodes::never_us : due_.front().sent.due_us;
   for (const Played& played : nodes_) due_us = std::min(due_us, played.node->due_us());
   return due_us;
 }
@@ -82,7 +82,7 @@ void Player::transmit(nodes::Transmission& out) {
   for (Played& played : nodes_) {
     if (played.node->due_us() == now_us) sample(played);
   }
-  if (due_.empty() || due_.front().due_us > now_us) return;
+  if (due_.empty() || due_.front().sent.due_us > now_us) return;
   Due due = std::move(due_.front());
   due_.pop_front();
   if (due.lost) return;
@@ -108,9 +108,8 @@ void Player::sample(Played& played) {
     if (++samples_[i] % (play.period_us / played.period_us) != 0) continue;
     const std::int64_t sent_us = due_us + play.latency_us;
     if (sent_us > end_us_) continue;  // an answer would come after the end of the run
-    const auto after = std::ranges::upper_bound(due_, sent_us, {}, &Due::due_us);
-    due_.insert(
-        after, {.due_us = sent_us, .play = i, .sent = put_together(i, played, sent_us), .lost = played.lost});
+    const auto after = std::ranges::upper_bound(due_, sent_us, {}, [](const Due& due) { return due.sent.due_us; });
+    due_.insert(after, {.play = i, .sent = put_together(i, played, sent_us), .lost = played.lost});
   }
 }
 

@@ -41,7 +41,6 @@ class Player final : public nodes::Node {
     double over_us = 0;          // sum of the samples' intervals since the play was last sent
   };
   struct Due {
-    std::int64_t due_us = 0;
     std::size_t play = 0;
     Sent sent;
     bool lost = false;
