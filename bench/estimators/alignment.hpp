@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -17,6 +18,7 @@
 #include "bench/estimators/tracks.hpp"
 #include "bench/quantities/list.hpp"
 #include "bench/quantities/samples.hpp"
+#include "bench/quantities/unwrapped.hpp"
 
 namespace canhil::estimators {
 
@@ -47,7 +49,7 @@ constexpr auto and_alignment_reported(const std::array<const quantities::Quantit
 struct Alignment {
   const quantities::Unit& angle;                            ///< unit of angles in reports
   std::array<const quantities::Quantity*, 3> innovation{};  ///< north, east, down
-  const Spool<NavigationAnswer>& navigation;
+  const InOrderOfCause<NavigationAnswer>& navigation;
   const Spool<NavigationError>& errors;  ///< errors of `navigation`
   Answering navigates;
   Answering filters;
@@ -62,10 +64,9 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
   // stale, the error gets no sigma.
   const auto fill = [&](Track track, auto error, auto sigma) {
     auto next = filter.begin();
-    AnswerTo answer(of.navigation);
     for (const NavigationError& e : of.errors) {
       while (next != filter.end() && next->cause_us <= e.t_us) ++next;
-      TrackPoint point = error(e, answer(e.t_us));
+      TrackPoint point = error(e, of.navigation[e.answer]);
       point.t_us = e.t_us;
       if (next != filter.begin()) {
         const auto& last = *std::prev(next);
@@ -83,19 +84,19 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
     return track;
   };
 
-  // The estimated and the true heading, unwrapped where they pass south (180 deg).
+  // The estimated and the true angle, unwrapped where they pass 180 deg.
+  const auto unwrapped_angle = [](double world::Euler::*member) {
+    return [member, last_truth = 0.0](const NavigationError& e, const NavigationAnswer& answer) mutable {
+      const double error = e.angles.*member, truth = unwrapped(answer.angles.*member - error, last_truth);
+      if (std::isfinite(truth)) last_truth = truth;
+      return TrackPoint{.value = error, .estimate = unwrapped(answer.angles.*member, truth), .truth = truth};
+    };
+  };
   Track heading = judged(angle(attitude_heading, "heading error"));
   heading.estimate_title = "heading";
   heading.estimate_unit = degrees;
-  double truth = 0;
-  fill(
-      std::move(heading),
-      [&](const NavigationError& e, const NavigationAnswer& answer) {
-        const double now = answer.angles.heading - e.angles.heading;
-        truth += world::wrapped(now - truth);
-        return TrackPoint{.value = e.angles.heading, .estimate = truth + e.angles.heading, .truth = truth};
-      },
-      [](const auto& a) { return a.attitude_sigma.z(); });
+  fill(std::move(heading), unwrapped_angle(&world::Euler::heading),
+       [](const auto& a) { return a.attitude_sigma.z(); });
   each_axis(
       {&misalignment_north, &misalignment_east, &misalignment_down},
       [&](const Quantity& quantity, const std::string& name, int axis) {
@@ -106,14 +107,7 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
       });
   // The target reports sigmas of the tilts, not of roll and pitch.
   const auto give_angle = [&](const Quantity& quantity, std::string title, double world::Euler::*member) {
-    fill(
-        judged(angle(quantity, std::move(title))),
-        [&](const NavigationError& e, const NavigationAnswer& answer) {
-          const double estimate = answer.angles.*member;
-          return TrackPoint{
-              .value = e.angles.*member, .estimate = estimate, .truth = estimate - e.angles.*member};
-        },
-        no_sigma);
+    fill(judged(angle(quantity, std::move(title))), unwrapped_angle(member), no_sigma);
   };
   give_angle(attitude_roll, "roll error", &world::Euler::roll);
   give_angle(attitude_pitch, "pitch error", &world::Euler::pitch);

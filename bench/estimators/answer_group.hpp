@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "bench/checks/reception.hpp"
+#include "bench/spool/in_order.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/sample_group.hpp"
 #include "dbc/wire/time_base.hpp"
@@ -61,6 +62,10 @@ class AnswerGroup {
   static constexpr std::array<std::size_t, sizeof...(Messages)> messages{message_index<Messages>()...};
   SampleGroup<Messages...> group_;
 };
+
+/// Answers, which are read in the order of their causes. `Answer` has a member cause_us.
+template <class Answer>
+using InOrderOfCause = TimeOrdered<Answer, &Answer::cause_us>;
 
 /// Receives the groups of one estimator and adds their answers to one `Answers`. Each of `Groups` is an
 /// AnswerGroup that has a function `add(cause_us, answers)`. Each run has its own object of this class,

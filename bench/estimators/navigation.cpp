@@ -10,11 +10,12 @@ using world::Matrix3;
 using world::Vector3;
 using world::wrapped;
 
-Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
+Spool<NavigationError> navigation_errors(const InOrderOfCause<NavigationAnswer>& answers,
                                          const world::FlightRecord& truth) {
   Spool<NavigationError> errors;
   errors.reserve(answers.size());
-  for (const NavigationAnswer& answer : answers) {
+  for (std::size_t index = 0; index < answers.size(); ++index) {
+    const NavigationAnswer& answer = answers[index];
     if (answer.cause_us < 0 || answer.cause_us > truth.end_us()) continue;
     const world::Truth at = truth.at(answer.cause_us);
     const world::Euler angles = world::euler_from(at.C_bn);
@@ -23,7 +24,8 @@ Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
          .angles = {wrapped(answer.angles.roll - angles.roll), wrapped(answer.angles.pitch - angles.pitch),
                     wrapped(answer.angles.heading - angles.heading)},
          .v_eb_n = answer.v_eb_n - at.v_eb_n,
-         .misalignment = world::misalignment(world::C_bn_from(answer.angles), at.C_bn)});
+         .misalignment = world::misalignment(world::C_bn_from(answer.angles), at.C_bn),
+         .answer = index});
   }
   return errors;
 }

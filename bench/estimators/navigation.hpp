@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "bench/estimators/answer_group.hpp"
@@ -41,9 +42,9 @@ struct NavigationGroup : AnswerGroup<Attitude, VelocityNE, VelocityD> {
   }
 };
 
-/// The time of the cause of the last navigation answer; -1: no answer.
-inline std::int64_t last_cause_us(const Spool<NavigationAnswer>& navigation) {
-  return navigation.empty() ? -1 : navigation.back().cause_us;
+/// The latest cause of the navigation answers so far; -1: no answer.
+inline std::int64_t latest_cause_us(const InOrderOfCause<NavigationAnswer>& navigation) {
+  return navigation.latest().value_or(-1);
 }
 
 /// The errors (estimated - true) of one navigation answer, at the time of validity of its cause.
@@ -52,16 +53,17 @@ struct NavigationError {
   world::Euler angles;  ///< differences of the Euler angles, wrapped to +-pi
   world::Vector3 v_eb_n = world::Vector3::Zero();
   world::Vector3 misalignment = world::Vector3::Zero();  ///< phi, NED: C_estimated = exp(-[phi x]) C_true
+  std::size_t answer = 0;                                ///< index of the navigation answer
 };
 
 /// Errors of all navigation answers whose cause lies within the flight record.
-Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
+Spool<NavigationError> navigation_errors(const InOrderOfCause<NavigationAnswer>& answers,
                                          const world::FlightRecord& truth);
 
 /// The error of the first navigation answer that includes a filter update with the cause `cause_us`.
-/// `navigation_us` is the time of the cause of the last navigation answer before the update; the cause of the
-/// returned answer is later than both times. If a fix arrives late, the navigation answers between its time
-/// of validity and its arrival do not include its update. Null: no navigation answer follows the update.
+/// `navigation_us` is the latest cause of the navigation answers that arrived before the update; the cause of
+/// the returned answer is later than both times. If a fix arrives late, the navigation answers between its
+/// time of validity and its arrival do not include its update. Null: no navigation answer follows the update.
 const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
                                    std::int64_t navigation_us);
 

@@ -19,21 +19,6 @@ inline double longest_wait_us(const checks::Observations& seen, std::string_view
   return checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, message));
 }
 
-/// Finds the answer to a cause. Callers must ask for the causes in ascending order of time, and each cause
-/// must have an answer.
-template <class Answers>
-class AnswerTo {
- public:
-  explicit AnswerTo(const Answers& answers) : next_(answers.begin()) {}
-  const auto& operator()(std::int64_t cause_us) {
-    while (next_->cause_us < cause_us) ++next_;
-    return *next_;
-  }
-
- private:
-  typename Answers::const_iterator next_;
-};
-
 /// For each of the axes north, east and down, calls visit(quantity, name of the axis, index of the axis).
 template <class Visit>
 void each_axis(const std::array<const quantities::Quantity*, 3>& ned, Visit visit) {

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string_view>
 
 #include "bench/mapping/mapping.hpp"
-#include "bench/spool/spool.hpp"
+#include "bench/spool/in_order.hpp"
 
 namespace canhil::mapping {
 
@@ -18,11 +19,15 @@ struct TimedValue {
   std::optional<double> sigma{};
 };
 
-/// The reported values of each quantity, in order of time.
+/// The reported values of each quantity.
 struct Answers {
+  using Values = TimeOrdered<TimedValue, &TimedValue::t_us>;
+  using Times = TimeOrdered<std::int64_t, std::identity{}>;
+
   const Mapping* mapping = nullptr;
-  std::map<const quantities::Quantity*, Spool<TimedValue>> values;
-  std::map<std::string_view, Spool<std::int64_t>> messages;  ///< arrival times by message name
+  std::map<const quantities::Quantity*, Values> values;
+  /// The times of the values' causes, or the arrival times if there is no cause, by message name.
+  std::map<std::string_view, Times> messages;
 };
 
 }  // namespace canhil::mapping

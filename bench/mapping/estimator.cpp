@@ -10,6 +10,7 @@
 #include "bench/checks/delay.hpp"
 #include "bench/estimators/tracks.hpp"
 #include "bench/mapping/answers.hpp"
+#include "bench/quantities/unwrapped.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -26,27 +27,22 @@ double difference(const ReferenceQuantity& of, double a, double b) {
   return of.turns ? std::remainder(a - b, 2 * std::numbers::pi) : a - b;
 }
 
-// If the points are not in order of time, sorts them in memory.
-template <class Value, class TimeOf>
-Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
-  if (std::ranges::is_sorted(values, {}, time_of)) return values;
-  std::vector<Value> sorted(values.begin(), values.end());
-  std::ranges::stable_sort(sorted, {}, time_of);
-  return Spool<Value>(sorted);
-}
-
-// The result is sorted by the time of the cause, because answers may arrive out of order.
 Spool<TrackPoint> errors_of(const ReferenceQuantity& of, const Spool<TimedValue>& all, const Truth& truth) {
   Spool<TrackPoint> errors;
+  double last_truth = 0;
   for (const TimedValue& one : all) {
     const auto at = of.truth(truth, one.t_us);
     if (!at || one.t_us > truth.duration_us) continue;
     const double error = difference(of, one.value, *at);
-    // The estimate is unwrapped to within half a turn of the truth.
-    errors.push_back(
-        {.t_us = one.t_us, .value = error, .sigma = one.sigma, .estimate = *at + error, .truth = *at});
+    // The truth is unwrapped where it passes half a turn, the estimate to within half a turn of the truth.
+    last_truth = of.turns ? quantities::unwrapped(*at, last_truth) : *at;
+    errors.push_back({.t_us = one.t_us,
+                      .value = error,
+                      .sigma = one.sigma,
+                      .estimate = last_truth + error,
+                      .truth = last_truth});
   }
-  return in_order(std::move(errors), &TrackPoint::t_us);
+  return errors;
 }
 
 const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity) {
@@ -102,18 +98,17 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
 // carries a quantity.
 std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
   const Answers& answers = seen.of<Answers>();
-  estimators::Mark all{.name = "answers"};
+  Answers::Times all;
   std::vector<estimators::Mark> marks;
   for (const auto& [message, times] : answers.messages) {
     const Hear& hear =
         *std::ranges::find(answers.mapping->hears, message,
                            [](const Hear& one) -> std::string_view { return one.of.message->name; });
     if (!hear.answers && hear.reported_signals.empty()) continue;
-    for (const std::int64_t t_us : times) all.t_us.push_back(t_us);
+    for (const std::int64_t t_us : times) all.push_back(t_us);
     marks.push_back({.name = message, .t_us = times});
   }
-  all.t_us = in_order(std::move(all.t_us), std::identity{});
-  marks.insert(marks.begin(), std::move(all));
+  marks.insert(marks.begin(), {.name = "answers", .t_us = all});
   return marks;
 }
 

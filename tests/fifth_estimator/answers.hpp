@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "bench/checks/reception.hpp"
-#include "bench/spool/spool.hpp"
+#include "bench/spool/in_order.hpp"
 #include "bench/world/flight_record.hpp"
 
 namespace canhil::estimators {
@@ -20,7 +20,7 @@ struct HeightAnswer {
   double nis = 0;
   bool used = false;  ///< false: the height was gated
 };
-using HeightAnswers = Spool<HeightAnswer>;
+using HeightAnswers = TimeOrdered<HeightAnswer, &HeightAnswer::cause_us>;
 
 std::unique_ptr<Reception> height_reception();
 

@@ -3,24 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "bench/checks/evidence.hpp"
+#include "bench/checks/not_finite.hpp"
 #include "bench/checks/silence.hpp"
 
 namespace canhil::checks {
 namespace {
 
-std::string at(std::int64_t t_us) { return fmt::format("{:g} s", static_cast<double>(t_us) * 1e-6); }
-
-// The first value or sigma that is not finite; empty: all are finite.
+// How many values or sigmas of a quantity are not finite; empty: all are finite.
 std::string no_number(const Evidence& evidence, const std::vector<Subject>& subjects) {
   for (const Subject& subject : subjects) {
     for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity)) {
-      for (const quantities::TrackPoint& point : track->points) {
-        if (!std::isfinite(point.value) || !std::isfinite(point.sigma.value_or(0)))
-          return fmt::format("{} at {} is not a number", subject.text, at(point.t_us));
-      }
+      NotFinite not_finite;
+      for (const quantities::TrackPoint& point : track->points)
+        not_finite.take(point.t_us, point.value, point.sigma.value_or(0));
+      if (const std::string why = not_finite.to_text(track->points.size()); !why.empty())
+        return fmt::format("{}: {}", subject.text, why);
     }
   }
   return {};

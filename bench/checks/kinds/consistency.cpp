@@ -4,6 +4,7 @@
 
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
+#include "bench/checks/not_finite.hpp"
 #include "bench/checks/probability.hpp"
 #include "bench/scenario/rule.hpp"
 
@@ -59,7 +60,14 @@ Finding Consistency::judge(const Evidence& evidence) const {
   if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
   double sum = 0;
-  for (const std::size_t index : part) sum += tracks.front()->points[index].value;
+  NotFinite not_finite;
+  for (const std::size_t index : part) {
+    const quantities::TrackPoint& point = tracks.front()->points[index];
+    sum += point.value;
+    not_finite.take(point.t_us, point.value);
+  }
+  if (auto why = not_finite.to_text(part.size()); !why.empty())
+    return {Outcome::fail, std::move(why), expected};
   const double mean = sum / static_cast<double>(part.size());
   return {pass_if(mean >= low && mean <= high), fmt::format("mean {:.3f} of {}", mean, part.size()),
           expected};

@@ -4,6 +4,7 @@
 
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
+#include "bench/checks/not_finite.hpp"
 #include "bench/scenario/rule.hpp"
 
 namespace canhil::checks {
@@ -41,6 +42,10 @@ Finding Convergence::judge(const Evidence& evidence) const {
   const Stretch to_the_end{.window = {before_us, evidence.truth.duration_us}};
   if (auto gap = silence(track, to_the_end, inside(track, to_the_end)); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
+  NotFinite not_finite;
+  for (const quantities::TrackPoint& point : track.points) not_finite.take(point.t_us, point.value);
+  if (auto why = not_finite.to_text(track.points.size()); !why.empty())
+    return {Outcome::fail, std::move(why), expected};
   const auto t_us = entered_for_good_us(track.points, within,
                                         [](const quantities::TrackPoint& point) { return point.value; });
   if (!t_us) return {Outcome::fail, "not within at the end", expected};

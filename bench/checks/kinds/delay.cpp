@@ -5,6 +5,7 @@
 #include "bench/checks/delay.hpp"
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
+#include "bench/checks/not_finite.hpp"
 #include "bench/scenario/rule.hpp"
 
 namespace canhil::checks {
@@ -26,10 +27,19 @@ Finding DelayBelow::judge(const Evidence& evidence) const {
       fmt::format("reported less than {:g} ms late {}", bar_s * 1e3, seconds(window));
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
+  NotFinite not_finite;
+  const Stretch stretch{.window = window};
+  const Places part = inside(*tracks.front(), stretch);
+  if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
+    return {Outcome::fail, std::move(gap), expected};
+  for (const std::size_t index : part) {
+    const quantities::TrackPoint& point = tracks.front()->points[index];
+    not_finite.take(point.t_us, point.estimate.value_or(0));
+  }
+  if (auto why = not_finite.to_text(part.size()); !why.empty())
+    return {Outcome::fail, std::move(why), expected};
   const auto delay = delay_of(*tracks.front(), window);
-  if (!delay)
-    return {Outcome::not_measured, "the truth moves too little, or too few answers came, to determine it",
-            expected};
+  if (!delay) return {Outcome::not_measured, delay.error().message, expected};
   const std::string measured =
       fmt::format("{:.1f} +- {:.1f} ms", delay->delay_s * 1e3, delay->half_width_s * 1e3);
   if (delay->delay_s + delay->half_width_s < bar_s) return {Outcome::pass, measured, expected};

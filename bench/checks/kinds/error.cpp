@@ -7,6 +7,7 @@
 
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
+#include "bench/checks/not_finite.hpp"
 #include "bench/scenario/read_enum.hpp"
 #include "bench/scenario/rule.hpp"
 
@@ -32,7 +33,9 @@ Error Error::read(scenario::Section& section, const scenario::CheckContext& cont
       scenario::read_enum<Statistic>(section,
                                      {"statistic",
                                       "Statistic of |estimated - true| in the window: its maximum, RMS or "
-                                      "mean, or (`final`) its value at the last answer."},
+                                      "mean, or (`final`) its value at the last answer. If the quantity has "
+                                      "several parts, such as the planes of `los.rate`: the maximum and the "
+                                      "last value of the worst part, the RMS and the mean over all parts."},
                                      statistics, Statistic::max);
   rule.stretch = read_stretch(section, context, rule.judged);
   std::tie(rule.below, rule.unit) =
@@ -64,17 +67,22 @@ Finding Error::judge(const Evidence& evidence) const {
   if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
   double worst = 0, sum = 0, squares = 0, last = 0;
-  bool finite = true;
+  NotFinite not_finite;
   for (const std::size_t index : part) {
+    last = 0;  // of the worst part
+    double all = 0;
     for (const quantities::Track* track : tracks) {
-      const double error = track->points[index].value;
-      last = std::abs(error);
-      finite = finite && std::isfinite(error);
-      worst = std::max(worst, last);
-      sum += last;
+      const double error = std::abs(track->points[index].value);
+      last = std::max(last, error);
+      all += error;
       squares += error * error;
     }
+    worst = std::max(worst, last);
+    sum += all;
+    not_finite.take(tracks.front()->points[index].t_us, all);
   }
+  if (auto why = not_finite.to_text(part.size()); !why.empty())
+    return {Outcome::fail, std::move(why), expected};
   const auto count = static_cast<double>(part.size() * tracks.size());
   const std::array<double, 4> values{worst, std::sqrt(squares / count), sum / count, last};
   const double value = values[static_cast<std::size_t>(statistic)];
@@ -82,8 +90,7 @@ Finding Error::judge(const Evidence& evidence) const {
   std::string measured = fmt::format("{} {:.{}f}", statistic == Statistic::rms ? "RMS" : name(statistic),
                                      value / unit.factor, digits);
   if (statistic == Statistic::mean) measured += fmt::format(", max {:.{}f}", worst / unit.factor, digits);
-  return {pass_if(finite && value < below), fmt::format("{} {} of {}", measured, unit.name, part.size()),
-          expected};
+  return {pass_if(value < below), fmt::format("{} {} of {}", measured, unit.name, part.size()), expected};
 }
 
 }  // namespace canhil::checks

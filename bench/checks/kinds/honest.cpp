@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/checks/evidence.hpp"
+#include "bench/checks/not_finite.hpp"
 #include "bench/quantities/list.hpp"
 #include "bench/quantities/samples.hpp"
 #include "bench/scenario/section.hpp"
@@ -54,13 +55,18 @@ Finding Honest::judge(const Evidence& evidence) const {
     const quantities::Samples samples = one->samples(evidence.seen, evidence.truth);
     if (samples.empty()) return {Outcome::fail, fmt::format("{}: no answers to judge", one->name), expected};
     judged += samples.size();
+    NotFinite not_finite;
     for (std::size_t index = 0; index < samples.size(); ++index) {
       const double ratio = samples.value(index, quantities::trusted_over_sigma);
+      not_finite.take(samples.times()[index], ratio);
       if (!(ratio > worst)) continue;
       worst = ratio;
       at_us = samples.times()[index];
       to_go = one->layout.to_go_stretch_us > 0;
     }
+    if (auto why = not_finite.to_text(samples.size(), "errors in sigmas", one->layout.to_go_stretch_us > 0);
+        !why.empty())
+      return {Outcome::fail, std::move(why), expected};
   }
   const double at_s = static_cast<double>(at_us) * 1e-6;
   return {pass_if(worst <= over_sigma),

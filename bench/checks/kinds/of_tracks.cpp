@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <ranges>
+#include <utility>
 
 #include "bench/checks/estimator.hpp"
 #include "bench/checks/read_quantity.hpp"
@@ -153,8 +155,14 @@ std::string silence(const Track& track, const Stretch& stretch, const Places& pa
         track.to_go, [&](const Track::ToGo& epoch) { return lies_in(*stretch.to_go_s, epoch.to_go_s); });
     if (flown == 0) return "the flight has no samples there";
     if (part.empty()) return "no answers";
-    if (static_cast<double>(part.size()) < least_answered * static_cast<double>(flown))
-      return fmt::format("answers to {} of {} samples", part.size(), flown);
+    std::int64_t answered = 0;  // a sample that is answered twice counts once
+    std::optional<std::int64_t> last_us;
+    for (const std::size_t index : part) {
+      const std::int64_t t_us = track.points[index].t_us;
+      if (std::exchange(last_us, t_us) != t_us) ++answered;
+    }
+    if (static_cast<double>(answered) < least_answered * static_cast<double>(flown))
+      return fmt::format("answers to {} of {} samples", answered, flown);
     return "";
   }
   if (part.empty()) return "no answers";

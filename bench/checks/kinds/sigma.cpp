@@ -7,6 +7,7 @@
 
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
+#include "bench/checks/not_finite.hpp"
 
 namespace canhil::checks {
 
@@ -34,21 +35,23 @@ Finding Sigma::judge(const Evidence& evidence) const {
     return {Outcome::fail, std::move(gap), expected};
   double least = std::numeric_limits<double>::infinity(), most = -least;
   std::size_t without = 0;
-  bool within = true;
+  NotFinite not_finite;
   for (const std::size_t index : part) {
-    const std::optional<double>& sigma = track.points[index].sigma;
+    const auto& [t_us, value, sigma, estimate, truth] = track.points[index];
     if (!sigma) {
       ++without;
       continue;
     }
-    within = within && *sigma >= low && *sigma <= high;  // NaN is outside
+    not_finite.take(t_us, *sigma);
     least = std::min(least, *sigma);
     most = std::max(most, *sigma);
   }
   if (without > 0)
     return {Outcome::fail, fmt::format("{} of {} answers have no sigma", without, part.size()), expected};
+  if (auto why = not_finite.to_text(part.size(), "sigmas"); !why.empty())
+    return {Outcome::fail, std::move(why), expected};
   const int digits = digits_of(unit);
-  return {pass_if(within),
+  return {pass_if(least >= low && most <= high),
           fmt::format("{:.{}f} to {:.{}f} {} of {}", least / unit.factor, digits, most / unit.factor, digits,
                       unit.name, part.size()),
           expected};

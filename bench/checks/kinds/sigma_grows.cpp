@@ -4,6 +4,7 @@
 
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
+#include "bench/checks/not_finite.hpp"
 #include "bench/scenario/rule.hpp"
 
 namespace canhil::checks {
@@ -34,19 +35,29 @@ Finding SigmaGrows::judge(const Evidence& evidence) const {
                   fault.empty() ? seconds(window) : fmt::format("through fault '{}'", fault));
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
+  const Stretch stretch{.window = window};
+  if (fault.empty()) {  // a fault may leave nothing to be answered
+    if (auto gap = silence(*tracks.front(), stretch, inside(*tracks.front(), stretch)); !gap.empty())
+      return {Outcome::fail, std::move(gap), expected};
+  }
   // The reference is the last sigma before the window or, if there is none, the first sigma in the window.
   std::optional<double> first, last;
-  std::size_t inside = 0;
+  std::size_t in_window = 0, sigmas = 0;
+  NotFinite not_finite;
   for (const quantities::TrackPoint& point : tracks.front()->points) {
     if (!point.sigma || point.t_us > window.to_us) continue;
+    not_finite.take(point.t_us, *point.sigma);
+    ++sigmas;
     if (point.t_us <= window.from_us || !first) first = point.sigma;
     last = point.sigma;
-    if (point.t_us > window.from_us) ++inside;
+    if (point.t_us > window.from_us) ++in_window;
   }
-  if (inside == 0) return {Outcome::fail, "no sigma is reported in it", expected};
+  if (in_window == 0) return {Outcome::fail, "no sigma is reported in it", expected};
+  if (auto why = not_finite.to_text(sigmas, "sigmas"); !why.empty())
+    return {Outcome::fail, std::move(why), expected};
   const quantities::Unit& unit = judged.quantity->unit;
   const int digits = digits_of(unit);
-  return {pass_if(*last > by * *first),  // NaN is not larger
+  return {pass_if(*last > by * *first),
           fmt::format("{:.{}f} to {:.{}f} {}", *first / unit.factor, digits, *last / unit.factor, digits,
                       unit.name),
           expected};

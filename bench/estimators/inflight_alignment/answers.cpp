@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "bench/checks/finding.hpp"
@@ -32,7 +33,7 @@ struct FixGroup : AnswerGroup<FixInnovation, FixPositionLatitude, FixPositionLon
     answer.cause_group = group_of(get<FixStatus>().source);
     return answer;
   }
-  void add(std::int64_t cause_us, InflightAnswers& answers) const {
+  void add(std::int64_t cause_us, InflightAnswers& answers) {
     const auto& innovation = get<FixInnovation>();
     const auto& latitude = get<FixPositionLatitude>();
     const auto& attitude = get<FixAttitudeSigma>();
@@ -45,7 +46,7 @@ struct FixGroup : AnswerGroup<FixInnovation, FixPositionLatitude, FixPositionLon
     const auto& status = get<FixStatus>();
     answers.fixes.push_back(
         {.cause_us = cause_us,
-         .navigation_us = last_cause_us(answers.navigation),
+         .navigation_us = latest_cause_us(answers.navigation),
          .source = status.source,
          .outcome = status.outcome,
          .nis = get<FixUpdate>().nis,
@@ -68,9 +69,13 @@ struct FixGroup : AnswerGroup<FixInnovation, FixPositionLatitude, FixPositionLon
          .degraded = status.degraded != 0,
          .handed_over = status.handed_over != 0,
          .repairs = status.repairs,
+         .repaired = std::exchange(repairs_, std::uint32_t{status.repairs}) != status.repairs,
          .gated = status.gated,
          .refused = status.refused});
   }
+
+ private:
+  std::uint32_t repairs_ = 0;  // as reported by the last answer
 };
 using Navigation = NavigationGroup<FixAttitude, FixVelocityNE, FixVelocityD>;
 

@@ -12,7 +12,7 @@ namespace canhil::estimators {
 /// fix. Units: SI, angles in rad.
 struct FixAnswer {
   std::int64_t cause_us = 0;
-  std::int64_t navigation_us = -1;  ///< cause of the last navigation answer before this one; -1: none
+  std::int64_t navigation_us = -1;  ///< latest cause of the navigation answers before this one; -1: none
   messages::FixSource source = messages::FixSource::ssbl;
   messages::FixOutcome outcome = messages::FixOutcome::accepted;
   double nis = 0;
@@ -28,6 +28,7 @@ struct FixAnswer {
   bool degraded = false;      ///< the target reports that its sigmas are not valid
   bool handed_over = false;   ///< the heading is resolved and fed back to the INS
   std::uint32_t repairs = 0;  ///< number of covariance repairs since start
+  bool repaired = false;      ///< `repairs` differs from that of the answer that arrived before
   std::uint32_t gated = 0;    ///< fixes rejected by the gate, since start
   std::uint32_t refused = 0;  ///< fixes not used for another reason, since start
 };
@@ -44,8 +45,8 @@ struct SentFix {
 };
 
 struct InflightAnswers {
-  Spool<NavigationAnswer> navigation;
-  Spool<FixAnswer> fixes;
+  InOrderOfCause<NavigationAnswer> navigation;
+  InOrderOfCause<FixAnswer> fixes;
   Spool<SentFix> sent;
 };
 

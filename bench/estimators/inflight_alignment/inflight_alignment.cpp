@@ -54,7 +54,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     if (!has_time_and_truth(update, truth.flight)) continue;
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
-    const auto& [t_us, angles, v, phi] = *after;
+    const auto& [t_us, angles, v, phi, answer] = *after;
     const world::Vector3 p = position_error(update, truth.flight);
     const double nis =
         used(update.outcome) ? infinite_if_nan(update.nis) : std::numeric_limits<double>::quiet_NaN();
@@ -167,10 +167,7 @@ std::vector<Mark> marks_of(const checks::Observations& seen) {
       {.name = "answers", .t_us = times_of(answers.navigation, every_answer)},
       {.name = "coasting", .t_us = times_of(answers.navigation, &NavigationAnswer::coasting)}};
   add_marks(marks, answers.fixes, &FixAnswer::outcome, messages::enumerators<messages::FixOutcome>);
-  std::uint32_t repairs = 0;
-  marks.push_back({.name = "repaired", .t_us = times_of(answers.fixes, [&](const FixAnswer& fix) {
-                                         return std::exchange(repairs, fix.repairs) != fix.repairs;
-                                       })});
+  marks.push_back({.name = "repaired", .t_us = times_of(answers.fixes, &FixAnswer::repaired)});
   marks.push_back({.name = "degraded", .t_us = times_of(answers.fixes, &FixAnswer::degraded)});
   marks.push_back({.name = "handed_over", .t_us = times_of(answers.fixes, &FixAnswer::handed_over)});
   return marks;

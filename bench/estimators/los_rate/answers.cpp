@@ -32,7 +32,8 @@ std::unique_ptr<Reception> los_reception() { return std::make_unique<ReceptionOf
 Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement) {
   Spool<LosError> errors;
   errors.reserve(answers.size());
-  for (const LosAnswer& answer : answers) {
+  for (std::size_t index = 0; index < answers.size(); ++index) {
+    const LosAnswer& answer = answers[index];
     const world::EngagementTruth* truth = engagement.at(answer.cause_us);
     if (truth == nullptr || !has_estimate(answer.outcome)) continue;
     errors.push_back({.t_us = answer.cause_us,
@@ -40,7 +41,8 @@ Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRec
                       .rate = {.pitch = answer.rate.pitch - truth->los_rate.pitch,
                                .yaw = answer.rate.yaw - truth->los_rate.yaw},
                       .sigma = answer.rate_sigma,
-                      .trusted = !answer.blind && !answer.degraded});
+                      .trusted = !answer.blind && !answer.degraded,
+                      .answer = index});
   }
   return errors;
 }

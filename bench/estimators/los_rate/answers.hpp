@@ -24,7 +24,7 @@ struct LosAnswer {
   bool degraded = false;  ///< the target reports that its sigmas are not valid
 };
 
-using LosAnswers = Spool<LosAnswer>;
+using LosAnswers = InOrderOfCause<LosAnswer>;
 
 /// True if the sample corrected the filter; false if the filter only predicted.
 constexpr bool updated(messages::LosRateOutcome outcome) {
@@ -42,6 +42,7 @@ struct LosError {
   world::Planes<double> rate{};   ///< [rad/s]
   world::Planes<double> sigma{};  ///< as reported [rad/s]
   bool trusted = false;           ///< the answer reports neither blind nor degraded
+  std::size_t answer = 0;         ///< index of the answer
 };
 
 /// Errors of all answers that have an estimate and whose time of cause is an epoch of the engagement.

@@ -121,9 +121,8 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
     track.estimate_unit = mradps;
     for (const world::EngagementTruth& epoch : engagement.epochs)
       track.to_go.push_back({.t_us = epoch.t_us, .to_go_s = epoch.time_to_go()});
-    AnswerTo answer_to(answers);
     for (const LosError& e : errors) {
-      const LosAnswer& answer = answer_to(e.t_us);
+      const LosAnswer& answer = answers[e.answer];
       track.points.push_back({.t_us = e.t_us,
                               .value = e.rate.*member,
                               .sigma = answer.rate_sigma.*member,

@@ -20,7 +20,7 @@ struct FilterGroup
     const auto& accel = get<AlignAccelBias>();
     answers.filter.push_back(
         {.cause_us = cause_us,
-         .navigation_us = last_cause_us(answers.navigation),
+         .navigation_us = latest_cause_us(answers.navigation),
          .nis = get<AlignUpdate>().nis,
          .innovation = {innovation.innovation_north_mps, innovation.innovation_east_mps,
                         innovation.innovation_down_mps},
@@ -43,7 +43,7 @@ std::unique_ptr<Reception> transfer_reception() {
   return std::make_unique<ReceptionOf<TransferAnswers, Navigation, FilterGroup>>();
 }
 
-Spool<quantities::TrackPoint> nees_of(const Spool<FilterAnswer>& filter,
+Spool<quantities::TrackPoint> nees_of(const InOrderOfCause<FilterAnswer>& filter,
                                       const Spool<NavigationError>& errors) {
   Spool<quantities::TrackPoint> series;
   for (const FilterAnswer& answer : filter) {

@@ -11,7 +11,7 @@ namespace canhil::estimators {
 /// sample. Units: SI, angles in rad.
 struct FilterAnswer {
   std::int64_t cause_us = 0;
-  std::int64_t navigation_us = -1;  ///< cause of the last navigation answer before this one; -1: none
+  std::int64_t navigation_us = -1;  ///< latest cause of the navigation answers before this one; -1: none
   double nis = 0;
   world::Vector3 innovation = world::Vector3::Zero();
   world::Vector3 attitude_sigma = world::Vector3::Zero();        ///< sigmas of the misalignment, NED
@@ -23,13 +23,13 @@ struct FilterAnswer {
 };
 
 struct TransferAnswers {
-  Spool<NavigationAnswer> navigation;
-  Spool<FilterAnswer> filter;
+  InOrderOfCause<NavigationAnswer> navigation;
+  InOrderOfCause<FilterAnswer> filter;
 };
 
 /// The attitude NEES (3 degrees of freedom) after each velocity update: the result of nees() for the
 /// misalignment that first_after() finds.
-Spool<quantities::TrackPoint> nees_of(const Spool<FilterAnswer>& filter,
+Spool<quantities::TrackPoint> nees_of(const InOrderOfCause<FilterAnswer>& filter,
                                       const Spool<NavigationError>& errors);
 
 std::unique_ptr<Reception> transfer_reception();

@@ -32,13 +32,11 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   const TransferAnswers& answers = seen.of<TransferAnswers>();
   const auto errors = navigation_errors(answers.navigation, truth.flight);
-  // One value per update, in order, up to the last update that a navigation answer follows.
-  const Spool<TrackPoint> nees = nees_of(answers.filter, errors);
-  for (std::size_t i = 0; i < nees.size(); ++i) {
-    const FilterAnswer& update = answers.filter[i];
+  for (const FilterAnswer& update : answers.filter) {
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
-    const auto& [t_us, angles, v, phi] = *after;
+    const auto& [t_us, angles, v, phi, answer] = *after;
+    const double normalised = nees(phi, update.attitude_sigma, update.attitude_correlation);
     // Only the attitude is compared with its reported sigma. The reported velocity sigma is valid only at the
     // time of the cause: during an acceleration of 1 g, a heading error causes a velocity error that exceeds
     // this sigma before the next answer.
@@ -52,7 +50,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  v.x(),
                                                  v.y(),
                                                  v.z(),
-                                                 infinite_if_nan(nees[i].value),
+                                                 infinite_if_nan(normalised),
                                                  infinite_if_nan(update.nis),
                                                  update.attitude_sigma.z(),
                                                  infinite_if_nan(trusted),

@@ -60,8 +60,10 @@ std::unique_ptr<Reception> wind_reception() {
 
 Spool<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecord& glide) {
   Spool<WindError> errors;
-  for (const WindAnswer& answer : answers) {
-    if (lies_within(answer, glide)) errors.push_back(error_of(answer, glide));
+  for (std::size_t index = 0; index < answers.size(); ++index) {
+    if (!lies_within(answers[index], glide)) continue;
+    errors.push_back(error_of(answers[index], glide));
+    errors.back().answer = index;
   }
   return errors;
 }

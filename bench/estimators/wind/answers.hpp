@@ -28,7 +28,7 @@ struct WindAnswer {
   double nis = 0;  ///< normalised innovation squared, 9 degrees of freedom; 0: without an update
 };
 
-using WindAnswers = Spool<WindAnswer>;
+using WindAnswers = InOrderOfCause<WindAnswer>;
 
 /// The error (estimated - true) of a wind answer, at the time of validity of its cause. Only answers of a
 /// started filter have an error. "Along track" is the direction of the true horizontal air velocity, which is
@@ -38,6 +38,7 @@ struct WindError {
   world::Vector3 error_n = world::Vector3::Zero();  ///< NED [m/s]
   double along_track = 0;                           ///< [m/s]
   double cross_track = 0;                           ///< to the right [m/s]
+  std::size_t answer = 0;                           ///< index of the answer
 };
 
 /// Errors of all answers of a running filter whose cause lies within the record.

@@ -44,22 +44,20 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   if (truth.glide == nullptr) return samples;
   const auto errors = wind_errors(seen.of<WindAnswers>(), *truth.glide);
   const auto normalised = nees_of(seen.of<WindAnswers>(), *truth.glide);  // one for each error
-  auto answer = seen.of<WindAnswers>().begin();
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    while (!answer->started || answer->cause_us != errors[i].t_us) ++answer;
-    const bool updated = answer->outcome == messages::WindOutcome::updated;
-    const double trusted = answer->degraded ? 0 : over_sigma(errors[i].error_n, answer->sigma);
+    const WindAnswer& answer = seen.of<WindAnswers>()[errors[i].answer];
+    const bool updated = answer.outcome == messages::WindOutcome::updated;
+    const double trusted = answer.degraded ? 0 : over_sigma(errors[i].error_n, answer.sigma);
     const std::array<double, kept.size()> values{
         errors[i].along_track,
         errors[i].cross_track,
         errors[i].error_n.z(),
-        updated ? infinite_if_nan(answer->nis) : std::numeric_limits<double>::quiet_NaN(),
+        updated ? infinite_if_nan(answer.nis) : std::numeric_limits<double>::quiet_NaN(),
         infinite_if_nan(normalised[i].value),
-        answer->along_track_sigma,
+        answer.along_track_sigma,
         infinite_if_nan(trusted),
-        answer->degraded ? 1.0 : 0.0};
+        answer.degraded ? 1.0 : 0.0};
     samples.add(errors[i].t_us, values);
-    ++answer;
   }
   return samples;
 }
@@ -70,9 +68,8 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   const auto errors = wind_errors(answers, *truth.glide);
   const Answering of{longest_wait_us(seen, messages::WindUpdate::info.name), truth.glide->end_us()};
   const auto fill = [&](Track track, auto point_of) {
-    AnswerTo answer(answers);
     for (const WindError& e : errors) {
-      track.points.push_back(point_of(answer(e.t_us), e));
+      track.points.push_back(point_of(answers[e.answer], e));
       track.points.back().t_us = e.t_us;
     }
     give(std::move(track));

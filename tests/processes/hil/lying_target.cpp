@@ -11,6 +11,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <vector>
 
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/message.hpp"
@@ -22,8 +23,23 @@ namespace {
 using namespace canhil;
 using namespace canhil::messages;
 
-// Changes a frame that the target is about to send. Returns false if the frame must not be sent.
-using Lie = std::function<bool(Frame&)>;
+// Changes a frame that the target is about to send. Returns false if the frame must not be sent. `after`:
+// frames to send after it.
+class Lie {
+ public:
+  template <class Change>
+  Lie(Change change) {
+    if constexpr (std::is_invocable_v<Change, Frame&>) {
+      change_ = [change](Frame& frame, std::vector<Frame>&) { return change(frame); };
+    } else {
+      change_ = change;
+    }
+  }
+  bool operator()(Frame& frame, std::vector<Frame>& after) const { return change_(frame, after); }
+
+ private:
+  std::function<bool(Frame&, std::vector<Frame>&)> change_;
+};
 
 // If the frame carries the message `Message`, replaces the values of the message and keeps its counter.
 template <class Message, class Change>
@@ -46,6 +62,40 @@ Lie when(const std::function<void(Frame&)>& spoil) {
   return [spoil](Frame& frame) {
     if (frame.id == Message::info.id) spoil(frame);
     return true;
+  };
+}
+
+// Sends every second answer after the next answer of its group, with changed values. The two answers exchange
+// their counters, so that the counters of the messages are in order.
+template <class... Messages>
+auto late(std::type_identity_t<void (*)(std::tuple<Messages...>&)> spoil = nullptr) {
+  struct Held {
+    bool holds = false;              // the answer that is being sent is held back
+    std::tuple<Messages...> values;  // of the answer that is held back
+    std::uint8_t counter = 0;
+    std::size_t taken = 0;  // messages of the answer that is being sent
+  };
+  return [spoil, held = Held{}](Frame& frame, std::vector<Frame>& after) mutable {
+    bool send = true;
+    const auto take = [&]<class Message>(std::type_identity<Message>) {
+      if (frame.id != Message::info.id) return;
+      if (held.taken == 0) held.holds = !held.holds;
+      held.taken = (held.taken + 1) % sizeof...(Messages);
+      send = !held.holds;
+      if (held.holds) {
+        std::get<Message>(held.values) = from_frame<Message>(frame);
+        held.counter = e2e::counter(frame.payload());
+        return;
+      }
+      const std::uint8_t now = e2e::counter(frame.payload());
+      frame = to_frame(from_frame<Message>(frame), held.counter);
+      if (held.taken != 0) return;
+      if (spoil != nullptr) spoil(held.values);
+      std::apply([&](const auto&... message) { (after.push_back(to_frame(message, now)), ...); },
+                 held.values);
+    };
+    (take(std::type_identity<Messages>{}), ...);
+    return send;
   };
 }
 
@@ -95,6 +145,15 @@ const std::map<std::string_view, Lie>& lies() {
          change<ParamAck>(frame, [](ParamAck& message) { message.parameter = Parameter::closed_loop; });
          return true;
        }},
+      {"late_answers", late<LosRateEstimate, LosRateSigma, LosRateTarget>()},
+      {"late_navigation", late<AlignAttitude, AlignVelocityNE, AlignVelocityD>()},
+      {"late_fixes", late<FixAttitude, FixVelocityNE, FixVelocityD>()},
+      {"late_winds", late<WindVector, WindSpeed, WindSigma, WindCorrelation, WindTrackSigma, WindAirVelocity,
+                          messages::WindAttitude, WindInnovation, WindUpdate>()},
+      {"late_garbage", late<LosRateEstimate, LosRateSigma, LosRateTarget>(
+                           [](std::tuple<LosRateEstimate, LosRateSigma, LosRateTarget>& answer) {
+                             std::get<LosRateEstimate>(answer).los_rate_pitch_radps = 3;
+                           })},
       {"never_ready",
        [](Frame& frame) {
          change<TargetHeartbeat>(frame, [](TargetHeartbeat& message) { message.state = TargetState::idle; });
@@ -110,7 +169,10 @@ class LyingPort final : public Port {
   LyingPort(std::unique_ptr<Port> bus, Lie lie) : bus_(std::move(bus)), lie_(std::move(lie)) {}
   SendOutcome send(const Frame& frame) override {
     Frame changed = frame;
-    return lie_(changed) ? bus_->send(changed) : SendOutcome::sent;
+    std::vector<Frame> after;
+    SendOutcome outcome = lie_(changed, after) ? bus_->send(changed) : SendOutcome::sent;
+    for (const Frame& one : after) outcome = bus_->send(one);
+    return outcome;
   }
   std::optional<Received> receive() override { return bus_->receive(); }
   [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "dbc/logs/log.hpp"
 #include "messages/canhil.hpp"
@@ -142,6 +143,47 @@ TEST(Lies, AnswersWithTheTimeOfNoCauseFailTheRun) {
   EXPECT_THAT(failed(flown.report), testing::Contains("causes"));
   EXPECT_THAT(measured(flown.report, "causes"),
               ContainsRegex("^LosRate: [1-9][0-9]+ answers with no cause, nearest 5 us off$"));
+}
+
+/// The outcome and the figures of each check of values.
+std::vector<std::string> judged(const nlohmann::json& report) {
+  std::vector<std::string> all;
+  for (const auto& check : report["checks"])
+    all.push_back(fmt::format("{} {}: {}, {}", check["kind"].get<std::string>(),
+                              check["name"].get<std::string>(), check["outcome"].get<std::string>(),
+                              check["measured"].get<std::string>()));
+  return all;
+}
+
+/// A table without the NEES, which compare an update with the first navigation answer that arrives after it.
+std::string without_nees(const std::string& csv) {
+  std::istringstream lines(read(csv));
+  std::string rest;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("nees,") == std::string::npos) rest += line + '\n';
+  }
+  return rest;
+}
+
+TEST(Lies, AnswersOutOfOrderAreComparedWithTheTruthOfTheirCauses) {
+  for (const auto& [flight, lie] :
+       {std::pair("los_quick", "late_answers"), std::pair("wind_quick", "late_winds"),
+        std::pair("transfer_alignment_quick", "late_navigation"),
+        std::pair("inflight_quick", "late_fixes")}) {
+    const std::string in_order = scratch("in_order.csv"), late = scratch("late.csv");
+    const Flown honest = fly(scenario(flight), "--csv " + in_order);
+    const Flown flown = fly(scenario(flight), fmt::format("--target {} --csv {}", liar(lie), late));
+    EXPECT_EQ(judged(flown.report), judged(honest.report)) << flight;
+    EXPECT_TRUE(without_nees(late) == without_nees(in_order)) << flight;
+  }
+}
+
+TEST(Lies, GarbageThatComesLateFailsTheRun) {
+  const Flown flown = fly(scenario("los_quick"), "--target " + liar("late_garbage"));
+  EXPECT_EQ(flown.ended.code, 1);
+  EXPECT_THAT(failed(flown.report), testing::Contains("error"));
+  EXPECT_THAT(measured(flown.report, "error"), ContainsRegex("^RMS [0-9]{4}\\."))
+      << "half of them are off by 3 rad/s";
 }
 
 TEST(Lies, OfAGroupThatIsNeverWholeTheMessageToBlameIsNamed) {

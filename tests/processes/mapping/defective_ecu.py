@@ -1,4 +1,5 @@
 """docs/examples/own_ecu/own_ecu.py with a defect: defective_ecu.py DEFECT --bus BUS."""
+import math
 import sys
 import time
 from pathlib import Path
@@ -75,8 +76,29 @@ class Silent(own_ecu.Ecu):
         return super().answer(of) if self.answers < 500 else None
 
 
+class Zero(own_ecu.Ecu):
+    """Always sends the angles 0 and 0."""
+
+    def answer(self, of):
+        self.angles = (0, 0)
+        return super().answer(of)
+
+
+class LateHeading(own_ecu.Ecu):
+    """Sends in place of the roll angle the heading that it had 400 ms before. The flight starts at 180 deg, level."""
+
+    def __init__(self):
+        super().__init__()
+        self.heading, self.past = math.pi, []
+
+    def sample(self, rates, force):
+        self.heading -= rates[2] * own_ecu.DT
+        self.past = (self.past + [self.heading])[-41:]
+        self.angles = (math.remainder(self.past[0], 2 * math.pi), 0)
+
+
 DEFECTS = {"none": own_ecu.Ecu, "wrong_sign": WrongSign, "stale": Stale, "wrong_checksum": WrongChecksum,
-           "frozen_counter": FrozenCounter, "slow": Slow, "silent": Silent}
+           "frozen_counter": FrozenCounter, "slow": Slow, "silent": Silent, "zero": Zero, "late_heading": LateHeading}
 
 if __name__ == "__main__":
     own_ecu.serve(DEFECTS[sys.argv[1]](), open_bus(sys.argv[sys.argv.index("--bus") + 1]))

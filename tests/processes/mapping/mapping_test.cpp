@@ -161,9 +161,9 @@ TEST(OwnEcu, ARecordedDriveIsDrivenAgain) {
       "has no whole group of IMU_TX3");
 }
 
-// The bench sends values in CAN FD frames of 24 bytes with float signals, and the ECU sends the same values
-// back.
-TEST(OwnEcu, MayBeOnCanFd) {
+// Flies a scenario in which the bench sends values in CAN FD frames of 24 bytes with float signals, and the
+// ECU sends the same values back.
+Ended run_fd(const std::string& ecu) {
   const std::string dbc = scratch("fd.dbc"), mapping = scratch("fd.mapping.toml"), file = scratch("fd.toml");
   std::ofstream(dbc) << R"(VERSION ""
 BU_: IMU ECU
@@ -209,28 +209,52 @@ counter = {{ signal = "Count" }}
       << text
       << "[[check]]\nkind = \"error\"\nquantity = \"rate.x\"\nstatistic = \"rms\"\nbelow_degps = 0.5\n"
       << "[[check]]\nkind = \"answers\"\nanswers_at_least = 1200\n";
-  const Ended ended = hil_bench(fmt::format("run {} --target {} --lockstep", file, FD_ECU));
+  return hil_bench(fmt::format("run {} --target '{}' --lockstep", file, ecu));
+}
+
+TEST(OwnEcu, MayBeOnCanFd) {
+  const Ended ended = run_fd(FD_ECU);
   EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
   EXPECT_THAT(ended.out, HasSubstr("CAN FD")) << ended.out;
 }
 
-// Runs a copy of the example in which one text of one file is replaced.
+TEST(OwnEcu, AnswersThatAreNoNumberAreCountedAndFail) {
+  const Ended ended = run_fd(FD_ECU " nan");
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  EXPECT_THAT(ended.out,
+              testing::ContainsRegex("FAIL +error rate.x rms +12 of 1200 answers are not a number .NaN or "
+                                     "infinite., first at 1 s"));
+}
+
+// Runs a copy of the example in which texts of its files are replaced.
 class Altered : public testing::Test {
  protected:
-  Ended run_with(const std::string& file, const std::string& text, const std::string& instead) {
-    const std::string copy = scratch("altered");
-    fs::remove_all(copy);
-    fs::copy(folder, copy);
-    std::string all = read(copy + "/" + file);
+  Altered() { start_again(); }
+  void start_again() const {
+    fs::remove_all(copy_);
+    fs::copy(folder, copy_);
+  }
+  void change(const std::string& file, const std::string& text, const std::string& instead) const {
+    std::string all = read(copy_ + "/" + file);
     const auto at = all.find(text);
     EXPECT_NE(at, std::string::npos) << text;
-    std::ofstream(copy + "/" + file) << all.replace(at, text.size(), instead);
-    return hil_bench(fmt::format("run {}/own_ecu.toml {} --lockstep", copy, python));
+    std::ofstream(copy_ + "/" + file) << all.replace(at, text.size(), instead);
+  }
+  [[nodiscard]] Ended run_altered(const std::string& target) const {
+    return hil_bench(fmt::format("run {}/own_ecu.toml {} --lockstep", copy_, target));
+  }
+  Ended run_with(const std::string& file, const std::string& text, const std::string& instead) {
+    start_again();
+    change(file, text, instead);
+    return run_altered(python);
   }
   void expect_refused(const std::string& file, const std::string& text, const std::string& instead,
                       const std::string& because) {
     expect_one_line(run_with(file, text, instead), because);
   }
+
+ private:
+  const std::string copy_ = scratch("altered");
 };
 
 TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
@@ -287,6 +311,32 @@ TEST_F(Altered, WhatAMappingLeavesOutIsListed) {
   EXPECT_EQ(slow.code, 1);
   EXPECT_EQ(json_of(slow.out)[6]["rule"], "cycle-time") << slow.out;
   expect_one_line(hil_bench("dbc check " + own_ecu), "own_ecu.toml");
+}
+
+// The heading weaves about south, where it passes from 180 to -180 deg; the ECU is 400 ms late.
+TEST_F(Altered, ADelayIsMeasuredAcrossSouth) {
+  change("own_ecu.mapping.toml", "attitude.roll", "attitude.heading");
+  change("own_ecu.toml", "heading_deg = 30.0\nheading_amplitude_deg = 0",
+         "heading_deg = 180\nheading_amplitude_deg = 20");
+  change("own_ecu.toml", "roll_amplitude_deg = 15.0", "roll_amplitude_deg = 0");
+  change("own_ecu.toml", "pitch_amplitude_deg = 6.0", "pitch_amplitude_deg = 0");
+  for (int k = 0; k < 2; ++k) change("own_ecu.toml", "attitude.roll", "attitude.heading");
+  const Ended ended = run_altered(in_python("late_heading"));
+  EXPECT_THAT(ended.out, testing::ContainsRegex("FAIL +delay attitude.heading +(399|400)\\.[0-9] \\+- "))
+      << ended.err;
+}
+
+TEST_F(Altered, ADelayThatCannotBeMeasuredSaysWhy) {
+  const auto why = [&](const std::string& ecu) {
+    const Ended ended = run_altered(in_python(ecu));
+    const auto at = ended.out.find("not measured  delay attitude.roll");
+    return at == std::string::npos ? ended.out + ended.err
+                                   : ended.out.substr(at, ended.out.find('\n', at) - at);
+  };
+  EXPECT_THAT(why("zero"), HasSubstr("the answers do not follow the truth"));
+  change("own_ecu.toml", "roll_amplitude_deg = 15.0", "roll_amplitude_deg = 0");
+  change("own_ecu.toml", "pitch_amplitude_deg = 6.0", "pitch_amplitude_deg = 0");
+  EXPECT_THAT(why("none"), HasSubstr("the truth is constant"));
 }
 
 TEST_F(Altered, VirtualTimeNeedsAnswersThatSayWhatTheyAnswer) {

@@ -3,28 +3,26 @@
 
 #include <vector>
 
-#include "bench/spool/spool.hpp"
-
 namespace canhil::test {
 
 /// All values as a vector. At the end of the expression or loop that changes the values, they are written
-/// back to the Spool.
-template <class T>
+/// back to the series.
+template <class Series>
 class Edited {
  public:
-  explicit Edited(Spool<T>& of) : of_(of), all_(of.begin(), of.end()) {}
-  ~Edited() { of_ = Spool<T>(all_); }
+  explicit Edited(Series& of) : of_(of), all_(of.begin(), of.end()) {}
+  ~Edited() { of_ = Series(all_); }
   Edited(const Edited&) = delete;
   Edited& operator=(const Edited&) = delete;
-  std::vector<T>& operator*() { return all_; }
+  std::vector<typename Series::value_type>& operator*() { return all_; }
   auto begin() { return all_.begin(); }
   auto end() { return all_.end(); }
   /// Removes the values with the indices `from` to `to - 1`.
   void erase(std::ptrdiff_t from, std::ptrdiff_t to) { all_.erase(all_.begin() + from, all_.begin() + to); }
 
  private:
-  Spool<T>& of_;
-  std::vector<T> all_;
+  Series& of_;
+  std::vector<typename Series::value_type> all_;
 };
 
 }  // namespace canhil::test

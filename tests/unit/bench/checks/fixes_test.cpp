@@ -149,8 +149,7 @@ TEST_F(Fixed, WhatBecameOfFixesIsCounted) {
 TEST_F(Fixed, ARepairIsCountedWhereItCameAndTheHandoverWhereItFirstWas) {
   const Answers::Count none{.mark = "repaired", .at_most = 0};
   EXPECT_EQ(judge(counted(none)).outcome, Outcome::pass);
-  for (std::size_t index = 15; index < 20; ++index)
-    seen_.of<InflightAnswers>().fixes[index].repairs = 2;  // from the fix at 16 s on
+  seen_.of<InflightAnswers>().fixes[15].repaired = true;  // the fix at 16 s
   EXPECT_EQ(judge(counted(none)).measured, "repaired 1");
   EXPECT_EQ(judge(counted(none)).outcome, Outcome::fail);
   EXPECT_EQ(judge(counted(none, {.from_us = 0, .to_us = 15 * second_us})).outcome, Outcome::pass);

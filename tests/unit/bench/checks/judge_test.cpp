@@ -12,10 +12,14 @@
 #include "bench/checks/kinds/counters.hpp"
 #include "bench/checks/kinds/counts_match.hpp"
 #include "bench/checks/kinds/heartbeat.hpp"
+#include "bench/checks/kinds/honest.hpp"
 #include "bench/checks/kinds/latency.hpp"
 #include "bench/checks/kinds/output_period.hpp"
+#include "bench/checks/kinds/sigma.hpp"
+#include "bench/checks/kinds/sigma_grows.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/estimators/transfer_alignment/quantities.hpp"
+#include "bench/estimators/transfer_alignment/transfer_alignment.hpp"
 #include "bench/observe/stopwatch.hpp"
 #include "dbc/wire/transmit.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
@@ -169,11 +173,34 @@ TEST_F(Judged, AnErrorByItsStatistic) {
   EXPECT_EQ(judge(error(quantities::attitude_roll, 0.05)).outcome, Outcome::fail);
 }
 
-TEST_F(Judged, AnErrorThatIsNoNumberNeverPasses) {
+TEST_F(Judged, AValueThatIsNoNumberFailsEachKindAndIsNamed) {
   using enum Error::Statistic;
-  seen_.of<TransferAnswers>().navigation[100].angles.roll = std::numeric_limits<double>::quiet_NaN();
-  for (const auto statistic : {max, rms, mean, final})
-    EXPECT_EQ(judge(error(quantities::attitude_roll, 9, whole, statistic)).outcome, Outcome::fail);
+  const auto expect_named = [&](const auto& rule, const std::string& text) {
+    const CheckResult found = judge(rule);
+    EXPECT_EQ(found.outcome, Outcome::fail) << found.kind;
+    EXPECT_EQ(found.measured, text + " not a number (NaN or infinite), first at 2.1 s") << found.kind;
+  };
+  auto& [navigation, filter] = seen_.of<TransferAnswers>();
+  for (const double value :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    navigation[209].v_eb_n.x() = navigation[300].v_eb_n.x() = value;
+    for (const auto statistic : {max, rms, mean, final})
+      expect_named(error(quantities::velocity_north, 9, whole, statistic), "2 of 400 answers are");
+    Convergence converges = convergence(9, 3 * second_us);
+    converges.judged.quantity = &quantities::velocity_north;
+    expect_named(converges, "2 of 400 answers are");
+    filter[20].nis = value;
+    expect_named(consistency(quantities::innovation_nis, MeanBetween{0, 9}), "1 of 40 answers are");
+    filter[20].attitude_sigma.z() = value;
+    const Subject heading{.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading};
+    const scenario::Window later{.from_us = second_us, .to_us = duration_us};
+    expect_named(Sigma{.judged = heading, .stretch = {.window = later}, .low = 0, .high = 9},
+                 "10 of 301 sigmas are");
+    expect_named(SigmaGrows{.judged = heading, .fault = "", .window = later}, "10 of 391 sigmas are");
+  }
+  filter[20].attitude_sigma = world::Vector3::Ones();
+  navigation[210].angles.heading = std::numeric_limits<double>::quiet_NaN();  // the first answer after it
+  expect_named(Honest{.estimators = {&transfer_alignment}, .named = {}}, "1 of 39 errors in sigmas are");
 }
 
 TEST_F(Judged, ConvergenceBeforeATime) {

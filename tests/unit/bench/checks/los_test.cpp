@@ -81,6 +81,26 @@ TEST_F(Engaged, LosRateErrorByPlaneAndStatistic) {
   EXPECT_EQ(judge(error_rule(los_rate_pitch, rms)).outcome, Outcome::fail);
 }
 
+TEST_F(Engaged, TheLastAnswerIsJudgedInEachPlane) {
+  for (double world::Planes<double>::*plane : {&world::Planes<double>::pitch, &world::Planes<double>::yaw}) {
+    answer_at(1.0).rate.*plane += 3e-3;  // the last answer of the window
+    EXPECT_EQ(judge(error_rule(los_rate_both, final)).measured, "final 3.000 mrad/s of 100");
+    EXPECT_EQ(judge(error_rule(los_rate_both, final)).outcome, Outcome::fail);
+    answer_at(1.0).rate.*plane -= 3e-3;
+  }
+  answer_at(1.01).rate.pitch += 3e-3;
+  EXPECT_EQ(judge(error_rule(los_rate_both, final)).outcome, Outcome::pass) << "it is not the last";
+}
+
+TEST_F(Engaged, ASampleThatIsAnsweredTwiceCountsOnce) {
+  std::vector<LosAnswer> few;
+  for (const LosAnswer& answer : seen_.of<LosAnswers>()) {
+    if (answer.cause_us % 30'000 == 0) few.insert(few.end(), 2, answer);
+  }
+  seen_.of<LosAnswers>() = LosAnswers(few);
+  EXPECT_EQ(judge(error_rule(los_rate_both, rms)).measured, "answers to 33 of 100 samples");
+}
+
 TEST_F(Engaged, TheWindowIsOfTheTimeToGo) {
   answer_at(2.5).rate.yaw += 1;
   answer_at(0.5).rate.yaw += 1;

@@ -180,7 +180,8 @@ TEST_F(Disturbed, AnsweringWithNumbersAndWithoutAGap) {
   EXPECT_THAT(judge(rule).measured, HasSubstr("no answers"));
   seen_ = sound;
   answers().navigation[place(5)].v_eb_n.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(judge(rule).measured, "velocity.north at 5 s is not a number");
+  EXPECT_EQ(judge(rule).measured,
+            "velocity.north: 1 of 200 answers are not a number (NaN or infinite), first at 5 s");
   seen_ = sound;
   seen_.target_bad_crc = 1;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);

@@ -161,6 +161,7 @@ TEST(Reports, TellWhatBecameOfFixes) {
   run.seen.of<estimators::InflightAnswers>().fixes[1].handed_over =
       run.seen.of<estimators::InflightAnswers>().fixes[2].handed_over = true;
   run.seen.of<estimators::InflightAnswers>().fixes[2].repairs = 4;
+  run.seen.of<estimators::InflightAnswers>().fixes[2].repaired = true;
   EXPECT_THAT(
       text(scenario, run),
       AllOf(HasSubstr("repairs of the covariance 4, heading fed back to the INS at 0.2 s, heading sigma"),
