@@ -10,6 +10,8 @@
 //                                                the estimators whose truth the rule needs; without this
 //                                                function: the estimators of all subjects that are not
 //                                                innovations
+//   std::vector<Subject> paired() const          the quantities whose answers must have certain causes;
+//                                                without this function: all subjects
 //   std::optional<Bar> bar() const               the limits of the rule, for pictures
 //   std::vector<Timed> timed() const             the messages whose times the rule needs, with windows
 #pragma once
@@ -66,6 +68,7 @@ class Rule {
   [[nodiscard]] virtual Finding judge(const Evidence& evidence) const = 0;
   [[nodiscard]] virtual std::vector<Subject> subjects() const = 0;
   [[nodiscard]] virtual std::vector<std::string> held_against_truth() const = 0;
+  [[nodiscard]] virtual std::vector<Subject> paired() const = 0;
   [[nodiscard]] virtual std::optional<Bar> bar() const = 0;
   [[nodiscard]] virtual std::vector<Timed> timed() const = 0;
 };
@@ -89,6 +92,10 @@ class RuleOf final : public Rule {
       }
     }
     return estimators;
+  }
+  [[nodiscard]] std::vector<Subject> paired() const override {
+    if constexpr (requires { kind_.paired(); }) return kind_.paired();
+    return subjects();
   }
   [[nodiscard]] std::optional<Bar> bar() const override {
     if constexpr (requires { kind_.bar(); }) return kind_.bar();
