@@ -96,7 +96,7 @@ ExitCode execute(const Arguments& arguments) {
   for (const accept::Suite& suite : *suites) {
     if (arguments.record) {
       if (auto recorded = accept::record(suite, interrupted, progress); !recorded)
-        return complain(recorded.error());
+        return end_with(recorded.error());
       continue;
     }
     accept::Options options{.target = arguments.target, .seed = arguments.seed};
@@ -105,16 +105,13 @@ ExitCode execute(const Arguments& arguments) {
     options.families = arguments.families;
     options.progress = progress;
     auto one = accept::accept(suite, options, interrupted);
-    if (!one) return complain(one.error());
+    if (!one) return end_with(one.error());
     if (one->findings.empty()) continue;  // none of the selected families is in this suite
     all.suites.push_back(std::move(*one));
     if (interrupted || (arguments.first && all.outcome() == checks::Outcome::fail)) break;
   }
   line.clear();
-  if (interrupted) {
-    fmt::print(stderr, "hil-bench: interrupted\n");
-    return ExitCode::not_measured;
-  }
+  if (interrupted) return end_interrupted();
   if (arguments.record) return ExitCode::pass;
   if (auto written = write_reports(arguments, all); !written) return complain(written.error());
   return exit_code(all.outcome());

@@ -185,12 +185,11 @@ ExitCode execute(const Arguments& arguments) {
   }();
   if (!execution) {
     if (view->get() != nullptr) view->get()->show_ended(execution.error().message);
-    return complain(execution.error());
+    return end_with(execution.error());
   }
   if (*execution == campaign::Execution::interrupted) {
     if (course) course->end(checks::Outcome::not_measured, "interrupted");
-    fmt::print(stderr, "hil-bench: interrupted; --resume goes on with {}\n", file->string());
-    return ExitCode::not_measured;
+    return end_interrupted(fmt::format("; --resume goes on with {}", file->string()));
   }
   const ExitCode code = shard->count > 1 ? ExitCode::pass : print_report(*campaign, *file, arguments.json);
   if (course) course->end(outcome_of(code), shard->count > 1 ? "the shard is flown" : "");
@@ -260,7 +259,7 @@ ExitCode replay(const ReplayArguments& arguments) {
   }
   catch_interrupts();
   const auto finished = drive::run(variant->scenario, options, interrupted, [](std::int64_t) {});
-  if (!finished) return complain(finished.error());
+  if (!finished) return end_with(finished.error());
   fmt::print("variant {} · run {}\n{}", variant->name, options.run_index,
              report::text(variant->scenario, *finished));
   if (finished->log_error) return complain(*finished->log_error);

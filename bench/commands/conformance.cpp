@@ -102,8 +102,8 @@ ExitCode execute(const Arguments& arguments) {
   if (!flights) return complain(flights.error());
   catch_interrupts();
   const auto started = std::chrono::steady_clock::now();
-  const auto chosen = conformance::subject_of(*flights, arguments.target);
-  if (!chosen) return complain(chosen.error());
+  const auto chosen = conformance::subject_of(*flights, arguments.target, interrupted);
+  if (!chosen) return end_with(chosen.error());
   conformance::Report found{.target = arguments.target,
                             .estimator = chosen->targets.front().estimator,
                             .algorithm = chosen->targets.front().algorithm,
@@ -114,11 +114,8 @@ ExitCode execute(const Arguments& arguments) {
       conformance::rules(false, false), *chosen, arguments.target, {}, std::nullopt, interrupted,
       [&](const conformance::Rule& rule) { line.show([&] { return std::string(rule.id); }); });
   line.clear();
-  if (!findings) return complain(findings.error());
-  if (interrupted) {
-    fmt::print(stderr, "hil-bench: interrupted\n");
-    return ExitCode::not_measured;
-  }
+  if (!findings) return end_with(findings.error());
+  if (interrupted) return end_interrupted();
   found.findings = std::move(*findings);
   found.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (auto written = write_reports(arguments, found); !written) return complain(written.error());

@@ -173,11 +173,10 @@ ExitCode execute(const Arguments& arguments) {
   }();
   if (!flown) {
     if (view->get() != nullptr) view->get()->show_ended(flown.error().message);
-    return complain(flown.error());
+    return end_with(flown.error());
   }
   if (done < cells.size()) {
-    fmt::print(stderr, "hil-bench: interrupted; --resume goes on with {}\n", file.string());
-    return end_live(ExitCode::not_measured, "interrupted");
+    return end_live(end_interrupted(fmt::format("; --resume goes on with {}", file.string())), "interrupted");
   }
   if (shard->count == 1) return end_live(show(results, arguments.shown, folder.string()), "");
   const bool violated = std::ranges::any_of(results.cells, [](const auto& cell) {

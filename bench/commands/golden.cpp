@@ -85,7 +85,7 @@ ExitCode record(const Arguments& arguments) {
     const Golden kept = golden(folder, scenario.file);
     if (auto flown = fly(scenario, arguments, kept.log); !flown) {
       fs::remove(kept.log, error);
-      return complain(flown.error());
+      return end_with(flown.error());
     }
     fs::copy_file(scenario.file, kept.scenario, error);
     if (error)
@@ -138,8 +138,8 @@ ExitCode check(const Arguments& arguments) {
       frames = comparison->compared;
       what = difference(*comparison);
     } else if (interrupted) {
-      fmt::print(stderr, "hil-bench: interrupted\n");
-      return ExitCode::not_measured;
+      fs::remove(log, error);
+      return end_interrupted();
     } else {
       what = flown.error().message;
     }

@@ -3,6 +3,10 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "bench/commands/exit_code.hpp"
 
 namespace canhil::commands {
 
@@ -13,5 +17,14 @@ inline void catch_interrupts() {
   const auto handler = [](int) { interrupted = true; };
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, handler);
 }
+
+/// The exit code of an interrupted command; `how_to_go_on`: a remark for the user, or empty.
+inline ExitCode end_interrupted(const std::string& how_to_go_on = "") {
+  std::fprintf(stderr, "hil-bench: interrupted%s\n", how_to_go_on.c_str());
+  return ExitCode::not_measured;
+}
+
+/// Reports an error that ended a command. If the command was interrupted, this is the reason.
+inline ExitCode end_with(const Error& error) { return interrupted ? end_interrupted() : complain(error); }
 
 }  // namespace canhil::commands

@@ -278,6 +278,10 @@ ExitCode execute(const Arguments& arguments) {
       view->get()->show_ended(finished.error().message);
     if (arguments.terminal) view->get()->close();  // the terminal is restored before the report is printed
   }
+  if (!finished && interrupted) {
+    complain(finished.error());  // this line also names the log of the handshake
+    return ExitCode::not_measured;
+  }
   if (!finished) return complain(with_controller(finished.error(), arguments.bus));
   if (arguments.realtime.wanted) {
     const std::string warning = realtime::frequency_warning(*finished->host);

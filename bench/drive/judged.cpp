@@ -19,12 +19,14 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
 
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            const Collected& flown, const std::string& timing_unfit) {
+  const bool to_the_end = flown.ending.kind == Ending::Kind::wrong_end;
   checks::Verdict verdict =
       checks::judge(scenario, {.seen = flown.seen,
                                .truth = truth_of(truth, flown.per_run_truth, scenario.duration_us),
                                .estimators = estimators::in(scenario),
-                               .ended_early = flown.ending.detail,
+                               .ended_early = to_the_end ? "" : flown.ending.detail,
                                .timing_unfit = timing_unfit});
+  if (to_the_end) checks::conclude(verdict, flown.ending.detail);
   if (flown.ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
   return verdict;
 }

@@ -63,7 +63,7 @@ class Flights {
         workers.emplace_back([&] {
           for (std::size_t index = next++; index < count && !stop_; index = next++) {
             const auto flown = fly_one(index);
-            if (flown) continue;
+            if (flown || stop_) continue;
             const std::scoped_lock lock(mutex_);
             if (!error) error = flown.error();
             next = count;
