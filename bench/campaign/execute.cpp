@@ -13,6 +13,7 @@
 
 #include "bench/drive/flight.hpp"
 #include "bench/drive/session.hpp"
+#include "bench/world/stoppable.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -108,11 +109,13 @@ std::vector<Key> open_tasks(const Campaign& campaign, const Shard& shard, std::v
 }
 
 Result<void> compute_truths(Work& work, const std::atomic<bool>& stop) {
+  const world::Stoppable stoppable(stop);
   work.truths.resize(work.campaign.variants.size());
   for (const Key& task : work.tasks) {
     if (stop) return {};
     if (work.truths[task.variant]) continue;
     auto truth = drive::make_truth(work.campaign.variants[task.variant].scenario);
+    if (stop) return {};
     if (!truth) return tl::unexpected(in_variant(work.campaign, task.variant, truth.error()));
     work.truths[task.variant] = std::move(*truth);
   }

@@ -105,7 +105,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
   Verdict verdict;
   std::vector<scenario::Check> all = scenario.checks;
   if (auto implied = bus_check(scenario, evidence)) all.push_back(std::move(*implied));
-  evidence.tracks = tracks_for(all, evidence);
+  if (evidence.ended_early.empty()) evidence.tracks = tracks_for(all, evidence);
   for (const scenario::Check& check : all) {
     Finding finding = check.rule->judge(evidence);
     if (std::string why = why_no_truth(scenario, *check.rule, evidence); !why.empty()) {

@@ -3,6 +3,7 @@
 #include "bench/drive/session.hpp"
 
 #include "bench/conformance/groups.hpp"
+#include "bench/world/stoppable.hpp"
 
 namespace canhil::conformance {
 namespace {
@@ -13,6 +14,7 @@ using namespace messages;
 
 Result<std::unique_ptr<Talk>> Talk::open(const scenario::Scenario& scenario, const std::string& target,
                                          const std::atomic<bool>& stop) {
+  const world::Stoppable stoppable(stop);
   auto truth = drive::make_truth(scenario);
   if (!truth) return tl::unexpected(truth.error());
   auto flight = drive::make_flight(scenario, *truth, 0);

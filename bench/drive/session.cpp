@@ -22,6 +22,7 @@
 #include "bench/observe/load_meter.hpp"
 #include "bench/observe/recorder.hpp"
 #include "bench/scenario/foreign.hpp"
+#include "bench/world/stoppable.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -366,6 +367,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
   const auto in_file = [&](const Error& error) {
     return failure(fmt::format("{}: {}", scenario.file, error.message));
   };
+  const world::Stoppable stoppable(stop);
   auto truth = make_truth(scenario);
   if (!truth) return in_file(truth.error());
   auto flight = make_flight(scenario, *truth, options.run_index);

@@ -19,18 +19,20 @@ namespace fs = std::filesystem;
 // A flight that takes far longer than the time after which it is interrupted.
 std::string long_flight() {
   const std::string path = scratch("long.toml");
-  const std::string text = read(scenario("transfer_alignment_quick"));
-  std::ofstream(path) << std::regex_replace(text, std::regex("duration_s = [0-9.]+"), "duration_s = 20000");
+  const std::string text = read(scenario("inflight_gps"));
+  std::ofstream(path) << std::regex_replace(text, std::regex("duration_s = [0-9.]+"), "duration_s = 8000");
   return path;
 }
 
-// Runs a command and sends a signal to it. The exit code is that of the command. A signal that comes while
-// the command still reads its input ends it without a message; on a slow host, the signal must come later.
+// Runs a command and sends a signal to it after this time. The exit code is that of the command. A signal
+// that comes while the command still reads its input ends it without a message, with a code from 128 on.
+Ended interrupted(const std::string& signal, const std::string& arguments, double time_s) {
+  return shell(fmt::format("timeout --preserve-status -s {} {} {} {}", signal, time_s, HIL_BENCH, arguments));
+}
 Ended interrupted(const std::string& signal, const std::string& arguments) {
   Ended ended;
-  for (const int time_s : {1, 3, 9}) {
-    ended =
-        shell(fmt::format("timeout --preserve-status -s {} {} {} {}", signal, time_s, HIL_BENCH, arguments));
+  for (const double time_s : {1.0, 3.0, 9.0}) {  // on a slow host, the signal must come later
+    ended = interrupted(signal, arguments, time_s);
     if (ended.code < 128) break;
   }
   return ended;
@@ -38,15 +40,20 @@ Ended interrupted(const std::string& signal, const std::string& arguments) {
 
 class Signal : public testing::TestWithParam<const char*> {};
 
+// The signal comes at several times: while the bench computes the truth, and during the flight.
 TEST_P(Signal, EndsARunInProcess) {
   const std::string report = scratch("interrupted.json");
-  const Ended ended =
-      interrupted(GetParam(), fmt::format("run {} --bus in-process --json {}", long_flight(), report));
-  EXPECT_EQ(ended.code, 3) << ended.err;
-  EXPECT_THAT(ended.out, HasSubstr("\nnot measured: interrupted"));
+  const std::string run = fmt::format("run {} --bus in-process --json {}", long_flight(), report);
+  fs::remove(report);
+  for (double time_s = 0.5; !fs::exists(report) && time_s < 100; time_s *= 2) {
+    const Ended ended = interrupted(GetParam(), run, time_s);
+    if (ended.code >= 128) continue;
+    EXPECT_EQ(ended.code, 3) << ended.err;
+    EXPECT_THAT(ended.out + ended.err, HasSubstr("interrupted"));
+  }
   const nlohmann::json ending = read_json(report)["ending"];
   EXPECT_EQ(ending["completed"], false);
-  EXPECT_LT(ending["t_s"].get<double>(), 20000.0);
+  EXPECT_EQ(ending["detail"], "interrupted");
 }
 
 INSTANTIATE_TEST_SUITE_P(Interruption, Signal, testing::Values("INT", "TERM", "HUP"));

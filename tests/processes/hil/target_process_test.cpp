@@ -107,7 +107,8 @@ TEST(TargetProcess, ThatEndsWithAnErrorFailsEveryCommand) {
   EXPECT_THAT(conformance.out, HasSubstr("exited with 23"));
 
   const std::string set = scratch("no_effect.toml"), out = scratch("matrix");
-  std::ofstream(set) << "[[fault]]\nkind = \"repeated\"\nfrom_s = 1\nto_s = 1.1\nmessages = [\"Sync\"]\n";
+  std::ofstream(set)
+      << "[[fault]]\nkind = \"repeated\"\nfrom_s = 1\nto_s = 1.1\nmessages = [\"SlaveImuStatus\"]\n";
   const Ended faults =
       hil_bench(fmt::format("faults {} --set {} --out {} --threads 1 --target {}", flight, set, out, target));
   EXPECT_EQ(faults.code, 1) << faults.err;
@@ -117,7 +118,7 @@ TEST(TargetProcess, ThatEndsWithAnErrorFailsEveryCommand) {
   shell("rm -rf " + results);
   std::ofstream(campaign) << fmt::format(
       "title = \"two\"\nruns = 2\nseed = 5\n[[variant]]\nname = \"one\"\nscenario = \"{}\"\n[[metric]]\n"
-      "kind = \"diverged\"\nname = \"ends\"\nquantity = \"attitude.heading\"\nat_most = 0\n"
+      "kind = \"divergence\"\nname = \"ends\"\nquantity = \"attitude.heading\"\nat_most = 0\n"
       "beyond_mrad = 1000\n",
       "flight.toml");
   std::ofstream(scratch("flight.toml")) << read(flight);
