@@ -22,9 +22,10 @@ struct Ending {
     interrupted,
     not_flown,
     target_ended,  ///< the process of the target ended during the flight
-    wrong_end      ///< the flight was completed, but the process of the target did not end as it should
+    wrong_end,     ///< the flight was completed, but the process of the target did not end as it should
+    wrong_answers  ///< only in a campaign: the flight was completed, but a check of every run failed
   };
-  static constexpr Kind last_kind = Kind::wrong_end;
+  static constexpr Kind last_kind = Kind::wrong_answers;
   Kind kind = Kind::completed;
   std::int64_t t_us = 0;  ///< bench time of the end, or the time since which the target was silent
   std::string detail;     ///< one line for people; empty when completed

@@ -104,7 +104,8 @@ class Session {
     if (auto work = faults::check(scenario_.faults, where); !work) return work;
     schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(scenario_, options_.run_index,
                                                                     dialect_->messages(), where, &hands_));
-    watcher_ = dialect_->watcher(options_.for_verdict);
+    // A campaign against a program judges the causes of its answers, which needs their stimuli.
+    watcher_ = dialect_->watcher(options_.for_verdict || options_.target.has_value());
     if (!options_.for_verdict) return {};
     link_.attach(bus_watch_);
     link_.attach(intruders_.emplace(dialect_->messages()));
@@ -229,11 +230,11 @@ class Session {
   void restart_target(std::int64_t t_us) {
     target_->send_signal(SIGKILL);
     target_.reset();
+    watcher_->target_restarts();
     auto ready = start_target(target_cpus_);
     flight_.initial = initial_states(scenario_, truth_, flight_.per_run_truth, options_.run_index, t_us);
     if (ready) ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(*stop_); });
     if (!ready) restart_error_ = "; restarted: " + ready.error().message;
-    watcher_->target_restarted();
   }
 
   Result<void> start_target(const std::vector<int>& cpus) {
@@ -336,7 +337,8 @@ Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const wor
   if (!session) return tl::unexpected(session.error());
   if (auto ready = (*session)->configure(stop); !ready) return tl::unexpected(ready.error());
   (*session)->drive(stop, [](std::int64_t) {});
-  return (*session)->collect();
+  Collected flown = (*session)->collect();
+  return options.target ? judged_as_a_run(std::move(flown), scenario) : std::move(flown);
 }
 
 }  // namespace

@@ -143,6 +143,7 @@ estimators::Estimator estimator_of(const Mapping& mapping) {
           .samples = samples_of,
           .tracks = tracks_of,
           .marks = marks_of,
+          .plain_marks = mapping.heard,
           .results = results_of,
           .closing = mapping.closing,
           .freshness = freshness_of};

@@ -214,6 +214,8 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
     }
   }
   page += load_words(run);
+  if (run.seen.reports.heartbeats() > 0)
+    page += fmt::format("  target's heartbeat            {}\n", run.seen.reports.to_text());
   const auto& counters = run.seen.counters;
   page += fmt::format(
       "  lost on the way to the target {}; from the target {} frames, {} bad; bench overflow {}\n",
