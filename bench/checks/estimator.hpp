@@ -68,6 +68,13 @@ struct Estimator {
   /// The results of a run, as lines for people. `algorithm`: the algorithm that the target runs.
   std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
                                      std::string_view algorithm) = nullptr;
+  /// Why a scenario has no truth of a quantity; empty: it has one. Null: the facts decide
+  /// (scenario::why_no_truth()).
+  std::string (*why_no_truth)(const scenario::Scenario& scenario,
+                              const quantities::Quantity& quantity) = nullptr;
+  /// Why the causes of the answers with a quantity are not certain; empty: they are. Null: each answer names
+  /// its cause.
+  std::string (*ambiguous)(const checks::Observations& seen, const quantities::Quantity& quantity) = nullptr;
   std::span<const std::string_view> closing;  ///< the last message of each answer group of the estimator
   /// The answer group for which the target keeps a minimum interval (output_interval_ms) if the stimuli come
   /// faster; empty: there is no such group.

@@ -1,5 +1,8 @@
 #include "bench/checks/judge.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -9,6 +12,7 @@
 #include "bench/checks/finding.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
+#include "bench/checks/kinds/protection.hpp"
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/rule.hpp"
 #include "bench/checks/target_state.hpp"
@@ -16,6 +20,9 @@
 
 namespace canhil::checks {
 namespace {
+
+// The implied check that is not measured if the bench could not send what the scenario defines.
+constexpr std::string_view stimuli_kind = "stimuli";
 
 // Returns a bus_errors check if the bus failed and the scenario itself contains no such check. This implied
 // check makes the run fail.
@@ -55,12 +62,34 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
   return tracks;
 }
 
+// If a rule cannot be judged because causes of answers are not certain, returns the reason. Empty: the rule
+// can be judged.
+std::string why_ambiguous(const checks::Rule& rule, const Evidence& evidence) {
+  const TimingRecord& timing = evidence.seen.timing;
+  for (const Timed& timed : rule.timed()) {
+    const auto info = std::ranges::find(timing.messages, timed.message, &MessageInfo::name);
+    if (info == timing.messages.end()) continue;
+    const auto index = static_cast<std::size_t>(info - timing.messages.begin());
+    if (!timing.answers[index].ambiguous.empty()) return timing.answers[index].ambiguous;
+  }
+  for (const Subject& subject : rule.paired()) {
+    const estimators::Estimator* one = estimators::find(evidence.estimators, subject.estimator);
+    if (one == nullptr || one->ambiguous == nullptr) continue;
+    if (std::string why = one->ambiguous(evidence.seen, *subject.quantity); !why.empty()) return why;
+  }
+  return "";
+}
+
 // If a rule cannot be judged because the truth is missing, returns the reason. Empty: the rule can be judged.
 std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule& rule,
                          const Evidence& evidence) {
   const std::vector<std::string> held = rule.held_against_truth();
   const std::vector<Subject> subjects = rule.subjects();
   for (const estimators::Estimator* one : evidence.estimators) {
+    for (const Subject& subject : subjects) {
+      if (one->why_no_truth == nullptr || subject.estimator != one->name) continue;
+      if (std::string why = one->why_no_truth(scenario, *subject.quantity); !why.empty()) return why;
+    }
     std::string why = scenario::why_no_truth(scenario, one->facts);
     // Even a quantity that is not an error may need the truth, for example to sort samples by time to go.
     const auto has_no_track = [&](const Subject& subject) {
@@ -106,8 +135,8 @@ std::optional<Finding> missing_answers(const checks::Rule& rule, const Evidence&
 }  // namespace
 
 bool is_implied(std::string_view kind) {
-  return kind == BusErrorLimits::kind || kind == causes_kind || kind == groups_kind || kind == senders_kind ||
-         kind == state_kind;
+  return kind == BusErrorLimits::kind || kind == Protection::kind || kind == causes_kind ||
+         kind == groups_kind || kind == state_kind || kind == stimuli_kind || kind == senders_kind;
 }
 
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
@@ -148,7 +177,12 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
         finding.measured = std::move(missing->measured);
       }
     }
-    if (std::string why = why_no_truth(scenario, *check.rule, evidence); !why.empty()) {
+    std::string why = why_no_truth(scenario, *check.rule, evidence);
+    if (why.empty()) why = why_ambiguous(*check.rule, evidence);
+    // The target did not get the stimuli that belong to the truth.
+    if (why.empty() && !evidence.seen.clipped.empty() && !check.rule->subjects().empty())
+      why = evidence.seen.clipped.front();
+    if (!why.empty()) {
       finding.outcome = Outcome::not_measured;
       finding.measured = std::move(why);
     }
@@ -191,6 +225,11 @@ std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const 
   imply(groups_kind, fault, broken_groups(seen), "all messages of an answer, with one counter");
   imply(state_kind, fault, unexplained_state(seen, events_us),
         "running throughout, no error that nothing explains");
+  // A second target sends the same counters.
+  imply(Protection::kind, other_senders(seen).empty() ? Outcome::fail : Outcome::not_measured,
+        counter_faults(scenario, seen), "each counter one more than the one before");
+  imply(stimuli_kind, Outcome::not_measured, fmt::format("{}", fmt::join(seen.clipped, "; ")),
+        "values that their signals hold");
   imply(senders_kind, Outcome::not_measured, other_senders(seen), "each message from its own sender alone");
   return failed;
 }

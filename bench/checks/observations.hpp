@@ -96,6 +96,7 @@ struct Observations {
   std::uint16_t queue_max_us = 0;       ///< largest queueing time in TargetTiming; saturates at 8191
   std::uint16_t compute_max_us = 0;
   bool target_timing_seen = false;
+  std::vector<std::string> clipped{};  ///< signals of the bench that could not hold a value, one line each
   BusRecord bus;
   HostRecord host;
 };

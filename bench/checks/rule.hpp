@@ -17,6 +17,8 @@
 //                                                function: `stretch` or `window` or, if the kind has
 //                                                neither, the whole run
 //   std::optional<std::int64_t> event_us() const  the time of an event outside the scenario
+//   std::vector<Subject> paired() const          the quantities whose answers must have certain causes;
+//                                                without this function: all subjects
 //   std::optional<Bar> bar() const               the limits of the rule, for pictures
 //   std::vector<Timed> timed() const             the messages whose times the rule needs, with windows
 #pragma once
@@ -79,6 +81,7 @@ class Rule {
   [[nodiscard]] virtual std::vector<std::string> needs_answers_of() const = 0;
   [[nodiscard]] virtual Stretch span() const = 0;
   [[nodiscard]] virtual std::optional<std::int64_t> event_us() const = 0;
+  [[nodiscard]] virtual std::vector<Subject> paired() const = 0;
   [[nodiscard]] virtual std::optional<Bar> bar() const = 0;
   [[nodiscard]] virtual std::vector<Timed> timed() const = 0;
 };
@@ -124,6 +127,10 @@ class RuleOf final : public Rule {
   [[nodiscard]] std::optional<std::int64_t> event_us() const override {
     if constexpr (requires { kind_.event_us(); }) return kind_.event_us();
     return std::nullopt;
+  }
+  [[nodiscard]] std::vector<Subject> paired() const override {
+    if constexpr (requires { kind_.paired(); }) return kind_.paired();
+    return subjects();
   }
   [[nodiscard]] std::optional<Bar> bar() const override {
     if constexpr (requires { kind_.bar(); }) return kind_.bar();

@@ -8,14 +8,15 @@
 
 namespace canhil::checks {
 
-/// Frames by kind of defect.
+/// Frames by kind of defect. The counts of a defect are 0 if the message has no protection that shows it.
 struct Sighting {
+  bool has_counter = false, has_checksum = false;
   std::uint64_t right = 0;
   std::uint64_t wrong_size = 0;
   std::uint64_t wrong_crc = 0;
   std::uint64_t wrong_counter = 0;  ///< CRC valid, but a counter value that the E2E protection never uses
-  std::uint64_t repeated = 0;       ///< frames with the counter of the previous one; mapped targets only
-  std::uint64_t lost = 0;           ///< gaps in the counters; mapped targets only
+  std::uint64_t repeated = 0;       ///< frames with the counter of the previous one
+  std::uint64_t lost = 0;           ///< frames that are missing by the gaps of the counter
   std::uint8_t size = 0;            ///< size of the last frame of a wrong size
   std::uint8_t counter = 0;         ///< counter of the last frame with a wrong counter
 };

@@ -31,6 +31,17 @@ std::vector<StimulusCount> all_stimuli_of(const Observations& seen, const Messag
   return all;
 }
 
+// The number of answers that the target owed in a message.
+std::uint64_t answers_due(const Observations& seen, const MessageInfo& info) {
+  const auto all = all_stimuli_of(seen, info);
+  std::uint64_t due = 0;
+  for (const StimulusCount& stimuli : all) due += stimuli.count;
+  const double period_s = nominal_period_s(seen, info.name);
+  if (all.size() != 1 || period_s <= 0) return due;
+  const double span_s = static_cast<double>(all[0].last_us - all[0].first_us) * 1e-6;
+  return std::min(due, static_cast<std::uint64_t>(std::lround(span_s / period_s)) + 1);
+}
+
 bool same(const scenario::Window& a, const scenario::Window& b) {
   return a.from_us == b.from_us && a.to_us == b.to_us;
 }
@@ -95,19 +106,21 @@ bool stamped_by_hardware(const TimingRecord& timing) {
   return timing.stimuli_with_hardware_stamp > 0 && timing.without_hardware_stamp == 0;
 }
 
+std::optional<std::uint64_t> due(const Observations& seen, std::string_view message, double duration_s,
+                                 std::size_t estimators) {
+  const MessageInfo* info = info_of(seen, message);
+  if (info == nullptr) return std::nullopt;
+  if (!info->answers.empty()) return answers_due(seen, *info);
+  if (info->cycle_time_us == 0) return std::nullopt;
+  const double cycles = duration_s / (1e-6 * static_cast<double>(info->cycle_time_us));
+  return estimators * (static_cast<std::uint64_t>(cycles) + 1);
+}
+
 std::size_t unanswered(const Observations& seen, std::string_view message) {
   const MessageInfo* info = info_of(seen, message);
   if (info == nullptr) return 0;
-  const auto all = all_stimuli_of(seen, *info);
-  std::uint64_t due = 0;
-  for (const StimulusCount& stimuli : all) due += stimuli.count;
-  const double period_s = nominal_period_s(seen, message);
-  if (all.size() == 1 && period_s > 0) {
-    const double span_s = static_cast<double>(all[0].last_us - all[0].first_us) * 1e-6;
-    due = std::min(due, static_cast<std::uint64_t>(std::lround(span_s / period_s)) + 1);
-  }
-  const auto came = seen.answers[place_of(seen, *info)];
-  return due - std::min(due, came);
+  const std::uint64_t due = answers_due(seen, *info);
+  return due - std::min(due, seen.answers[place_of(seen, *info)]);
 }
 
 PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double begin_s, double end_s,

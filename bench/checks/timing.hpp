@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -44,6 +45,11 @@ bool stamped_by_hardware(const TimingRecord& timing);
 /// The number of missing answers of a message. One answer is due for each stimulus of the groups that the
 /// message answers, or one answer in each period if the message keeps its own period.
 std::size_t unanswered(const Observations& seen, std::string_view message);
+/// How many frames of a message the target owed in a run of `duration_s` with `estimators` estimators: one
+/// for each stimulus or, for a message that answers nothing, one for each cycle and estimator. Nullopt: the
+/// message has no period.
+std::optional<std::uint64_t> due(const Observations& seen, std::string_view message, double duration_s,
+                                 std::size_t estimators);
 
 /// `off_s` is the quantile of |period - nominal period| [s], and `count` is the number of nominal periods. A
 /// gap of n nominal periods counts n times, because a quantile would ignore a long gap that counts once.

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -63,6 +64,7 @@ struct AnswerTiming {
   /// How close an answer in `unpaired` came to a stimulus: the smallest difference between the time that an
   /// answer names and the time of validity of a stimulus.
   std::optional<std::int64_t> nearest_us{};
+  std::string ambiguous{};          ///< why the causes of answers are not certain; empty: they are certain
   std::uint64_t wrong_counter = 0;  ///< answers that name the time of one cause and the counter of another
   std::uint8_t counter_reported = 0, counter_sent = 0;  ///< in the first answer with a wrong counter
   std::int64_t reply_wire_ns = 0;  ///< sum over the answers in `latency`: time that the answer's frames, up

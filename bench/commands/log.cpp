@@ -166,8 +166,7 @@ void add_convert(command_line::Command app, int& code) {
   auto names = std::make_shared<std::pair<std::string, std::string>>();
   const auto log = app.add_subcommand("log", "recorded frames: in another format, beside another recording");
   const auto command = log.add_subcommand(
-      "convert",
-      "write a log in another format: *.pcap (Wireshark), *.asc (Vector), any other name: candump's");
+      "convert", "write a log in another format: *.log (candump), *.pcap (Wireshark), *.asc (Vector)");
   command.add_option("FROM", names->first, "log of any of these formats").required();
   command.add_option("TO", names->second, "the new file").required();
   add_log_compare(log, code);

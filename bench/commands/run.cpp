@@ -333,9 +333,8 @@ void add_run(command_line::Command app, int& code) {
   add_reports(command, arguments->reports);
   command.add_option("--operator", arguments->operator_name,
                      "who runs it, for the reports: 'Ada Lovelace' (default: not said)");
-  command.add_option(
-      "--log", arguments->log,
-      "record every frame: *.pcap (Wireshark), *.asc (Vector), any other name: candump's format");
+  command.add_option("--log", arguments->log,
+                     "record every frame: *.log (candump), *.pcap (Wireshark), *.asc (Vector)");
   command.add_flag("--tui", arguments->terminal, "show it on one screen of this terminal while it goes on")
       .excludes(add_live(command, arguments->live));
   command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });

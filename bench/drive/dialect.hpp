@@ -58,8 +58,6 @@ class Dialect {
                                  const std::function<std::optional<std::string>()>& gone) = 0;
   /// Stops the target after the run.
   virtual void stop(Link& link, nodes::Transmission& out) = 0;
-  /// Remarks on the run in addition to the observations, one line each.
-  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
   /// In real time, a target that is silent for longer than this time counts as gone.
   [[nodiscard]] virtual std::int64_t silence_limit_ns() const = 0;
 };

@@ -167,12 +167,6 @@ class MappedDialect final : public Dialect {
     return {};
   }
   void stop(Link& /*link*/, nodes::Transmission& /*out*/) override {}
-  [[nodiscard]] std::vector<std::string> notes() const override {
-    std::vector<std::string> notes;
-    for (const auto& [signal, count] : conversation_.clipped)
-      notes.push_back(fmt::format("{} could not hold its value {} times: it was clipped", signal, count));
-    return notes;
-  }
   [[nodiscard]] std::int64_t silence_limit_ns() const override { return start_.silence_us * 1000; }
 
  private:

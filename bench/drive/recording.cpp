@@ -78,21 +78,23 @@ Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scena
   auto reader = LogReader::open(log);
   if (!reader) return tl::unexpected(reader.error());
   Manner manner{.format = format_of(scenario)};
-  std::optional<std::int64_t> first_ns;
-  std::int64_t last_ns = 0;
+  // A mapped target receives no Sync. In virtual time, its frames have the stamp of the bench's frame before.
+  std::optional<std::int64_t> last_ns;
+  bool at_once = true;
   for (;;) {
     const auto entry = reader->next();
     if (!entry) return tl::unexpected(entry.error());
     if (!*entry) {
-      // A mapped target receives no Sync. Its run counts as a run in virtual time if the stamps span less
-      // than half the duration of the scenario.
-      const std::int64_t span_ns = last_ns - first_ns.value_or(0);
-      if (scenario.foreign != nullptr) manner.lockstep = span_ns < scenario.duration_us * 1000 / 2;
+      manner.lockstep = scenario.foreign != nullptr && at_once;
       return manner;
     }
-    if (!first_ns) first_ns = (*entry)->t_ns;
-    last_ns = (*entry)->t_ns;
-    if (scenario.foreign != nullptr) continue;
+    if (scenario.foreign != nullptr) {
+      const MessageInfo* message = find(scenario.foreign->messages, (*entry)->frame);
+      const bool target = message != nullptr && message->sender == messages::TargetHeartbeat::info.sender;
+      at_once = at_once && (!target || last_ns.value_or((*entry)->t_ns) == (*entry)->t_ns);
+      last_ns = (*entry)->t_ns;
+      continue;
+    }
     manner.in_process = BusName((*entry)->interface).in_process;
     const Frame& frame = (*entry)->frame;
     if (frame.fd) manner.format = BusFormat::fd;
@@ -144,6 +146,7 @@ class Recording {
     if (!ending) return tl::unexpected(ending.error());
     schedule_->end();
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
+    seen.clipped = schedule_->outbox().clipped().to_text();
     seen.length_by_second = load_.lengths();
     return Collected{.ending = std::move(*ending),
                      .seen = std::move(seen),

@@ -13,6 +13,7 @@
 #include "bench/drive/lockstep.hpp"
 #include "bench/drive/rig_commands.hpp"
 #include "bench/drive/rig_control.hpp"
+#include "bench/drive/stimuli.hpp"
 #include "bench/drive/target_process.hpp"
 #include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/registry.hpp"
@@ -157,6 +158,7 @@ class Session {
     if (options_.onlooker != nullptr) options_.onlooker->landed();
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
+    seen.clipped = schedule_->outbox().clipped().to_text();
     if (options_.for_verdict) add_watched(seen);
     end_target(ended_before, seen.bus.notes);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
@@ -291,7 +293,6 @@ class Session {
     seen.bus.late_in_queue = link_.late_in_queue();
     seen.bus.foreign = port_->counters().foreign;
     seen.bus.notes = *notes_;
-    for (std::string& note : dialect_->notes()) seen.bus.notes.push_back(std::move(note));
     if (link_.flood()) seen.bus.notes.push_back(to_text(*link_.flood()));
     seen.receive_overflows = static_cast<std::uint32_t>(port_->counters().overflowed);
   }
@@ -374,6 +375,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
   if (!truth) return in_file(truth.error());
   auto flight = make_flight(scenario, *truth, options.run_index);
   if (!flight) return in_file(flight.error());
+  if (auto fits = check_stimuli(scenario, *truth, options.run_index); !fits) return in_file(fits.error());
   std::vector<RunFile> files = files_of(scenario, options, options.bus.in_process);
   const auto opened = Session::open(scenario, *truth, std::move(*flight), options);
   if (!opened) return tl::unexpected(opened.error());

@@ -18,9 +18,7 @@ void set_in(Frame& frame, std::string_view name, double value) {
   Message::visit(message, [&](const SignalInfo& signal, auto& member) {
     using Member = std::remove_cvref_t<decltype(member)>;
     if (signal.name != name) return;
-    // Wraps an angle into -180 to 180 deg.
-    if (signal.unit == "deg" && signal.minimum == -180 && signal.maximum == 180)
-      value = std::remainder(value, 360);
+    if (observe::turns(signal)) value = std::remainder(value, 360);
     if constexpr (std::is_floating_point_v<Member>) {
       member = static_cast<Member>(value);
     } else {

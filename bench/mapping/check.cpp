@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "bench/mapping/units.hpp"
 #include "bench/observe/values.hpp"
 #include "dbc/parser/database.hpp"
 
@@ -88,16 +89,18 @@ class Remarks {
       add(Grade::warning, "coarse", name(of, signal),
           fmt::format("its step of {:g} {} adds {:.2g} of rounding noise to the sensor's noise of {:.2g}",
                       step, signal.unit, step / std::sqrt(12.0), sigma));
-    const auto range = dbc::raw_range(signal);
+    const auto range = physical_range(signal);
     if (!range) return;
-    const double low = static_cast<double>(range->lowest) * signal.scale + signal.offset,
-                 high = static_cast<double>(range->highest) * signal.scale + signal.offset;
+    const auto [low, high] = *range;
+    // An angle is sent as the equal angle that the signal can hold.
+    const double turn = 360 * std::abs(source.factor * source.stimulus->factor);
+    if (source.stimulus->turns && high - low >= turn - std::abs(signal.scale)) return;
     const double least = std::min(std::abs(low), std::abs(high));
     const double most = std::max(std::abs(own->minimum), std::abs(own->maximum)) * factor;
     if (std::max(std::abs(low), std::abs(high)) < most || (own->minimum < 0 && low >= 0) || least < most)
       add(Grade::note, "saturates", name(of, signal),
-          fmt::format("holds {:g} to {:g} {}; the node may send {:g} to either side", std::min(low, high),
-                      std::max(low, high), signal.unit, most));
+          fmt::format("holds {:g} to {:g} {}; the node may send {:g} to either side", low, high, signal.unit,
+                      most));
   }
 
   void on(const Hear& hear) {

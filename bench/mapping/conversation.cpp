@@ -21,18 +21,32 @@ std::optional<Passing::Whole> Passing::take(const Frame& frame) {
   return std::nullopt;
 }
 
+namespace {
+
+// A byte may repeat the lowest bits of a longer counter.
+std::uint64_t common_bits(const Echo& echo) {
+  const unsigned common = std::min(echo.repeated->length, echo.original->length);
+  return common >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << common) - 1;
+}
+
+}  // namespace
+
+std::uint64_t echoed_by(const Hear& hear, const Frame& answer) {
+  if (!hear.echo) return 0;
+  return dbc::raw_bits(*hear.echo->repeated, answer.payload()) & common_bits(*hear.echo);
+}
+
+std::uint64_t carried_by(const Hear& hear, const Sent& stimulus) {
+  if (!hear.echo) return 0;
+  const Frame& original = stimulus.frames[hear.echo->message];
+  return dbc::raw_bits(*hear.echo->original, original.payload()) & common_bits(*hear.echo);
+}
+
 const Sent* cause_of(const Conversation& conversation, const Hear& hear, const Frame& frame) {
   const std::deque<Sent>& sent = conversation.sent[*hear.answers];
-  if (sent.empty()) return nullptr;
-  if (!hear.echo) return &sent.back();
-  // Compare only the bits that both signals have: a byte may repeat the lowest bits of a longer counter.
-  const unsigned common = std::min(hear.echo->repeated->length, hear.echo->original->length);
-  const std::uint64_t mask = common >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << common) - 1;
-  const std::uint64_t repeated = dbc::raw_bits(*hear.echo->repeated, frame.payload()) & mask;
-  const auto found = std::find_if(sent.rbegin(), sent.rend(), [&](const Sent& one) {
-    const Frame& original = one.frames[hear.echo->message];
-    return (dbc::raw_bits(*hear.echo->original, original.payload()) & mask) == repeated;
-  });
+  const std::uint64_t echoed = echoed_by(hear, frame);
+  const auto found = std::find_if(sent.rbegin(), sent.rend(),
+                                  [&](const Sent& one) { return carried_by(hear, one) == echoed; });
   return found == sent.rend() ? nullptr : &*found;
 }
 

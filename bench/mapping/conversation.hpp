@@ -34,8 +34,6 @@ struct Conversation {
 
   const Mapping& mapping;
   std::vector<std::deque<Sent>> sent;  ///< transmissions of each play, the newest last
-  std::map<std::string, std::uint64_t>
-      clipped;  ///< by MESSAGE.SIGNAL: number of values beyond the signal's range
 };
 
 /// Follows frames of the bench on their way to the bus. If a fault drops or changes a frame of a play, the
@@ -61,9 +59,13 @@ class Passing {
   std::vector<Passed> passed_;  // the newest transmission of each play
 };
 
-/// The stimulus that is the cause of a frame of the target. If the target echoes a signal, the cause is the
-/// stored stimulus in which this signal has the echoed value; otherwise the cause is the latest stimulus.
-/// Null: no stored stimulus matches.
+/// The value that an answer echoes, and the value that a stimulus carries in the signal which is echoed. Both
+/// have only those bits that both signals have. Without an echo, both are 0.
+std::uint64_t echoed_by(const Hear& hear, const Frame& answer);
+std::uint64_t carried_by(const Hear& hear, const Sent& stimulus);
+
+/// The latest stored stimulus that carries the value which a frame of the target echoes. Null: there is none.
+/// Whether an earlier stimulus can be the cause too: see Pairing.
 const Sent* cause_of(const Conversation& conversation, const Hear& hear, const Frame& frame);
 
 }  // namespace canhil::mapping

@@ -53,6 +53,12 @@ const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity
   });
 }
 
+// Why the causes of the answers with a quantity are not certain; empty: they are.
+std::string ambiguous(const checks::Observations& seen, const quantities::Quantity& quantity) {
+  const Mapping* mapping = seen.of<Answers>().mapping;
+  return mapping == nullptr ? "" : seen.timing.answers[hear_of(*mapping, &quantity).of.index].ambiguous;
+}
+
 void tracks_of(const checks::Observations& seen, const Truth& truth, const quantities::TrackSink& give) {
   const Answers& answers = seen.of<Answers>();
   for (const auto& [quantity, all] : answers.values) {
@@ -70,11 +76,14 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const quant
 
 // Takes a sample at each time at which a quantity was reported. Each sample contains the last error of every
 // quantity, because a target may report its quantities in turn. No sample is taken before every quantity has
-// an error.
+// an error, and none if causes of answers are not certain.
 quantities::Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   const Answers& answers = seen.of<Answers>();
   if (answers.mapping == nullptr) return {};
   const Mapping& mapping = *answers.mapping;
+  const bool unclear = std::ranges::any_of(
+      mapping.quantities, [&](const auto* quantity) { return !ambiguous(seen, *quantity).empty(); });
+  if (unclear) return {};
   std::map<std::int64_t, std::map<std::size_t, double>> by_time;  // by quantity
   for (std::size_t i = 0; i < mapping.quantities.size(); ++i) {
     const auto values = answers.values.find(mapping.quantities[i]);
@@ -120,7 +129,11 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
     const quantities::Quantity& quantity = *track.quantity;
     const std::string name(quantity.name);
     const double last = track.points.back().value;
-    end.add(name, last, fmt::format("{} {:+.3f} {}", name, last / quantity.unit.factor, quantity.unit.name));
+    if (ambiguous(seen, quantity).empty())
+      end.add(name, last,
+              fmt::format("{} {:+.3f} {}", name, last / quantity.unit.factor, quantity.unit.name));
+    else
+      end.add(name, std::nullopt, fmt::format("{} not measured", name));
     const auto delay = checks::delay_of(track, {.from_us = 0, .to_us = truth.duration_us});
     delays.add(
         name, delay ? std::optional(delay->delay_s) : std::nullopt,
@@ -128,6 +141,10 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
               : fmt::format("{} not measured", name));
   });
   return {std::move(end), std::move(delays)};
+}
+
+std::string without_truth(const scenario::Scenario& scenario, const quantities::Quantity& quantity) {
+  return why_no_truth(reference_of(quantity), scenario);
 }
 
 quantities::Freshness freshness_of(const scenario::Scenario& /*scenario*/) { return {}; }
@@ -145,6 +162,8 @@ estimators::Estimator estimator_of(const Mapping& mapping) {
           .marks = marks_of,
           .plain_marks = mapping.heard,
           .results = results_of,
+          .why_no_truth = without_truth,
+          .ambiguous = ambiguous,
           .closing = mapping.closing,
           .freshness = freshness_of};
 }

@@ -1,5 +1,7 @@
 #include "bench/mapping/listener.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,11 +26,18 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
       places_(conversation.mapping),
       passing_(conversation),
       receivers_(conversation.mapping.hears.size()),
+      pairings_(conversation.mapping.hears.size()),
       virtual_time_(virtual_time) {
   const Mapping& mapping = conversation.mapping;
   for (std::size_t i = 0; i < mapping.plays.size(); ++i)
     play_closed_by_[mapping.plays[i].messages.back().of.index] = i;
-  for (std::size_t i = 0; i < mapping.hears.size(); ++i) hear_of_[mapping.hears[i].of.index] = i;
+  for (std::size_t i = 0; i < mapping.hears.size(); ++i) {
+    const Mapped& of = mapping.hears[i].of;
+    hear_of_[of.index] = i;
+    if (!of.protection) continue;
+    seen_.from_target[of.index].has_counter = of.protection->settings().counter.has_value();
+    seen_.from_target[of.index].has_checksum = of.protection->settings().checksum.has_value();
+  }
 }
 
 // The transmission of a play that a frame completes. Null: the frame is damaged, so the target need not
@@ -52,6 +61,11 @@ void Listener::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t l
   const std::int64_t valid_us = whole->sent->valid_us;
   seen_.stimuli[group].add(valid_us);
   stopwatch_.stimulus(group, {.valid_us = valid_us, .t_ns = t_ns, .due_ns = due_ns_});
+  for (std::size_t i = 0; i < pairings_.size(); ++i) {
+    const Hear& hear = conversation_.mapping.hears[i];
+    if (hear.answers == whole->play)
+      pairings_[i].pairing.sent(carried_by(hear, *whole->sent), valid_us, t_ns, settler(hear));
+  }
 }
 
 void Listener::received(const Received& received) {
@@ -97,20 +111,45 @@ void Listener::hear(const Hear& hear, const Received& received) {
     }
   }
   ++sighting.right;
-  stopwatch_.arrived(index, received);
   ++seen_.answers[index];
-  std::int64_t t_us = bench_us(received.t_ns);
-  if (hear.answers) {
-    const Sent* cause = cause_of(conversation_, hear, frame);
-    const std::string_view group = conversation_.mapping.groups[*hear.answers];
-    // Before the first play there is nothing to answer. Later, an echo that matches no play counts as an
-    // answer without a cause.
-    if (cause == nullptr && conversation_.sent[*hear.answers].empty()) return;
-    stopwatch_.answered({&index, 1}, group, cause == nullptr ? -1 : cause->valid_us);
-    if (cause == nullptr) return;
-    t_us = cause->valid_us;
+  // Before the first play there is nothing to answer.
+  if (!hear.answers || conversation_.sent[*hear.answers].empty()) {
+    stopwatch_.arrived(index, received);
+    if (!hear.answers && sent_any_) record(hear, frame, bench_us(received.t_ns));
+    return;
   }
-  if (!sent_any_) return;
+  // An echo that matches no play counts as an answer without a cause. Without an echo, an answer to a play
+  // that was answered before shows that the order of the answers does not reveal their causes.
+  Paired otherwise{.answer = received, .certain = hear.echo.has_value()};
+  if (const Sent* latest = cause_of(conversation_, hear, frame)) otherwise.cause_us = latest->valid_us;
+  pairing_of(hear).pairing.answered(received, echoed_by(hear, frame), otherwise, settler(hear));
+}
+
+Listener::OwnPairing& Listener::pairing_of(const Hear& hear) {
+  return pairings_[static_cast<std::size_t>(&hear - conversation_.mapping.hears.data())];
+}
+
+Pairing::Give Listener::settler(const Hear& hear) {
+  return [this, &hear](const Paired& paired) { settle(hear, paired); };
+}
+
+// An uncertain cause is good enough for the values of the answer, which a check may then not judge, but not
+// for a latency.
+void Listener::settle(const Hear& hear, const Paired& paired) {
+  const std::size_t index = hear.of.index;
+  stopwatch_.arrived(index, paired.answer);
+  if (paired.certain) {
+    stopwatch_.answered({&index, 1}, conversation_.mapping.groups[*hear.answers],
+                        paired.cause_us.value_or(-1));
+  } else {
+    OwnPairing& own = pairing_of(hear);
+    if (own.uncertain++ == 0) own.apart_us = paired.apart_us;
+    own.apart_us = std::min(own.apart_us, paired.apart_us);
+  }
+  if (paired.cause_us) record(hear, paired.answer.frame, *paired.cause_us);
+}
+
+void Listener::record(const Hear& hear, const Frame& frame, std::int64_t t_us) {
   auto& answers = seen_.of<Answers>();
   answers.messages[hear.of.message->name].push_back(t_us);
   values_.resize(hear.of.plan.signals());
@@ -137,7 +176,23 @@ std::int64_t Listener::bench_us(std::int64_t t_ns) const {
   return virtual_time_ ? due_us_ : due_us_ + (t_ns - due_ns_) / 1000;
 }
 
+void Listener::target_restarted() {
+  receivers_ = std::vector<protection::Receiver>(receivers_.size());
+  for (const Hear& hear : conversation_.mapping.hears) pairing_of(hear).pairing.end(settler(hear));
+}
+
 checks::Observations Listener::finish() {
+  for (const Hear& hear : conversation_.mapping.hears) {
+    OwnPairing& own = pairing_of(hear);
+    own.pairing.end(settler(hear));
+    if (own.uncertain == 0) continue;
+    seen_.timing.answers[hear.of.index].ambiguous =
+        fmt::format("{} of {} answers in {} may belong to more than one sample: {}", own.uncertain,
+                    seen_.answers[hear.of.index], hear.of.message->name,
+                    hear.echo ? fmt::format("{} comes round every {:g} ms", hear.echo->repeated->name,
+                                            1e-3 * static_cast<double>(own.apart_us))
+                              : "it has no echo of the sample that it answers");
+  }
   stopwatch_.finish();
   return std::move(seen_);
 }

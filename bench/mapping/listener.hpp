@@ -6,6 +6,7 @@
 
 #include "bench/mapping/answers.hpp"
 #include "bench/mapping/conversation.hpp"
+#include "bench/mapping/pairing.hpp"
 #include "bench/observe/stopwatch.hpp"
 #include "bench/observe/watcher.hpp"
 #include "dbc/wire/message_places.hpp"
@@ -21,11 +22,22 @@ class Listener final : public observe::Watcher {
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
+  void target_restarted() override;
   [[nodiscard]] const checks::Observations& observations() const override { return seen_; }
   checks::Observations finish() override;
 
  private:
+  struct OwnPairing {
+    Pairing pairing{};
+    std::uint64_t uncertain = 0;  // answers whose cause is not certain
+    std::int64_t apart_us = 0;    // shortest time between two possible causes of such an answer
+  };
+
   void hear(const Hear& hear, const Received& received);
+  void settle(const Hear& hear, const Paired& paired);
+  void record(const Hear& hear, const Frame& frame, std::int64_t t_us);
+  OwnPairing& pairing_of(const Hear& hear);
+  Pairing::Give settler(const Hear& hear);
   [[nodiscard]] std::int64_t bench_us(std::int64_t t_ns) const;
   [[nodiscard]] const Sent* closed_by(std::size_t play, const Frame& frame) const;
 
@@ -37,6 +49,7 @@ class Listener final : public observe::Watcher {
   std::map<std::size_t, std::size_t> play_closed_by_, hear_of_;  // from the index of a message
   std::vector<double> values_;                                   // signal values of one message
   std::vector<protection::Receiver> receivers_;                  // for each hear
+  std::vector<OwnPairing> pairings_;                             // for each hear
   bool virtual_time_ = false, sent_any_ = false;
   std::int64_t due_us_ = 0, due_ns_ = 0;  // deadline of the last play: by time base, by clock of stamps
 };

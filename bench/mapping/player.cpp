@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
+#include "bench/mapping/units.hpp"
 #include "bench/nodes/recorded_group.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/observe/values.hpp"
@@ -20,6 +23,16 @@ bool plays(const Play& play, std::string_view node) {
       return source.stimulus != nullptr && source.stimulus->node == node;
     });
   });
+}
+
+// The value that the signal gets: an angle that it cannot hold is sent as the equal angle that it can hold.
+double held(const Source& source, double value) {
+  if (source.stimulus == nullptr || !source.stimulus->turns) return value;
+  const double turn = 2 * std::numbers::pi * std::abs(source.factor);
+  for (const double one : {value, value + turn, value - turn}) {
+    if (dbc::holds(*source.signal, one)) return one;
+  }
+  return value;
 }
 
 double ms(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-3; }
@@ -82,6 +95,7 @@ void Player::transmit(nodes::Transmission& out) {
   for (Played& played : nodes_) {
     if (played.node->due_us() == now_us) sample(played);
   }
+  out.clipped().add(std::exchange(clipped_, {}));
   if (due_.empty() || due_.front().sent.due_us > now_us) return;
   Due due = std::move(due_.front());
   due_.pop_front();
@@ -94,6 +108,7 @@ void Player::sample(Played& played) {
   const std::int64_t due_us = played.node->due_us();
   nodes::Transmission own(Rounding::none);
   played.node->transmit(own);
+  clipped_.add(own.clipped());
   played.valid_us = due_us - played.latency_us;
   played.lost = own.frames().empty();
   bool closed = played.lost;  // a node that replays a log sends one frame at a time
@@ -108,7 +123,8 @@ void Player::sample(Played& played) {
     if (++samples_[i] % (play.period_us / played.period_us) != 0) continue;
     const std::int64_t sent_us = due_us + play.latency_us;
     if (sent_us > end_us_) continue;  // an answer would come after the end of the run
-    const auto after = std::ranges::upper_bound(due_, sent_us, {}, [](const Due& due) { return due.sent.due_us; });
+    const auto after =
+        std::ranges::upper_bound(due_, sent_us, {}, [](const Due& due) { return due.sent.due_us; });
     due_.insert(after, {.play = i, .sent = put_together(i, played, sent_us), .lost = played.lost});
   }
 }
@@ -162,9 +178,11 @@ Sent Player::put_together(std::size_t index, const Played& played, std::int64_t 
     for (const Source& source : one.sources) {
       const bool constant = source.stimulus == nullptr && !source.time;
       double& value = values[one.of.number(*source.signal)];
-      value = constant ? source.value : value_of(index, source, played.valid_us) * source.factor;
-      if (!dbc::holds(*source.signal, value))
-        ++conversation_.clipped[message.name + "." + source.signal->name];
+      value =
+          constant ? source.value : held(source, value_of(index, source, played.valid_us) * source.factor);
+      if (dbc::holds(*source.signal, value)) continue;
+      const auto [lowest, highest] = physical_range(*source.signal).value_or(std::pair(0.0, 0.0));
+      clipped_.add(message.name, source.signal->name, value, {lowest, highest, source.signal->unit});
     }
     Frame frame{.id = message.id,
                 .size = static_cast<std::uint8_t>(message.size),

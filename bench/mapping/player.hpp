@@ -57,6 +57,7 @@ class Player final : public nodes::Node {
   std::vector<std::map<const Stimulus*, Value>> values_;  // for each play
   std::vector<std::int64_t> samples_;                     // for each play: number of samples, sent or lost
   std::deque<Due> due_;                                   // ascending by time
+  nodes::Clipped clipped_;                                // by the samples that are due
   std::map<std::string, protection::Sender> shared_;
   std::map<const dbc::Message*, protection::Sender> own_;
 };

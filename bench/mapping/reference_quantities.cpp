@@ -6,6 +6,7 @@
 #include "bench/estimators/los_rate/quantities.hpp"
 #include "bench/estimators/wind/quantities.hpp"
 #include "bench/mapping/quantities.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "bench/world/attitude.hpp"
 
 namespace canhil::mapping {
@@ -17,7 +18,7 @@ using Value = std::optional<double>;
 // A quantity from the flight record, at any time of the run.
 template <class Of>
 Value flown(const Truth& truth, std::int64_t t_us, Of of) {
-  if (t_us < 0 || t_us > truth.flight.end_us()) return std::nullopt;
+  if (!truth.flight.is_known() || t_us < 0 || t_us > truth.flight.end_us()) return std::nullopt;
   return of(truth.flight.at(t_us));
 }
 // A quantity from the glide record, at the last step at or before the time.
@@ -64,32 +65,50 @@ Value los_rate(const Truth& truth, std::int64_t t_us) {
   return epoch->los_rate.*plane;
 }
 
+using scenario::TruthOf;
+constexpr std::array in_flight{TruthOf::navigation};
+constexpr std::array in_motion{TruthOf::glide, TruthOf::navigation};
+constexpr std::array in_glide{TruthOf::glide};
+constexpr std::array in_engagement{TruthOf::engagement};
+
 constexpr std::array known{
-    ReferenceQuantity{&quantities::attitude_roll, "rad", true, attitude<&world::Euler::roll>},
-    ReferenceQuantity{&quantities::attitude_pitch, "rad", true, attitude<&world::Euler::pitch>},
-    ReferenceQuantity{&quantities::attitude_heading, "rad", true, attitude<&world::Euler::heading>},
-    ReferenceQuantity{&quantities::velocity_north, "m/s", false, velocity<0>},
-    ReferenceQuantity{&quantities::velocity_east, "m/s", false, velocity<1>},
-    ReferenceQuantity{&quantities::velocity_down, "m/s", false, velocity<2>},
-    ReferenceQuantity{&quantities::position_latitude, "rad", false, position<&world::Position::latitude>},
-    ReferenceQuantity{&quantities::position_longitude, "rad", true, position<&world::Position::longitude>},
-    ReferenceQuantity{&quantities::position_height, "m", false, position<&world::Position::height>},
-    ReferenceQuantity{&quantities::rate_x, "rad/s", false, rate<0>},
-    ReferenceQuantity{&quantities::rate_y, "rad/s", false, rate<1>},
-    ReferenceQuantity{&quantities::rate_z, "rad/s", false, rate<2>},
-    ReferenceQuantity{&quantities::specific_force_x, "m/s^2", false, force<0>},
-    ReferenceQuantity{&quantities::specific_force_y, "m/s^2", false, force<1>},
-    ReferenceQuantity{&quantities::specific_force_z, "m/s^2", false, force<2>},
-    ReferenceQuantity{&quantities::los_rate_pitch, "rad/s", false, los_rate<&world::Planes<double>::pitch>},
-    ReferenceQuantity{&quantities::los_rate_yaw, "rad/s", false, los_rate<&world::Planes<double>::yaw>},
-    ReferenceQuantity{&quantities::wind_north, "m/s", false, wind<0>},
-    ReferenceQuantity{&quantities::wind_east, "m/s", false, wind<1>},
-    ReferenceQuantity{&quantities::wind_down, "m/s", false, wind<2>},
+    ReferenceQuantity{&quantities::attitude_roll, "rad", true, in_motion, attitude<&world::Euler::roll>},
+    ReferenceQuantity{&quantities::attitude_pitch, "rad", true, in_motion, attitude<&world::Euler::pitch>},
+    ReferenceQuantity{&quantities::attitude_heading, "rad", true, in_motion,
+                      attitude<&world::Euler::heading>},
+    ReferenceQuantity{&quantities::velocity_north, "m/s", false, in_motion, velocity<0>},
+    ReferenceQuantity{&quantities::velocity_east, "m/s", false, in_motion, velocity<1>},
+    ReferenceQuantity{&quantities::velocity_down, "m/s", false, in_motion, velocity<2>},
+    ReferenceQuantity{&quantities::position_latitude, "rad", false, in_flight,
+                      position<&world::Position::latitude>},
+    ReferenceQuantity{&quantities::position_longitude, "rad", true, in_flight,
+                      position<&world::Position::longitude>},
+    ReferenceQuantity{&quantities::position_height, "m", false, in_flight,
+                      position<&world::Position::height>},
+    ReferenceQuantity{&quantities::rate_x, "rad/s", false, in_flight, rate<0>},
+    ReferenceQuantity{&quantities::rate_y, "rad/s", false, in_flight, rate<1>},
+    ReferenceQuantity{&quantities::rate_z, "rad/s", false, in_flight, rate<2>},
+    ReferenceQuantity{&quantities::specific_force_x, "m/s^2", false, in_flight, force<0>},
+    ReferenceQuantity{&quantities::specific_force_y, "m/s^2", false, in_flight, force<1>},
+    ReferenceQuantity{&quantities::specific_force_z, "m/s^2", false, in_flight, force<2>},
+    ReferenceQuantity{&quantities::los_rate_pitch, "rad/s", false, in_engagement,
+                      los_rate<&world::Planes<double>::pitch>},
+    ReferenceQuantity{&quantities::los_rate_yaw, "rad/s", false, in_engagement,
+                      los_rate<&world::Planes<double>::yaw>},
+    ReferenceQuantity{&quantities::wind_north, "m/s", false, in_glide, wind<0>},
+    ReferenceQuantity{&quantities::wind_east, "m/s", false, in_glide, wind<1>},
+    ReferenceQuantity{&quantities::wind_down, "m/s", false, in_glide, wind<2>},
 };
 
 }  // namespace
 
 std::span<const ReferenceQuantity> reference_quantities() { return known; }
+
+std::string why_no_truth(const ReferenceQuantity& quantity, const scenario::Scenario& scenario) {
+  // A glide replaces the flight of the carrier.
+  const TruthOf of = scenario.glide ? quantity.from.front() : quantity.from.back();
+  return scenario::why_no_truth(scenario, of);
+}
 
 const ReferenceQuantity* find_reference_quantity(std::string_view quantity) {
   const auto found =

@@ -40,6 +40,7 @@ std::vector<Stimulus> all_stimuli() {
                           .signal = signal->name,
                           .column = signal->name,
                           .factor = unit->factor,
+                          .turns = observe::turns(*signal),
                           .flagged = flagged};
         const auto increment =
             std::ranges::find(table.increments, signal->name, &scenario::Increment::signal);

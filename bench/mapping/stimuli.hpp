@@ -29,6 +29,7 @@ struct Stimulus {
   std::string_view column;  ///< name in a recording (docs/recorded-data.md): signal, or rate in SI
   double factor = 1;        ///< from the signal's unit to SI
   Over over = Over::newest;
+  bool turns = false;    ///< an angle: values that differ by a full turn are equal
   bool flagged = false;  ///< its message has a validity flag; if not, a flag of its sample group applies
 };
 

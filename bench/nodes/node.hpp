@@ -4,14 +4,43 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
+#include "bench/nodes/clipped.hpp"
 #include "dbc/wire/transmit.hpp"
 
 namespace canhil::nodes {
 
-/// The frames of one transmission: at most one sample group.
-using Transmission = Outbox<8>;
+/// The frames of one transmission: at most one sample group. Remembers which values the signals clipped.
+class Transmission : public Outbox<8> {
+ public:
+  using Outbox<8>::Outbox;
+
+  /// Packs, protects and appends one message. Values of a message that is marked as invalid may be clipped.
+  template <class Message>
+  void send(const Message& message) {
+    bool valid = true;
+    Message::visit(message, [&](const SignalInfo&, const auto& member) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(member)>, messages::Validity>)
+        valid = valid && member != messages::Validity::invalid;
+    });
+    Message::visit(message, [&](const SignalInfo& signal, const auto& member) {
+      if (!valid) return;
+      const auto value = static_cast<double>(member);
+      const double rounding = wire::lsb(signal) / 2;
+      if (value >= signal.minimum - rounding && value <= signal.maximum + rounding) return;
+      clipped_.add(Message::info.name, signal.name, value, {signal.minimum, signal.maximum, signal.unit});
+    });
+    Outbox<8>::send(message);
+  }
+  /// The values that were clipped since the construction.
+  [[nodiscard]] const Clipped& clipped() const { return clipped_; }
+  Clipped& clipped() { return clipped_; }
+
+ private:
+  Clipped clipped_;
+};
 
 inline constexpr std::int64_t never_us = std::numeric_limits<std::int64_t>::max();
 

@@ -7,6 +7,7 @@
 
 #include "bench/observe/values.hpp"
 #include "dbc/ports/fd_groups.hpp"
+#include "dbc/wire/e2e.hpp"
 #include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
 
@@ -39,6 +40,27 @@ class Answers {
   double t_s_ = 0;
 };
 
+bool is_protected(const Frame& frame) {
+  const MessageInfo* info = messages::find_message(frame.id);
+  return info != nullptr && info->e2e_data_id != 0;
+}
+
+bool crc_is_right(const Frame& frame) {
+  return frame.data[0] == e2e::crc(frame.payload(), messages::find_message(frame.id)->e2e_data_id);
+}
+
+// The first signal of the end-to-end protection in which two frames of a message differ; none: they agree. Of
+// the CRCs, only the validity is compared: the CRCs of different values differ.
+std::optional<std::string> departure_of_protection(const Frame& a, const Frame& b) {
+  if (!is_protected(a)) return std::nullopt;
+  const auto right = [](const Frame& frame) { return crc_is_right(frame) ? "right" : "wrong"; };
+  if (crc_is_right(a) != crc_is_right(b))
+    return fmt::format("{}.e2e_crc is {} in one, {} in the other", message_of(a), right(a), right(b));
+  const int of_a = e2e::counter(a.payload()), of_b = e2e::counter(b.payload());
+  if (of_a == of_b) return std::nullopt;
+  return fmt::format("{}.e2e_counter is {} in one, {} in the other", message_of(a), of_a, of_b);
+}
+
 // The first signal in which two frames of a message differ by more than `steps` steps; none: they agree.
 std::optional<std::string> departure(const Frame& a, const Frame& b, double steps) {
   const std::vector<Value> of_a = values_of(a), of_b = values_of(b);
@@ -51,7 +73,7 @@ std::optional<std::string> departure(const Frame& a, const Frame& b, double step
     return fmt::format("{}.{} is {} in one, {} in the other", message_of(a), of_a[i].signal->name,
                        to_text(of_a[i]), to_text(of_b[i]));
   }
-  return std::nullopt;
+  return departure_of_protection(a, b);
 }
 
 bool same_message(const Frame& a, const Frame& b) {
@@ -95,6 +117,9 @@ std::string describe(const Frame& frame) {
   const std::string_view message = message_of(frame);
   if (message.empty()) return fmt::format("frame {:03X}, {} bytes", frame.id, frame.size);
   std::string text(message);
+  if (is_protected(frame))
+    text += fmt::format(" e2e_counter={}{}", e2e::counter(frame.payload()),
+                        crc_is_right(frame) ? "" : " (wrong CRC)");
   for (const Value& value : values_of(frame))
     text += fmt::format(" {}={}", value.signal->name, to_text(value));
   return text;

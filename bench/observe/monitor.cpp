@@ -69,6 +69,10 @@ Monitor::Monitor(std::optional<Asked> asked) {
     takers_ = std::move(asked->takers);
     model_.emplace(takers_);
   }
+  for (std::size_t i = 0; i < all_messages.size(); ++i) {
+    checks::Sighting& sighting = seen_.from_target[i];
+    sighting.has_counter = sighting.has_checksum = all_messages[i].sender == TargetHeartbeat::info.sender;
+  }
   for (const estimators::Estimator* estimator : estimators::all()) {
     estimators::Reception* own = receptions_.emplace_back(estimator->reception()).get();
     for (std::size_t message = 0; message < reception_of_.size(); ++message) {
@@ -146,8 +150,10 @@ void Monitor::received(const Received& received) {
     case e2e::Check::wrong_crc:
       return spoilt();
     case e2e::Check::repeated:
+      ++sighting.repeated;
       return;
     case e2e::Check::some_lost:
+      sighting.lost += static_cast<std::uint64_t>(receivers_[index].lost());
       seen_.target_frames_lost += static_cast<std::uint32_t>(receivers_[index].lost());
       break;
     case e2e::Check::ok:

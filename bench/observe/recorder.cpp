@@ -29,6 +29,11 @@ Recorder::~Recorder() {
   if (!closed_) std::remove(unfinished_name(path_).c_str());
 }
 
+void Recorder::time_set(std::int64_t t_ns) {
+  if (!virtual_from_ns_) virtual_from_ns_ = port_.now_ns() - t_ns;
+  virtual_ns_ = t_ns;
+}
+
 void Recorder::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t /*late_ns*/) {
   started_ = true;
   early_ = {};
@@ -59,6 +64,7 @@ void Recorder::write_early() {
 }
 
 void Recorder::write(const Frame& frame, std::int64_t t_ns, std::uint8_t bus, bool transmitted) {
+  if (virtual_from_ns_) t_ns = *virtual_from_ns_ + virtual_ns_;
   writer_.write({.t_ns = t_ns + to_realtime_ns_,
                  .interface = port_.bus_name(bus),
                  .frame = frame,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ class Recorder final : public Observer {
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
   void foreign(const Received& received) override;
+  /// From now on, all stamps are times of the virtual clock; the virtual time continues the stamps before.
+  void time_set(std::int64_t t_ns) override;
   /// Finishes the file. If not everything could be written, returns an error; then there is no file `path`,
   /// and `path`.incomplete contains the part that was written.
   Result<void> close();
@@ -44,7 +47,9 @@ class Recorder final : public Observer {
   LogWriter writer_;
   std::string path_;
   const Port& port_;
-  std::int64_t to_realtime_ns_;  // offset from the port's stamp clock to real time
+  std::int64_t to_realtime_ns_;                  // offset from the port's stamp clock to real time
+  std::optional<std::int64_t> virtual_from_ns_;  // stamp of the virtual time 0; none: no virtual time
+  std::int64_t virtual_ns_ = 0;
   std::vector<Received> early_;  // received before the first transmission
   bool started_ = false;
   bool closed_ = false;

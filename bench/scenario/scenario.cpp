@@ -14,6 +14,9 @@
 namespace canhil::scenario {
 namespace {
 
+/// Why errors of the initial state are refused beside a mapping.
+constexpr std::string_view no_start = "has no effect: a target with a mapping receives no initial state";
+
 /// The keys of a truth, followed by the keys of the nodes that sample it.
 std::vector<std::string_view> keys_of(TruthOf truth, const DbcVocabulary& contract,
                                       std::vector<std::string_view> keys) {
@@ -64,6 +67,7 @@ void read_glider(Section& root, Scenario& scenario, const DbcVocabulary& contrac
     return;
   }
   Section glide = root.table("glide");
+  if (contract.foreign != nullptr) glide.refuse("initial_error", no_start, "no such table");
   scenario.glide = read_glide(root, glide);
   read_nodes(root, scenario, contract, TruthOf::glide);
 }
@@ -189,14 +193,27 @@ std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) 
 
 }  // namespace
 
-// An estimator depends on the truth that its nodes sample. If a node of a glide or an engagement is
-// recorded, the truth that the bench simulates is unrelated to the recording.
+// If a node of a glide or an engagement is recorded, the truth that the bench simulates is unrelated to the
+// recording.
+std::string why_no_truth(const Scenario& scenario, TruthOf truth) {
+  if (truth == TruthOf::navigation)
+    return scenario.truth_is_known() ? "" : "no truth: trajectory is \"unknown\"";
+  if (truth == TruthOf::glide && !scenario.glide) return "no truth: the scenario has no [glide]";
+  if (truth == TruthOf::engagement && !scenario.engagement)
+    return "no truth: the scenario has no [engagement]";
+  const auto recorded = std::ranges::find_if(scenario.nodes, [&](const NodeSettings& node) {
+    return node.table().samples == truth && node.is_recorded();
+  });
+  return recorded == scenario.nodes.end() ? ""
+                                          : fmt::format("no truth: [{}] is recorded", recorded->table().key);
+}
+
+// An estimator depends on the truth that its nodes sample.
 std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts) {
   for (const NodeSettings& node : scenario.nodes) {
     if (std::ranges::find(facts.nodes, node.table().key) == facts.nodes.end()) continue;
-    if (node.table().samples == TruthOf::navigation)
-      return scenario.truth_is_known() ? "" : "no truth: trajectory is \"unknown\"";
-    if (node.is_recorded()) return fmt::format("no truth: [{}] is recorded", node.table().key);
+    if (std::string why = why_no_truth(scenario, node.table().samples); !why.empty()) return why;
+    if (node.table().samples == TruthOf::navigation) break;
   }
   return "";
 }
@@ -220,9 +237,13 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   scenario.targets = read_targets(root, contract);
   if (auto engagement = root.optional_table("engagement")) {
     scenario.engagement = read_engagement(*engagement);
+    if (contract.foreign != nullptr && scenario.engagement->guidance == world::Guidance::target)
+      engagement->reject("guidance", "is 'target', but answers by a mapping do not reach the missile",
+                         "'truth'");
   }
   read_glider(root, scenario, contract);
   read_navigation(root, scenario, contract);
+  if (contract.foreign != nullptr) root.refuse("initial_error", no_start, "no such table");
   if (auto initial_error = root.optional_table("initial_error")) {
     scenario.initial_error = read_initial_error(*initial_error);
   }

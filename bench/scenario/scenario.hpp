@@ -86,6 +86,8 @@ Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_v
 /// Size limit of a scenario or campaign file.
 inline constexpr std::size_t most_toml_bytes = std::size_t{1} << 20U;
 
+/// Why the scenario does not know a truth; empty: the truth is known.
+std::string why_no_truth(const Scenario& scenario, TruthOf truth);
 /// Why there is no truth to compare an estimator's answers with; empty: there is a truth, or the scenario has
 /// none of the estimator's nodes.
 std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts);

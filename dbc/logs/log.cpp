@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "dbc/logs/formats.hpp"
 
@@ -28,16 +30,36 @@ bool is_asc(std::string_view beginning) {
   return beginning.starts_with("date ") || beginning.starts_with("base ") || beginning.starts_with("//");
 }
 
+struct Format {
+  std::string_view ending;
+  std::unique_ptr<LogSink> (*sink)(logs::File file);
+};
+constexpr std::array formats{Format{".log", logs::candump_sink}, Format{"", logs::candump_sink},
+                             Format{".txt", logs::candump_sink}, Format{".candump", logs::candump_sink},
+                             Format{".pcap", logs::pcap_sink},   Format{".asc", logs::asc_sink}};
+
+// The format that the ending of a file name selects; null: a format that cannot be written.
+const Format* format_of(const std::string& name) {
+  std::string ending = std::filesystem::path(name).extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto found = std::ranges::find(formats, ending, &Format::ending);
+  return found == formats.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 Result<LogWriter> LogWriter::create(const std::string& path, const std::string& final_name) {
   std::string name = final_name.empty() ? path : final_name;
+  const Format* format = format_of(name);
+  if (format == nullptr)
+    return failure(
+        fmt::format("cannot write log '{}': its ending names no format that can be written, expected "
+                    ".log (candump), .pcap or .asc",
+                    name));
   logs::File file(std::fopen(path.c_str(), "we"));
   if (!file) return failure(fmt::format("cannot write log '{}': {}", name, std::strerror(errno)));
-  auto sink = name.ends_with(".pcap")  ? logs::pcap_sink(std::move(file))
-              : name.ends_with(".asc") ? logs::asc_sink(std::move(file))
-                                       : logs::candump_sink(std::move(file));
-  return LogWriter(std::move(sink), std::move(name));
+  return LogWriter(format->sink(std::move(file)), std::move(name));
 }
 
 Result<void> LogWriter::close() {

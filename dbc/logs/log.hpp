@@ -4,7 +4,9 @@
 //            tshark. Contains neither the names of interfaces nor whether the recorder sent a frame
 //   *.asc    Vector's ASCII log, stamps in microseconds; for CANoe, CANalyzer and python-can. Of an error
 //            frame, it contains only the time
-//   others   candump's format (candump.hpp), stamps in microseconds; for can-utils and python-can
+//   *.log, *.txt, *.candump, and names without an ending
+//            candump's format (candump.hpp), stamps in microseconds; for can-utils and python-can
+// Any other ending would name a format that cannot be written.
 #pragma once
 
 #include <cstdint>
@@ -56,7 +58,8 @@ class LogSource {
 class LogWriter {
  public:
   /// Creates the file `path`. The caller may rename the file to `final_name` later. This name (or `path`, if
-  /// `final_name` is empty) determines the format and appears in error messages.
+  /// `final_name` is empty) determines the format and appears in error messages. Error: the ending names no
+  /// format that can be written, or the file cannot be created.
   static Result<LogWriter> create(const std::string& path, const std::string& final_name = {});
   /// Appends an entry. If this fails, close() returns the error.
   void write(const LogEntry& entry) { sink_->write(entry); }

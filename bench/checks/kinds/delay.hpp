@@ -16,6 +16,8 @@ struct DelayBelow {
   static DelayBelow read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return judged.text; }
   [[nodiscard]] std::vector<Subject> subjects() const { return {judged}; }
+  /// A lag is measured with the latest possible causes too: these make it longer, if anything.
+  [[nodiscard]] static std::vector<Subject> paired() { return {}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

@@ -13,11 +13,15 @@ for message in SlaveImuDeltaTheta FourSignals FourSignalsBig; do
     valgrind --tool=callgrind --toggle-collect="${way}_$message" --callgrind-out-file="$out" "$program" $times \
       > "$out.log" 2>&1 || { cat "$out.log"; exit 2; }
     total=$(sed -n 's/^\(summary\|totals\): *//p' "$out" | head -n 1)
-    count=$((total / times))
+    count=$((${total:-0} / times))
+    if [ "$count" -eq 0 ]; then
+      echo "count_instructions.sh: callgrind counted nothing in ${way}_$message() of $program" >&2
+      exit 1
+    fi
     goal=30
     [ $way = pack ] && goal=60
     echo "instructions per $way of $message: $count (goal: at most $goal)"
-    [ "$count" -gt 0 ] && [ "$count" -le $goal ] || status=1
+    [ "$count" -le $goal ] || status=1
   done
 done
 exit $status

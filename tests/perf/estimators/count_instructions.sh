@@ -8,7 +8,12 @@ count() { # count PROGRAM CALL...
   shift
   for call in "$@"; do
     valgrind --tool=callgrind --toggle-collect="$call" --callgrind-out-file="$out" "$program" >/dev/null 2>&1
-    printf '%-22s %s instructions\n' "$call" "$(sed -n 's/^summary: //p' "$out")"
+    counted=$(sed -n 's/^summary: //p' "$out")
+    if [ "${counted:-0}" -eq 0 ]; then
+      echo "count_instructions.sh: callgrind counted nothing in $call() of $program" >&2
+      exit 1
+    fi
+    printf '%-22s %s instructions\n' "$call" "$counted"
   done
 }
 folder=$1/tests/perf/estimators

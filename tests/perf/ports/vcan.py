@@ -79,6 +79,8 @@ def round_trips(node, rounds):
     for turn in range(rounds * 20 + 1):
         for pair in running.values():
             times = pair.block()
+            if len(times) != BLOCK:
+                sys.exit(f"{pair.ping.args}: {len(times)} round trips, expected {BLOCK}")
             if turn > 0:  # discards the first block as a warm-up
                 pair.times_us += times
     p50, p99 = {}, {}
@@ -100,7 +102,7 @@ def round_trips(node, rounds):
 
 def chain(send, receive):
     """Runs a sender and a receiver. Returns the time [s] from the start of the sender to the end of the receiver, and what the receiver printed: the
-    number of frames that it missed or received in the wrong order."""
+    number of frames that it missed or received in the wrong order. None: it does not print this number."""
     receiving = start(receive, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
     begin = time.monotonic()
     subprocess.run(send, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=True, timeout=120)
@@ -108,7 +110,7 @@ def chain(send, receive):
     took = time.monotonic() - begin
     if receiving.returncode != 0:
         sys.exit(f"{receive} ended with {receiving.returncode}")
-    return took, int(out) if out.strip() else 0
+    return took, int(out) if out.strip() else None
 
 
 def throughput(node, rounds):
@@ -141,11 +143,11 @@ def throughput(node, rounds):
             alone[name].append(chain(send(1), receive(1))[0])
             took, missed = chain(send(BURST), receive(BURST))
             whole[name].append(took)
-            dropped[name] += missed
+            dropped[name] = None if missed is None else dropped[name] + missed
     best = {name: BURST / (min(whole[name]) - min(alone[name])) for name in chains}
     print(f"{f'throughput, {rounds} bursts of {BURST}':<36}{'frames/s':>9}{'dropped':>9}")
     for name, rate in best.items():
-        print(f"  {name:<34}{rate:>9.0f}{dropped[name]:>9}")
+        print(f"  {name:<34}{rate:>9.0f}{'unknown' if dropped[name] is None else dropped[name]:>9}")
     print(f"  {'the port, over can-utils':<48}{best['port -> port'] / best['cangen -> candump']:.3f}")
     print(f"  {'the port, over python-can':<48}{best['port -> port'] / best['python-can -> python-can']:.3f}")
 

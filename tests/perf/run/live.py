@@ -98,6 +98,8 @@ def fly(program, scenario, real_time, open_page):
             looker.join()
             if code == 2:
                 sys.exit("live.py: a run with the page open did not take place")
+            if run.frames == 0:
+                sys.exit("live.py: the page received no frame of a run")
             run.read(pathlib.Path(bench.folder.name, "run.json"))
         return run
     with tempfile.TemporaryDirectory() as folder:

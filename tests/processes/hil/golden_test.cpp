@@ -68,6 +68,32 @@ TEST_F(Golden, NamesTheFirstSignalThatLeftItsToleranceAndKeepsTheFrames) {
   EXPECT_EQ(check("--tolerance 1000000").code, 0);
 }
 
+// A tolerance is for values: a counter and the validity of a CRC must be as recorded.
+TEST_F(Golden, ACounterOrACrcThatDiffersIsADifference) {
+  const std::string target = scratch("liar.sh"), lies = LYING_TARGET;
+  const auto checked_against = [&](const std::string& lie) {
+    std::ofstream(target) << fmt::format("#!/bin/sh\nexec {} {} \"$@\"\n", lies, lie);
+    fs::permissions(target, fs::perms::owner_all);
+    return check(fmt::format("--tolerance 1000000 --target {}", target));
+  };
+  const Ended jumped = checked_against("counters_jump");
+  EXPECT_EQ(jumped.code, 1) << jumped.out;
+  EXPECT_THAT(jumped.out, HasSubstr("LosRateEstimate.e2e_counter is 1 in one, 2 in the other"));
+  const Ended damaged = checked_against("sigma_with_wrong_crc");
+  EXPECT_EQ(damaged.code, 1) << damaged.out;
+  EXPECT_THAT(damaged.out, HasSubstr("LosRateSigma.e2e_crc is right in one, wrong in the other"));
+  const Ended diverged = hil_bench(fmt::format("diverge {0}/los_quick.log {0}/los_quick.check.log", folder_));
+  EXPECT_EQ(diverged.code, 1);
+  EXPECT_THAT(diverged.out, HasSubstr("e2e_counter=0 (wrong CRC) los_rate_sigma_pitch_radps="));
+}
+
+TEST_F(Golden, AScenarioWithAMappingIsRefused) {
+  const std::string file = SOURCE_DIR "/docs/examples/own_ecu/own_ecu.toml";
+  expect_one_line(record(file), "own_ecu.toml: has a mapping");
+  fs::copy_file(file, folder_ + "/own_ecu.toml");
+  EXPECT_EQ(check().code, 2);
+}
+
 TEST_F(Golden, ATargetThatGivesUpIsAFailure) {
   const Ended ended = check("--target /usr/bin/true");
   EXPECT_EQ(ended.code, 1) << ended.out;

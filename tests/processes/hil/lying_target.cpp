@@ -193,6 +193,13 @@ const std::map<std::string_view, Lie>& lies() {
       {"heartbeat_with_wrong_crc", when<TargetHeartbeat>([](Frame& frame) { frame.data[0] ^= 1U; })},
       {"heartbeat_with_counter_15", when<TargetHeartbeat>([](Frame& frame) { protect(frame, 15); })},
       {"short_heartbeat", when<TargetHeartbeat>([](Frame& frame) { --frame.size; })},
+      {"counter_stands_still", when<TargetCounters>([](Frame& frame) { protect(frame, 3); })},
+      {"counters_jump",
+       [](Frame& frame) {
+         if (find_message(frame.id)->sample_group == LosRateEstimate::info.sample_group)
+           protect(frame, static_cast<std::uint8_t>(2 * e2e::counter(frame.payload()) % e2e::counter_period));
+         return true;
+       }},
       {"other_ids", when<TargetHeartbeat>([](Frame& frame) { frame.id = 0x456; })},
       {"acknowledges_another_parameter",
        [](Frame& frame) {

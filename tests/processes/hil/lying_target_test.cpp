@@ -152,6 +152,32 @@ TEST(Lies, OfAGroupThatIsNeverWholeTheMessageToBlameIsNamed) {
   EXPECT_THAT(blamed("sigma_with_another_counter"), HasSubstr("its messages never have one counter"));
 }
 
+// The answers themselves are right, and none is missing.
+TEST(Lies, CountersThatStandStillOrJumpFailTheRun) {
+  const Flown still = fly(scenario("los_quick"), "--target " + liar("counter_stands_still"));
+  EXPECT_EQ(still.ended.code, 1) << still.ended.out;
+  EXPECT_THAT(measured(still.report, "protection"),
+              ContainsRegex("^TargetCounters: [1-9][0-9]* of [0-9]+ frames repeat the counter"));
+  const Flown jumps = fly(scenario("los_quick"), "--target " + liar("counters_jump"));
+  EXPECT_EQ(jumps.ended.code, 1) << jumps.ended.out;
+  EXPECT_EQ(failed(jumps.report), Kinds{"protection"}) << jumps.ended.out;
+  EXPECT_THAT(measured(jumps.report, "protection"),
+              ContainsRegex("LosRateSigma: the counter jumps over [1-9][0-9]+ frames that are not missing"));
+}
+
+// A check of the scenario judges the messages that it names.
+TEST(Lies, AScenarioMayLimitTheErrorsOfProtection) {
+  const std::string file =
+      with("los_quick", "[[check]]\nkind = \"protection\"\nmessage = \"LosRateSigma\"\n");
+  EXPECT_THAT(measured(fly(file, "").report, "protection"),
+              HasSubstr("wrong checksums 0, wrong counters 0, wrong sizes 0, lost by the counter 0"));
+  for (const char* lie : {"sigma_with_wrong_crc", "counters_jump"}) {
+    const Flown flown = fly(file, "--target " + liar(lie));
+    EXPECT_EQ(flown.ended.code, 1) << lie;
+    EXPECT_THAT(failed(flown.report), testing::Contains("protection")) << lie;
+  }
+}
+
 TEST(Lies, AHandshakeThatFailsSaysWhatItSaw) {
   const auto seen = [](const std::string& lie) {
     const Ended ended =

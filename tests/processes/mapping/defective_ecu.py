@@ -97,8 +97,37 @@ class LateHeading(own_ecu.Ecu):
         self.angles = (math.remainder(self.past[0], 2 * math.pi), 0)
 
 
+class RoundLate(own_ecu.Ecu):
+    """Is late by 16 samples: the counter of its samples comes round in this time."""
+
+    def __init__(self):
+        super().__init__()
+        self.held, self.sent = [], 0
+
+    def answer(self, of):
+        self.held.append(super().answer(of))
+        if len(self.held) <= 16:
+            return None
+        frame = self.held.pop(0)[:6] + bytes([self.sent % 16])
+        self.sent += 1
+        return frame + bytes([own_ecu.crc(frame)])
+
+
+class Sparse(own_ecu.Ecu):
+    """Answers every second sample."""
+
+    def __init__(self):
+        super().__init__()
+        self.samples = 0
+
+    def answer(self, of):
+        self.samples += 1
+        return super().answer(of) if self.samples % 2 == 0 else None
+
+
 DEFECTS = {"none": own_ecu.Ecu, "wrong_sign": WrongSign, "stale": Stale, "wrong_checksum": WrongChecksum,
-           "frozen_counter": FrozenCounter, "slow": Slow, "silent": Silent, "zero": Zero, "late_heading": LateHeading}
+           "frozen_counter": FrozenCounter, "slow": Slow, "silent": Silent, "zero": Zero, "late_heading": LateHeading,
+           "round_late": RoundLate, "sparse": Sparse}
 
 if __name__ == "__main__":
     own_ecu.serve(DEFECTS[sys.argv[1]](), open_bus(sys.argv[sys.argv.index("--bus") + 1]))

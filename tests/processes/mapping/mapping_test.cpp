@@ -226,6 +226,11 @@ TEST(OwnEcu, AnswersThatAreNoNumberAreCountedAndFail) {
                                      "infinite., first at 1 s"));
 }
 
+struct Edit {
+  const char* file;
+  std::string text, instead;
+};
+
 // Runs a copy of the example in which texts of its files are replaced.
 class Altered : public testing::Test {
  protected:
@@ -240,15 +245,28 @@ class Altered : public testing::Test {
     EXPECT_NE(at, std::string::npos) << text;
     std::ofstream(copy_ + "/" + file) << all.replace(at, text.size(), instead);
   }
-  [[nodiscard]] Ended run_altered(const std::string& target) const {
-    return hil_bench(fmt::format("run {}/own_ecu.toml {} --lockstep", copy_, target));
+  [[nodiscard]] Ended run_altered(const std::string& target, const std::string& more = "--lockstep") const {
+    return hil_bench(fmt::format("run {}/own_ecu.toml {} {}", copy_, target, more));
   }
-  Ended run_with(const std::string& file, const std::string& text, const std::string& instead) {
+  [[nodiscard]] Ended run_edited(const std::vector<Edit>& edits, const std::string& target,
+                                 const std::string& more) const {
     start_again();
-    change(file, text, instead);
-    return run_altered(python);
+    for (const Edit& edit : edits) change(edit.file, edit.text, edit.instead);
+    return run_altered(target, more);
   }
-  void expect_refused(const std::string& file, const std::string& text, const std::string& instead,
+  [[nodiscard]] Ended run_with(const char* file, const std::string& text, const std::string& instead) const {
+    return run_edited({{file, text, instead}}, python, "--lockstep");
+  }
+  // A run of 3 s in real time; returns its report.
+  [[nodiscard]] nlohmann::json run_in_real_time(const std::string& target, std::vector<Edit> edits = {}) const {
+    edits.push_back({"own_ecu.toml", "duration_s = 12.0", "duration_s = 3.0"});
+    edits.push_back({"own_ecu.toml", "answers_at_least = 1190", "answers_at_least = 140"});
+    const std::string report = scratch("edited.json");
+    const Ended ended = run_edited(edits, target, "--json " + report);
+    EXPECT_NE(ended.code, 2) << ended.err;
+    return read_json(report);
+  }
+  void expect_refused(const char* file, const std::string& text, const std::string& instead,
                       const std::string& because) {
     expect_one_line(run_with(file, text, instead), because);
   }
@@ -258,7 +276,7 @@ class Altered : public testing::Test {
 };
 
 TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
-  const std::string mapping = "own_ecu.mapping.toml";
+  const char* mapping = "own_ecu.mapping.toml";
   expect_refused(mapping, "dbc = \"own_ecu.dbc\"", "dbc = \"none.dbc\"", "none.dbc");
   expect_refused(mapping, "\"IMU_TX3\"]", "\"IMU_TX4\"]", "the DBC has no message 'IMU_TX4'");
   expect_refused(mapping, "TX1_YawRate\"", "TX1_Yaw\"",
@@ -279,6 +297,82 @@ TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
                  "'velocity.north' is unknown, expected one of: attitude.pitch, attitude.roll");
   expect_refused("own_ecu.toml", "settle_s", "before = \"false\"\nsettle_s",
                  "'false' exited with 1, expected 0");
+}
+
+std::string measured(const nlohmann::json& report, const std::string& name) {
+  for (const auto& check : report["checks"]) {
+    if (check["name"] == name)
+      return fmt::format("{}: {}", check["outcome"].get<std::string>(), check["measured"].get<std::string>());
+  }
+  return "no such check";
+}
+
+// What a target with a mapping does not get must not look as if it had an effect.
+TEST_F(Altered, WhatHasNoEffectIsRefused) {
+  expect_refused("own_ecu.toml", "[slave_imu]", "[initial_error]\nattitude_deg = [1, 1, 1]\n[slave_imu]",
+                 "key 'initial_error': has no effect: a target with a mapping receives no initial state");
+  expect_refused("own_ecu.toml", "[slave_imu]", "[engagement]\nguidance = \"target\"\n[seeker]\n[slave_imu]",
+                 "key 'engagement.guidance': is 'target', but answers by a mapping do not reach the missile");
+}
+
+// The counter of the samples has 4 bits and comes round every 160 ms.
+TEST_F(Altered, ATargetThatIsARoundLateIsNotOnTime) {
+  const nlohmann::json report = run_in_real_time(in_python("round_late"));
+  for (const char* check : {"latency ECU_Attitude", "error attitude.roll"})
+    EXPECT_THAT(
+        measured(report, check),
+        testing::MatchesRegex("not measured: [0-9]+ of [0-9]+ answers in ECU_Attitude may belong to more "
+                              "than one sample: ATT_ImuCounter comes round every 160 ms"));
+  EXPECT_THAT(measured(report, "delay attitude.roll"), HasSubstr("fail"))
+      << "the values prove that it is late";
+}
+
+// Without an echo, the causes are certain if every sample is answered, however late the host is.
+TEST_F(Altered, WithoutAnEchoTheCausesMayBeCertain) {
+  const Edit no_echo{"own_ecu.mapping.toml", "echo = {", "# echo = {"};
+  const nlohmann::json each = run_in_real_time(in_python("none"), {no_echo});
+  for (const char* check : {"error attitude.roll", "delay attitude.roll"})
+    EXPECT_THAT(measured(each, check), testing::StartsWith("pass: ")) << each["checks"].dump(1);
+  EXPECT_THAT(measured(each, "senders"), HasSubstr("no such check"));
+  const nlohmann::json sparse = run_in_real_time(in_python("sparse"), {no_echo});
+  for (const char* check : {"latency ECU_Attitude", "error attitude.roll"})
+    EXPECT_THAT(measured(sparse, check), testing::AllOf(testing::StartsWith("not measured: "),
+                                                        HasSubstr("it has no echo of the sample")));
+}
+
+TEST_F(Altered, ProtectionOfNothingIsNotMeasured) {
+  const std::string counter = "counter = { signal = \"ATT_Counter\" }",
+                    checksum = "checksum = { signal = \"ATT_CRC\", model = \"CRC-8/SAE-J1850\" }",
+                    own = "[[protection]]\nmessages = [\"ECU_Attitude\"]\n" + counter + "\n" + checksum;
+  const auto judged = [&](const std::vector<Edit>& edits) {
+    const std::string report = scratch("protection.json");
+    EXPECT_NE(run_edited(edits, python, "--lockstep --json " + report).code, 2);
+    return measured(read_json(report), "protection");
+  };
+  const Edit unprotected{"own_ecu.mapping.toml", own, ""};
+  EXPECT_EQ(judged({unprotected}), "not measured: no message that came has a counter or checksum");
+  const Edit by_name{"own_ecu.toml", "kind = \"protection\"",
+                     "kind = \"protection\"\nname = \"protection\"\nmessage = \"ECU_Status\""};
+  EXPECT_EQ(judged({by_name}), "not measured: ECU_Status has no counter or checksum");
+  const Edit no_counter{"own_ecu.mapping.toml", counter, ""},
+      limit{"own_ecu.toml", "kind = \"protection\"", "kind = \"protection\"\nlost_at_most = 3"};
+  EXPECT_EQ(judged({no_counter, limit}), "not measured: no message that came has a counter");
+  EXPECT_EQ(judged({no_counter}), "pass: wrong checksums 0, wrong sizes 0") << "nothing is said of counters";
+}
+
+// A signal that cannot hold its value is a fault of the scenario.
+TEST_F(Altered, AStimulusThatIsClippedNeverPasses) {
+  expect_refused("own_ecu.toml", "roll_period_s = 3.0", "roll_period_s = 0.5",
+                 "IMU_TX2.TX2_RollRate holds -163.84 to 163.83 \u00b0/s, its node measures ");
+  const std::string report = scratch("clipped.json");
+  const Ended ended = run_edited({{"own_ecu.toml", "[[check]]",
+                                   "[[fault]]\nkind = \"bias\"\nquantity = \"imu.rate.x\"\n"
+                                   "by_degps = 170\nfrom_s = 6\n[[check]]"}},
+                                 python, "--lockstep --json " + report);
+  EXPECT_EQ(ended.code, 3) << ended.err << ended.out;
+  EXPECT_THAT(measured(read_json(report), "stimuli"),
+              testing::StartsWith("not measured: IMU_TX2.TX2_RollRate holds"));
+  EXPECT_THAT(measured(read_json(report), "error attitude.roll"), testing::StartsWith("not measured: "));
 }
 
 TEST_F(Altered, FaultsAffectWhatIsPlayed) {

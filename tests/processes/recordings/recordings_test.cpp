@@ -171,6 +171,21 @@ TEST(Convert, RoundTripsKeepEveryFrame) {
   }
 }
 
+TEST(Recorded, TheStampsOfALockstepRunAreItsVirtualTime) {
+  std::optional<std::pair<std::int64_t, std::uint64_t>> first;
+  std::int64_t span_us = 0, last_ns = 0;
+  for (const LogEntry& entry : entries_of(recorded())) {
+    if (first) EXPECT_GE(entry.t_ns, last_ns) << "the log is in order";
+    last_ns = entry.t_ns;
+    if (entry.frame.id != messages::Sync::info.id) continue;
+    const std::uint64_t t_us = from_frame<messages::Sync>(entry.frame).time_us;
+    if (!first) first = {entry.t_ns, t_us};
+    span_us = static_cast<std::int64_t>(t_us - first->second);
+    ASSERT_NEAR(static_cast<double>(entry.t_ns - first->first), 1e3 * static_cast<double>(span_us), 1000);
+  }
+  EXPECT_GT(span_us, 0);
+}
+
 TEST(Convert, RefusesWhatItCannotDoAndLeavesNothing) {
   const std::string bad =
       file("bad.asc", "date Sat Sep 30 15:06:13 2017\nbase hex  timestamps absolute\n0.1 1  800 Rx d 0\n");
@@ -178,6 +193,14 @@ TEST(Convert, RefusesWhatItCannotDoAndLeavesNothing) {
                   "bad.asc:3: expected an id");
   EXPECT_FALSE(fs::exists(scratch("new.log")));
   expect_one_line(hil_bench(fmt::format("log convert {} {}", bad, bad)), "bad.asc");
+  for (const char* ending : {"blf", "mf4", "trc"}) {
+    const std::string other = scratch(std::string("new.") + ending);
+    expect_one_line(hil_bench(fmt::format("log convert {} {}", all_kinds(), other)),
+                    "expected .log (candump), .pcap or .asc");
+    EXPECT_FALSE(std::filesystem::exists(other));
+    expect_one_line(hil_bench(fmt::format("run {} --bus in-process --log {}", scenario("los_quick"), other)),
+                    "expected .log (candump), .pcap or .asc");
+  }
   expect_one_line(hil_bench("log"), "subcommand");
 }
 

@@ -3,7 +3,7 @@
 #include "bench/mapping/player.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <array>
 #include <cmath>
@@ -12,6 +12,7 @@
 
 #include "bench/drive/contract.hpp"
 #include "bench/drive/flight.hpp"
+#include "bench/world/attitude.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/parser/codec.hpp"
 
@@ -25,6 +26,7 @@ BO_ 100 Rates: 8 IMU
  SG_ Count : 32|8@1+ (1,0) [0|0] "" ECU
  SG_ Time : 40|16@1+ (1,0) [0|0] "ms" ECU
  SG_ Mode : 56|8@1+ (1,0) [0|0] "m" ECU
+ SG_ Course : 56|8@1+ (1.5,0) [0|0] "deg" ECU
 BO_ 2147484000 Turned: 8 IMU
  SG_ AngleZ : 7|32@0- (1,0) [0|0] "deg" ECU
  SG_ Millis : 39|8@0+ (1,0) [0|0] "ms" ECU
@@ -111,6 +113,7 @@ struct Flown {
       const std::int64_t due_us = player.due_us();
       nodes::Transmission out;
       player.transmit(out);
+      clipped.add(out.clipped());
       if (out.frames().empty()) continue;
       due.push_back(due_us);
       for (const Frame& frame : out.frames()) frames.push_back(frame);
@@ -127,6 +130,7 @@ struct Flown {
   Conversation conversation;
   std::vector<std::int64_t> due;
   std::vector<Frame> frames;
+  nodes::Clipped clipped;
 };
 
 TEST(Player, AddsIncrementsUpAndTakesTheMeanOfRates) {
@@ -177,9 +181,26 @@ TEST(Player, SaysWhatASignalCouldNotHold) {
       read("", mapping_with("\"Turned.AngleZ\"", "\"Turned.Millis\" = \"time\"\n\"Turned.AngleZ\""));
   ASSERT_TRUE(scenario) << scenario.error().message;
   const Flown flown(*scenario);
-  ASSERT_EQ(flown.conversation.clipped.size(), 1U);
-  EXPECT_EQ(flown.conversation.clipped.at("Turned.Millis"), 37U) << "of 49: from 260 ms on";
+  EXPECT_THAT(flown.clipped.to_text(),
+              testing::ElementsAre("Turned.Millis holds 0 to 255 ms, its node measures 980 (37 times beyond)"))
+      << "of 49: from 260 ms on";
   EXPECT_EQ(flown.value(2 * std::size_t{48}, "Millis"), 255);
+}
+
+// The heading is a little west of north. The bench's own heading is between -180 and 180 deg.
+TEST(Player, SendsAnAngleAsTheEqualAngleThatTheSignalHolds) {
+  const auto scenario = read("[master_ins]\nperiod_ms = 10\nattitude_bias_deg = [0, 0, -60]",
+                             mapping_with("\"Rates.Mode\" = 7", "\"Rates.Course\" = \"master_ins.heading\""));
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  EXPECT_THAT(flown.clipped.to_text(), testing::IsEmpty());
+  for (std::size_t k = 0; k < flown.due.size(); ++k) {
+    const double heading =
+        world::euler_from(flown.truth.at(20'000 * static_cast<std::int64_t>(k + 1)).C_bn).heading;
+    const double wanted = std::remainder(heading / world::units::deg - 60, 360);
+    ASSERT_LT(wanted, 0) << "otherwise this test proves nothing";
+    EXPECT_NEAR(flown.value(2 * k + 1, "Course"), wanted + 360, 1);
+  }
 }
 
 // The flag of a fix is in another message (GpsLongitude) than the height of the fix (GpsLatitude).

@@ -1,0 +1,27 @@
+#include "bench/drive/stimuli.hpp"
+
+#include "bench/drive/dialect.hpp"
+
+namespace canhil::drive {
+
+Result<void> check_stimuli(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                           std::uint64_t run_index) {
+  if (scenario.engagement && scenario.engagement->guidance == world::Guidance::target) return {};
+  scenario::Scenario undisturbed = scenario;
+  undisturbed.faults.clear();
+  auto flight = make_flight(undisturbed, truth, run_index);
+  if (!flight) return tl::unexpected(flight.error());
+  const auto dialect =
+      make_dialect({.scenario = undisturbed, .truth = truth, .flight = *flight, .run_index = run_index});
+  if (!dialect) return {};  // the run itself reports this error
+  const auto schedule =
+      (*dialect)->schedule(std::make_unique<faults::Faults>(undisturbed, run_index, (*dialect)->messages()));
+  while (schedule->due_us() != nodes::never_us) {
+    static_cast<void>(schedule->take());
+    const nodes::Clipped& clipped = schedule->outbox().clipped();
+    if (!clipped.empty()) return failure(clipped.to_text().front());
+  }
+  return {};
+}
+
+}  // namespace canhil::drive
