@@ -14,6 +14,7 @@
 #include "bench/drive/dialect.hpp"
 #include "bench/mapping/listener.hpp"
 #include "bench/mapping/player.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -180,7 +181,7 @@ class MappedDialect final : public Dialect {
   }
   void stop(Link& /*link*/, nodes::Transmission& /*out*/) override {
     if (const auto off = run_command("after", start_.after); !off)
-      fmt::print(stderr, "hil-bench: {}\n", off.error().message);
+      fmt::print(stderr, "hil-bench: {}\n", one_line(off.error().message));
   }
   [[nodiscard]] std::vector<std::string> notes() const override {
     std::vector<std::string> notes;

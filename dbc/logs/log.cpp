@@ -30,19 +30,16 @@ bool is_asc(std::string_view beginning) {
 
 }  // namespace
 
-Result<LogWriter> LogWriter::create(const std::string& path, const std::string& final_name) {
-  std::string name = final_name.empty() ? path : final_name;
-  logs::File file(std::fopen(path.c_str(), "we"));
-  if (!file) return failure(fmt::format("cannot write log '{}': {}", name, std::strerror(errno)));
-  auto sink = name.ends_with(".pcap")  ? logs::pcap_sink(std::move(file))
-              : name.ends_with(".asc") ? logs::asc_sink(std::move(file))
-                                       : logs::candump_sink(std::move(file));
-  return LogWriter(std::move(sink), std::move(name));
+LogWriter::LogWriter(std::FILE* stream, std::string name) : name_(std::move(name)) {
+  logs::File file(stream);
+  sink_ = name_.ends_with(".pcap")  ? logs::pcap_sink(std::move(file))
+          : name_.ends_with(".asc") ? logs::asc_sink(std::move(file))
+                                    : logs::candump_sink(std::move(file));
 }
 
 Result<void> LogWriter::close() {
   if (const int error = sink_->close(); error != 0)
-    return failure(fmt::format("cannot write log '{}': {}", path_, std::strerror(error)));
+    return failure(fmt::format("cannot write log '{}': {}", name_, std::strerror(error)));
   return {};
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,20 +56,17 @@ class LogSource {
 /// the error.
 class LogWriter {
  public:
-  /// Creates the file `path`. The caller may rename the file to `final_name` later. This name (or `path`, if
-  /// `final_name` is empty) determines the format and appears in error messages.
-  static Result<LogWriter> create(const std::string& path, const std::string& final_name = {});
+  /// Writes to a stream, and closes it. `name` is the name of the finished log: it determines the format and
+  /// appears in error messages.
+  LogWriter(std::FILE* stream, std::string name);
   /// Appends an entry. If this fails, close() returns the error.
   void write(const LogEntry& entry) { sink_->write(entry); }
   /// Flushes the buffer and ends the log.
   Result<void> close();
 
  private:
-  LogWriter(std::unique_ptr<LogSink> sink, std::string path)
-      : sink_(std::move(sink)), path_(std::move(path)) {}
-
+  std::string name_;
   std::unique_ptr<LogSink> sink_;
-  std::string path_;
 };
 
 /// Reads a log. A malformed line is an error. Remote frames are skipped, because a DBC does not describe
