@@ -25,7 +25,9 @@ Endings endings_of(const Variant& variant, const Runs& runs) {
   endings.variant = variant.name;
   endings.runs = runs.size();
   for (const RunSeries& run : runs) {
-    if (run.ending.kind == drive::Ending::Kind::wrong_answers) ++endings.wrong;
+    if (run.ending.kind == drive::Ending::Kind::wrong_answers ||
+        run.ending.kind == drive::Ending::Kind::wrong_end)
+      ++endings.wrong;
     if (run.ending.kind == drive::Ending::Kind::completed) {
       ++endings.completed;
       if (!finite(run.samples)) ++endings.not_finite;

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "dbc/text/escape.hpp"
+
 namespace canhil::campaign {
 namespace {
 
@@ -57,8 +59,8 @@ ordered_json json_of(const Answer& answer) {
 
 std::string text(const Campaign& campaign, const Evaluation& evaluation) {
   std::string page;
-  page += fmt::format("{}\n  campaign {} · {} runs · seed {} · {}{}\n\n", campaign.title,
-                      campaign.sources.file, campaign.runs, campaign.seed,
+  page += fmt::format("{}\n  campaign {} · {} runs · seed {} · {}{}\n\n", one_line(campaign.title),
+                      one_line(campaign.sources.file), campaign.runs, campaign.seed,
                       evaluation.target.empty() ? "" : fmt::format("target {} · ", evaluation.target),
                       verdict(evaluation));
 
@@ -70,7 +72,7 @@ std::string text(const Campaign& campaign, const Evaluation& evaluation) {
     if (endings.wrong > 0) page += fmt::format(", {} with wrong answers", endings.wrong);
     if (endings.not_finite > 0)
       page += fmt::format(", {} with values that are not finite", endings.not_finite);
-    if (!endings.first_fault.empty()) page += fmt::format("; {}", endings.first_fault);
+    if (!endings.first_fault.empty()) page += fmt::format("; {}", one_line(endings.first_fault));
     page += '\n';
   }
 

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <csignal>
-#include <cstdio>
 #include <string>
 
 #include "bench/commands/exit_code.hpp"
@@ -20,7 +19,7 @@ inline void catch_interrupts() {
 
 /// The exit code of an interrupted command; `how_to_go_on`: a remark for the user, or empty.
 inline ExitCode end_interrupted(const std::string& how_to_go_on = "") {
-  std::fprintf(stderr, "hil-bench: interrupted%s\n", how_to_go_on.c_str());
+  say("interrupted" + how_to_go_on);
   return ExitCode::not_measured;
 }
 

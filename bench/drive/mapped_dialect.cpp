@@ -12,6 +12,7 @@
 #include "bench/drive/dialect.hpp"
 #include "bench/mapping/listener.hpp"
 #include "bench/mapping/player.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::drive {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/drive/child_process.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -45,7 +46,7 @@ void RigCommands::finish() {
   static const std::atomic<bool> never = false;
   if (!std::exchange(begun_, false) || after_.empty()) return;
   if (const auto done = run_command("after", after_, never); !done)
-    fmt::print(stderr, "hil-bench: {}\n", done.error().message);
+    fmt::print(stderr, "hil-bench: {}\n", one_line(done.error().message));
 }
 
 }  // namespace canhil::drive

@@ -12,6 +12,7 @@
 #include "bench/report/differences.hpp"
 #include "bench/report/latency_tests.hpp"
 #include "bench/report/side_checks.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::report {
 namespace {
@@ -51,7 +52,7 @@ class Comparer {
   Compared operator()() {
     if (auto why = not_comparable()) {
       result_.outcome = Comparison::not_comparable;
-      result_.text = "not comparable: " + *why + "\n";
+      say("not comparable: {}", *why);
       return result_;
     }
     result_.text += differences(before_, after_);
@@ -72,7 +73,7 @@ class Comparer {
  private:
   template <class... Args>
   void say(fmt::format_string<Args...> line, Args&&... args) {
-    result_.text += fmt::format(line, std::forward<Args>(args)...) + "\n";
+    result_.text += one_line(fmt::format(line, std::forward<Args>(args)...)) + "\n";
   }
 
   [[nodiscard]] std::optional<std::string> not_comparable() const {
