@@ -146,6 +146,7 @@ void Monitor::received(const Received& received) {
     ++seen_.target_bad_crc;
   };
   if (frame.size != info->size || frame.fd != info->fd) return spoilt();
+  if (in_handshake_) receivers_[index] = {};  // the commands reset the target's transmit counters
   switch (receivers_[index].check(frame.payload(), info->e2e_data_id)) {
     case e2e::Check::wrong_crc:
       return spoilt();
