@@ -15,6 +15,7 @@
 #include "bench/papers/names.hpp"
 #include "bench/papers/paper.hpp"
 #include "dbc/command_line/command_line.hpp"
+#include "dbc/text/escape.hpp"
 #include "dbc/version/version.hpp"
 
 namespace canhil::commands {
@@ -51,7 +52,8 @@ ExitCode reproduce(const Arguments& arguments) {
     return ExitCode::not_measured;
   }
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  fmt::print("{}\n{:.0f} s; page: {}\n", reproduced->text, s, reproduced->page.string());
+  fmt::print("{}\n{:.0f} s; page: {}\n", for_terminal(reproduced->text), s,
+             one_line(reproduced->page.string()));
   if (reproduced->outcome == papers::Outcome::too_few_runs) {
     fmt::print(stderr, "hil-bench: not judged: the limits are for more runs than these\n");
     return ExitCode::not_measured;

@@ -10,6 +10,7 @@
 
 #include "dbc/command_line/command_line.hpp"
 #include "dbc/realtime/command_line.hpp"
+#include "dbc/text/escape.hpp"
 #include "dbc/version/version.hpp"
 #include "messages/canhil.hpp"
 #include "target/process/event_loop.hpp"
@@ -23,7 +24,7 @@ std::atomic<bool> stop_requested = false;
 void request_stop(int /*signal*/) { stop_requested = true; }
 
 int complain(const canhil::Error& error) {
-  std::fprintf(stderr, "hil-target: %s\n", canhil::command_line::one_line(error.message).c_str());
+  std::fprintf(stderr, "hil-target: %s\n", canhil::one_line(error.message).c_str());
   return exit_usage;
 }
 
@@ -63,7 +64,7 @@ int run(int argc, char** argv) {
   if (const auto request = realtime.request()) {
     if (auto entered = canhil::realtime::enter(*request); !entered) return complain(entered.error());
     const std::string warning = canhil::realtime::frequency_warning(canhil::realtime::standing());
-    if (!warning.empty()) std::fprintf(stderr, "hil-target: %s\n", warning.c_str());
+    if (!warning.empty()) std::fprintf(stderr, "hil-target: %s\n", canhil::one_line(warning).c_str());
   }
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, request_stop);
   const auto served = canhil::target::serve(buses, *format, stop_requested);
@@ -76,7 +77,7 @@ int main(int argc, char** argv) {
   try {
     return canhil::command_line::finish("hil-target", run(argc, argv));
   } catch (const std::exception& error) {  // for example std::bad_alloc
-    std::fprintf(stderr, "hil-target: %s\n", error.what());
+    std::fprintf(stderr, "hil-target: %s\n", canhil::one_line(error.what()).c_str());
     return exit_usage;
   }
 }

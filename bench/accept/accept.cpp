@@ -1,7 +1,6 @@
 #include "bench/accept/accept.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +13,7 @@
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/execute.hpp"
 #include "bench/drive/session.hpp"
+#include "dbc/files/output_file.hpp"
 
 namespace canhil::accept {
 namespace {
@@ -192,13 +192,15 @@ class Run {
     if (options_.seed) {
       for (campaign::Variant& variant : campaign->variants) variant.scenario.seed = *options_.seed;
     }
-    std::error_code no_folder, ignored;
+    std::error_code no_folder;
     const fs::path folder = fs::temp_directory_path(no_folder);
     if (no_folder) return failure("environment TMPDIR: expected a folder, for the results of campaigns");
-    const fs::path file = folder / fmt::format("canhil-accept-{}-{}.sqlite", getpid(), name);
-    fs::remove(file, ignored);
+    const auto results = OutputFile::create((folder / "canhil-accept").string());  // removed at the end
+    if (!results) return tl::unexpected(results.error());
+    const std::string& file = results->temporary_name();
     campaign::Options options;
     options.file = file;
+    options.resume = true;  // the file exists, without content
     options.target = options_.target;
     options.progress = [&](const campaign::Progress& progress) {
       options_.progress(
@@ -213,7 +215,6 @@ class Run {
     const auto flown = campaign::execute(*campaign, options, stop_);
     Result<void> judged;
     if (flown && *flown == campaign::Execution::complete) judged = judge(*campaign, name, file);
-    fs::remove(file, ignored);
     if (!flown && !of_target) return tl::unexpected(flown.error());
     return judged;
   }

@@ -7,6 +7,7 @@
 
 #include "bench/report/page_parts.hpp"
 #include "bench/report/run_reports.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::accept {
 namespace {
@@ -86,7 +87,7 @@ Outcome Report::outcome() const { return checks::outcome_of(suites, &Acceptance:
 std::string text(const Report& report) {
   std::string out;
   for (const Acceptance& suite : report.suites) {
-    out += fmt::format("{}\n\n", suite.title);
+    out += one_line(suite.title) + "\n\n";
     for (const std::string& family : families) {
       for (const Finding& finding : suite.findings) {
         if (finding.requirement.family != family) continue;

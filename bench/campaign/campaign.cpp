@@ -279,6 +279,18 @@ Result<Campaign> read_campaign(const std::filesystem::path& path) {
   });
 }
 
+std::vector<CommandFiles::File> inputs_of(const Campaign& campaign) {
+  std::vector<CommandFiles::File> files{{"campaign", campaign.sources.file}};
+  const fs::path folder = fs::path(campaign.sources.file).parent_path();
+  for (const auto& [name, text] : campaign.sources.scenarios)
+    files.push_back({"scenario, mapping or DBC", (folder / name).string()});
+  for (const Variant& variant : campaign.variants) {
+    for (const scenario::InputFile& input : variant.scenario.inputs)
+      files.push_back({input.role, input.path});
+  }
+  return files;
+}
+
 std::vector<std::size_t> variants_of(const Campaign& campaign, const Metric& metric) {
   std::vector<std::size_t> chosen;
   const std::string other = other_of(metric);

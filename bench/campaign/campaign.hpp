@@ -13,6 +13,7 @@
 
 #include "bench/campaign/metric.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "dbc/files/command_files.hpp"
 #include "dbc/wire/result.hpp"
 #include "dbc/wire/unrounded.hpp"
 
@@ -64,6 +65,9 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
 
 /// Reads a campaign from the texts that were stored with its results.
 Result<Campaign> parse_campaign(const Sources& sources);
+
+/// The files that a campaign reads: itself, its scenarios, their mappings, DBCs and recordings.
+std::vector<CommandFiles::File> inputs_of(const Campaign& campaign);
 
 /// The indices of the variants to which a metric applies.
 std::vector<std::size_t> variants_of(const Campaign& campaign, const Metric& metric);

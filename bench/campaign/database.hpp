@@ -17,11 +17,15 @@ struct Unfit : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// `flags`: the flags of the constructor of SQLite::Database.
+/// `flags`: the flags of the constructor of SQLite::Database. A value of the file can have at most 256 MiB.
 Result<SQLite::Database> open_database(const std::filesystem::path& path, int flags);
 
 /// Throws Unfit if the file is shorter or longer than its header states.
 void check_size(const SQLite::Database& database);
+
+/// Throws Unfit if the file has other tables than `schema` creates, or views, triggers or indices: a query on
+/// them could run without end.
+void check_schema(const SQLite::Database& database, const std::string& schema);
 
 /// Returns SQLite's error as text. `database`: null if the file could not be opened.
 Error in_words(const SQLite::Exception& error, const std::string& file, sqlite3* database);

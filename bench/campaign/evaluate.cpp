@@ -25,6 +25,9 @@ Endings endings_of(const Variant& variant, const Runs& runs) {
   endings.variant = variant.name;
   endings.runs = runs.size();
   for (const RunSeries& run : runs) {
+    if (run.ending.kind == drive::Ending::Kind::wrong_answers ||
+        run.ending.kind == drive::Ending::Kind::wrong_end)
+      ++endings.wrong;
     if (run.ending.kind == drive::Ending::Kind::completed) {
       ++endings.completed;
       if (!finite(run.samples)) ++endings.not_finite;
@@ -47,14 +50,17 @@ Answer answer_of(const Campaign& campaign, const Metric& metric, std::size_t var
   return out;
 }
 
-bool any_failed(const std::vector<Answer>& answers) {
-  return std::ranges::any_of(answers, [](const Answer& answer) { return !answer.passed.value_or(true); });
+// Whether a limit is not met, or a run failed as a run of its own.
+bool any_failed(const Evaluation& of) {
+  return std::ranges::any_of(of.answers,
+                             [](const Answer& answer) { return !answer.passed.value_or(true); }) ||
+         std::ranges::any_of(of.endings, [](const Endings& one) { return one.wrong > 0; });
 }
 
 }  // namespace
 
 std::string Evaluation::not_judged() const {
-  if (any_failed(answers)) return {};
+  if (any_failed(*this)) return {};
   if (answers.empty()) return "nothing was judged: no [[metric]]";
   const auto judged = [this](const std::string* variant) {
     return std::ranges::any_of(answers, [&](const Answer& answer) {
@@ -74,7 +80,7 @@ std::string Evaluation::not_judged() const {
 }
 
 checks::Outcome Evaluation::outcome() const {
-  if (any_failed(answers)) return checks::Outcome::fail;
+  if (any_failed(*this)) return checks::Outcome::fail;
   return not_judged().empty() ? checks::Outcome::pass : checks::Outcome::not_measured;
 }
 

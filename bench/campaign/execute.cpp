@@ -13,6 +13,7 @@
 
 #include "bench/drive/flight.hpp"
 #include "bench/drive/session.hpp"
+#include "bench/world/stoppable.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -80,8 +81,9 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
     const world::FlightRecord& truth = *work.truths[variant];
     const scenario::Scenario& scenario = work.campaign.variants[variant].scenario;
     const auto flown = work.target.empty()
-                           ? drive::run_in_process(scenario, truth, run, work.campaign.rounding)
-                           : drive::run_against(work.target, scenario, truth, run);
+                           ? drive::run_in_process(scenario, truth, run, work.campaign.rounding, stop)
+                           : drive::run_against(work.target, scenario, truth, run, stop);
+    if (stop) break;  // even if this run was completed, or failed because of the interruption
     if (!flown) {
       finishing.fail(in_variant(work.campaign, variant, flown.error()));
       work.halt = true;
@@ -106,11 +108,14 @@ std::vector<Key> open_tasks(const Campaign& campaign, const Shard& shard, std::v
   return tasks;
 }
 
-Result<void> compute_truths(Work& work) {
+Result<void> compute_truths(Work& work, const std::atomic<bool>& stop) {
+  const world::Stoppable stoppable(stop);
   work.truths.resize(work.campaign.variants.size());
   for (const Key& task : work.tasks) {
+    if (stop) return {};
     if (work.truths[task.variant]) continue;
     auto truth = drive::make_truth(work.campaign.variants[task.variant].scenario);
+    if (stop) return {};
     if (!truth) return tl::unexpected(in_variant(work.campaign, task.variant, truth.error()));
     work.truths[task.variant] = std::move(*truth);
   }
@@ -194,7 +199,7 @@ Result<Execution> execute(const Campaign& campaign, const Options& options, cons
             .target = options.target,
             .truths = {},
             .tasks = open_tasks(campaign, options.shard, *stored)};
-  if (auto computed = compute_truths(work); !computed) return tl::unexpected(computed.error());
+  if (auto computed = compute_truths(work, stop); !computed) return tl::unexpected(computed.error());
 
   const std::size_t cores = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
   const std::size_t workers = std::clamp<std::size_t>(cores, 1, std::max<std::size_t>(1, work.tasks.size()));
@@ -216,7 +221,7 @@ Result<Execution> execute(const Campaign& campaign, const Options& options, cons
     options.not_flown(*error);
     return tl::unexpected(*error);
   }
-  return work.next < work.tasks.size() ? Execution::interrupted : Execution::complete;
+  return progress.done < progress.total ? Execution::interrupted : Execution::complete;
 }
 
 }  // namespace canhil::campaign

@@ -5,26 +5,15 @@
 #include <cmath>
 #include <string>
 
+#include "dbc/text/escape.hpp"
 namespace canhil::campaign {
-namespace {
-
-// Quotes a field that contains a comma, a quotation mark or a line break.
-std::string field(std::string_view text) {
-  if (text.find_first_of(",\"\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
-}  // namespace
-
 Result<void> export_csv(const Campaign& campaign, const Store& store,
                         const std::function<Result<void>(std::string_view text)>& give) {
   if (auto given = give("variant,run,t_s,quantity,unit,value\n"); !given) return given;
   for (std::size_t variant = 0; variant < campaign.variants.size(); ++variant) {
     const auto runs = store.load(variant);
     if (!runs) return tl::unexpected(runs.error());
-    const std::string name = field(campaign.variants[variant].name);
+    const std::string name = for_csv(campaign.variants[variant].name);
     for (const RunSeries& run : *runs) {
       std::string lines;
       const auto& kept = run.samples.layout().kept;
@@ -33,7 +22,7 @@ Result<void> export_csv(const Campaign& campaign, const Store& store,
         const auto values = run.samples.values(i);
         for (std::size_t column = 0; column < kept.size(); ++column) {
           if (std::isnan(values[column])) continue;
-          lines += fmt::format("{},{},{:.6f},{},{},{}\n", name, run.run, t_s, kept[column]->name,
+          lines += fmt::format("{},{},{:.6f},{},{},{}\n", name, run.run, t_s, for_csv(kept[column]->name),
                                quantities::si_name(kept[column]->unit), values[column]);
         }
       }

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <map>
 #include <optional>
 #include <string>
 #include <system_error>
 
 #include "bench/campaign/store.hpp"
+#include "dbc/files/output_file.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -91,7 +93,7 @@ Result<Finished> take(const Shards& shards, const Key& key) {
 /// Writes each variant in exactly one transaction, because the bytes of the file depend on the transactions.
 Result<void> write(const std::filesystem::path& file, const Shards& shards, const Campaign& campaign) {
   const Identity& identity = shards.stores[0].identity();
-  auto merged = Store::create(file, identity, shards.stores[0].sources());
+  auto merged = Store::resume(file, identity, shards.stores[0].sources());
   if (!merged) return tl::unexpected(merged.error());
   for (std::size_t variant = 0; variant < campaign.variants.size(); ++variant) {
     std::vector<Finished> runs;
@@ -127,22 +129,16 @@ Result<void> merge(const std::filesystem::path& out, std::span<const std::filesy
   if (!campaign) return tl::unexpected(campaign.error());
   if (auto complete = check_complete(*shards, *campaign); !complete) return complete;
 
-  const std::filesystem::path unfinished = out.string() + ".part";
-  std::error_code error;
-  const auto remove_unfinished = [&] {
+  auto file = OutputFile::create(out.string());
+  if (!file) return tl::unexpected(file.error());
+  if (auto written = write(file->temporary_name(), *shards, *campaign); !written) {
     std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    std::filesystem::remove(unfinished.string() + "-journal", ignored);
-  };
-  remove_unfinished();
-  if (auto written = write(unfinished, *shards, *campaign); !written) {
-    remove_unfinished();
+    std::filesystem::remove(file->temporary_name() + "-journal", ignored);
     return written;
   }
-  std::filesystem::rename(unfinished, out, error);
-  if (!error) return {};
-  remove_unfinished();
-  return failure(fmt::format("{}: cannot be written: {}", out.string(), error.message()));
+  const int error = file->give_name(out.string());
+  if (error == 0) return {};
+  return failure(fmt::format("{}: cannot be written: {}", out.string(), std::strerror(error)));
 }
 
 }  // namespace canhil::campaign

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "dbc/text/escape.hpp"
+
 namespace canhil::campaign {
 namespace {
 
@@ -20,11 +22,10 @@ std::string_view label(const Answer& answer) {
 std::string_view verdict(const Evaluation& evaluation) { return checks::name(evaluation.outcome()); }
 
 ordered_json json_of(const Endings& endings) {
-  ordered_json json{{"name", endings.variant},
-                    {"runs", endings.runs},
-                    {"completed", endings.completed},
-                    {"ended_early", endings.runs - endings.completed},
-                    {"not_finite", endings.not_finite}};
+  ordered_json json{
+      {"name", endings.variant},        {"runs", endings.runs},
+      {"completed", endings.completed}, {"ended_early", endings.runs - endings.completed - endings.wrong},
+      {"wrong_answers", endings.wrong}, {"not_finite", endings.not_finite}};
   if (!endings.first_fault.empty()) json["first_fault"] = endings.first_fault;
   return json;
 }
@@ -58,8 +59,8 @@ ordered_json json_of(const Answer& answer) {
 
 std::string text(const Campaign& campaign, const Evaluation& evaluation) {
   std::string page;
-  page += fmt::format("{}\n  campaign {} · {} runs · seed {} · {}{}\n\n", campaign.title,
-                      campaign.sources.file, campaign.runs, campaign.seed,
+  page += fmt::format("{}\n  campaign {} · {} runs · seed {} · {}{}\n\n", one_line(campaign.title),
+                      one_line(campaign.sources.file), campaign.runs, campaign.seed,
                       evaluation.target.empty() ? "" : fmt::format("target {} · ", evaluation.target),
                       verdict(evaluation));
 
@@ -68,9 +69,10 @@ std::string text(const Campaign& campaign, const Evaluation& evaluation) {
   for (const Endings& endings : evaluation.endings) {
     page += fmt::format("  {:<{}}  {} of {} runs completed", endings.variant, width, endings.completed,
                         endings.runs);
+    if (endings.wrong > 0) page += fmt::format(", {} with wrong answers", endings.wrong);
     if (endings.not_finite > 0)
       page += fmt::format(", {} with values that are not finite", endings.not_finite);
-    if (!endings.first_fault.empty()) page += fmt::format("; {}", endings.first_fault);
+    if (!endings.first_fault.empty()) page += fmt::format("; {}", one_line(endings.first_fault));
     page += '\n';
   }
 

@@ -8,6 +8,7 @@
 
 #include "bench/campaign/database.hpp"
 #include "bench/drive/target_command.hpp"
+#include "dbc/files/output_file.hpp"
 #include "dbc/version/version.hpp"
 #include "messages/canhil.hpp"
 
@@ -84,12 +85,15 @@ void check_format(SQLite::Database& database) {
     throw Unfit(fmt::format("is of format {}, expected {}: it must be flown again", found_format, format));
   if (found != application_id) throw not_results();
   check_size(database);
+  check_schema(database, schema());
 }
 
 Sources read_sources(const SQLite::Database& database) {
   SQLite::Statement row(database, "select kind, name, content from source");
   Sources sources;
-  while (row.executeStep()) {
+  // A damaged file can repeat its rows without end. Each variant has a scenario, a mapping and a DBC at most.
+  for (std::uint64_t rows = 0; row.executeStep(); ++rows) {
+    if (rows > 3 * most_variants) throw not_results();
     if (row.getColumn(0).getString() == "campaign") {
       sources.file = row.getColumn(1).getString();
       sources.text = row.getColumn(2).getString();
@@ -182,7 +186,8 @@ void Store::read_identity() {
                .target = row.getColumn(3),
                .runs = static_cast<std::uint64_t>(row.getColumn(4).getInt64())};
   sources_ = read_sources(database_);
-  if (identity_.runs == 0 || hash_of(identity_, sources_) != row.getColumn(6).getInt64())
+  if (identity_.runs == 0 || identity_.runs > most_runs ||
+      hash_of(identity_, sources_) != row.getColumn(6).getInt64())
     throw Unfit(
         "what it says of its campaign has another hash, expected it as it was written: the file is damaged");
 }
@@ -192,6 +197,7 @@ Result<Store> Store::create(const std::filesystem::path& path, const Identity& i
   if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
     return failure(fmt::format("{}: exists already, expected a new file (or --resume)", path.string()));
   }
+  if (auto created = create_new_file(path.string()); !created) return tl::unexpected(created.error());
   auto store = resume(path, identity, sources);
   if (!store) {  // a file without tables would block the next attempt
     std::error_code ignored;

@@ -35,6 +35,13 @@ struct BusRecord {
                                                        ///< other nodes sent with the id of this message
   std::uint64_t foreign = 0;  ///< frames in the format (classic or FD) that the DBC of the bus does not use
   std::vector<std::string> notes;  ///< other disturbances of the bus: sender and effect, one line each
+
+  /// "the bus was away 2 times": the interface was down, or the controller was bus-off. Empty: it never was.
+  [[nodiscard]] std::string outages() const {
+    const std::uint64_t times = downs + errors.bus_off;
+    if (times == 0) return "";
+    return "the bus was away " + std::to_string(times) + (times == 1 ? " time" : " times");
+  }
 };
 
 }  // namespace canhil::checks

@@ -18,8 +18,8 @@ struct Delay {
 /// residuals, S is the sum of the squares of (rate of the truth minus mean rate), and r is the correlation of
 /// successive residuals. Answers that are not a number are left out. The error states why the delay cannot be
 /// determined: too few answers; the truth is constant, or changes at a constant rate; the answers do not
-/// follow the truth; the half-width of the interval is above `coarsest_delay_s`; the best delay lies at an end
-/// of the search; or two delays fit equally well.
+/// follow the truth; the half-width of the interval is above `coarsest_delay_s`; the best delay lies at an
+/// end of the search; or two delays fit equally well.
 Result<Delay> delay_of(const quantities::Track& track, const scenario::Window& window);
 inline constexpr double coarsest_delay_s = 0.05;
 

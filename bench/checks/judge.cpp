@@ -4,15 +4,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "bench/checks/answer_faults.hpp"
+#include "bench/checks/answered.hpp"
 #include "bench/checks/finding.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
 #include "bench/checks/kinds/protection.hpp"
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/rule.hpp"
+#include "bench/checks/target_state.hpp"
 #include "bench/checks/timing.hpp"
 
 namespace canhil::checks {
@@ -99,11 +102,41 @@ std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule&
   return "";
 }
 
+// The window that contains a stretch; to_us < from_us: the flight has no sample in the stretch.
+scenario::Window window_of(const Stretch& stretch, const Evidence& evidence, std::string_view estimator) {
+  if (!stretch.to_go_s) return stretch.window;
+  scenario::Window window{.from_us = evidence.truth.duration_us, .to_us = 0};
+  for (const auto& [name, track] : evidence.tracks) {
+    if (name != estimator) continue;
+    for (const quantities::Track::ToGo& epoch : track.to_go) {
+      if (epoch.to_go_s < stretch.to_go_s->first || epoch.to_go_s >= stretch.to_go_s->second) continue;
+      window = {std::min(window.from_us, epoch.t_us), std::max(window.to_us, epoch.t_us)};
+    }
+    if (!track.to_go.empty()) break;  // the same for all tracks
+  }
+  return window;
+}
+
+// Why a rule that passes cannot pass, because answers are missing that it should judge; none: it can pass.
+std::optional<Finding> missing_answers(const checks::Rule& rule, const Evidence& evidence) {
+  std::optional<Finding> found;
+  const std::vector<std::string> needed = rule.needs_answers_of();
+  for (const estimators::Estimator* one : evidence.estimators) {
+    if (std::ranges::find(needed, one->name) == needed.end()) continue;
+    const scenario::Window window = window_of(rule.span(), evidence, one->name);
+    for (const std::string_view message : one->closing) {
+      auto missing = missing_answers(evidence.seen, message, window);
+      if (missing && (!found || missing->outcome == Outcome::fail)) found = std::move(missing);
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 bool is_implied(std::string_view kind) {
   return kind == BusErrorLimits::kind || kind == Protection::kind || kind == causes_kind ||
-         kind == groups_kind || kind == stimuli_kind || kind == senders_kind;
+         kind == groups_kind || kind == state_kind || kind == stimuli_kind || kind == senders_kind;
 }
 
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
@@ -135,9 +168,15 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
   Verdict verdict;
   std::vector<scenario::Check> all = scenario.checks;
   if (auto implied = bus_check(scenario, evidence)) all.push_back(std::move(*implied));
-  evidence.tracks = tracks_for(all, evidence);
+  if (evidence.ended_early.empty()) evidence.tracks = tracks_for(all, evidence);
   for (const scenario::Check& check : all) {
     Finding finding = check.rule->judge(evidence);
+    if (finding.outcome == Outcome::pass) {
+      if (auto missing = missing_answers(*check.rule, evidence)) {
+        finding.outcome = missing->outcome;
+        finding.measured = std::move(missing->measured);
+      }
+    }
     std::string why = why_no_truth(scenario, *check.rule, evidence);
     if (why.empty()) why = why_ambiguous(*check.rule, evidence);
     // The target did not get the stimuli that belong to the truth.
@@ -158,30 +197,41 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
                               .measured = std::move(finding.measured),
                               .expected = std::move(finding.expected)});
   }
+  std::ranges::move(of_every_run(scenario, evidence.seen), std::back_inserter(verdict.checks));
+  conclude(verdict, evidence.ended_early);
+  return verdict;
+}
+
+std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const Observations& seen) {
+  std::vector<CheckResult> failed;
   const auto imply = [&](std::string_view kind, Outcome outcome, std::string found,
                          std::string_view expected) {
     if (found.empty()) return;
-    verdict.checks.push_back({.name = std::string(kind),
-                              .kind = std::string(kind),
-                              .requirement = "",
-                              .outcome = outcome,
-                              .measured = std::move(found),
-                              .expected = std::string(expected)});
+    failed.push_back({.name = std::string(kind),
+                      .kind = std::string(kind),
+                      .requirement = "",
+                      .outcome = outcome,
+                      .measured = std::move(found),
+                      .expected = std::string(expected)});
   };
+  std::vector<std::int64_t> events_us;
+  for (const scenario::Check& check : scenario.checks) {
+    if (const auto event_us = check.rule->event_us()) events_us.push_back(*event_us);
+  }
   // If another node sent frames with the bench's ids, the answers may be wrong because of these frames. So
   // wrong answers then lead to 'not measured' instead of 'fail'.
-  const Outcome fault = evidence.seen.bus.intruded.empty() ? Outcome::fail : Outcome::not_measured;
-  imply(causes_kind, fault, wrong_causes(evidence.seen), "each answer with time and counter of its cause");
-  imply(groups_kind, fault, broken_groups(evidence.seen), "all messages of an answer, with one counter");
+  const Outcome fault = seen.bus.intruded.empty() ? Outcome::fail : Outcome::not_measured;
+  imply(causes_kind, fault, wrong_causes(seen), "each answer with time and counter of its cause");
+  imply(groups_kind, fault, broken_groups(seen), "all messages of an answer, with one counter");
+  imply(state_kind, fault, unexplained_state(seen, events_us),
+        "running throughout, no error that nothing explains");
   // A second target sends the same counters.
-  imply(Protection::kind, other_senders(evidence.seen).empty() ? Outcome::fail : Outcome::not_measured,
-        counter_faults(scenario, evidence.seen), "each counter one more than the one before");
-  imply(stimuli_kind, Outcome::not_measured, fmt::format("{}", fmt::join(evidence.seen.clipped, "; ")),
+  imply(Protection::kind, other_senders(seen).empty() ? Outcome::fail : Outcome::not_measured,
+        counter_faults(scenario, seen), "each counter one more than the one before");
+  imply(stimuli_kind, Outcome::not_measured, fmt::format("{}", fmt::join(seen.clipped, "; ")),
         "values that their signals hold");
-  imply(senders_kind, Outcome::not_measured, other_senders(evidence.seen),
-        "each message from its own sender alone");
-  conclude(verdict, evidence.ended_early);
-  return verdict;
+  imply(senders_kind, Outcome::not_measured, other_senders(seen), "each message from its own sender alone");
+  return failed;
 }
 
 }  // namespace canhil::checks

@@ -15,6 +15,9 @@ namespace canhil::checks {
 /// Judges every check of the scenario. A run that ended early fails, regardless of its checks.
 Verdict judge(const scenario::Scenario& scenario, Evidence evidence);
 
+/// The checks that apply to every run, except for that of the bus: those that do not pass.
+std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const Observations& seen);
+
 /// Whether a check of this kind is implied: judge() adds the check although the scenario does not contain it.
 /// The verdict lists an implied check only if the check does not pass.
 bool is_implied(std::string_view kind);

@@ -17,6 +17,7 @@
 #include "bench/checks/host.hpp"
 #include "bench/checks/loss_counts.hpp"
 #include "bench/checks/sighting.hpp"
+#include "bench/checks/target_reports.hpp"
 #include "bench/checks/timing_record.hpp"
 #include "dbc/wire/bit_length.hpp"
 #include "messages/canhil.hpp"
@@ -33,6 +34,15 @@ struct StimulusCount {
     last_us = count == 0 ? valid_us : std::max(last_us, valid_us);
     ++count;
   }
+};
+
+/// A fault of the scenario in this run.
+struct FaultRecord {
+  std::string name;
+  scenario::Window window;         ///< by time of transmission
+  std::int64_t valid_from_us = 0;  ///< earliest time of validity of a sample that the fault may affect
+  bool of_target = false;          ///< the fault acts on the target's process
+  std::uint64_t count = 0;         ///< number of times that the fault took effect; 0: it did not strike
 };
 
 /// Everything that the checks judge, apart from the truth.
@@ -73,8 +83,11 @@ struct Observations {
   std::optional<messages::TargetCounters> counters;  ///< the last counters that the target sent
   std::string target_version{};                      ///< "0.2", from the target's first heartbeat; empty: no
                                                      ///< heartbeat came
-  Complaints complaints;             ///< errors that the target reported in addition to its answers
-  ExpectedCounts expected_counts{};  ///< limits for `counters`
+  Complaints complaints;                  ///< errors that the target reported in addition to its answers
+  TargetReports reports;                  ///< what the target reported about its own state
+  std::vector<FaultRecord> faults{};      ///< the faults of the scenario
+  std::int64_t longest_input_gap_us = 0;  ///< see observe::ReceiverModel::longest_gap_us
+  ExpectedCounts expected_counts{};       ///< limits for `counters`
   std::vector<wire::BitLength> length_by_second{};  ///< lengths of all frames on the bus; see
                                                     ///< observe::LoadMeter
   std::uint32_t target_frames_lost = 0;             ///< lost frames of the target, by their E2E counters

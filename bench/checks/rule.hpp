@@ -10,12 +10,22 @@
 //                                                the estimators whose truth the rule needs; without this
 //                                                function: the estimators of all subjects that are not
 //                                                innovations
+//   std::vector<std::string> needs_answers_of() const
+//                                                the estimators whose answers must not be missing; without
+//                                                this function: the estimators of all subjects
+//   Stretch span() const                         where these answers must not be missing; without this
+//                                                function: `stretch` or `window` or, if the kind has
+//                                                neither, the whole run
+//   std::optional<std::int64_t> event_us() const  the time of an event outside the scenario
 //   std::vector<Subject> paired() const          the quantities whose answers must have certain causes;
 //                                                without this function: all subjects
 //   std::optional<Bar> bar() const               the limits of the rule, for pictures
 //   std::vector<Timed> timed() const             the messages whose times the rule needs, with windows
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,6 +78,9 @@ class Rule {
   [[nodiscard]] virtual Finding judge(const Evidence& evidence) const = 0;
   [[nodiscard]] virtual std::vector<Subject> subjects() const = 0;
   [[nodiscard]] virtual std::vector<std::string> held_against_truth() const = 0;
+  [[nodiscard]] virtual std::vector<std::string> needs_answers_of() const = 0;
+  [[nodiscard]] virtual Stretch span() const = 0;
+  [[nodiscard]] virtual std::optional<std::int64_t> event_us() const = 0;
   [[nodiscard]] virtual std::vector<Subject> paired() const = 0;
   [[nodiscard]] virtual std::optional<Bar> bar() const = 0;
   [[nodiscard]] virtual std::vector<Timed> timed() const = 0;
@@ -92,6 +105,28 @@ class RuleOf final : public Rule {
       }
     }
     return estimators;
+  }
+  [[nodiscard]] std::vector<std::string> needs_answers_of() const override {
+    std::vector<std::string> estimators;
+    if constexpr (requires { kind_.needs_answers_of(); }) {
+      estimators = kind_.needs_answers_of();
+    } else {
+      for (const Subject& subject : subjects()) {
+        if (std::ranges::find(estimators, subject.estimator) == estimators.end())
+          estimators.push_back(subject.estimator);
+      }
+    }
+    return estimators;
+  }
+  [[nodiscard]] Stretch span() const override {
+    if constexpr (requires { kind_.span(); }) return kind_.span();
+    if constexpr (requires { kind_.stretch; }) return kind_.stretch;
+    if constexpr (requires { kind_.window; }) return {.window = kind_.window};
+    return {.window = {.from_us = 0, .to_us = std::numeric_limits<std::int64_t>::max()}};
+  }
+  [[nodiscard]] std::optional<std::int64_t> event_us() const override {
+    if constexpr (requires { kind_.event_us(); }) return kind_.event_us();
+    return std::nullopt;
   }
   [[nodiscard]] std::vector<Subject> paired() const override {
     if constexpr (requires { kind_.paired(); }) return kind_.paired();

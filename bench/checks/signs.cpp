@@ -56,12 +56,23 @@ std::vector<std::string> sign_names(std::span<const estimators::Estimator* const
   return names;
 }
 
+bool was_there_before(const Sign& sign, std::int64_t onset_us) {
+  const auto at = std::ranges::lower_bound(sign.t_us, onset_us - just_before_us);
+  return at != sign.t_us.end() && *at < onset_us;
+}
+
 std::vector<Sign> new_since(std::vector<Sign> signs, std::int64_t onset_us) {
-  std::erase_if(signs, [&](const Sign& sign) {
-    const auto at = std::ranges::lower_bound(sign.t_us, onset_us - just_before_us);
-    return at != sign.t_us.end() && *at < onset_us;
-  });
+  std::erase_if(signs, [&](const Sign& sign) { return was_there_before(sign, onset_us); });
   return signs;
+}
+
+bool can_show_signs(const Observations& seen, std::span<const estimators::Estimator* const> estimators) {
+  const bool heartbeat = std::ranges::find(seen.timing.messages, messages::TargetHeartbeat::info.name,
+                                           &MessageInfo::name) != seen.timing.messages.end();
+  return heartbeat || std::ranges::any_of(estimators, [&](const estimators::Estimator* one) {
+           return std::ranges::any_of(
+               one->marks(seen), [&](const estimators::Mark& mark) { return !is_plain(*one, mark.name); });
+         });
 }
 
 std::optional<SignAt> first_in(std::span<const Sign> signs, std::int64_t from_us, std::int64_t to_us) {

@@ -32,8 +32,13 @@ std::vector<std::string> sign_names(std::span<const estimators::Estimator* const
 /// A sign that appears within this time before a fault is not attributed to the fault.
 inline constexpr std::int64_t just_before_us = 5'000'000;
 
-/// Removes the signs that appeared just before a time, in [onset - just_before_us, onset).
+/// Whether a sign appeared just before a time, in [onset - just_before_us, onset).
+bool was_there_before(const Sign& sign, std::int64_t onset_us);
+/// Removes the signs that appeared just before a time.
 std::vector<Sign> new_since(std::vector<Sign> signs, std::int64_t onset_us);
+
+/// Whether a target can show any sign: a mapped target may have none.
+bool can_show_signs(const Observations& seen, std::span<const estimators::Estimator* const> estimators);
 
 struct SignAt {
   std::int64_t t_us = 0;

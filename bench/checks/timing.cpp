@@ -84,6 +84,16 @@ Distribution distribution_s(const Histogram& histogram) {
                          [&](double q) { return histogram.quantile_ns(q) * 1e-9; });
 }
 
+std::optional<double> quantile_s(const Histogram& recorded, double q, std::uint64_t missing) {
+  const std::uint64_t came = recorded.count();
+  if (missing == 0 && came > 0) return recorded.quantile_ns(q) * 1e-9;
+  const std::size_t place = place_of(q, came + missing);
+  if (place >= came) return std::nullopt;
+  // The quantile of the recorded values that has this rank; half a rank less, so that rounding cannot add
+  // one.
+  return recorded.quantile_ns((static_cast<double>(place) + 0.5) / static_cast<double>(came)) * 1e-9;
+}
+
 const TimedWindow* find_window(const TimingRecord& timing, std::string_view message,
                                const scenario::Window& window) {
   const auto found = std::ranges::find_if(timing.windows, [&](const TimedWindow& timed) {
@@ -113,7 +123,8 @@ std::size_t unanswered(const Observations& seen, std::string_view message) {
   return due - std::min(due, seen.answers[place_of(seen, *info)]);
 }
 
-PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double end_s, double quantile) {
+PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double begin_s, double end_s,
+                                 double quantile) {
   std::vector<std::pair<double, std::uint64_t>> deviations;
   std::uint64_t count = 0;
   const auto add = [&](double period_s, std::uint64_t times) {
@@ -127,7 +138,9 @@ PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, dou
     const auto half_us = static_cast<double>(bucket_width_us(bucket.from_us)) / 2;
     add(std::clamp((static_cast<double>(bucket.from_us) + half_us) * 1e-6, least_s, most_s), bucket.count);
   }
-  if (end_s > nominal_s) add(end_s, 1);
+  for (const double silent_s : {begin_s, end_s}) {
+    if (silent_s > nominal_s) add(silent_s, 1);
+  }
   std::ranges::sort(deviations);
   const auto rank = std::max<std::uint64_t>(
       1, static_cast<std::uint64_t>(std::ceil(quantile * static_cast<double>(count))));
@@ -151,6 +164,12 @@ double ended_before_s(const Observations& seen, const TimedWindow& window) {
   const bool answers = !all_stimuli_of(seen, seen.timing.messages[window.message]).empty();
   const std::int64_t end_ns = answers ? window.last_stimulus_ns.value_or(seen.last_ns) : seen.last_ns;
   return static_cast<double>(end_ns - window.last_arrival.value_or(Arrival{}).t_ns) * 1e-9;
+}
+
+double began_after_s(const Observations& seen, const TimedWindow& window) {
+  const bool answers = !all_stimuli_of(seen, seen.timing.messages[window.message]).empty();
+  const std::int64_t begin_ns = answers ? window.first_stimulus_ns.value_or(seen.first_ns) : seen.first_ns;
+  return static_cast<double>(window.first_arrival.value_or(Arrival{}).t_ns - begin_ns) * 1e-9;
 }
 
 double nominal_period_s(const Observations& seen, std::string_view message) {

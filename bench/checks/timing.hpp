@@ -1,6 +1,8 @@
 // Timing of the target's messages.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -29,6 +31,10 @@ Distribution distribution_s(const Histogram& histogram);
 /// Nearest-rank quantile, 0 < q <= 1, of a non-empty sample.
 double quantile(std::vector<double> sample, double q);
 
+/// Nearest-rank quantile [s] of the recorded values and `missing` more, which count as larger than all
+/// limits. None: the quantile is one of these.
+std::optional<double> quantile_s(const Histogram& recorded, double q, std::uint64_t missing);
+
 /// The timing of a message within a window; null: this timing was not recorded.
 const TimedWindow* find_window(const TimingRecord& timing, std::string_view message,
                                const scenario::Window& window);
@@ -47,13 +53,14 @@ std::optional<std::uint64_t> due(const Observations& seen, std::string_view mess
 
 /// `off_s` is the quantile of |period - nominal period| [s], and `count` is the number of nominal periods. A
 /// gap of n nominal periods counts n times, because a quantile would ignore a long gap that counts once.
-/// `end_s`: the time from the last message to the end; this time counts as a period if it exceeds the nominal
-/// period.
+/// `begin_s`, `end_s`: the time from the begin to the first message, and from the last message to the end;
+/// each counts as a period if it exceeds the nominal period.
 struct PeriodDeviation {
   double off_s = 0;
   std::uint64_t count = 0;
 };
-PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double end_s, double quantile);
+PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double begin_s, double end_s,
+                                 double quantile);
 
 /// The longest time [s] without the given message. The times before the first arrival and after the last
 /// arrival count too.
@@ -69,5 +76,9 @@ double nominal_period_s(const Observations& seen, std::string_view message);
 /// that answers nothing: the time from the last arrival to the bench's last transmission. 0 or less if the
 /// message continued to the end. Requires at least one arrival of the message.
 double ended_before_s(const Observations& seen, const TimedWindow& window);
+
+/// The time [s] from the first stimulus in the window to the message's first arrival in the window. For a
+/// message that answers nothing: the time from the bench's first transmission. Requires at least one arrival.
+double began_after_s(const Observations& seen, const TimedWindow& window);
 
 }  // namespace canhil::checks

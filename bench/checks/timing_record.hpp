@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "bench/checks/histogram.hpp"
 #include "bench/scenario/checks.hpp"
+#include "bench/spool/spool.hpp"
 #include "dbc/ports/port.hpp"
 #include "messages/canhil.hpp"
 
@@ -30,6 +32,14 @@ struct Stimulus {
                                  ///< otherwise the bench's own
   std::int64_t hardware_ns = 0;  ///< the controller's own stamp of the echo; 0: none
   std::int64_t due_ns = 0;       ///< deadline of the frame, on the clock of t_ns
+  bool owed_answer = true;       ///< false: the frames were damaged, incomplete, invalid or late, so the
+                                 ///< target need not answer
+};
+
+/// A stimulus that a message had to answer.
+struct OwedAnswer {
+  std::int64_t valid_us = 0;  ///< time of validity of the stimulus
+  bool came = false;
 };
 
 /// The time [ns] from one stamp to a later stamp. If the controller stamped both events, the time is measured
@@ -93,9 +103,10 @@ struct TimedWindow {
   /// and the time between their deadlines. If the bench sends one stimulus in place of n due stimuli, this
   /// deviation counts n times.
   Histogram stimulus_deviation{};
-  std::optional<Arrival> last_arrival{};
-  std::optional<std::int64_t> last_stimulus_ns{};  ///< stamp of the last stimulus whose time of validity is
-                                                   ///< not after the window
+  std::optional<Arrival> first_arrival{}, last_arrival{};
+  std::optional<std::int64_t> first_stimulus_ns{};  ///< stamp of the first stimulus in the window
+  std::optional<std::int64_t> last_stimulus_ns{};   ///< stamp of the last stimulus whose time of validity is
+                                                    ///< not after the window
 };
 
 /// TargetTiming saturates at this value [us]: a reported time of this value is a lower bound.
@@ -143,9 +154,11 @@ struct TimingRecord {
 
   std::span<const MessageInfo> messages;
   WireFacts wire{};
-  std::vector<AnswerTiming> answers;      ///< by index in `messages`
-  std::vector<TransmitTiming> transmit;   ///< by index in `messages`
-  std::vector<WireResponse> responses;    ///< by wire::Carrier::first
+  std::vector<AnswerTiming> answers;                ///< by index in `messages`
+  std::map<std::size_t, Spool<OwedAnswer>> owed{};  ///< by index in `messages`, of the last message of each
+                                                    ///< answer group
+  std::vector<TransmitTiming> transmit;             ///< by index in `messages`
+  std::vector<WireResponse> responses;              ///< by wire::Carrier::first
   Histogram lateness;                     ///< lateness of all messages of the bench at the hand-over
   TimeLine lateness_line;                 ///< the largest lateness over time
   std::array<std::uint64_t, 5> stamps{};  ///< frames of the target by StampSource

@@ -10,13 +10,17 @@
 #include <vector>
 
 #include "bench/accept/report.hpp"
+#include "bench/campaign/campaign.hpp"
 #include "bench/commands/campaign.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
+#include "bench/drive/inputs.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/report/file.hpp"
+#include "bench/scenario/commands.hpp"
+#include "dbc/files/command_files.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -30,7 +34,7 @@ struct Arguments {
   std::vector<std::string> estimators, families;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> share;
-  bool record = false, first = false;
+  bool record = false, first = false, no_commands = false;
   std::string json, junit, html;
 };
 
@@ -60,20 +64,44 @@ Result<std::vector<accept::Suite>> read(const Arguments& arguments) {
   return suites;
 }
 
-Result<void> check_outputs(const Arguments& arguments) {
-  std::vector<std::string> files = drive::files_of_target(arguments.target);
-  files.insert(files.end(), {arguments.json, arguments.junit, arguments.html});
-  if (auto distinct = report::check_distinct(files); !distinct) return distinct;
-  for (const std::string& path : {arguments.json, arguments.junit, arguments.html}) {
-    if (path.empty() || (path == report::to_stdout && path != arguments.html)) continue;
-    if (auto writable = report::check_writable(path); !writable) return writable;
+// The inputs are all files of the suites, and what their flights and campaigns read in addition. With
+// --record, the references of the flights are outputs.
+Result<void> check_files(const Arguments& arguments, const std::vector<accept::Suite>& suites) {
+  CommandFiles files;
+  files.reads(drive::inputs_of_target(arguments.target));
+  std::error_code unknown;
+  for (const auto& entry : fs::recursive_directory_iterator(arguments.suites, unknown)) {
+    if (!arguments.record && entry.is_regular_file(unknown)) files.reads("suite", entry.path().string());
   }
-  return {};
+  for (const accept::Suite& suite : suites) {
+    for (const accept::Flight& flight : suite.flights) {
+      if (arguments.no_commands) {
+        if (auto fine = scenario::refuse_commands(flight.scenario); !fine) return fine;
+      }
+      files.reads(drive::inputs_of(flight.scenario));
+      if (arguments.record && flight.reference)
+        files.may_write("reference", suite.reference_of(flight).string());
+    }
+    if (suite.dialogue) files.reads(drive::inputs_of(*suite.dialogue));
+    for (const std::string& name : suite.campaigns) {
+      const auto campaign = campaign::read_campaign(suite.folder / name);
+      if (!campaign) return tl::unexpected(campaign.error());
+      for (const campaign::Variant& variant : campaign->variants) {
+        if (!arguments.no_commands) break;
+        if (auto fine = scenario::refuse_commands(variant.scenario); !fine) return fine;
+      }
+      files.reads(campaign::inputs_of(*campaign));
+    }
+  }
+  files.writes("--json", arguments.json);
+  files.writes("--junit", arguments.junit);
+  files.writes_file("--html", arguments.html);
+  return files.check();
 }
 
 Result<void> write_reports(const Arguments& arguments, const accept::Report& all) {
   if (arguments.json != report::to_stdout && arguments.junit != report::to_stdout) {
-    if (auto shown = report::write_stdout(accept::text(all)); !shown) return shown;
+    if (auto shown = report::show(accept::text(all)); !shown) return shown;
   }
   if (!arguments.json.empty()) {
     if (auto written = report::write(arguments.json, accept::json(all)); !written) return written;
@@ -86,9 +114,9 @@ Result<void> write_reports(const Arguments& arguments, const accept::Report& all
 
 ExitCode execute(const Arguments& arguments) {
   if (auto fine = drive::check_target(arguments.target); !fine) return complain(fine.error());
-  if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
   const auto suites = read(arguments);
   if (!suites) return complain(suites.error());
+  if (auto fine = check_files(arguments, *suites); !fine) return complain(fine.error());
   catch_interrupts();
   const ProgressLine line;
   const auto progress = [&](const std::string& what) { line.show([&] { return what; }); };
@@ -96,7 +124,7 @@ ExitCode execute(const Arguments& arguments) {
   for (const accept::Suite& suite : *suites) {
     if (arguments.record) {
       if (auto recorded = accept::record(suite, interrupted, progress); !recorded)
-        return complain(recorded.error());
+        return end_with(recorded.error());
       continue;
     }
     accept::Options options{.target = arguments.target, .seed = arguments.seed};
@@ -105,16 +133,13 @@ ExitCode execute(const Arguments& arguments) {
     options.families = arguments.families;
     options.progress = progress;
     auto one = accept::accept(suite, options, interrupted);
-    if (!one) return complain(one.error());
+    if (!one) return end_with(one.error());
     if (one->findings.empty()) continue;  // none of the selected families is in this suite
     all.suites.push_back(std::move(*one));
     if (interrupted || (arguments.first && all.outcome() == checks::Outcome::fail)) break;
   }
   line.clear();
-  if (interrupted) {
-    fmt::print(stderr, "hil-bench: interrupted\n");
-    return ExitCode::not_measured;
-  }
+  if (interrupted) return end_interrupted();
   if (arguments.record) return ExitCode::pass;
   if (auto written = write_reports(arguments, all); !written) return complain(written.error());
   return exit_code(all.outcome());
@@ -141,6 +166,8 @@ void add_accept(command_line::Command app, int& code) {
                   fmt::format("only requirements of this family; may be given again: {}",
                               fmt::join(accept::families, ", ")))
       .one_word_each();
+  command.add_flag("--no-commands", arguments->no_commands,
+                   "refuse scenarios with shell commands (keys before and after of [target])");
   command.add_flag("--record", arguments->record,
                    "make the references anew, from the target's code in this program");
   command.add_option("--json", arguments->json,

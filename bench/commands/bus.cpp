@@ -17,11 +17,11 @@ ExitCode host(const std::string& bus, bool fd) {
   options.fd = fd;
   options.node_name = "hil-bench bus";
   HubRules rules;
-  rules.on_turned_away = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  rules.on_turned_away = [](const std::string& line) { fmt::print(stderr, "{}\n", one_line(line)); };
   auto hub = host_local_bus(bus, options, std::move(rules));
   if (!hub) return complain(hub.error());
   catch_interrupts();
-  fmt::print("hosting {}; Ctrl-C ends it\n", bus);
+  fmt::print("hosting {}; Ctrl-C ends it\n", one_line(bus));
   std::fflush(stdout);
   run_hub(**hub, [] { return interrupted.load(); });
   return ExitCode::pass;

@@ -19,10 +19,15 @@
 #include "bench/commands/live.hpp"
 #include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
+#include "bench/drive/inputs.hpp"
 #include "bench/drive/session.hpp"
+#include "bench/observe/recorder.hpp"
 #include "bench/papers/names.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/run_reports.hpp"
+#include "bench/report/signature.hpp"
+#include "bench/scenario/commands.hpp"
+#include "dbc/files/command_files.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -40,6 +45,7 @@ struct Arguments {
   std::optional<std::uint64_t> runs;
   bool resume = false;
   bool unrounded = false;
+  bool no_commands = false;
   std::string target;
   std::string json;
   Live live;
@@ -65,6 +71,7 @@ struct ReplayArguments {
   std::optional<std::uint64_t> run;
   std::string variant;
   std::string log;
+  bool no_commands = false;
 };
 
 // A text such as "[===   ] 300 / 1200 runs · 812.1/s · 1 s left".
@@ -98,21 +105,13 @@ Result<void> make_folder(const Arguments& arguments) {
   return {};
 }
 
-// Checks that no output file is also an input file, because input files must not be overwritten.
-Result<void> check_distinct(const campaign::Campaign& campaign, std::vector<std::string> outputs) {
-  outputs.push_back(campaign.sources.file);
-  const fs::path folder = fs::path(campaign.sources.file).parent_path();
-  for (const auto& [name, text] : campaign.sources.scenarios) outputs.push_back((folder / name).string());
-  return report::check_distinct(outputs);
-}
-
 ExitCode print_report(const campaign::Campaign& campaign, const fs::path& file, const std::string& json) {
   const auto store = campaign::Store::open(file);
   if (!store) return complain(store.error());
   const auto evaluation = campaign::evaluate(campaign, *store);
   if (!evaluation) return complain(evaluation.error());
   if (json != report::to_stdout) {
-    if (auto shown = report::write_stdout(campaign::text(campaign, *evaluation)); !shown)
+    if (auto shown = report::show(campaign::text(campaign, *evaluation)); !shown)
       return complain(shown.error());
   }
   if (!json.empty()) {
@@ -128,9 +127,19 @@ Rounding rounding_of(const Arguments& arguments) {
   return arguments.unrounded ? Rounding::none : Rounding::as_on_the_bus;
 }
 
+Result<void> refuse_commands(const campaign::Campaign& campaign) {
+  for (const campaign::Variant& variant : campaign.variants) {
+    if (auto fine = scenario::refuse_commands(variant.scenario); !fine) return fine;
+  }
+  return {};
+}
+
 ExitCode execute(const Arguments& arguments) {
   auto campaign = campaign::read_campaign(arguments.file);
   if (!campaign) return complain(campaign.error());
+  if (arguments.no_commands) {
+    if (auto fine = refuse_commands(*campaign); !fine) return complain(fine.error());
+  }
   if (arguments.runs) campaign->runs = *arguments.runs;
   campaign->rounding = rounding_of(arguments);
   const auto shard =
@@ -141,19 +150,16 @@ ExitCode execute(const Arguments& arguments) {
   }
   const auto file = results_file(arguments, *shard);
   if (!file) return complain(file.error());
-  std::vector<std::string> files = drive::files_of_target(arguments.target);
-  files.insert(files.end(), {file->string(), arguments.json});
-  if (auto distinct = check_distinct(*campaign, std::move(files)); !distinct)
-    return complain(distinct.error());
-  if (!arguments.json.empty()) {
-    if (shard->count > 1)
-      return complain({"--json: a shard has no report, expected all runs: merge them first"});
-    if (arguments.json != report::to_stdout) {
-      if (auto writable = report::check_writable(arguments.json); !writable)
-        return complain(writable.error());
-    }
-  }
+  if (!arguments.json.empty() && shard->count > 1)
+    return complain({"--json: a shard has no report, expected all runs: merge them first"});
+  CommandFiles files;
+  files.reads(campaign::inputs_of(*campaign));
+  files.reads(drive::inputs_of_target(arguments.target));
+  files.may_write("--out", file->string());
+  files.writes("--json", arguments.json);
+  if (auto distinct = files.check_distinct(); !distinct) return complain(distinct.error());
   if (auto made = make_folder(arguments); !made) return complain(made.error());
+  if (auto writable = files.check_writable(); !writable) return complain(writable.error());
 
   auto view = OpenView::open(
       arguments.live,
@@ -185,12 +191,11 @@ ExitCode execute(const Arguments& arguments) {
   }();
   if (!execution) {
     if (view->get() != nullptr) view->get()->show_ended(execution.error().message);
-    return complain(execution.error());
+    return end_with(execution.error());
   }
   if (*execution == campaign::Execution::interrupted) {
     if (course) course->end(checks::Outcome::not_measured, "interrupted");
-    fmt::print(stderr, "hil-bench: interrupted; --resume goes on with {}\n", file->string());
-    return ExitCode::not_measured;
+    return end_interrupted(fmt::format("; --resume goes on with {}", file->string()));
   }
   const ExitCode code = shard->count > 1 ? ExitCode::pass : print_report(*campaign, *file, arguments.json);
   if (course) course->end(outcome_of(code), shard->count > 1 ? "the shard is flown" : "");
@@ -200,7 +205,10 @@ ExitCode execute(const Arguments& arguments) {
 
 ExitCode merge(const MergeArguments& arguments) {
   const std::vector<fs::path> shards(arguments.shards.begin(), arguments.shards.end());
-  if (auto writable = report::check_writable(arguments.out); !writable) return complain(writable.error());
+  CommandFiles files;
+  for (const fs::path& shard : shards) files.reads("shard", shard.string());
+  files.writes_file("OUT", arguments.out);
+  if (auto fine = files.check(); !fine) return complain(fine.error());
   const auto merged = campaign::merge(arguments.out, shards);
   return merged ? ExitCode::pass : complain(merged.error());
 }
@@ -219,6 +227,7 @@ ExitCode report_on(const ReportArguments& arguments) {
   if (!store) return complain(store.error());
   const auto campaign = campaign_of(*store);
   if (!campaign) return complain(campaign.error());
+  say(report::signature_line(arguments.merged));
   return print_report(*campaign, arguments.merged, std::string(arguments.json ? report::to_stdout : ""));
 }
 
@@ -234,6 +243,9 @@ ExitCode export_results(const ExportArguments& arguments) {
 ExitCode replay(const ReplayArguments& arguments) {
   const auto campaign = campaign::read_campaign(arguments.file);
   if (!campaign) return complain(campaign.error());
+  if (arguments.no_commands) {
+    if (auto fine = refuse_commands(*campaign); !fine) return complain(fine.error());
+  }
   const auto* variant = campaign->variants.data();
   if (!arguments.variant.empty()) {
     const auto found = std::ranges::find(campaign->variants, arguments.variant, &campaign::Variant::name);
@@ -253,16 +265,20 @@ ExitCode replay(const ReplayArguments& arguments) {
   options.bus = drive::BusName(std::string(drive::in_process_bus));
   options.run_index = *arguments.run;
   if (!arguments.log.empty()) {
-    if (auto distinct = check_distinct(*campaign, {arguments.log}); !distinct)
-      return complain(distinct.error());
-    if (auto writable = report::check_writable(arguments.log); !writable) return complain(writable.error());
+    CommandFiles files;
+    files.reads(campaign::inputs_of(*campaign));
+    files.writes_file("--log", arguments.log);
+    files.may_write("incomplete log", observe::incomplete_log(arguments.log));
+    if (auto fine = files.check(); !fine) return complain(fine.error());
     options.log_path = arguments.log;
   }
   catch_interrupts();
   const auto finished = drive::run(variant->scenario, options, interrupted, [](std::int64_t) {});
-  if (!finished) return complain(finished.error());
-  fmt::print("variant {} · run {}\n{}", variant->name, options.run_index,
-             report::text(variant->scenario, *finished));
+  if (!finished) return end_with(finished.error());
+  if (auto shown = report::show(fmt::format("variant {} · run {}\n{}", one_line(variant->name),
+                                            options.run_index, report::text(variant->scenario, *finished)));
+      !shown)
+    return complain(shown.error());
   if (finished->log_error) return complain(*finished->log_error);
   return exit_code(finished->verdict.outcome);
 }
@@ -305,6 +321,8 @@ void add_replay(command_line::Command campaign, int& code) {
   command.add_number("RUN", arguments->run, "index of the run, from 0").required();
   command.add_option("--variant", arguments->variant, "by name (default: the first)");
   command.add_option("--log", arguments->log, "record every frame in candump's log format");
+  command.add_flag("--no-commands", arguments->no_commands,
+                   "refuse scenarios with shell commands (keys before and after of [target])");
   command.on_given([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
 }
 
@@ -342,6 +360,9 @@ void add_campaign(command_line::Command app, int& code) {
                        "frames that round nothing: the difference is what the bus's resolution costs");
   const auto json = command.add_option(
       "--json", arguments->json, "write the report as JSON to a file; -: to stdout, in place of the text");
+  const auto no_commands =
+      command.add_flag("--no-commands", arguments->no_commands,
+                       "refuse scenarios with shell commands (keys before and after of [target])");
   const auto live = add_live(command, arguments->live);
   auto paper = std::make_shared<PaperArguments>();
   const auto name =
@@ -350,7 +371,7 @@ void add_campaign(command_line::Command app, int& code) {
   command.add_option("--exact", paper->exact, "with --paper: results without the bus's rounding, to compare")
       .needs(name);
   name.excludes(file);
-  for (const auto& option : {shard, resume, threads, json, target, live}) name.excludes(option);
+  for (const auto& option : {shard, resume, threads, json, target, no_commands, live}) name.excludes(option);
   target.excludes(unrounded);
   command.require_subcommands(0, 1);
   add_merge(command, code);

@@ -17,8 +17,10 @@
 #include "bench/commands/progress_line.hpp"
 #include "bench/commands/subcommands.hpp"
 #include "bench/drive/contract.hpp"
+#include "bench/drive/inputs.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/report/file.hpp"
+#include "dbc/files/command_files.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -74,20 +76,18 @@ Result<std::vector<scenario::Scenario>> candidates(const Arguments& arguments) {
   return all;
 }
 
-Result<void> check_outputs(const Arguments& arguments) {
-  std::vector<std::string> files = drive::files_of_target(arguments.target);
-  files.insert(files.end(), {arguments.scenario, arguments.json, arguments.junit});
-  if (auto distinct = report::check_distinct(files); !distinct) return distinct;
-  for (const std::string& path : {arguments.json, arguments.junit}) {
-    if (path.empty() || path == report::to_stdout) continue;
-    if (auto writable = report::check_writable(path); !writable) return writable;
-  }
-  return {};
+Result<void> check_files(const Arguments& arguments, const std::vector<scenario::Scenario>& flights) {
+  CommandFiles files;
+  files.reads(drive::inputs_of_target(arguments.target));
+  for (const scenario::Scenario& flight : flights) files.reads(drive::inputs_of(flight));
+  files.writes("--json", arguments.json);
+  files.writes("--junit", arguments.junit);
+  return files.check();
 }
 
 Result<void> write_reports(const Arguments& arguments, const conformance::Report& found) {
   if (arguments.json != report::to_stdout && arguments.junit != report::to_stdout) {
-    if (auto shown = report::write_stdout(conformance::text(found)); !shown) return shown;
+    if (auto shown = report::show(conformance::text(found)); !shown) return shown;
   }
   if (!arguments.json.empty()) {
     if (auto written = report::write(arguments.json, conformance::json(found)); !written) return written;
@@ -97,13 +97,13 @@ Result<void> write_reports(const Arguments& arguments, const conformance::Report
 
 ExitCode execute(const Arguments& arguments) {
   if (auto fine = drive::check_target(arguments.target); !fine) return complain(fine.error());
-  if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
   const auto flights = candidates(arguments);
   if (!flights) return complain(flights.error());
+  if (auto fine = check_files(arguments, *flights); !fine) return complain(fine.error());
   catch_interrupts();
   const auto started = std::chrono::steady_clock::now();
-  const auto chosen = conformance::subject_of(*flights, arguments.target);
-  if (!chosen) return complain(chosen.error());
+  const auto chosen = conformance::subject_of(*flights, arguments.target, interrupted);
+  if (!chosen) return end_with(chosen.error());
   conformance::Report found{.target = arguments.target,
                             .estimator = chosen->targets.front().estimator,
                             .algorithm = chosen->targets.front().algorithm,
@@ -114,11 +114,8 @@ ExitCode execute(const Arguments& arguments) {
       conformance::rules(false, false), *chosen, arguments.target, {}, std::nullopt, interrupted,
       [&](const conformance::Rule& rule) { line.show([&] { return std::string(rule.id); }); });
   line.clear();
-  if (!findings) return complain(findings.error());
-  if (interrupted) {
-    fmt::print(stderr, "hil-bench: interrupted\n");
-    return ExitCode::not_measured;
-  }
+  if (!findings) return end_with(findings.error());
+  if (interrupted) return end_interrupted();
   found.findings = std::move(*findings);
   found.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (auto written = write_reports(arguments, found); !written) return complain(written.error());

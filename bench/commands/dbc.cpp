@@ -13,6 +13,7 @@
 #include "bench/mapping/extract.hpp"
 #include "bench/report/file.hpp"
 #include "dbc/codegen/json.hpp"
+#include "dbc/files/command_files.hpp"
 #include "dbc/lint/lint.hpp"
 #include "dbc/parser/parse.hpp"
 #include "dbc/show/show.hpp"
@@ -43,10 +44,11 @@ struct CheckArguments {
   bool json = false;
 };
 
-ExitCode printed(const std::string& text) {
-  const auto shown = report::write_stdout(text);
-  return shown ? ExitCode::pass : complain(shown.error());
-}
+ExitCode code_of(const Result<void>& written) { return written ? ExitCode::pass : complain(written.error()); }
+// For people.
+ExitCode shown(const std::string& text) { return code_of(report::show(text)); }
+// For programs: JSON, CSV.
+ExitCode printed(const std::string& text) { return code_of(report::write_stdout(text)); }
 
 ExitCode write_findings(const LintArguments& arguments, const std::vector<dbc::Linted>& files) {
   if (!arguments.sarif.empty()) {
@@ -54,15 +56,16 @@ ExitCode write_findings(const LintArguments& arguments, const std::vector<dbc::L
     if (!written) return complain(written.error());
     if (arguments.sarif == report::to_stdout) return ExitCode::pass;
   }
-  return printed(arguments.json ? dbc::to_json(files) : dbc::to_text(files));
+  return arguments.json ? printed(dbc::to_json(files)) : shown(dbc::to_text(files));
 }
 
 ExitCode lint(const LintArguments& arguments) {
   if (arguments.json && arguments.sarif == report::to_stdout)
     return complain({"--json, --sarif -: both to standard output, expected one of them"});
-  std::vector<std::string> names = arguments.files;
-  names.push_back(arguments.sarif);
-  if (const auto distinct = report::check_distinct(names); !distinct) return complain(distinct.error());
+  CommandFiles names;
+  for (const std::string& file : arguments.files) names.reads("FILE", file);
+  names.writes("--sarif", arguments.sarif);
+  if (const auto fine = names.check(); !fine) return complain(fine.error());
   std::vector<dbc::Linted> files;
   for (const std::string& file : arguments.files) {
     auto linted = dbc::lint(file);
@@ -84,7 +87,7 @@ void say_warnings(const dbc::Inspection& inspection, const std::string& file) {
   if (warnings == 0) return;
   const std::string line = fmt::format("{}: {} warning{}, which 'hil-bench dbc lint' lists", file, warnings,
                                        warnings == 1 ? "" : "s");
-  fmt::print(stderr, "hil-bench: {}\n", command_line::one_line(line));
+  say(line);
 }
 
 ExitCode show(const ShowArguments& arguments) {
@@ -94,10 +97,10 @@ ExitCode show(const ShowArguments& arguments) {
   if (!database) return complain(database.error());
   say_warnings(*inspection, arguments.file);
   if (arguments.message.empty())
-    return printed(arguments.json ? dbc::to_json(*database) + "\n" : dbc::message_table(*database));
+    return arguments.json ? printed(dbc::to_json(*database) + "\n") : shown(dbc::message_table(*database));
   const auto message = dbc::named_message(*database, arguments.message);
   if (!message) return complain({fmt::format("{}: {}", arguments.file, message.error().message)});
-  return printed(arguments.json ? dbc::to_json(**message) + "\n" : dbc::message_page(**message));
+  return arguments.json ? printed(dbc::to_json(**message) + "\n") : shown(dbc::message_page(**message));
 }
 
 std::string text_of(const mapping::Mapping& mapping, const std::vector<mapping::Remark>& remarks) {
@@ -136,7 +139,7 @@ ExitCode check(const CheckArguments& arguments) {
                      {"what", one.what}});
     text = all.dump(1) + "\n";
   }
-  if (const ExitCode code = printed(text); code != ExitCode::pass) return code;
+  if (const ExitCode code = arguments.json ? printed(text) : shown(text); code != ExitCode::pass) return code;
   return warned ? ExitCode::fail : ExitCode::pass;
 }
 
@@ -166,8 +169,8 @@ ExitCode extract(const ExtractArguments& arguments) {
   const auto extracted = mapping::extract(**mapping, arguments.play, arguments.log);
   if (!extracted) return complain(extracted.error());
   if (extracted->incomplete > 0)
-    fmt::print(stderr, "hil-bench: {}: {} groups of {} were not whole and are left out, {} are there\n",
-               arguments.log, extracted->incomplete, arguments.play, extracted->rows);
+    say(fmt::format("{}: {} groups of {} were not whole and are left out, {} are there", arguments.log,
+                    extracted->incomplete, arguments.play, extracted->rows));
   return printed(extracted->csv);
 }
 
@@ -200,7 +203,7 @@ void add_dbc(command_line::Command app, int& code) {
   add_check(command, code);
   add_extract(command, code);
   command.add_subcommand("rules", "what lint finds, as a table in Markdown").on_given([&code] {
-    code = static_cast<int>(printed(dbc::rule_table()));
+    code = static_cast<int>(shown(dbc::rule_table()));
   });
 }
 

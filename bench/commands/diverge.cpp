@@ -11,8 +11,9 @@ namespace canhil::commands {
 namespace {
 
 void show(const std::string& log, const std::optional<LogEntry>& entry) {
-  if (!entry) return fmt::print("  {}: has no more frames of the target\n", log);
-  fmt::print("  {}: {}\n    {}\n", log, format_log_line(*entry), observe::describe(entry->frame));
+  if (!entry) return fmt::print("  {}: has no more frames of the target\n", one_line(log));
+  fmt::print("  {}: {}\n    {}\n", one_line(log), one_line(format_log_line(*entry)),
+             one_line(observe::describe(entry->frame)));
 }
 
 ExitCode execute(const std::string& log_a, const std::string& log_b) {

@@ -18,6 +18,7 @@
 #include "bench/doctor/loop.hpp"
 #include "bench/doctor/machine_lines.hpp"
 #include "bench/report/file.hpp"
+#include "dbc/files/command_files.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/realtime/command_line.hpp"
 #include "dbc/realtime/host.hpp"
@@ -191,14 +192,13 @@ ExitCode execute(Arguments arguments) {
   if (arguments.cpu) {
     if (auto known = realtime::check_cpu("--cpu", *arguments.cpu); !known) return complain(known.error());
   }
-  const bool to_file = !arguments.json.empty() && arguments.json != report::to_stdout;
-  if (to_file) {
-    if (auto writable = report::check_writable(arguments.json); !writable) return complain(writable.error());
-  }
+  CommandFiles files;
+  files.writes("--json", arguments.json);
+  if (auto fine = files.check(); !fine) return complain(fine.error());
   catch_interrupts();
   const Examination found = examine(arguments);
   if (arguments.json != report::to_stdout) {
-    if (auto shown = report::write_stdout(text(found)); !shown) return complain(shown.error());
+    if (auto shown = report::show(text(found)); !shown) return complain(shown.error());
   }
   if (!arguments.json.empty()) {
     if (auto written = report::write(arguments.json, json(arguments, found)); !written)

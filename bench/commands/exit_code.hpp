@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdio>
+#include <string>
 
 #include "bench/checks/verdict.hpp"
-#include "dbc/command_line/command_line.hpp"
+#include "dbc/text/escape.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::commands {
@@ -24,9 +25,12 @@ constexpr checks::Outcome outcome_of(ExitCode code) {
                                   : checks::Outcome::not_measured;
 }
 
+/// Writes a line to stderr, with the name of the program.
+inline void say(const std::string& line) { std::fprintf(stderr, "hil-bench: %s\n", one_line(line).c_str()); }
+
 /// Reports an error on stderr in one line.
 inline ExitCode complain(const Error& error) {
-  std::fprintf(stderr, "hil-bench: %s\n", command_line::one_line(error.message).c_str());
+  say(error.message);
   return ExitCode::usage;
 }
 

@@ -14,10 +14,14 @@
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/live.hpp"
 #include "bench/commands/progress_line.hpp"
+#include "bench/drive/inputs.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/fault_matrix/execute.hpp"
 #include "bench/fault_matrix/report.hpp"
 #include "bench/report/file.hpp"
+#include "bench/report/signature.hpp"
+#include "bench/scenario/commands.hpp"
+#include "dbc/files/command_files.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -36,7 +40,7 @@ struct Arguments {
   std::string set;
   std::optional<std::uint64_t> seed, runs, threads;
   std::string out, shard, target;
-  bool resume = false;
+  bool resume = false, no_commands = false;
   Shown shown;
   Live live;
 };
@@ -51,23 +55,34 @@ void add_shown(command_line::Command command, Shown& shown) {
   command.add_flag("--markdown", shown.markdown, "as a table of Markdown, in place of the text");
 }
 
-Result<void> check_outputs(const Shown& shown, std::vector<std::string> files, const fs::path& out) {
-  files.insert(files.end(), {shown.json, shown.html});
-  if (auto distinct = report::check_distinct(files); !distinct) return distinct;
-  std::error_code error;  // creates `out` first, because the output files may be in it
-  if (!out.empty()) fs::create_directories(out, error);
-  if (error) return failure(fmt::format("{}: cannot be a folder: {}", out.string(), error.message()));
-  for (const std::string& path : {shown.json, shown.html}) {
-    if (path.empty() || (path == report::to_stdout && path == shown.json)) continue;
-    if (auto writable = report::check_writable(path); !writable) return writable;
+void declare(const Shown& shown, CommandFiles& files) {
+  files.writes("--json", shown.json);
+  files.writes_file("--html", shown.html);
+}
+
+Result<void> check_files(const Arguments& arguments, const fault_matrix::Plan& plan,
+                         const fs::path& results) {
+  CommandFiles files;
+  for (const fault_matrix::Column& column : plan.columns) files.reads(drive::inputs_of(column.scenario));
+  files.reads("--set", arguments.set);
+  files.reads(drive::inputs_of_target(arguments.target));
+  files.may_write("results", results.string());
+  for (std::size_t cell = 0; cell < plan.cells.size(); ++cell) {
+    for (const fs::path& file : fault_matrix::files_of_violation(arguments.out, cell))
+      files.may_write("scenario or log of a violation", file.string());
   }
-  return {};
+  declare(arguments.shown, files);
+  if (auto distinct = files.check_distinct(); !distinct) return distinct;
+  std::error_code error;  // creates the folder first, because the output files may be in it
+  if (!arguments.out.empty()) fs::create_directories(arguments.out, error);
+  if (error) return failure(fmt::format("{}: cannot be a folder: {}", arguments.out, error.message()));
+  return files.check_writable();
 }
 
 ExitCode show(const fault_matrix::Results& results, const Shown& shown, const std::string& folder) {
   if (shown.json != report::to_stdout) {
     const auto text = shown.markdown ? fault_matrix::markdown(results) : fault_matrix::text(results, folder);
-    if (auto written = report::write_stdout(text); !written) return complain(written.error());
+    if (auto written = report::show(text); !written) return complain(written.error());
   }
   if (!shown.json.empty()) {
     if (auto written = report::write(shown.json, fault_matrix::json(results)); !written)
@@ -99,17 +114,19 @@ ExitCode execute(const Arguments& arguments) {
   if (!arguments.target.empty()) {
     if (auto fine = drive::check_target(arguments.target); !fine) return complain(fine.error());
   }
+  if (auto distinct = check_distinct_inputs(arguments.scenarios); !distinct)
+    return complain(distinct.error());
   const auto plan = plan_of(arguments);
   if (!plan) return complain(plan.error());
+  for (const fault_matrix::Column& column : plan->columns) {
+    if (!arguments.no_commands) break;
+    if (auto fine = scenario::refuse_commands(column.scenario); !fine) return complain(fine.error());
+  }
   const fs::path folder = arguments.out;
   const fs::path file =
       folder / (shard->count == 1 ? std::string("faults.jsonl")
                                   : fmt::format("faults-{}-of-{}.jsonl", shard->index, shard->count));
-  std::vector<std::string> files = drive::files_of_target(arguments.target);
-  files.insert(files.end(), arguments.scenarios.begin(), arguments.scenarios.end());
-  files.insert(files.end(), {arguments.set, file.string()});
-  if (auto fine = check_outputs(arguments.shown, std::move(files), folder); !fine)
-    return complain(fine.error());
+  if (auto fine = check_files(arguments, *plan, file); !fine) return complain(fine.error());
 
   live::Batch batch{.title = fmt::format("Faults: {}", fmt::join(arguments.scenarios, ", ")),
                     .of = "flights",
@@ -173,12 +190,12 @@ ExitCode execute(const Arguments& arguments) {
   }();
   if (!flown) {
     if (view->get() != nullptr) view->get()->show_ended(flown.error().message);
-    return complain(flown.error());
+    return end_with(flown.error());
   }
   if (done < cells.size()) {
-    fmt::print(stderr, "hil-bench: interrupted; --resume goes on with {}\n", file.string());
-    return end_live(ExitCode::not_measured, "interrupted");
+    return end_live(end_interrupted(fmt::format("; --resume goes on with {}", file.string())), "interrupted");
   }
+  if (arguments.resume) say(report::signature_line(file.string()));
   if (shard->count == 1) return end_live(show(results, arguments.shown, folder.string()), "");
   const bool violated = std::ranges::any_of(results.cells, [](const auto& cell) {
     return cell.second.response.kind == fault_matrix::Response::Kind::violated;
@@ -188,9 +205,14 @@ ExitCode execute(const Arguments& arguments) {
 
 ExitCode merge(const MergeArguments& arguments) {
   const std::vector<fs::path> files(arguments.files.begin(), arguments.files.end());
-  if (auto fine = check_outputs(arguments.shown, arguments.files, {}); !fine) return complain(fine.error());
+  if (auto distinct = check_distinct_inputs(arguments.files); !distinct) return complain(distinct.error());
+  CommandFiles named;
+  for (const std::string& file : arguments.files) named.reads("RESULTS", file);
+  declare(arguments.shown, named);
+  if (auto fine = named.check(); !fine) return complain(fine.error());
   const auto results = fault_matrix::merged(files);
   if (!results) return complain(results.error());
+  for (const std::string& file : arguments.files) say(report::signature_line(file));
   return show(*results, arguments.shown, files.front().parent_path().string());
 }
 
@@ -216,6 +238,8 @@ void add_faults(command_line::Command app, int& code) {
   command.add_option("--target", arguments->target,
                      "program to fly against, with its arguments, as one word; in lockstep (default: the "
                      "target's own code in process)");
+  command.add_flag("--no-commands", arguments->no_commands,
+                   "refuse scenarios with shell commands (keys before and after of [target])");
   add_shown(command, arguments->shown);
   add_live(command, arguments->live);
   command.require_subcommands(0, 1);

@@ -12,10 +12,14 @@
 #include "bench/commands/progress_line.hpp"
 #include "bench/commands/subcommands.hpp"
 #include "bench/drive/contract.hpp"
+#include "bench/drive/inputs.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/observe/divergence.hpp"
 #include "bench/report/file.hpp"
+#include "bench/scenario/commands.hpp"
+#include "dbc/files/command_files.hpp"
+#include "dbc/files/text_file.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -28,6 +32,7 @@ struct Arguments {
   std::vector<std::string> scenarios;
   std::string target = drive::quoted_word(own_folder() + "/hil-target");
   std::optional<std::uint64_t> tolerance;
+  bool no_commands = false;
   std::string json;
 };
 
@@ -41,15 +46,17 @@ Golden golden(const fs::path& folder, const fs::path& scenario) {
   return {.scenario = folder / (name + ".toml"), .log = folder / (name + ".log")};
 }
 
-// Reads a scenario that can be kept. The frames of a target with a mapping have neither a time base nor
-// values that observe::compare() knows.
-Result<scenario::Scenario> read_golden(const std::string& file) {
-  auto read = drive::read_scenario(file);
+// A scenario that can be kept. The frames of a target with a mapping have neither a time base nor values that
+// observe::compare() knows.
+Result<scenario::Scenario> keepable(Result<scenario::Scenario> read, const std::string& file) {
   if (read && read->foreign != nullptr)
     return failure(
         fmt::format("{}: has a mapping, expected a scenario for a target with canhil's DBC", file));
   return read;
 }
+
+// The log of the flight that `golden check` compares with the stored log.
+fs::path checked_log(const Golden& kept) { return fs::path(kept.log).replace_extension(".check.log"); }
 
 // Flies in lockstep on a private bus. Returns an Error of one line if the flight was not completed.
 Result<void> fly(const scenario::Scenario& scenario, const Arguments& arguments, const fs::path& log) {
@@ -67,14 +74,21 @@ Result<void> fly(const scenario::Scenario& scenario, const Arguments& arguments,
   return {};
 }
 
+Result<void> check_commands(const Arguments& arguments, const scenario::Scenario& scenario) {
+  return arguments.no_commands ? scenario::refuse_commands(scenario) : Result<void>();
+}
+
 ExitCode record(const Arguments& arguments) {
   const fs::path folder = arguments.folder;
-  std::vector<std::string> names;
+  std::vector<std::string> names, texts;
   std::vector<scenario::Scenario> scenarios;
   for (const std::string& scenario : arguments.scenarios) {
     const Golden kept = golden(folder, scenario);
-    auto read = read_golden(scenario);
+    auto text = read_text_file(scenario, "a scenario file", scenario::most_toml_bytes);
+    if (!text) return complain(text.error());
+    auto read = keepable(drive::parse_scenario(*text, scenario), scenario);
     if (!read) return complain(read.error());
+    if (auto fine = check_commands(arguments, *read); !fine) return complain(fine.error());
     if (read->recordings_hash != 0)
       return complain(
           {fmt::format("{}: uses recordings, which are not kept with it, expected a scenario "
@@ -87,20 +101,29 @@ ExitCode record(const Arguments& arguments) {
       return complain({fmt::format("{}: exists already, expected a folder without it", kept.log.string())});
     names.push_back(kept.name());
     scenarios.push_back(std::move(*read));
+    texts.push_back(std::move(*text));
   }
+  CommandFiles files;
+  files.reads(drive::inputs_of_target(arguments.target));
+  for (const scenario::Scenario& scenario : scenarios) {
+    files.reads(drive::inputs_of(scenario));
+    files.may_write("FOLDER", golden(folder, scenario.file).scenario.string());
+    files.may_write("FOLDER", golden(folder, scenario.file).log.string());
+  }
+  if (auto distinct = files.check_distinct(); !distinct) return complain(distinct.error());
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return complain({fmt::format("{}: cannot be a folder: {}", folder.string(), error.message())});
-  for (const scenario::Scenario& scenario : scenarios) {
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const scenario::Scenario& scenario = scenarios[i];
     const Golden kept = golden(folder, scenario.file);
     if (auto flown = fly(scenario, arguments, kept.log); !flown) {
       fs::remove(kept.log, error);
-      return complain(flown.error());
+      return end_with(flown.error());
     }
-    fs::copy_file(scenario.file, kept.scenario, error);
-    if (error)
-      return complain({fmt::format("{}: cannot be written: {}", kept.scenario.string(), error.message())});
-    fmt::print("recorded {}\n", kept.log.string());
+    if (auto copied = report::write_file(kept.scenario.string(), texts[i]); !copied)
+      return complain(copied.error());
+    fmt::print("recorded {}\n", one_line(kept.log.string()));
   }
   return ExitCode::pass;
 }
@@ -130,15 +153,26 @@ ExitCode check(const Arguments& arguments) {
   std::ranges::sort(files);
   std::vector<scenario::Scenario> scenarios;
   for (const fs::path& file : files) {
-    auto read = read_golden(file);
+    auto read = keepable(drive::read_scenario(file), file);
     if (!read) return complain(read.error());  // the input file is wrong, not the target
+    if (auto fine = check_commands(arguments, *read); !fine) return complain(fine.error());
     scenarios.push_back(std::move(*read));
   }
+  CommandFiles named;
+  named.reads(drive::inputs_of_target(arguments.target));
+  for (const scenario::Scenario& scenario : scenarios) {
+    const Golden kept = golden(folder, scenario.file);
+    named.reads(drive::inputs_of(scenario));
+    named.reads("golden log", kept.log.string());
+    named.may_write("log of the check", checked_log(kept).string());
+  }
+  named.writes("--json", arguments.json);
+  if (auto fine = named.check(); !fine) return complain(fine.error());
   auto results = nlohmann::ordered_json::array();
   bool same = true;
   for (const scenario::Scenario& scenario : scenarios) {
     const Golden kept = golden(folder, scenario.file);
-    const fs::path log = folder / (kept.name() + ".check.log");
+    const fs::path log = checked_log(kept);
     std::string what;
     std::size_t frames = 0;
     if (const auto flown = fly(scenario, arguments, log)) {
@@ -148,8 +182,8 @@ ExitCode check(const Arguments& arguments) {
       frames = comparison->compared;
       what = difference(*comparison);
     } else if (interrupted) {
-      fmt::print(stderr, "hil-bench: interrupted\n");
-      return ExitCode::not_measured;
+      fs::remove(log, error);
+      return end_interrupted();
     } else {
       what = flown.error().message;
     }
@@ -160,8 +194,8 @@ ExitCode check(const Arguments& arguments) {
         {{"scenario", kept.name()}, {"outcome", what.empty() ? "pass" : "fail"}, {"frames", frames}});
     if (!what.empty()) results.back()["difference"] = what;
     if (arguments.json == report::to_stdout) continue;
-    fmt::print("  {}  {:<24} {}\n", what.empty() ? "PASS" : "FAIL", kept.name(),
-               what.empty() ? fmt::format("{} frames as recorded", frames) : what);
+    fmt::print("  {}  {:<24} {}\n", what.empty() ? "PASS" : "FAIL", one_line(kept.name()),
+               what.empty() ? fmt::format("{} frames as recorded", frames) : one_line(what));
   }
   if (!arguments.json.empty()) {
     // File names may contain bytes that are not UTF-8; such bytes are replaced.
@@ -184,6 +218,8 @@ void add_golden(command_line::Command app, int& code) {
     own.add_option("FOLDER", arguments->folder, "where scenarios and frames are kept").required();
     own.add_option("--target", arguments->target,
                    "program and its arguments, as one word (default: hil-target beside hil-bench)");
+    own.add_flag("--no-commands", arguments->no_commands,
+                 "refuse scenarios with shell commands (keys before and after of [target])");
     own.on_given([&code, arguments, execute] {
       if (auto fine = drive::check_target(arguments->target); !fine) {
         code = static_cast<int>(complain(fine.error()));

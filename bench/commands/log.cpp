@@ -15,11 +15,13 @@
 #include "bench/commands/reports.hpp"
 #include "bench/commands/subcommands.hpp"
 #include "bench/drive/contract.hpp"
+#include "bench/drive/inputs.hpp"
 #include "bench/drive/recording.hpp"
 #include "bench/recordings/convert.hpp"
 #include "bench/recordings/decode.hpp"
 #include "bench/recordings/replay.hpp"
 #include "bench/report/file.hpp"
+#include "dbc/files/command_files.hpp"
 #include "dbc/parser/parse.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/frame_rules.hpp"
@@ -50,11 +52,13 @@ struct CheckArguments {
 };
 
 ExitCode convert(const std::string& from, const std::string& to) {
-  if (auto distinct = report::check_distinct({from, to}); !distinct) return complain(distinct.error());
-  if (auto writable = report::check_writable(to); !writable) return complain(writable.error());
+  CommandFiles files;
+  files.reads("FROM", from);
+  files.writes_file("TO", to);
+  if (auto fine = files.check(); !fine) return complain(fine.error());
   const auto frames = recordings::convert(from, to);
   if (!frames) return complain(frames.error());
-  fmt::print("{}: {} frames\n", to, *frames);
+  fmt::print("{}: {} frames\n", one_line(to), *frames);
   return ExitCode::pass;
 }
 
@@ -62,11 +66,11 @@ ExitCode decode(const DecodeArguments& arguments) {
   const auto database = dbc::read_file_leniently(arguments.dbc);
   if (!database) return complain(database.error());
   const bool to_stdout = arguments.out == report::to_stdout;
-  if (!to_stdout) {
-    if (auto distinct = report::check_distinct({arguments.log, arguments.dbc, arguments.out}); !distinct)
-      return complain(distinct.error());
-    if (auto writable = report::check_writable(arguments.out); !writable) return complain(writable.error());
-  }
+  CommandFiles files;
+  files.reads("LOG", arguments.log);
+  files.reads("--dbc", arguments.dbc);
+  files.writes("--out", arguments.out);
+  if (auto fine = files.check(); !fine) return complain(fine.error());
   const recordings::DecodeOptions options{.format = arguments.format == "csv" ? recordings::Format::csv
                                                     : arguments.format == "jsonl"
                                                         ? recordings::Format::json_lines
@@ -140,8 +144,8 @@ ExitCode replay(const ReplayArguments& arguments) {
   if (!replayed) return complain(replayed.error());
   const checks::Histogram& late = replayed->lateness;
   fmt::print("{} frames on {}; late by {:.0f} us (median), {:.0f} us (99 %), {:.0f} us (most)\n",
-             replayed->frames, arguments.bus, late.quantile_ns(0.5) / 1e3, late.quantile_ns(0.99) / 1e3,
-             static_cast<double>(late.max_ns()) / 1e3);
+             replayed->frames, one_line(arguments.bus), late.quantile_ns(0.5) / 1e3,
+             late.quantile_ns(0.99) / 1e3, static_cast<double>(late.max_ns()) / 1e3);
   return ExitCode::pass;
 }
 
@@ -152,9 +156,11 @@ ExitCode check(const CheckArguments& arguments) {
     if (auto added = drive::add_faults(*scenario, arguments.faults); !added) return complain(added.error());
   }
   if (arguments.seed) scenario->seed = *arguments.seed;
-  if (auto fine = check_outputs(arguments.reports, {arguments.log, arguments.scenario, arguments.faults});
-      !fine)
-    return complain(fine.error());
+  CommandFiles files;
+  files.reads("LOG", arguments.log);
+  files.reads(drive::inputs_of(*scenario));
+  declare(arguments.reports, files);
+  if (auto fine = files.check(); !fine) return complain(fine.error());
   const auto run = drive::judge_recording(*scenario, arguments.log);
   if (!run) return complain(run.error());
   if (auto written = write_reports(arguments.reports, *scenario, *run); !written)

@@ -9,6 +9,7 @@
 #include "bench/commands/subcommands.hpp"
 #include "bench/recordings/compare_stamps.hpp"
 #include "bench/report/file.hpp"
+#include "dbc/files/command_files.hpp"
 #include "dbc/parser/parse.hpp"
 
 namespace canhil::commands {
@@ -19,9 +20,13 @@ struct Arguments {
 };
 
 ExitCode compare(const Arguments& arguments) {
-  if (auto distinct = report::check_distinct({arguments.a, arguments.b, arguments.dbc, arguments.json});
-      !distinct)
+  // Rejects a log that is compared with itself.
+  if (auto distinct = check_distinct_inputs({arguments.a, arguments.b}); !distinct)
     return complain(distinct.error());
+  CommandFiles files;
+  files.reads({{"A", arguments.a}, {"B", arguments.b}, {"--dbc", arguments.dbc}});
+  files.writes("--json", arguments.json);
+  if (auto fine = files.check(); !fine) return complain(fine.error());
   std::optional<dbc::Database> database;
   if (!arguments.dbc.empty()) {
     auto read = dbc::read_file_leniently(arguments.dbc);
@@ -40,7 +45,7 @@ ExitCode compare(const Arguments& arguments) {
       return complain(written.error());
   }
   if (arguments.json != report::to_stdout) {
-    if (auto shown = report::write_stdout(recordings::to_text(*compared, name)); !shown)
+    if (auto shown = report::show(recordings::to_text(*compared, name)); !shown)
       return complain(shown.error());
   }
   if (compared->all.count == 0) return ExitCode::not_measured;

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <string>
 
+#include "dbc/text/escape.hpp"
+
 namespace canhil::commands {
 
 class ProgressLine {
@@ -20,7 +22,7 @@ class ProgressLine {
   /// Replaces the line by the result of `text()`.
   template <class Text>
   void show(Text&& text) const {
-    if (shown_) fmt::print(stderr, "\r\033[K  {}", text());
+    if (shown_) fmt::print(stderr, "\r\033[K  {}", one_line(text()));
   }
   void clear() const {
     if (shown_) fmt::print(stderr, "\r\033[K");

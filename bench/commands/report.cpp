@@ -12,6 +12,8 @@
 #include "bench/report/compare.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/page.hpp"
+#include "bench/report/signature.hpp"
+#include "dbc/files/command_files.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -29,7 +31,7 @@ Result<void> has_room_for_a_page(const std::string& path) {
   if (std::filesystem::is_other(status))
     return failure(fmt::format(
         "file '{}': is not a regular file, expected one, as its page is to stand beside it", path));
-  return report::check_writable(page_path(path));
+  return check_writable(page_path(path));
 }
 
 Result<void> rebuild(const std::string& path) {
@@ -42,12 +44,16 @@ Result<void> rebuild(const std::string& path) {
 }
 
 ExitCode rebuild_all(const std::vector<std::string>& paths) {
-  std::vector<std::string> all = paths;
-  for (const std::string& path : paths) all.push_back(page_path(path));
-  if (auto distinct = report::check_distinct(all); !distinct) return complain(distinct.error());
+  CommandFiles files;
+  for (const std::string& path : paths) {
+    files.reads("report", path);
+    files.may_write("page", page_path(path));
+  }
+  if (auto distinct = files.check_distinct(); !distinct) return complain(distinct.error());
   for (const std::string& path : paths) {
     if (auto built = rebuild(path); !built) return complain(built.error());
-    fmt::print("{}\n", page_path(path));
+    fmt::print("{}\n", one_line(page_path(path)));
+    say(report::signature_line(path));
   }
   return ExitCode::pass;
 }
@@ -80,7 +86,7 @@ ExitCode compare_sides(Sides sides) {
   }
   // Rejects a run that is given twice, because it would make the scatter between runs look smaller.
   for (const auto* side : {&sides.before, &sides.after}) {
-    if (auto distinct = report::check_distinct(*side); !distinct) return complain(distinct.error());
+    if (auto distinct = check_distinct_inputs(*side); !distinct) return complain(distinct.error());
   }
   const auto before = read_all(sides.before);
   if (!before) return complain(before.error());
@@ -88,7 +94,7 @@ ExitCode compare_sides(Sides sides) {
   if (!after) return complain(after.error());
   const auto compared = report::compare(*before, *after);
   if (!compared) return complain(compared.error());
-  if (auto shown = report::write_stdout(compared->text); !shown) return complain(shown.error());
+  if (auto shown = report::show(compared->text); !shown) return complain(shown.error());
   return compared->outcome == report::Comparison::no_worse ? ExitCode::pass
          : compared->outcome == report::Comparison::worse  ? ExitCode::fail
                                                            : ExitCode::not_measured;

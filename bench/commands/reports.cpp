@@ -20,18 +20,11 @@ void add_reports(command_line::Command command, Reports& reports) {
                      "write a table of time, quantity, estimate, truth, error and sigma to a file");
 }
 
-Result<void> check_outputs(const Reports& reports, std::vector<std::string> others) {
-  others.insert(others.end(), {reports.json, reports.junit, reports.html, reports.csv});
-  if (auto distinct = report::check_distinct(others); !distinct) return distinct;
-  for (const std::string& path : {reports.json, reports.junit}) {
-    if (path.empty() || path == report::to_stdout) continue;
-    if (auto writable = report::check_writable(path); !writable) return writable;
-  }
-  for (const std::string& path : {reports.html, reports.csv}) {
-    if (path.empty()) continue;
-    if (auto writable = report::check_writable(path); !writable) return writable;
-  }
-  return {};
+void declare(const Reports& reports, CommandFiles& files) {
+  files.writes("--json", reports.json);
+  files.writes("--junit", reports.junit);
+  files.writes_file("--html", reports.html);
+  files.writes_file("--csv", reports.csv);
 }
 
 void remove_earlier(const Reports& reports) {
@@ -48,7 +41,7 @@ Result<void> write_reports(const Reports& reports, const scenario::Scenario& sce
     if (all && !written) all = std::move(written);
   };
   if (reports.json != report::to_stdout && reports.junit != report::to_stdout) {
-    note(report::write_stdout(report::text(scenario, run)));
+    note(report::show(report::text(scenario, run)));
   }
   if (!reports.json.empty()) note(report::write(reports.json, report::json(scenario, run)));
   if (!reports.junit.empty()) note(report::write(reports.junit, report::junit(scenario, run)));

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "bench/drive/session.hpp"
 #include "dbc/command_line/command_line.hpp"
+#include "dbc/files/command_files.hpp"
 
 namespace canhil::commands {
 
@@ -16,8 +16,8 @@ struct Reports {
 /// Adds the options --json, --junit, --html, --csv. `reports` must outlive parsing.
 void add_reports(command_line::Command command, Reports& reports);
 
-/// Checks that the report files can be written and that none of them is in `others`. An Error has one line.
-Result<void> check_outputs(const Reports& reports, std::vector<std::string> others);
+/// Declares the report files as outputs.
+void declare(const Reports& reports, CommandFiles& files);
 
 /// Removes reports of an earlier run, so that none can be mistaken for a report of this run, however this run
 /// ends.

@@ -20,10 +20,13 @@
 #include "bench/commands/reports.hpp"
 #include "bench/doctor/interface.hpp"
 #include "bench/drive/contract.hpp"
+#include "bench/drive/inputs.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/live/terminal.hpp"
-#include "bench/report/file.hpp"
+#include "bench/observe/recorder.hpp"
+#include "bench/scenario/commands.hpp"
 #include "bench/scenario/nearest.hpp"
+#include "dbc/files/command_files.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/realtime/command_line.hpp"
 #include "messages/canhil.hpp"
@@ -42,6 +45,7 @@ struct Arguments {
   std::string dbc;                  // empty: the DBC of the scenario
   std::string faults;               // file of additional faults; empty: none
   bool lockstep = false;
+  bool no_commands = false;
   std::optional<std::uint64_t> seed;
   realtime::Options realtime;
   std::optional<int> target_cpu;
@@ -135,12 +139,17 @@ void remove_earlier(const Arguments& arguments) {
   std::filesystem::remove(arguments.log, ignored);
 }
 
-Result<void> check_outputs(const Arguments& arguments) {
-  // Input files must not be overwritten; --dbc and --target, too, may name input files.
-  std::vector<std::string> files = drive::files_of_target(arguments.target);
-  files.insert(files.end(), {arguments.scenario, arguments.faults, arguments.dbc, arguments.log});
-  if (auto fine = check_outputs(arguments.reports, std::move(files)); !fine) return fine;
-  return arguments.log.empty() ? Result<void>() : report::check_writable(arguments.log);
+Result<void> check_files(const Arguments& arguments, const scenario::Scenario& scenario,
+                         const drive::Options& options) {
+  CommandFiles files;
+  files.reads(drive::inputs_of(scenario));
+  if (arguments.dbc != name_of(BusFormat::classic) && arguments.dbc != name_of(BusFormat::fd))
+    files.reads("--dbc", arguments.dbc);
+  if (options.target) files.reads(drive::inputs_of_target(*options.target));
+  declare(arguments.reports, files);
+  files.writes_file("--log", arguments.log);
+  if (!arguments.log.empty()) files.may_write("incomplete log", observe::incomplete_log(arguments.log));
+  return files.check();
 }
 
 Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
@@ -246,12 +255,15 @@ ExitCode execute(const Arguments& arguments) {
   if (!arguments.faults.empty()) {
     if (auto added = drive::add_faults(*scenario, arguments.faults); !added) return complain(added.error());
   }
+  if (arguments.no_commands) {
+    if (auto fine = scenario::refuse_commands(*scenario); !fine) return complain(fine.error());
+  }
   if (auto fine = check_nodes(arguments, *scenario); !fine) return complain(fine.error());
   const auto format = format_of(arguments, *scenario);
   if (!format) return complain(format.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
-  if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
   drive::Options options = options_of(arguments, bus, *format);
+  if (auto fine = check_files(arguments, *scenario, options); !fine) return complain(fine.error());
   std::vector<std::unique_ptr<live::Display>> displays;
   if (arguments.terminal) {
     auto terminal = live::open_terminal();
@@ -278,10 +290,14 @@ ExitCode execute(const Arguments& arguments) {
       view->get()->show_ended(finished.error().message);
     if (arguments.terminal) view->get()->close();  // the terminal is restored before the report is printed
   }
+  if (!finished && interrupted) {
+    complain(finished.error());  // this line also names the log of the handshake
+    return ExitCode::not_measured;
+  }
   if (!finished) return complain(with_controller(finished.error(), arguments.bus));
   if (arguments.realtime.wanted) {
     const std::string warning = realtime::frequency_warning(*finished->host);
-    if (!warning.empty()) fmt::print(stderr, "hil-bench: {}\n", warning);
+    if (!warning.empty()) say(warning);
   }
   if (auto written = write_reports(arguments.reports, *scenario, *finished); !written)
     return complain(written.error());
@@ -316,6 +332,8 @@ void add_run(command_line::Command app, int& code) {
       "scenario's, else canhil)");
   command.add_option("--faults", arguments->faults,
                      "file of [[fault]] tables, in addition to the scenario's (docs/faults.md)");
+  command.add_flag("--no-commands", arguments->no_commands,
+                   "refuse scenarios with shell commands (keys before and after of [target])");
   const auto lockstep =
       command.add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
   realtime::add_options(command, arguments->realtime).excludes(lockstep);

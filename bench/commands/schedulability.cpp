@@ -60,8 +60,8 @@ ExitCode execute(const Arguments& arguments) {
       {.rates = *rates,
        .queues = fifo ? schedulability::Queues::in_order : schedulability::Queues::by_priority,
        .errors = errors_of(arguments)});
-  const auto shown =
-      report::write_stdout(arguments.json ? schedulability::json(analysis) : schedulability::table(analysis));
+  const auto shown = arguments.json ? report::write_stdout(schedulability::json(analysis))
+                                    : report::show(schedulability::table(analysis));
   if (!shown) return complain(shown.error());
   return schedulability::schedulable(analysis) ? ExitCode::pass : ExitCode::fail;
 }

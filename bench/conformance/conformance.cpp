@@ -41,26 +41,31 @@ Result<std::vector<Finding>> ask(const std::vector<Rule>& rules, const scenario:
                                  const std::optional<std::pair<std::string, double>>& apply,
                                  const std::atomic<bool>& stop,
                                  const std::function<void(const Rule&)>& progress) {
-  auto talk = Talk::open(scenario, target);
+  auto talk = Talk::open(scenario, target, stop);
   if (!talk) return tl::unexpected(talk.error());
   Subject subject{.talk = **talk, .parameters = parameters, .apply = apply};
   std::vector<Finding> findings;
   for (const Rule& rule : rules) {
     if (stop) break;
     progress(rule);
-    findings.push_back({rule, rule.ask(subject)});
+    const std::string before = (*talk)->gone();
+    findings.push_back({rule, before.empty() ? rule.ask(subject) : before});
+    // The process must run until the bench ends it, here after the last rule.
+    const std::string after = findings.size() < rules.size() ? (*talk)->gone() : (*talk)->end();
+    std::string& wrong = findings.back().wrong;
+    if (before.empty() && !after.empty()) wrong += (wrong.empty() ? "" : "; ") + after;
   }
   return findings;
 }
 
 Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& candidates,
-                                      const std::string& target) {
+                                      const std::string& target, const std::atomic<bool>& stop) {
   std::vector<std::string> names;
   for (const scenario::Scenario& candidate : candidates) {
     scenario::Scenario chosen = candidate;
     chosen.targets.resize(1);
     chosen.targets.front().parameters.clear();  // parameters differ between targets
-    auto talk = Talk::open(chosen, target);
+    auto talk = Talk::open(chosen, target, stop);
     if (!talk) return tl::unexpected(talk.error());
     scenario::TargetSetup& setup = chosen.targets.front();
     const auto beat = (*talk)->hear<TargetHeartbeat>([](const auto&) { return true; });
@@ -71,6 +76,7 @@ Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& can
     setup.algorithm = std::string(name_of(*algorithm));
     return chosen;
   }
+  if (stop) return failure("interrupted");
   return failure(
       fmt::format("target '{}': accepts none of the estimators {}", target, fmt::join(names, ", ")));
 }

@@ -21,8 +21,9 @@ struct Finding {
   std::string wrong;
 };
 
-/// Starts the target and tests the rules one after another. `scenario` selects the estimator. Returns an
-/// error if the target does not start.
+/// Starts the target and tests the rules one after another. `scenario` selects the estimator. A rule is also
+/// violated if the target's process ends during it, or if it ends with an error when the bench ends it after
+/// the last rule. Returns an error if the target does not start.
 Result<std::vector<Finding>> ask(
     const std::vector<Rule>& rules, const scenario::Scenario& scenario, const std::string& target,
     std::span<const Parameter> parameters, const std::optional<std::pair<std::string, double>>& apply,
@@ -33,7 +34,7 @@ Result<std::vector<Finding>> ask(
 /// whose estimator the target accepts. The returned scenario has an algorithm that the target accepts, and no
 /// parameters. Returns an error if the target does not start, or accepts no candidate.
 Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& candidates,
-                                      const std::string& target);
+                                      const std::string& target, const std::atomic<bool>& stop);
 
 /// The findings for one target.
 struct Report {

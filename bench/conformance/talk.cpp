@@ -3,6 +3,7 @@
 #include "bench/drive/session.hpp"
 
 #include "bench/conformance/groups.hpp"
+#include "bench/world/stoppable.hpp"
 
 namespace canhil::conformance {
 namespace {
@@ -11,7 +12,9 @@ using namespace messages;
 
 }  // namespace
 
-Result<std::unique_ptr<Talk>> Talk::open(const scenario::Scenario& scenario, const std::string& target) {
+Result<std::unique_ptr<Talk>> Talk::open(const scenario::Scenario& scenario, const std::string& target,
+                                         const std::atomic<bool>& stop) {
+  const world::Stoppable stoppable(stop);
   auto truth = drive::make_truth(scenario);
   if (!truth) return tl::unexpected(truth.error());
   auto flight = drive::make_flight(scenario, *truth, 0);
@@ -19,22 +22,23 @@ Result<std::unique_ptr<Talk>> Talk::open(const scenario::Scenario& scenario, con
   const drive::Options options = drive::in_lockstep_against(target);
   auto buses = drive::open_buses(options.bus, {}, BusFormat::classic);
   if (!buses) return tl::unexpected(buses.error());
-  auto started = drive::TargetProcess::start(target, options.bus.text);
+  auto started = drive::start_target(target, options.bus.text);
   if (!started) return tl::unexpected(started.error());
   auto talk = std::make_unique<Talk>(scenario, std::move(*truth), std::move(*flight), std::move(*buses),
-                                     std::move(*started));
+                                     std::move(*started), stop);
   constexpr int attempts = 3;  // the target may still be starting
   for (int i = 0; i < attempts; ++i) {
     if (talk->hear<TargetHeartbeat>([](const auto&) { return true; })) return talk;
-    if (const auto why = talk->target_.ended())
-      return failure(fmt::format("target '{}': {} before its first heartbeat", target, *why));
+    if (const auto end = talk->target_.ended())
+      return failure(fmt::format("target '{}': {} before its first heartbeat", target, to_text(*end)));
+    if (stop) return failure("interrupted");
   }
   return failure(fmt::format("target '{}': no heartbeat within {} s, expected a target", target,
                              attempts * answer_ns / 1'000'000'000));
 }
 
 Talk::Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive::Flight flight,
-           drive::OpenBuses buses, drive::TargetProcess target)
+           drive::OpenBuses buses, drive::ChildProcess target, const std::atomic<bool>& stop)
     : scenario_(scenario),
       truth_(std::move(truth)),
       flight_(std::move(flight)),
@@ -42,6 +46,7 @@ Talk::Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive:
       port_(std::move(buses.port)),
       link_(*port_),
       target_(std::move(target)),
+      stop_(stop),
       attached_(link_, listener_) {}
 
 TargetCommand Talk::command(Command what) const {
@@ -87,6 +92,7 @@ void Talk::send_damaged(int frames) {
   constexpr int at_once = 128;
   for (int i = 0; i < frames; ++i) {
     static_cast<void>(link_.send(frame, patience_ns));
+    if (stop_) return;
     if (i % at_once != at_once - 1) continue;
     send(command(Command::none));
     static_cast<void>(hear<TargetHeartbeat>([](const auto&) { return true; }));
@@ -150,10 +156,28 @@ bool Talk::closes(std::uint16_t step) {
     return false;
   };
   for (static_cast<void>(link_.drain()); !closed(); static_cast<void>(link_.drain())) {
-    if (link_.now_ns() >= deadline_ns) return false;
-    link_.wait_until(deadline_ns);
+    if (over(deadline_ns)) return false;
   }
   return true;
+}
+
+bool Talk::over(std::int64_t deadline_ns) {
+  constexpr std::int64_t look_period_ns = 50'000'000;
+  const std::int64_t now_ns = link_.now_ns();
+  if (stop_ || now_ns >= deadline_ns) return true;
+  link_.wait_until(std::min(deadline_ns, now_ns + look_period_ns));
+  return false;
+}
+
+std::string Talk::gone() {
+  const auto end = target_.ended();
+  return end ? "target: " + to_text(*end) : "";
+}
+
+std::string Talk::end() {
+  if (std::string why = gone(); !why.empty()) return why;
+  const std::string wrong = drive::wrong_end(target_.end(drive::ChildProcess::usual_patience));
+  return wrong.empty() ? "" : "target: " + wrong;
 }
 
 int Talk::fly(std::int64_t duration_us, const Tamper& tamper) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -23,9 +25,11 @@ namespace canhil::conformance {
 class Talk {
  public:
   /// Starts the target and waits for its first heartbeat. `scenario` defines the estimator and the inputs of
-  /// the target, and must outlive the Talk. `target` is the command that starts the target. Returns an error
-  /// if the target does not start or sends no heartbeat, or if the scenario cannot be flown.
-  static Result<std::unique_ptr<Talk>> open(const scenario::Scenario& scenario, const std::string& target);
+  /// the target, and must outlive the Talk, as `stop`, which ends all waiting. `target` is the command that
+  /// starts the target. Returns an error if the target does not start or sends no heartbeat, or if the
+  /// scenario cannot be flown.
+  static Result<std::unique_ptr<Talk>> open(const scenario::Scenario& scenario, const std::string& target,
+                                            const std::atomic<bool>& stop);
 
   /// Makes the command `what`, with the scenario's estimator and algorithm.
   [[nodiscard]] messages::TargetCommand command(messages::Command what) const;
@@ -65,20 +69,20 @@ class Talk {
         const auto message = observe::decode_from_target<Message>(listener_.frames.front());
         if (message && condition(*message)) return message;
       }
-      if (link_.now_ns() >= deadline_ns) return std::nullopt;
-      link_.wait_until(deadline_ns);
+      if (over(deadline_ns)) return std::nullopt;
     }
   }
   bool waits_for(messages::TargetState state);
+  /// Why the dialogue with the target is pointless: its process ended; empty: it runs.
+  [[nodiscard]] std::string gone();
+  /// Ends the target's process. Returns what is wrong with its end; empty: nothing.
+  [[nodiscard]] std::string end();
   /// Listens for `duration_ns`. Returns the received messages of type Message, each with its time stamp.
   template <class Message>
   std::vector<std::pair<std::int64_t, Message>> hear_all(std::int64_t duration_ns) {
     listener_.frames.clear();
     const std::int64_t deadline_ns = link_.now_ns() + duration_ns;
-    while (link_.now_ns() < deadline_ns) {
-      static_cast<void>(link_.drain());
-      link_.wait_until(deadline_ns);
-    }
+    while (!over(deadline_ns)) static_cast<void>(link_.drain());
     static_cast<void>(link_.drain());
     std::vector<std::pair<std::int64_t, Message>> all;
     for (const Received& received : listener_.frames) {
@@ -134,7 +138,7 @@ class Talk {
   }
 
   Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive::Flight flight,
-       drive::OpenBuses buses, drive::TargetProcess target);
+       drive::OpenBuses buses, drive::ChildProcess target, const std::atomic<bool>& stop);
 
  private:
   static constexpr std::int64_t answer_ns = 2'000'000'000, step_ns = 3'000'000'000,
@@ -149,6 +153,8 @@ class Talk {
 
   void send();
   void send(Frame frame);
+  // Waits for a frame, but not for long. Returns whether the deadline has passed, or the dialogue is stopped.
+  bool over(std::int64_t deadline_ns);
   void begin_flight();
   bool closes(std::uint16_t step);
 
@@ -158,7 +164,8 @@ class Talk {
   std::shared_ptr<std::vector<std::string>> notes_;
   std::unique_ptr<Port> port_;
   drive::Link link_;
-  drive::TargetProcess target_;
+  drive::ChildProcess target_;
+  const std::atomic<bool>& stop_;
   nodes::Transmission out_;
   NodeListener listener_;
   drive::Attached attached_;

@@ -9,6 +9,7 @@
 #include "bench/nodes/registry.hpp"
 #include "bench/nodes/time_keeper.hpp"
 #include "bench/scenario/table.hpp"
+#include "bench/world/stoppable.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -96,6 +97,7 @@ estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth&
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
   if (auto dense = check_density(scenario); !dense) return tl::unexpected(dense.error());
   world::FlightRecord truth(scenario.truth, scenario.duration_us, epoch_interval_us(scenario));
+  if (world::Stoppable::stopped()) return failure("interrupted");
   for (const nodes::Kind* kind : nodes::all()) {
     const scenario::NodeSettings* node = scenario.node(kind->table.key);
     if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;

@@ -1,5 +1,10 @@
 #include "bench/drive/judged.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
 #include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/registry.hpp"
 
@@ -7,6 +12,15 @@ namespace canhil::drive {
 
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario) {
+  std::int64_t latency_us = 0;
+  for (const scenario::NodeSettings& node : scenario.nodes)
+    latency_us = std::max(latency_us, node.latency_us());
+  for (const faults::FaultReport& fault : faults.reports())
+    seen.faults.push_back({.name = fault.name,
+                           .window = {fault.from_us, fault.to_us},
+                           .valid_from_us = std::max<std::int64_t>(fault.from_us - latency_us, 0),
+                           .of_target = fault.stage == faults::Stage::target,
+                           .count = fault.count});
   // An estimator may reject a group because of a changed value. A changed order may make a group late. If a
   // fault moves a time of validity into the future, all groups up to that time are late.
   const faults::Tally tally = faults.tally();
@@ -17,14 +31,26 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
   return seen;
 }
 
+Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario) {
+  if (flown.ending.kind != Ending::Kind::completed) return flown;
+  for (const checks::CheckResult& check : checks::of_every_run(scenario, flown.seen)) {
+    flown.ending.kind = Ending::Kind::wrong_answers;
+    flown.ending.detail +=
+        fmt::format("{}{}: {}", flown.ending.detail.empty() ? "" : "; ", check.kind, check.measured);
+  }
+  return flown;
+}
+
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            const Collected& flown, const std::string& timing_unfit) {
+  const bool to_the_end = flown.ending.kind == Ending::Kind::wrong_end;
   checks::Verdict verdict =
       checks::judge(scenario, {.seen = flown.seen,
                                .truth = truth_of(truth, flown.per_run_truth, scenario.duration_us),
                                .estimators = estimators::in(scenario),
-                               .ended_early = flown.ending.detail,
+                               .ended_early = to_the_end ? "" : flown.ending.detail,
                                .timing_unfit = timing_unfit});
+  if (to_the_end) checks::conclude(verdict, flown.ending.detail);
   if (flown.ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
   return verdict;
 }

@@ -11,6 +11,10 @@ namespace canhil::drive {
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario);
 
+/// A completed run of a campaign against a program, judged by the checks of every run. If one does not pass,
+/// the ending is `wrong_answers` and says why.
+Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario);
+
 /// The verdict on a flight, whether or not it was completed.
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            const Collected& flown, const std::string& timing_unfit);

@@ -2,9 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace canhil::drive {
+namespace {
+
+// How often a wait is left to look at `stop` and `gone`: a signal may reach another thread.
+constexpr std::int64_t look_period_ns = 50'000'000;
+
+}  // namespace
+
 Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch, std::int64_t step_limit_ns,
-                    const std::atomic<bool>& stop, const Progress& progress) {
+                    const std::atomic<bool>& stop, const Progress& progress, const Gone& gone) {
   const Attached attached(link, watch);
   std::int64_t progress_due_us = 0;
   std::int64_t t_us = 0;
@@ -12,6 +21,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch,
 
   while (schedule.due_us() != nodes::never_us) {
     t_us = schedule.due_us();
+    if (stop) return {Ending::Kind::interrupted, t_us, "interrupted"};
     link.set_time(t_us * 1000);
     if (t_us >= progress_due_us) {
       progress(t_us);
@@ -33,6 +43,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch,
       }
       if (watch.step_done()) break;
       if (stop) return {Ending::Kind::interrupted, t_us, "interrupted"};
+      if (const auto why = gone()) return gone_at(t_us, *why);
       const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
       if (deadline_ns == 0) deadline_ns = now + step_limit_ns;
       if (now > deadline_ns) {
@@ -40,7 +51,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch,
                 fmt::format("target silent since t={:.3f} s: {} was not answered",
                             static_cast<double>(t_us) * 1e-6, watch.step())};
       }
-      link.wait_until(deadline_ns);
+      link.wait_until(std::min(deadline_ns, now + look_period_ns));
     }
     if (auto fault = watch.fault()) return {Ending::Kind::target_fault, t_us, *fault};
   }

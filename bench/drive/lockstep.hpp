@@ -11,9 +11,9 @@
 namespace canhil::drive {
 
 /// Sends the frames of each step; the watch decides which frame closes the step and when the next step may
-/// begin. The frames and their order are the same as in run_real_time(). If the target does not answer a step
-/// within `step_limit_ns`, the run ends.
+/// begin. The frames and their order are the same as in run_real_time(). The run ends early if the target
+/// does not answer a step within `step_limit_ns`, if `gone` returns a reason, or if `stop` is set.
 Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch, std::int64_t step_limit_ns,
-                    const std::atomic<bool>& stop, const Progress& progress);
+                    const std::atomic<bool>& stop, const Progress& progress, const Gone& gone = never_gone);
 
 }  // namespace canhil::drive

@@ -4,16 +4,15 @@
 // settling time.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 
 #include "bench/checks/judge.hpp"
 #include "bench/drive/dialect.hpp"
 #include "bench/mapping/listener.hpp"
 #include "bench/mapping/player.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -109,14 +108,6 @@ class Strangers final : public observe::Observer {
   std::set<std::uint32_t> ids_;
 };
 
-Result<void> run_command(std::string_view key, const std::string& command) {
-  if (command.empty()) return {};
-  const int status = std::system(command.c_str());  // blocks, so it is called only before and after a run
-  if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  return failure(fmt::format("key 'target.{}': '{}' ended with {}, expected 0", key, command,
-                             status != -1 && WIFEXITED(status) ? WEXITSTATUS(status) : -1));
-}
-
 class MappedDialect final : public Dialect {
  public:
   MappedDialect(const Setting& setting, const mapping::Mapping& mapping)
@@ -156,8 +147,6 @@ class MappedDialect final : public Dialect {
 
   Result<void> configure(Link& link, nodes::Transmission& /*out*/,
                          const std::function<std::optional<std::string>()>& gone) override {
-    if (auto powered = run_command("before", start_.before); !powered)
-      return failure(fmt::format("{}: {}", of_.scenario.file, powered.error().message));
     MappedWatch watch(conversation_);
     Strangers strangers(places_);
     const Attached watched(link, watch), others(link, strangers);
@@ -178,10 +167,7 @@ class MappedDialect final : public Dialect {
     }
     return {};
   }
-  void stop(Link& /*link*/, nodes::Transmission& /*out*/) override {
-    if (const auto off = run_command("after", start_.after); !off)
-      fmt::print(stderr, "hil-bench: {}\n", off.error().message);
-  }
+  void stop(Link& /*link*/, nodes::Transmission& /*out*/) override {}
   [[nodiscard]] std::int64_t silence_limit_ns() const override { return start_.silence_us * 1000; }
 
  private:

@@ -26,7 +26,7 @@ std::string took_none(const Link& link, std::int64_t due_us) {
 
 Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch,
                      std::int64_t silence_limit_ns, const std::atomic<bool>& stop, const Progress& progress,
-                     std::int64_t spin_ns) {
+                     std::int64_t spin_ns, const Gone& gone) {
   const std::int64_t start_ns = link.now_ns() + lead_ns;
   const auto bench_us = [&](std::int64_t t_ns) { return (t_ns - start_ns) / ns_per_us; };
   const Attached attached(link, watch);
@@ -58,6 +58,7 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
       if (state == LinkState::down) return Ending{Ending::Kind::bus_down, bench_us(now), "the bus is gone"};
       if (stop) return Ending{Ending::Kind::interrupted, bench_us(now), "interrupted"};
       if (auto fault = watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), *fault};
+      if (const auto why = gone()) return gone_at(bench_us(now), *why);
       if (now > excused_until_ns()) return silent();
       if (now >= deadline_ns) return std::nullopt;
       if (now >= deadline_ns - spin_ns) continue;

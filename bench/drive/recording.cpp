@@ -18,16 +18,20 @@ namespace {
 
 constexpr std::string_view unknown_lateness = "a recording does not say when its frames were due";
 
-// Does nothing, because the recorded frames already contain the effects of faults that act on the target or
-// on the interface.
+// Acts on nothing, because the recorded frames already contain the effects of faults that act on the target
+// or on the interface.
 class NoRigControl final : public faults::RigControl {
  public:
+  explicit NoRigControl(const std::unique_ptr<observe::Watcher>& watcher) : watcher_(watcher) {}
   void pause_target() override {}
   void resume_target() override {}
-  void restart_target(std::int64_t /*t_us*/) override {}
+  void restart_target(std::int64_t /*t_us*/) override { watcher_->target_restarts(); }
   void report_error(const Frame& /*error*/) override {}
   void interface_down(std::int64_t /*for_us*/) override {}
   void interface_up() override {}
+
+ private:
+  const std::unique_ptr<observe::Watcher>& watcher_;
 };
 
 const MessageInfo* find(std::span<const MessageInfo> messages, const Frame& frame) {
@@ -167,6 +171,7 @@ class Recording {
       }
       if (auto fault = target_->fault()) return Ending{Ending::Kind::target_fault, t_us, *fault};
     }
+    flown_ = true;
     if (auto heard = hear(); !heard) return tl::unexpected(heard.error());
     if (auto fault = target_->fault()) return Ending{Ending::Kind::target_fault, t_us, *fault};
     return Ending{Ending::Kind::completed, t_us, ""};
@@ -188,7 +193,8 @@ class Recording {
       const bool handshake =
           message != nullptr && !target && scenario_.foreign == nullptr && message->cycle_time_us == 0;
       if (!target && !handshake && (message != nullptr || entry.transmitted)) return {};
-      if (begun_ && !handshake) hear(entry);
+      over_ = over_ || (flown_ && handshake);  // the bench stops the target
+      if (begun_ && !handshake && !over_) hear(entry);
       if (auto read = frames_.advance(); !read) return tl::unexpected(read.error());
     }
     return {};
@@ -232,7 +238,7 @@ class Recording {
   Frames frames_;
   std::string log_;
   Manner manner_;
-  NoRigControl hands_;
+  NoRigControl hands_{watcher_};
   std::unique_ptr<Dialect> dialect_;
   std::unique_ptr<Schedule> schedule_;
   std::unique_ptr<observe::Watcher> watcher_;
@@ -240,6 +246,8 @@ class Recording {
   observe::LoadMeter load_;
   std::vector<observe::Observer*> observers_;
   bool begun_ = false;
+  bool flown_ = false;  // the bench has sent the last frame of the schedule
+  bool over_ = false;
   std::int64_t first_ns_ = 0, last_ns_ = 0;  // stamps
   std::int64_t first_us_ = 0;                // deadline of the first frame
 };

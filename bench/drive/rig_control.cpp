@@ -50,7 +50,7 @@ InterfaceFacts interface_facts(const std::string& bus) {
           .may_set = set_flag(bus, std::nullopt)};  // writes the flags unchanged: a test of permission
 }
 
-RunRigControl::RunRigControl(std::string bus, std::optional<TargetProcess>& target,
+RunRigControl::RunRigControl(std::string bus, std::optional<ChildProcess>& target,
                              std::function<void(std::int64_t)> restart)
     : bus_(std::move(bus)), target_(target), restart_(std::move(restart)) {}
 

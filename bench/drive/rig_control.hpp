@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "bench/drive/target_process.hpp"
+#include "bench/drive/child_process.hpp"
 #include "bench/faults/injector.hpp"
 #include "bench/faults/place.hpp"
 
@@ -23,7 +23,7 @@ class RunRigControl final : public faults::RigControl {
  public:
   /// `target`: has no value until the target is started; must outlive this object. `restart`: restarts the
   /// target.
-  RunRigControl(std::string bus, std::optional<TargetProcess>& target,
+  RunRigControl(std::string bus, std::optional<ChildProcess>& target,
                 std::function<void(std::int64_t t_us)> restart);
   ~RunRigControl() override;
 
@@ -36,7 +36,7 @@ class RunRigControl final : public faults::RigControl {
 
  private:
   std::string bus_;
-  std::optional<TargetProcess>& target_;
+  std::optional<ChildProcess>& target_;
   std::function<void(std::int64_t)> restart_;
   std::thread up_;   // sets the interface up again
   int errors_ = -1;  // a socket on the interface, opened on demand

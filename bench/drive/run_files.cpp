@@ -2,29 +2,42 @@
 
 #include <filesystem>
 
+#include "bench/drive/inputs.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/scenario/foreign.hpp"
 
 namespace canhil::drive {
 
+std::vector<CommandFiles::File> inputs_of(const scenario::Scenario& scenario) {
+  std::vector<CommandFiles::File> files{{"scenario", scenario.file}};
+  for (const scenario::InputFile& input : scenario.inputs) files.push_back({input.role, input.path});
+  if (scenario.foreign != nullptr) {
+    files.push_back({"mapping", scenario.foreign->file});
+    files.push_back({"DBC", scenario.foreign->dbc_file});
+  }
+  return files;
+}
+
+std::vector<CommandFiles::File> inputs_of_target(const std::string& command) {
+  std::vector<CommandFiles::File> files;
+  for (const std::string& file : files_of_target(command))
+    files.push_back({files.empty() ? "target" : "target argument", file});
+  return files;
+}
+
 std::vector<RunFile> files_of(const scenario::Scenario& scenario, const Options& options, bool in_process) {
   std::vector<RunFile> files;
-  const auto add = [&](const std::string& role, const std::string& path) {
-    if (auto identity = identify_file(path)) files.push_back({role, path, std::move(*identity)});
+  const auto add = [&](const std::vector<CommandFiles::File>& named) {
+    for (const auto& [role, path] : named) {
+      if (auto identity = identify_file(path)) files.push_back({role, path, std::move(*identity)});
+    }
   };
   std::error_code unknown;
-  add("bench", std::filesystem::read_symlink("/proc/self/exe", unknown).string());
-  if (options.target && !in_process) {
-    for (const std::string& file : files_of_target(*options.target))
-      add(file == files_of_target(*options.target).front() ? "target" : "target argument", file);
-  }
-  add("scenario", scenario.file);
-  for (const scenario::InputFile& input : scenario.inputs) add(input.role, input.path);
-  if (scenario.foreign != nullptr) {
-    add("mapping", scenario.foreign->file);
-    add("DBC", scenario.foreign->dbc_file);
-  } else {
+  add({{"bench", std::filesystem::read_symlink("/proc/self/exe", unknown).string()}});
+  if (options.target && !in_process) add(inputs_of_target(*options.target));
+  add(inputs_of(scenario));
+  if (scenario.foreign == nullptr) {
     const bool fd = options.format == BusFormat::fd;
     files.push_back({"DBC",
                      fd ? "canhil-fd.dbc (built in)" : "canhil.dbc (built in)",

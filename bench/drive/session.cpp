@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <utility>
 
 #include "bench/checks/other_senders.hpp"
@@ -10,6 +11,7 @@
 #include "bench/drive/dialect.hpp"
 #include "bench/drive/judged.hpp"
 #include "bench/drive/lockstep.hpp"
+#include "bench/drive/rig_commands.hpp"
 #include "bench/drive/rig_control.hpp"
 #include "bench/drive/stimuli.hpp"
 #include "bench/drive/target_process.hpp"
@@ -21,6 +23,7 @@
 #include "bench/observe/load_meter.hpp"
 #include "bench/observe/recorder.hpp"
 #include "bench/scenario/foreign.hpp"
+#include "bench/world/stoppable.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -39,6 +42,11 @@ observe::LoadBy load_by(const Capabilities& bus, ClockKind clock, bool time_base
   if (clock == ClockKind::lockstep)
     return bus.in_process ? observe::LoadBy::time_base_alone : observe::LoadBy::time_base;
   return bus.wire.rates.nominal > 0 ? observe::LoadBy::stamps : observe::LoadBy::time_base;
+}
+
+RigCommands rig_commands_of(const scenario::Scenario& scenario) {
+  const scenario::OwnStart start = scenario.targets.front().own_start.value_or(scenario::OwnStart{});
+  return {start.before, start.after};
 }
 
 // One run, stage by stage: open, configure, drive, collect.
@@ -77,7 +85,8 @@ class Session {
         hands_(options.bus.text, target_, [this](std::int64_t t_us) { restart_target(t_us); }),
         link_(*port_),
         bus_watch_(*port_),
-        load_(options.format, load_by(bus_, clock_, scenario.foreign == nullptr)) {}
+        load_(options.format, load_by(bus_, clock_, scenario.foreign == nullptr)),
+        commands_(rig_commands_of(scenario)) {}
 
   // Creates the dialect. After this call the session is complete.
   Result<void> speak() {
@@ -96,7 +105,8 @@ class Session {
     if (auto work = faults::check(scenario_.faults, where); !work) return work;
     schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(scenario_, options_.run_index,
                                                                     dialect_->messages(), where, &hands_));
-    watcher_ = dialect_->watcher(options_.for_verdict);
+    // A campaign against a program judges the causes of its answers, which needs their stimuli.
+    watcher_ = dialect_->watcher(options_.for_verdict || options_.target.has_value());
     if (!options_.for_verdict) return {};
     link_.attach(bus_watch_);
     link_.attach(intruders_.emplace(dialect_->messages()));
@@ -105,13 +115,16 @@ class Session {
 
   // Configures the target and starts its estimators.
   Result<void> configure(const std::atomic<bool>& stop) {
-    auto ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(stop); });
+    auto ready = commands_.begin(stop);
+    if (!ready) return failure(fmt::format("{}: {}", scenario_.file, ready.error().message));
+    ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(stop); });
     if (!ready) return failure(explained(ready.error().message) + log_of_the_handshake());
     return ready;
   }
 
   // Flies to the end, or as far as possible.
   void drive(const std::atomic<bool>& stop, const Progress& progress) {
+    stop_ = &stop;
     const Attached monitored(link_, *watcher_);
     std::optional<Attached> load_watched, host_watched;
     if (options_.for_verdict) {
@@ -128,22 +141,26 @@ class Session {
     if (options_.realtime && target_)
       static_cast<void>(realtime::own_memory_again());  // locking memory was permitted at the start
     const auto target = dialect_->target_watch(bus_.in_process);
+    const Gone is_gone = [this] { return gone(false); };
     ending_ = clock_ == ClockKind::lockstep
-                  ? run_lockstep(link_, *schedule_, *target, step_limit_ns, stop, progress)
+                  ? run_lockstep(link_, *schedule_, *target, step_limit_ns, stop, progress, is_gone)
                   : run_real_time(link_, *schedule_, *target, dialect_->silence_limit_ns(), stop, progress,
-                                  options_.spin_ns);
+                                  options_.spin_ns, is_gone);
   }
 
-  // Stops the target and closes the log.
+  // Stops the target, closes the log and ends the target's process.
   Collected collect() {
     schedule_->end();
     if (ending_.kind == Ending::Kind::target_silent) ending_.detail += why_silent();
+    const auto ended_before = gone(false);
     if (options_.for_verdict) dialect_->stop(link_, schedule_->outbox());
+    commands_.finish();
     if (options_.onlooker != nullptr) options_.onlooker->landed();
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
     seen.clipped = schedule_->outbox().clipped().to_text();
     if (options_.for_verdict) add_watched(seen);
+    end_target(ended_before, seen.bus.notes);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),
                      .seen = std::move(seen),
@@ -179,8 +196,8 @@ class Session {
   // Why waiting for the target is pointless; none: the bench can wait.
   std::optional<std::string> gone(bool stop) {
     if (stop) return "interrupted";
-    const auto why = target_ ? target_->ended() : std::nullopt;
-    return why ? std::optional("target: " + *why) : std::nullopt;
+    const auto end = target_ ? target_->ended() : std::nullopt;
+    return end ? std::optional("target: " + to_text(*end)) : std::nullopt;
   }
 
   [[nodiscard]] Departure departure() {
@@ -213,13 +230,13 @@ class Session {
 
   // Restarts the target for a fault. If the restart fails, the target stays silent, which ends the run.
   void restart_target(std::int64_t t_us) {
-    target_->kill_it();
+    target_->send_signal(SIGKILL);
     target_.reset();
+    watcher_->target_restarts();
     auto ready = start_target(target_cpus_);
     flight_.initial = initial_states(scenario_, truth_, flight_.per_run_truth, options_.run_index, t_us);
-    if (ready) ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(false); });
+    if (ready) ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(*stop_); });
     if (!ready) restart_error_ = "; restarted: " + ready.error().message;
-    watcher_->target_restarted();
   }
 
   Result<void> start_target(const std::vector<int>& cpus) {
@@ -229,8 +246,8 @@ class Session {
     // On CAN FD, every target gets the option --dbc, so that the target uses the same DBC as the bench.
     if (options_.format == BusFormat::fd)
       arguments.insert(arguments.end(), {"--dbc", std::string(name_of(options_.format))});
-    return TargetProcess::start(*options_.target, options_.bus.text, arguments, cpus)
-        .map([&](TargetProcess started) { target_.emplace(std::move(started)); });
+    return drive::start_target(*options_.target, options_.bus.text, arguments, cpus)
+        .map([&](ChildProcess started) { target_.emplace(std::move(started)); });
   }
 
   // Closes the log of a run that did not begin. Returns a text with the name of the log, for the end of the
@@ -244,12 +261,22 @@ class Session {
 
   std::string why_silent() {
     if (!restart_error_.empty()) return restart_error_;
-    if (target_) {
-      if (const auto why = target_->ended()) return fmt::format(" (its process {})", *why);
-      if (target_->stopped()) return " (its process is stopped by a signal)";
-    }
+    if (target_ && target_->stopped()) return " (its process is stopped by a signal)";
     if (clock_ == ClockKind::lockstep) return {};
     return load_.full_wire(ending_.t_us * 1000 + dialect_->silence_limit_ns(), bus_.wire.rates);
+  }
+
+  // Ends the target's process. `ended_before`: how it ended before the bench stopped it; none: it did not.
+  void end_target(const std::optional<std::string>& ended_before, std::vector<std::string>& notes) {
+    if (!target_) return;
+    const bool judged = ending_.kind != Ending::Kind::interrupted;
+    const auto patience = judged ? ChildProcess::usual_patience : ChildProcess::short_patience;
+    const ProcessEnd end = target_->end(patience);
+    if (!judged) return;
+    if (end.killed)
+      notes.push_back(fmt::format("the target did not end within {} s after SIGTERM and was killed",
+                                  patience.count() / 1000));
+    ending_ = with_process_end(std::move(ending_), ended_before, end);
   }
 
   // The note about other senders on the bus comes before all other notes.
@@ -288,7 +315,9 @@ class Session {
   observe::LoadMeter load_;
   std::optional<observe::HostWatch> host_;  // watches from its construction on
   std::unique_ptr<observe::Recorder> log_;
-  std::optional<TargetProcess> target_;
+  std::optional<ChildProcess> target_;
+  RigCommands commands_;  // after the target: `after` runs before the target's process ends
+  const std::atomic<bool>* stop_ = nullptr;  // of the flight
   std::vector<int> target_cpus_;
   std::string restart_error_;
   Ending ending_;
@@ -296,8 +325,7 @@ class Session {
 
 // Flies a run without the measurements that only a verdict needs.
 Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                   std::uint64_t run_index, Options options) {
-  static const std::atomic<bool> never = false;
+                                   std::uint64_t run_index, Options options, const std::atomic<bool>& stop) {
   auto flight = make_flight(scenario, truth, run_index);
   if (!flight) {
     return Collected{.ending = {.kind = Ending::Kind::not_flown, .t_us = 0, .detail = flight.error().message},
@@ -308,9 +336,10 @@ Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const wor
   options.for_verdict = false;
   const auto session = Session::open(scenario, truth, std::move(*flight), options);
   if (!session) return tl::unexpected(session.error());
-  if (auto ready = (*session)->configure(never); !ready) return tl::unexpected(ready.error());
-  (*session)->drive(never, [](std::int64_t) {});
-  return (*session)->collect();
+  if (auto ready = (*session)->configure(stop); !ready) return tl::unexpected(ready.error());
+  (*session)->drive(stop, [](std::int64_t) {});
+  Collected flown = (*session)->collect();
+  return options.target ? judged_as_a_run(std::move(flown), scenario) : std::move(flown);
 }
 
 }  // namespace
@@ -341,6 +370,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
   const auto in_file = [&](const Error& error) {
     return failure(fmt::format("{}: {}", scenario.file, error.message));
   };
+  const world::Stoppable stoppable(stop);
   auto truth = make_truth(scenario);
   if (!truth) return in_file(truth.error());
   auto flight = make_flight(scenario, *truth, options.run_index);
@@ -381,19 +411,20 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
 }
 
 Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                 std::uint64_t run_index, Rounding rounding) {
+                                 std::uint64_t run_index, Rounding rounding, const std::atomic<bool>& stop) {
   Options options;
   options.bus = BusName(std::string(rounding == Rounding::none ? unrounded_bus : in_process_bus));
-  return fly_for_campaign(scenario, truth, run_index, std::move(options));
+  return fly_for_campaign(scenario, truth, run_index, std::move(options), stop);
 }
 
 Result<Collected> run_against(const std::string& target, const scenario::Scenario& scenario,
-                              const world::FlightRecord& truth, std::uint64_t run_index) {
+                              const world::FlightRecord& truth, std::uint64_t run_index,
+                              const std::atomic<bool>& stop) {
   Options options = in_lockstep_against(target);
   // If answers do not name their cause, the bench cannot see when a step of virtual time is complete.
   options.lockstep = scenario.foreign == nullptr || scenario.foreign->answers_by_name;
   options.format = format_of(scenario);
-  return fly_for_campaign(scenario, truth, run_index, std::move(options));
+  return fly_for_campaign(scenario, truth, run_index, std::move(options), stop);
 }
 
 }  // namespace canhil::drive

@@ -1,43 +1,30 @@
 // The target as a child process of the bench.
 #pragma once
 
-#include <sys/types.h>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "dbc/wire/result.hpp"
+#include "bench/drive/child_process.hpp"
+#include "bench/drive/ending.hpp"
 
 namespace canhil::drive {
 
-/// A started target. The destructor of this object terminates the target; if the bench dies, the kernel
-/// terminates the target.
-class TargetProcess {
- public:
-  /// Starts `COMMAND --bus BUS`, followed by the arguments `more`, on the given CPUs (if `cpus` is empty: on
-  /// the bench's CPUs). target_words() splits the command into words. Error: the program cannot be started.
-  static Result<TargetProcess> start(const std::string& command, const std::string& bus,
-                                     const std::vector<std::string>& more = {},
-                                     const std::vector<int>& cpus = {});
+/// Starts `COMMAND --bus BUS`, followed by the arguments `more`, on the given CPUs (if `cpus` is empty: on
+/// the bench's CPUs). target_words() splits the command into words. Error, one line: the program cannot be
+/// started.
+Result<ChildProcess> start_target(const std::string& command, const std::string& bus,
+                                  const std::vector<std::string>& more = {},
+                                  const std::vector<int>& cpus = {});
 
-  TargetProcess(TargetProcess&& other) noexcept;
-  TargetProcess(const TargetProcess&) = delete;
-  TargetProcess& operator=(const TargetProcess&) = delete;
-  ~TargetProcess();
+/// The ending of a run, given how the target's process ended. A target that the bench started must run until
+/// the bench stops it, and must then end without an error (wrong_end()). `ended_before`: how it ended before
+/// the bench stopped it; none: it did not.
+Ending with_process_end(Ending ending, const std::optional<std::string>& ended_before, const ProcessEnd& end);
 
-  /// How the process ended, as a phrase for people; none: the process is running.
-  std::optional<std::string> ended();
-  /// True while the process is stopped by a signal such as SIGSTOP.
-  [[nodiscard]] bool stopped() const;
-  /// Sends a signal if the process is still running.
-  void send_signal(int signal);
-  /// Kills the process immediately (SIGKILL).
-  void kill_it();
-
- private:
-  explicit TargetProcess(pid_t pid) : pid_(pid) {}
-  pid_t pid_ = -1;
-  std::optional<std::string> ended_;
-};
+/// What is wrong with the end of a target that ran until the bench ended it with SIGTERM, or that the bench
+/// told to stop before; empty: it ended as it should. By the convention of shells and of Java, a program may
+/// also exit with 128 plus the number of the signal.
+std::string wrong_end(const ProcessEnd& end);
 
 }  // namespace canhil::drive

@@ -63,7 +63,7 @@ class Flights {
         workers.emplace_back([&] {
           for (std::size_t index = next++; index < count && !stop_; index = next++) {
             const auto flown = fly_one(index);
-            if (flown) continue;
+            if (flown || stop_) continue;
             const std::scoped_lock lock(mutex_);
             if (!error) error = flown.error();
             next = count;
@@ -128,9 +128,7 @@ class Flights {
       return response.kind == Response::Kind::violated && response.check == check;
     };
     const Minimised least = minimise(cell.faults, run.ending.t_us, shows);
-    const fs::path file = options_.folder / fmt::format("violation-{}.toml", finished.cell);
-    fs::path log = file;
-    log.replace_extension(".log");
+    const auto [file, log] = files_of_violation(options_.folder, finished.cell);
     // A scenario needs at least one check. If the violated check is in judged_by, the saved scenario contains
     // this check. Any other violation ends the run or belongs to an implied check, which is made in every
     // run; the saved scenario then contains the check `answering`.
@@ -156,6 +154,11 @@ class Flights {
 };
 
 }  // namespace
+
+std::array<fs::path, 2> files_of_violation(const fs::path& folder, std::size_t cell) {
+  const std::string name = fmt::format("violation-{}", cell);
+  return {folder / (name + ".toml"), folder / (name + ".log")};
+}
 
 std::string replay_command(const std::string& file, const std::string& target) {
   if (target.empty()) return fmt::format("hil-bench run {} --bus in-process", file);

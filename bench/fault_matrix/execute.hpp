@@ -2,6 +2,7 @@
 // threads, shards or interruptions.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <filesystem>
@@ -20,6 +21,10 @@ struct Options {
   unsigned threads = 0;          ///< number of threads; 0: one per core
   std::function<Result<void>(Finished)> finished;  ///< receives each finished cell; calls do not overlap
 };
+
+/// The files in which a violation in a cell is saved: the minimal scenario, and the log of its flight.
+std::array<std::filesystem::path, 2> files_of_violation(const std::filesystem::path& folder,
+                                                        std::size_t cell);
 
 /// The command that repeats a saved violation, for example "hil-bench run FILE --bus in-process".
 std::string replay_command(const std::string& file, const std::string& target);

@@ -10,6 +10,7 @@
 #include "bench/fault_matrix/execute.hpp"
 #include "bench/fault_matrix/summary.hpp"
 #include "bench/report/page_parts.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::fault_matrix {
 namespace {
@@ -28,7 +29,7 @@ std::vector<std::string> lines_of(const Results& results, Kind kind, const std::
                                    head_of(results.identity.columns[cell.column]),
                                    results.identity.runs > 1 ? fmt::format(", run {}", cell.run) : "",
                                    to_text(cell.response));
-    lines.push_back(std::move(line));
+    lines.push_back(one_line(line));
     if (cell.replay.empty()) continue;
     for (const std::string& fault : cell.faults) lines.push_back("  flown: " + fault);
     for (const std::string& fault : cell.least) lines.push_back("  least: " + fault);
@@ -94,7 +95,8 @@ std::string text(const Results& results, const std::string& folder) {
                                 identity.runs, identity.runs == 1 ? "" : "s", target_words(identity));
   // Prints one table per scenario: cells are too wide for several scenarios side by side on a terminal.
   for (std::size_t column = 0; column < identity.columns.size(); ++column) {
-    out += fmt::format("\n{} ({})\n", head_of(identity.columns[column]), identity.columns[column].estimators);
+    out += fmt::format("\n{} ({})\n", one_line(head_of(identity.columns[column])),
+                       identity.columns[column].estimators);
     for (std::size_t row = 0; row < identity.rows.size(); ++row) {
       const auto cells = cells_of(results, row, column);
       if (!cells.empty())

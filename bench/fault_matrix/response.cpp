@@ -50,6 +50,18 @@ std::vector<Sign> signs_beyond(std::vector<Sign> signs, const std::vector<Sign>&
   return signs;
 }
 
+// A sign that lasted from before the fault to its end: it hides what the target would report of the fault.
+// Empty: there is none.
+std::string hidden_by(const std::vector<Sign>& signs, std::int64_t onset_us, std::int64_t end_us,
+                      std::int64_t duration_us) {
+  for (const Sign& sign : signs) {
+    if (checks::was_there_before(sign, onset_us) && checks::first_in({&sign, 1}, onset_us, end_us) &&
+        (end_us >= duration_us || checks::last_after({&sign, 1}, end_us)))
+      return sign.to_text();
+  }
+  return {};
+}
+
 std::int64_t latency_us(const scenario::Scenario& scenario) {
   std::int64_t longest = 0;
   for (const scenario::NodeSettings& node : scenario.nodes) longest = std::max(longest, node.latency_us());
@@ -135,12 +147,15 @@ Response response_of(const scenario::Scenario& scenario, const drive::Run& run, 
       return {.kind = Response::Kind::not_measured, .why = fmt::format("'{}' did not strike", fault.name)};
   }
   const std::int64_t valid_from_us = std::max<std::int64_t>(onset_us - latency_us(scenario), 0);
-  const std::vector<Sign> signs =
-      checks::new_since(signs_beyond(checks::signs_in(run.seen, estimators::in(scenario)),
-                                     before == nullptr ? std::vector<Sign>() : before->signs),
-                        valid_from_us);
+  const std::vector<Sign> all = checks::signs_in(run.seen, estimators::in(scenario));
+  const std::vector<Sign> signs = checks::new_since(
+      signs_beyond(all, before == nullptr ? std::vector<Sign>() : before->signs), valid_from_us);
   const auto first = checks::first_in(signs, valid_from_us, scenario.duration_us);
-  if (!first) return {};
+  if (!first) {
+    const std::string hidden = hidden_by(all, valid_from_us, end_us, scenario.duration_us);
+    if (hidden.empty()) return {};
+    return {.kind = Response::Kind::not_measured, .why = fmt::format("{} without the fault too", hidden)};
+  }
   Response response{.kind = Response::Kind::detected,
                     .detected_s = seconds(std::max<std::int64_t>(first->t_us - onset_us, 0)),
                     .by = first->text};

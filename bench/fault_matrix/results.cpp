@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "bench/drive/file_identity.hpp"
 #include "bench/drive/target_command.hpp"
+#include "bench/world/hash.hpp"
+#include "dbc/files/output_file.hpp"
 #include "dbc/files/text_file.hpp"
 #include "dbc/version/version.hpp"
 #include "messages/canhil.hpp"
@@ -18,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::string_view format = "canhil fault matrix 2";
+constexpr std::string_view format = "canhil fault matrix 3";
 constexpr std::size_t most_bytes = std::size_t{1} << 28U;
 
 // File names may contain bytes that are not UTF-8; such bytes are replaced.
@@ -38,6 +42,18 @@ Json json_of(const Finished& finished) {
   return json;
 }
 
+// FNV-1a over the identity of the matrix and a line without its hash. It finds damage, and lines that belong
+// to another matrix; it is no protection against someone who computes a new hash.
+std::string hash_of(const Identity& identity, const Json& json) {
+  return fmt::format("{:016x}", world::fnv1a_64(line_of(json), world::fnv1a_64(identity.line)));
+}
+
+std::string line_with_hash(const Identity& identity, const Finished& finished) {
+  Json json = json_of(finished);
+  json["hash"] = hash_of(identity, json);
+  return line_of(json);
+}
+
 Finished finished_of(const Json& json) {
   Finished finished{.cell = json.at("cell"),
                     .row = json.at("row"),
@@ -53,6 +69,21 @@ Finished finished_of(const Json& json) {
   response.check = json.value("check", "");
   finished.replay = json.value("replay", "");
   finished.least = json.value("least", std::vector<std::string>());
+  return finished;
+}
+
+// The cell of a line. Throws Altered if the line is not as it was written.
+struct Altered {};
+Finished verified(const Identity& identity, const std::string& line) {
+  Json json = Json::parse(line);
+  const auto hash = json.find("hash");
+  const std::string stated = hash != json.end() && hash->is_string() ? hash->get<std::string>() : "";
+  if (json.is_object()) json.erase("hash");
+  if (stated != hash_of(identity, json)) throw Altered{};
+  Finished finished = finished_of(json);
+  const bool known = finished.cell < identity.cells && finished.row < identity.rows.size() &&
+                     finished.column < identity.columns.size();
+  if (!known) throw Altered{};
   return finished;
 }
 
@@ -109,18 +140,25 @@ Result<Results> read_results(const fs::path& file) {
   const auto text = read_text_file(file, "results of a fault matrix", most_bytes);
   if (!text) return tl::unexpected(text.error());
   Results results;
+  std::size_t number = 0;  // of the line
   try {
     std::size_t begin = 0;
     for (std::size_t end = text->find('\n'); end != std::string::npos; end = text->find('\n', begin)) {
       const std::string line = text->substr(begin, end - begin);
       begin = end + 1;
+      ++number;
       if (results.identity.line.empty()) {
         results.identity = identity_of_line(line);
         continue;
       }
-      Finished finished = finished_of(Json::parse(line));
+      Finished finished = verified(results.identity, line);
       results.cells.insert_or_assign(finished.cell, std::move(finished));
     }
+  } catch (const Altered&) {
+    return failure(
+        fmt::format("{}:{}: has another hash than its content, expected a line as it was written: the "
+                    "file is damaged",
+                    file.string(), number));
   } catch (const std::exception&) {
     results.identity.line.clear();
   }
@@ -163,23 +201,28 @@ Result<std::pair<Writer, Results>> Writer::open(const fs::path& file, const Iden
     results.cells = std::move(before->cells);
   }
   // Rewrites the file, because its last line may be truncated.
-  Writer writer;
-  writer.path_ = file;
-  const fs::path anew = file.string() + ".new";
-  writer.file_.open(anew, std::ios::trunc | std::ios::binary);
-  writer.file_ << identity.line << '\n';
-  for (const auto& [cell, finished] : results.cells) writer.file_ << line_of(json_of(finished)) << '\n';
-  writer.file_.flush();
-  if (writer.file_) fs::rename(anew, file, unknown);
-  if (!writer.file_ || unknown) return failure(fmt::format("{}: cannot be written", file.string()));
+  auto output = OutputFile::create(file.string());
+  if (!output) return tl::unexpected(output.error());
+  std::FILE* stream = output->take_stream();
+  if (stream == nullptr) return failure(fmt::format("{}: cannot be written", file.string()));
+  Writer writer(file, identity, stream);
+  bool written = writer.put(identity.line);
+  for (const auto& [cell, finished] : results.cells)
+    written = written && writer.put(line_with_hash(identity, finished));
+  if (!written || output->give_name(file.string()) != 0)
+    return failure(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
   return std::pair(std::move(writer), std::move(results));
 }
 
 Result<void> Writer::add(const Finished& finished) {
-  file_ << line_of(json_of(finished)) << '\n';
-  file_.flush();
-  if (!file_) return failure(fmt::format("{}: cannot be written; --resume goes on with it", path_.string()));
-  return {};
+  if (put(line_with_hash(identity_, finished))) return {};
+  return failure(fmt::format("{}: cannot be written; --resume goes on with it", path_.string()));
+}
+
+bool Writer::put(std::string line) {
+  line += '\n';
+  return std::fwrite(line.data(), 1, line.size(), stream_.get()) == line.size() &&
+         std::fflush(stream_.get()) == 0;
 }
 
 }  // namespace canhil::fault_matrix

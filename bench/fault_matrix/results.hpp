@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/fault_matrix/plan.hpp"
@@ -46,8 +48,8 @@ struct Results {
   std::map<std::size_t, Finished> cells{};  ///< by Finished::cell
 };
 
-/// Reads one file. Returns an Error of one line if the file is not readable or contains other data. A
-/// truncated last line is ignored.
+/// Reads one file. Returns an Error of one line if the file is not readable or contains other data, or if a
+/// line was changed since it was written. A truncated last line is ignored.
 Result<Results> read_results(const std::filesystem::path& file);
 
 /// Merges files. Returns an Error of one line if the files belong to different matrices or if cells are
@@ -66,8 +68,16 @@ class Writer {
   Result<void> add(const Finished& finished);
 
  private:
+  struct CloseStream {
+    void operator()(std::FILE* stream) const { (void)std::fclose(stream); }
+  };
+  Writer(std::filesystem::path path, Identity identity, std::FILE* stream)
+      : path_(std::move(path)), identity_(std::move(identity)), stream_(stream) {}
+  bool put(std::string line);
+
   std::filesystem::path path_;
-  std::ofstream file_;
+  Identity identity_;
+  std::unique_ptr<std::FILE, CloseStream> stream_;
 };
 
 }  // namespace canhil::fault_matrix

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "dbc/text/escape.hpp"
 namespace canhil::live {
 namespace {
 
@@ -48,18 +49,17 @@ class Screen {
   }
   std::vector<ScreenLine> first(std::size_t rows) && {
     if (lines_.size() > rows) lines_.resize(rows);
-    for (ScreenLine& line : lines_) line.text = shortened(std::move(line.text));
+    for (ScreenLine& line : lines_) line.text = shortened(line.text);
     return std::move(lines_);
   }
 
  private:
-  // Shortens a text to the width of the screen. Never splits a UTF-8 character. Replaces control characters
-  // by '?', because they would control the terminal.
-  [[nodiscard]] std::string shortened(std::string text) const {
+  // Shortens a text to the width of the screen. Never splits a UTF-8 character.
+  [[nodiscard]] std::string shortened(const std::string& own) const {
+    std::string text = one_line(own);
     std::size_t shown = 0, end = 0;
     for (; end < text.size(); ++end) {
-      auto& byte = reinterpret_cast<unsigned char&>(text[end]);
-      if (byte < 0x20 || byte == 0x7f) byte = '?';
+      const char byte = text[end];
       const bool begins = static_cast<signed char>(byte) >= -64;  // otherwise `byte` continues a character
       if (begins && shown++ == columns_) break;
     }

@@ -12,6 +12,8 @@
 #include <exception>
 #include <utility>
 
+#include "dbc/text/escape.hpp"
+
 namespace canhil::live {
 namespace {
 
@@ -135,7 +137,7 @@ void View::run() {
   try {
     look_on();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "hil-bench: the live view ended: %s\n", error.what());
+    std::fprintf(stderr, "hil-bench: the live view ended: %s\n", one_line(error.what()).c_str());
     give_up();
   }
 }

@@ -160,6 +160,7 @@ estimators::Estimator estimator_of(const Mapping& mapping) {
           .samples = samples_of,
           .tracks = tracks_of,
           .marks = marks_of,
+          .plain_marks = mapping.heard,
           .results = results_of,
           .why_no_truth = without_truth,
           .ambiguous = ambiguous,

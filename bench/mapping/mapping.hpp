@@ -105,6 +105,8 @@ struct Mapping final : scenario::Foreign {
   std::vector<const quantities::Quantity*> quantities;  ///< each once
   const quantities::Layout* layout = nullptr;
   std::vector<std::string_view> closing;
+  std::vector<std::string_view>
+      heard;  ///< names of the target's messages, which are marks but no signs of trouble
   std::optional<estimators::Estimator> own;
 };
 

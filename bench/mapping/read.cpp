@@ -351,6 +351,7 @@ class Reader {
       info.sample_group = hear.of.message->name;
       mapping.answers_by_name = mapping.answers_by_name || hear.echo;
       if (hear.answers) info.answers = {&mapping.groups[*hear.answers], 1};
+      mapping.heard.push_back(hear.of.message->name);
       if (hear.answers) mapping.closing.push_back(hear.of.message->name);
       for (const ReportedSignal& telling : hear.reported_signals) {
         const auto same = [&](const ReportedSignal& other) {

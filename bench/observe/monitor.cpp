@@ -81,7 +81,14 @@ Monitor::Monitor(std::optional<Asked> asked) {
   }
 }
 
-void Monitor::target_restarted() {
+void Monitor::target_restarts() {
+  in_handshake_ = true;
+  seen_.reports.restart();
+}
+
+// The first Sync after the handshake: both sides count from here on.
+void Monitor::flight_goes_on() {
+  in_handshake_ = false;
   receivers_ = {};
   if (model_) model_.emplace(takers_);
 }
@@ -92,6 +99,7 @@ void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t la
   seen_.last_ns = t_ns;
   if (stopwatch_) stopwatch_->sent(frame, t_ns, late_ns);
   if (frame.id == Sync::info.id) {
+    if (in_handshake_) flight_goes_on();
     const auto sync = from_frame<Sync>(frame);
     now_us_ = static_cast<std::int64_t>(sync.time_us);
     if (model_) model_->synchronised(sync.lockstep != 0);
@@ -99,14 +107,24 @@ void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t la
     const std::int64_t valid_us = unwrap_us(closed.valid_us, now_us_);
     seen_.stimuli[closed.group].add(valid_us);
     for (const auto& reception : receptions_) reception->sent(closed.group, valid_us, seen_);
+    const bool must_use = !model_ || model_->sent(frame, valid_us, now_us_);
     if (stopwatch_)
       stopwatch_->stimulus(closed.group, {.valid_us = valid_us,
                                           .counter = e2e::counter(frame.payload()),
                                           .t_ns = t_ns,
-                                          .due_ns = t_ns - late_ns});
-    if (model_) return model_->sent(frame, valid_us, now_us_);
+                                          .due_ns = t_ns - late_ns,
+                                          .owed_answer = must_use});
+    return;
   }
   if (model_) model_->sent(frame, std::nullopt, now_us_);
+}
+
+checks::Observations Monitor::finish() {
+  if (stopwatch_) stopwatch_->finish();
+  if (model_) seen_.longest_input_gap_us = model_->longest_gap_us(now_us_);
+  seen_.complaints.end(now_us_);
+  seen_.reports.end(now_us_);
+  return std::move(seen_);
 }
 
 // The transmit stamp of the echo replaces the bench's own stamp of the stimulus.
@@ -128,6 +146,7 @@ void Monitor::received(const Received& received) {
     ++seen_.target_bad_crc;
   };
   if (frame.size != info->size || frame.fd != info->fd) return spoilt();
+  if (in_handshake_) receivers_[index] = {};  // the commands reset the target's transmit counters
   switch (receivers_[index].check(frame.payload(), info->e2e_data_id)) {
     case e2e::Check::wrong_crc:
       return spoilt();
@@ -157,12 +176,15 @@ void Monitor::decode(const Frame& frame, std::size_t index) {
     return;
   }
   if (frame.id == TargetCounters::info.id) {
+    if (in_handshake_) return;
     seen_.counters = from_frame<TargetCounters>(frame);
     seen_.complaints.hear(*seen_.counters, now_us_);
+    seen_.reports.hear(*seen_.counters, now_us_);
     if (model_) seen_.expected_counts = model_->expected();
   } else if (frame.id == TargetHeartbeat::info.id) {
     const auto heartbeat = from_frame<TargetHeartbeat>(frame);
     seen_.complaints.hear(heartbeat, now_us_);
+    if (!in_handshake_) seen_.reports.hear(heartbeat, now_us_);
     if (seen_.target_version.empty())
       seen_.target_version = fmt::format("{}.{}", heartbeat.version_major, heartbeat.version_minor);
   } else if (frame.id == TargetTiming::info.id) {

@@ -34,16 +34,13 @@ class Monitor final : public Watcher {
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
-  void target_restarted() override;
+  void target_restarts() override;
 
   [[nodiscard]] const checks::Observations& observations() const override { return seen_; }
-  checks::Observations finish() override {
-    if (stopwatch_) stopwatch_->finish();
-    seen_.complaints.end(now_us_);
-    return std::move(seen_);
-  }
+  checks::Observations finish() override;
 
  private:
+  void flight_goes_on();
   void echoed(const Received& received);
   void decode(const Frame& frame, std::size_t index);
   checks::Observations seen_;
@@ -51,6 +48,7 @@ class Monitor final : public Watcher {
   Takers takers_;
   std::optional<ReceiverModel> model_;
   bool sent_any_ = false;
+  bool in_handshake_ = false;  // with a target that was restarted in the flight
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
   std::vector<std::unique_ptr<estimators::Reception>> receptions_;
   std::array<estimators::Reception*, messages::all_messages.size()>

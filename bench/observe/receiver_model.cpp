@@ -60,31 +60,31 @@ ReceiverModel::ReceiverModel(const Takers& takers) {
 
 // A damaged frame, or one of the wrong size, does not advance the receiver's counter: the frame counts as
 // damaged and, when the next frame arrives, also as lost.
-void ReceiverModel::sent(const Frame& frame, std::optional<std::int64_t> valid_us, std::int64_t now_us) {
+bool ReceiverModel::sent(const Frame& frame, std::optional<std::int64_t> valid_us, std::int64_t now_us) {
   const std::size_t index = bench_messages(frame);
-  if (index == Routes::nowhere) return;
+  if (index == Routes::nowhere) return false;
   const MessageInfo& info = all_messages[index];
   if (frame.size != info.size || frame.fd != info.fd) {
     ++counts_.bad_crc;
-    return;
+    return false;
   }
   switch (receivers_[index].check(frame.payload(), info.e2e_data_id)) {
     case e2e::Check::wrong_crc:
       ++counts_.bad_crc;
-      return;
+      return false;
     case e2e::Check::repeated:
       ++counts_.late;
-      return;
+      return false;
     case e2e::Check::some_lost:
       counts_.frames_lost += static_cast<std::uint64_t>(receivers_[index].lost());
       break;
     case e2e::Check::ok:
       break;
   }
-  if (places_[index].group != nullptr) put(frame, places_[index], valid_us, now_us);
+  return places_[index].group != nullptr && put(frame, places_[index], valid_us, now_us);
 }
 
-void ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us,
+bool ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us,
                         std::int64_t now_us) {
   Group& group = *place.group;
   const std::uint8_t counter = e2e::counter(frame.payload());
@@ -97,7 +97,7 @@ void ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int
   group.seen |= place.bit;
   group.invalid = group.invalid || (bits_of(frame) & place.validity_bits) != place.validity_bits;
   if (valid_us) group.valid_us = valid_us;
-  if (group.seen != group.all) return;
+  if (group.seen != group.all) return false;
   group.seen = 0;
   bool early = false, late = false;
   if (group.valid_us) {
@@ -108,6 +108,20 @@ void ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int
   }
   if (early || group.invalid) refusable_ += group.takers;
   if (late) may_be_late_ += group.takers;
+  if (early || late || group.invalid) return false;
+  group.longest_gap_us = std::max(group.longest_gap_us, now_us - group.used_us.value_or(0));
+  group.used_us = now_us;
+  return true;
+}
+
+std::int64_t ReceiverModel::longest_gap_us(std::int64_t now_us) const {
+  std::int64_t longest_us = 0;
+  for (const auto& [name, group] : groups_) {
+    if (!group.used_us) continue;  // a group that no node of this run sends
+    const std::int64_t gap_us = std::max(group.longest_gap_us, now_us - *group.used_us);
+    if (gap_us >= 4 * group.each_us) longest_us = std::max(longest_us, gap_us);
+  }
+  return longest_us;
 }
 
 // The time of validity that all groups with shorter periods have reached. The time of an estimator follows

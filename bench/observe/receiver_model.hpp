@@ -28,14 +28,18 @@ class ReceiverModel {
   explicit ReceiverModel(const Takers& takers);
 
   /// The bench handed over a frame at `now_us` of its time base; `valid_us`: the time of validity of the
-  /// sample group that the frame completes, if any.
-  void sent(const Frame& frame, std::optional<std::int64_t> valid_us, std::int64_t now_us);
+  /// sample group that the frame completes, if any. Returns whether the frame completes a group that an
+  /// estimator must use: whole, valid, and neither early nor late.
+  bool sent(const Frame& frame, std::optional<std::int64_t> valid_us, std::int64_t now_us);
   /// A Sync was handed over.
   void synchronised(bool lockstep);
 
   /// Limits for the counts that the target sends now. In lockstep the target has read all frames up to the
   /// last Sync; in real time its reading may lag behind by less than a period of TargetCounters.
   [[nodiscard]] checks::ExpectedCounts expected() const;
+  /// The longest time [us] up to `now_us` without a group that an estimator must use, if at least four groups
+  /// were due in this time. 0: no group was missing for so long.
+  [[nodiscard]] std::int64_t longest_gap_us(std::int64_t now_us) const;
 
  private:
   // The state of one sample group, as in SampleGroup.
@@ -46,7 +50,9 @@ class ReceiverModel {
     std::uint8_t counter = 0;
     bool invalid = false;  // a validity flag of the group says invalid
     std::optional<std::int64_t> valid_us{}, last_valid_us{};
-    std::int64_t reached_us = 0;  // time of validity of the last complete and valid group
+    std::int64_t reached_us = 0;            // time of validity of the last complete and valid group
+    std::optional<std::int64_t> used_us{};  // time at which the last group that must be used was sent
+    std::int64_t longest_gap_us = 0;
   };
   struct Place {
     Group* group = nullptr;  // null: a message without a group, or a message that no estimator uses
@@ -54,7 +60,7 @@ class ReceiverModel {
     std::uint64_t validity_bits = 0;  // in the payload: all 1 if the sensor declares the sample valid
   };
 
-  void put(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us, std::int64_t now_us);
+  bool put(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us, std::int64_t now_us);
   [[nodiscard]] std::int64_t faster_reached_us(const Group& group) const;
 
   std::map<std::string_view, Group> groups_;

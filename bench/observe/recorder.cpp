@@ -9,25 +9,25 @@
 #include <system_error>
 #include <utility>
 
-#include "dbc/files/unfinished_name.hpp"
-
 namespace canhil::observe {
 
 Result<std::unique_ptr<Recorder>> Recorder::open(const std::string& path, const Port& port) {
-  return LogWriter::create(unfinished_name(path), path).map([&](LogWriter writer) {
-    return std::unique_ptr<Recorder>(new Recorder(std::move(writer), path, port));
-  });
+  auto file = OutputFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  std::FILE* stream = file->take_stream();
+  if (stream == nullptr)
+    return failure(fmt::format("log '{}': cannot be written: {}", path, std::strerror(errno)));
+  auto writer = LogWriter::create(stream, path);
+  if (!writer) return tl::unexpected(writer.error());
+  return std::unique_ptr<Recorder>(new Recorder(std::move(*file), std::move(*writer), path, port));
 }
 
-Recorder::Recorder(LogWriter writer, std::string path, const Port& port)
-    : writer_(std::move(writer)),
+Recorder::Recorder(OutputFile file, LogWriter writer, std::string path, const Port& port)
+    : file_(std::move(file)),
+      writer_(std::move(writer)),
       path_(std::move(path)),
       port_(port),
       to_realtime_ns_(clock_ns(CLOCK_REALTIME) - port.now_ns()) {}
-
-Recorder::~Recorder() {
-  if (!closed_) std::remove(unfinished_name(path_).c_str());
-}
 
 void Recorder::time_set(std::int64_t t_ns) {
   if (!virtual_from_ns_) virtual_from_ns_ = port_.now_ns() - t_ns;
@@ -71,18 +71,14 @@ void Recorder::write(const Frame& frame, std::int64_t t_ns, std::uint8_t bus, bo
                  .transmitted = transmitted});
 }
 
-bool Recorder::give_name(const std::string& name) {
-  closed_ = std::rename(unfinished_name(path_).c_str(), name.c_str()) == 0;
-  return closed_;
-}
-
 Result<void> Recorder::close() {
   auto written = writer_.close();
-  if (written && give_name(path_)) return {};
+  const int reason = written ? file_.give_name(path_) : 0;
+  if (written && reason == 0) return {};
   Error error =
-      written ? Error{fmt::format("log '{}': cannot be given its name: {}", path_, std::strerror(errno))}
+      written ? Error{fmt::format("log '{}': cannot be given its name: {}", path_, std::strerror(reason))}
               : written.error();
-  if (const std::string rest = path_ + ".incomplete"; give_name(rest))
+  if (const std::string rest = incomplete_log(path_); file_.give_name(rest) == 0)
     error.message += fmt::format("; what was written is in '{}'", rest);
   return tl::unexpected(std::move(error));
 }
@@ -92,11 +88,12 @@ Result<std::string> Recorder::close_early() {
   if (!started_ && early_.empty()) return std::string();
   std::string name = path_;
   std::error_code ignored;
-  if (std::filesystem::exists(path_, ignored)) name += ".incomplete";
+  if (std::filesystem::exists(path_, ignored)) name = incomplete_log(path_);
   write_early();
   if (auto written = writer_.close(); !written) return tl::unexpected(written.error());
-  if (give_name(name)) return name;
-  return failure(fmt::format("log '{}': cannot be given its name: {}", name, std::strerror(errno)));
+  const int reason = file_.give_name(name);
+  if (reason == 0) return name;
+  return failure(fmt::format("log '{}': cannot be given its name: {}", name, std::strerror(reason)));
 }
 
 }  // namespace canhil::observe

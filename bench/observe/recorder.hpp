@@ -8,20 +8,23 @@
 #include <vector>
 
 #include "bench/observe/observer.hpp"
+#include "dbc/files/output_file.hpp"
 #include "dbc/logs/log.hpp"
 
 namespace canhil::observe {
+
+/// The name of a log of which only a part could be written, or whose run did not begin.
+inline std::string incomplete_log(const std::string& path) { return path + ".incomplete"; }
 
 /// Records from the bench's first transmission on, so the log contains a complete session of the target; if
 /// the bench never transmitted, the log contains the frames that arrived. Each frame is stored with its bus.
 class Recorder final : public Observer {
  public:
-  /// Writes to a temporary file beside `path` until close() renames it. `port` must outlive the recorder.
+  /// Writes to a temporary file beside `path` until close() renames it; a recording that was not closed is
+  /// removed. `port` must outlive the recorder.
   /// Error: the file cannot be created.
   static Result<std::unique_ptr<Recorder>> open(const std::string& path, const Port& port);
 
-  /// Removes a recording that was not closed.
-  ~Recorder() override;
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
   void foreign(const Received& received) override;
@@ -38,12 +41,11 @@ class Recorder final : public Observer {
  private:
   static constexpr std::size_t most_early = 10'000;
 
-  Recorder(LogWriter writer, std::string path, const Port& port);
+  Recorder(OutputFile file, LogWriter writer, std::string path, const Port& port);
   void write(const Frame& frame, std::int64_t t_ns, std::uint8_t bus, bool transmitted);
   void keep_early(const Received& received);
   void write_early();
-  bool give_name(const std::string& name);
-
+  OutputFile file_;
   LogWriter writer_;
   std::string path_;
   const Port& port_;
@@ -52,7 +54,6 @@ class Recorder final : public Observer {
   std::int64_t virtual_ns_ = 0;
   std::vector<Received> early_;  // received before the first transmission
   bool started_ = false;
-  bool closed_ = false;
 };
 
 }  // namespace canhil::observe

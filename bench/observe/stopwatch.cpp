@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "bench/checks/answered.hpp"
 #include "bench/checks/finding.hpp"
 
 namespace canhil::observe {
@@ -25,6 +26,7 @@ void add_deviation(TimedWindow& window, const Stimulus& from, const Stimulus& to
 
 void add_arrival(TimedWindow& window, const checks::Arrival& arrival) {
   if (window.last_arrival) window.period.add(elapsed_ns(*window.last_arrival, arrival));
+  if (!window.first_arrival) window.first_arrival = arrival;
   window.last_arrival = arrival;
 }
 
@@ -82,7 +84,12 @@ void Stopwatch::sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns
 }
 
 void Stopwatch::stimulus(std::string_view name, const Stimulus& stimulus) {
-  Group& group = groups_[name];
+  const auto [place, is_new] = groups_.try_emplace(name);
+  Group& group = place->second;
+  for (std::size_t index = 0; is_new && index < record_.messages.size(); ++index) {
+    if (answers(index, name) && checks::closes_answer(record_.messages, index))
+      group.answered_by.push_back(index);
+  }
   group.sent.push_back({.stimulus = stimulus});
   if (group.sent.size() > remembered) forget_oldest(name, group);
 }
@@ -278,11 +285,17 @@ Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us,
 // Called so late that the echo of the oldest stimulus has either arrived or will never arrive.
 void Stopwatch::forget_oldest(std::string_view name, Group& group) {
   const Stimulus stimulus = group.sent.front().stimulus;
+  if (stimulus.owed_answer) {
+    for (const std::size_t index : group.answered_by)
+      record_.owed[index].push_back(
+          {.valid_us = stimulus.valid_us, .came = group.sent.front().answered_by.test(index)});
+  }
   group.sent.pop_front();
   ++(stimulus.hardware_ns != 0 ? record_.stimuli_with_hardware_stamp : record_.without_hardware_stamp);
   for (TimedWindow& window : record_.windows) {
     if (!answers(window.message, name)) continue;
     if (checks::within(window.window, stimulus.valid_us)) {
+      if (!window.first_stimulus_ns) window.first_stimulus_ns = stimulus.t_ns;
       window.lateness.add(stimulus.t_ns - stimulus.due_ns);
       if (group.before) add_deviation(window, *group.before, stimulus);
     }

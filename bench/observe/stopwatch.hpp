@@ -72,6 +72,7 @@ class Stopwatch {
   struct Group {
     std::deque<Sent> sent{};
     std::optional<checks::Stimulus> before{};  // the stimulus that was removed last
+    std::vector<std::size_t> answered_by{};    // indices of the messages that close an answer to it
   };
   struct Last {
     checks::Arrival arrival;

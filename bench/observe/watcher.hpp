@@ -8,8 +8,8 @@ namespace canhil::observe {
 
 class Watcher : public Observer {
  public:
-  /// The target was restarted: its counters begin again.
-  virtual void target_restarted() {}
+  /// A fault restarts the target. A handshake follows, up to the next Sync; then all counters begin again.
+  virtual void target_restarts() {}
   /// The observations so far.
   [[nodiscard]] virtual const checks::Observations& observations() const = 0;
   /// Must be called after the run. Returns all observations.

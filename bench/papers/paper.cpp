@@ -10,6 +10,7 @@
 #include "bench/papers/names.hpp"
 #include "bench/papers/page_content.hpp"
 #include "bench/report/file.hpp"
+#include "dbc/files/command_files.hpp"
 
 namespace canhil::papers {
 namespace {
@@ -80,24 +81,29 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
   if (!request.exact.empty() && request.rounding == Rounding::none)
     return failure(
         "--exact: with --unrounded nothing rounds that could be compared, expected one of the two");
+  Reproduced reproduced;
+  reproduced.page = request.folder / fmt::format("{}.html", request.paper);
+  const FlyOptions options{.folder = request.folder,
+                           .runs = request.runs,
+                           .rounding = request.rounding,
+                           .progress = request.progress};
+  CommandFiles files;
+  files.reads("--exact", request.exact.string());
+  for (const report::EmbeddedFile& campaign : paper->campaigns)
+    files.may_write("results", results_file(options, campaign.name).string());
+  files.writes_file("page", reproduced.page.string());
+  if (auto distinct = files.check_distinct(); !distinct) return tl::unexpected(distinct.error());
   std::error_code error;
   std::filesystem::create_directories(request.folder, error);
   if (error)
     return failure(fmt::format("folder '{}': cannot be made: {}", request.folder.string(), error.message()));
-  Reproduced reproduced;
-  reproduced.page = request.folder / fmt::format("{}.html", request.paper);
-  if (auto writable = report::check_writable(reproduced.page.string()); !writable)
-    return tl::unexpected(writable.error());
+  if (auto writable = files.check_writable(); !writable) return tl::unexpected(writable.error());
   if (auto there = check_gnuplot(); !there) return tl::unexpected(there.error());
 
   if (!request.exact.empty()) {
     if (auto there = campaign::Store::open(request.exact); !there) return tl::unexpected(there.error());
   }
 
-  const FlyOptions options{.folder = request.folder,
-                           .runs = request.runs,
-                           .rounding = request.rounding,
-                           .progress = request.progress};
   const auto flown = fly(paper->campaigns, paper->scenarios, options, stop);
   if (!flown) return tl::unexpected(flown.error());
   if (!*flown) return reproduced;

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "dbc/files/unfinished_name.hpp"
+#include "dbc/files/output_file.hpp"
 #include "dbc/logs/log.hpp"
 
 namespace canhil::recordings {
@@ -29,15 +29,19 @@ Result<std::uint64_t> copy(LogReader& reader, LogWriter& writer) {
 Result<std::uint64_t> convert(const std::string& from, const std::string& to) {
   auto reader = LogReader::open(from);
   if (!reader) return tl::unexpected(reader.error());
-  const std::string unfinished = unfinished_name(to);
-  auto writer = LogWriter::create(unfinished, to);
+  auto file = OutputFile::create(to);
+  if (!file) return tl::unexpected(file.error());
+  const auto cannot_write = [&](int error) {
+    return failure(fmt::format("cannot write log '{}': {}", to, std::strerror(error)));
+  };
+  std::FILE* stream = file->take_stream();
+  if (stream == nullptr) return cannot_write(errno);
+  auto writer = LogWriter::create(stream, to);
   if (!writer) return tl::unexpected(writer.error());
   auto copied = copy(*reader, *writer);
-  if (copied && std::rename(unfinished.c_str(), to.c_str()) == 0) return copied;
-  const int error = errno;
-  std::remove(unfinished.c_str());
   if (!copied) return copied;
-  return failure(fmt::format("cannot write log '{}': {}", to, std::strerror(error)));
+  const int error = file->give_name(to);
+  return error == 0 ? copied : cannot_write(error);
 }
 
 }  // namespace canhil::recordings

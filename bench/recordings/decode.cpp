@@ -10,6 +10,7 @@
 
 #include "dbc/logs/log.hpp"
 #include "dbc/parser/codec.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::recordings {
 namespace {
@@ -43,17 +44,9 @@ class Text final : public Writer {
           dbc::value_name(*one.signal, dbc::raw_bits(*one.signal, entry.frame.payload()));
       if (!name.empty()) text += fmt::format(" ({})", name);
     }
-    return text + "\n";
+    return one_line(text) + "\n";
   }
 };
-
-// Puts a cell into quotes if it contains a separator (RFC 4180).
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 class Csv final : public Writer {
  public:
@@ -61,7 +54,7 @@ class Csv final : public Writer {
     for (const dbc::Message* message : messages) {
       for (const dbc::Signal& signal : message->signals) {
         places_.emplace(&signal, places_.size());
-        head_ += "," + cell(message->name + "." + signal.name);
+        head_ += "," + for_csv(message->name + "." + signal.name);
       }
     }
   }
@@ -70,7 +63,7 @@ class Csv final : public Writer {
                    const Values& values) override {
     std::vector<std::string> cells(places_.size());
     for (const dbc::DecodedSignal& one : values) cells[places_.at(one.signal)] = number(one.value);
-    std::string text = t_s + "," + cell(entry.interface);
+    std::string text = t_s + "," + for_csv(entry.interface);
     for (const std::string& one : cells) text += "," + one;
     return text + "\n";
   }

@@ -12,6 +12,7 @@
 #include "bench/report/differences.hpp"
 #include "bench/report/latency_tests.hpp"
 #include "bench/report/side_checks.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::report {
 namespace {
@@ -51,7 +52,7 @@ class Comparer {
   Compared operator()() {
     if (auto why = not_comparable()) {
       result_.outcome = Comparison::not_comparable;
-      result_.text = "not comparable: " + *why + "\n";
+      say("not comparable: {}", *why);
       return result_;
     }
     result_.text += differences(before_, after_);
@@ -59,6 +60,7 @@ class Comparer {
     const ChecksCompared checks = compare_checks(before_, after_, lockstep);
     result_.text += checks.text;
     if (checks.worse) result_.outcome = Comparison::worse;
+    missing_answers();
     const bool measured = latencies(lockstep) && !checks.unknown;
     const bool worse = result_.outcome == Comparison::worse;
     if (!worse && !measured) result_.outcome = Comparison::not_comparable;
@@ -71,7 +73,7 @@ class Comparer {
  private:
   template <class... Args>
   void say(fmt::format_string<Args...> line, Args&&... args) {
-    result_.text += fmt::format(line, std::forward<Args>(args)...) + "\n";
+    result_.text += one_line(fmt::format(line, std::forward<Args>(args)...)) + "\n";
   }
 
   [[nodiscard]] std::optional<std::string> not_comparable() const {
@@ -86,6 +88,36 @@ class Comparer {
       }
     }
     return std::nullopt;
+  }
+
+  // How many answers of a message were due in the runs of a side, and how many did not come although the bus
+  // lost no frame of the target. Reports of earlier versions have no such counts.
+  struct Missing {
+    double due = 0, missing = 0;
+  };
+  static Missing missing_in(const Reports& side, const std::string& message) {
+    Missing all;
+    for (const Json& report : side) {
+      if (!report.contains("answers") || !report.at("answers").contains(message)) continue;
+      const Json& counts = report.at("answers").at(message);
+      const auto due = counts.at("due").get<double>();
+      all.due += due;
+      all.missing += std::max(0.0, due - counts.at("came").get<double>() -
+                                       report.at("from_target").at("frames_lost").get<double>());
+    }
+    return all;
+  }
+
+  void missing_answers() {
+    if (!before_[0].contains("answers")) return;
+    for (const auto& [message, counts] : before_[0].at("answers").items()) {
+      const Missing was = missing_in(before_, message), is = missing_in(after_, message);
+      const ShareTest test = share_test(was.missing, was.due, is.missing, is.due);
+      if (!(test.share_b > test.share_a) || test.p >= largest_p) continue;
+      result_.outcome = Comparison::worse;
+      say("worse    answers of {}: {:.0f} of {:.0f} missing -> {:.0f} of {:.0f} (p {:.2g})", message,
+          was.missing, was.due, is.missing, is.due, test.p);
+    }
   }
 
   // False: one of the runs has no latencies to compare.
@@ -160,7 +192,7 @@ class Comparer {
   void latency_of(const std::string& message, const Json& before, const Json& after, double p_bar) {
     const Buckets a = buckets_of(before), b = buckets_of(after);
     const RankTest ranks = rank_test(a, b);
-    const TailTest tail = tail_test(a, b);
+    const ShareTest tail = tail_test(a, b);
     const auto us = [](const Json& distribution, const char* key) {
       return distribution.at(key).get<double>() * 1e6;
     };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bench/report/series.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::report {
 namespace {
@@ -15,12 +16,13 @@ void csv(const scenario::Scenario& scenario, const drive::Run& run, const Sink& 
   using quantities::Track;
   give("t_s,estimator,quantity,unit,estimate,truth,error,sigma\n");
   give_tracks(scenario, run, [&](std::string_view estimator, const Track& track) {
+    const std::string of = fmt::format("{},{},{}", for_csv(estimator), for_csv(track.quantity->name),
+                                       for_csv(quantities::si_name(track.unit)));
     const bool is_error = track.kind == Track::Kind::error;
     for (const quantities::TrackPoint& point : track.points) {
       const auto estimate = is_error ? point.estimate : std::optional(point.value);
       const auto error = is_error && run.truth.is_known() ? std::optional(point.value) : std::nullopt;
-      give(fmt::format("{:.6f},{},{},{},{},{},{},{}\n", static_cast<double>(point.t_us) * 1e-6, estimator,
-                       track.quantity->name, quantities::si_name(track.unit), field(estimate),
+      give(fmt::format("{:.6f},{},{},{},{},{}\n", static_cast<double>(point.t_us) * 1e-6, of, field(estimate),
                        field(point.truth), field(error), field(point.sigma)));
     }
   });

@@ -5,15 +5,31 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
 #include <utility>
 
+#include "dbc/text/escape.hpp"
 namespace canhil::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Facts = std::vector<std::pair<std::string, std::string>>;  // (path, value) in the report's order
+// The values of a report by their paths.
+struct Facts {
+  std::map<std::string, std::string> values;
+  std::vector<std::string> in_order;  // the paths, in the report's order
+
+  // Several values with the same path, such as values of two adapters, are joined into one.
+  void add(const std::string& path, const std::string& text) {
+    const auto [known, is_new] = values.try_emplace(path, text);
+    if (is_new)
+      in_order.push_back(path);
+    else
+      known->second += ", " + text;
+  }
+};
 
 struct Worded {
   std::string_view path, words;
@@ -89,7 +105,7 @@ void add(Facts& facts, const std::string& path, const Json& value) {
   if (value.is_object()) {
     for (const auto& [key, inner] : value.items()) add(facts, path.empty() ? key : path + "." + key, inner);
   } else if (!objects) {
-    facts.emplace_back(path, text_of(path, value));
+    facts.add(path, text_of(path, value));
   } else {
     for (const Json& item : value) {
       const bool file = item.contains("role") && item.contains("sha256");
@@ -101,21 +117,13 @@ void add(Facts& facts, const std::string& path, const Json& value) {
   }
 }
 
-// Several values with the same path, such as values of two adapters, are joined into one.
 Facts facts_of(const Json& report) {
-  Facts all, facts;
+  Facts all;
   add(all, "", report.at("provenance"));
   for (const char* key : {"bitrate_bitps", "data_bitrate_bitps"}) {
     if (report.contains("wire") && report.at("wire").contains(key)) add(all, key, report.at("wire").at(key));
   }
-  for (auto& [path, text] : all) {
-    const auto known = std::ranges::find(facts, path, &Facts::value_type::first);
-    if (known == facts.end())
-      facts.emplace_back(path, std::move(text));
-    else
-      known->second += ", " + text;
-  }
-  return facts;
+  return all;
 }
 
 std::vector<Facts> facts_of_each(const std::vector<Json>& reports) {
@@ -128,8 +136,8 @@ std::vector<Facts> facts_of_each(const std::vector<Json>& reports) {
 std::vector<std::string> values_of(const std::vector<Facts>& side, const std::string& path) {
   std::vector<std::string> values;
   for (const Facts& facts : side) {
-    const auto found = std::ranges::find(facts, path, &Facts::value_type::first);
-    const std::string text = found == facts.end() ? "not known" : found->second;
+    const auto found = facts.values.find(path);
+    const std::string text = found == facts.values.end() ? "not known" : found->second;
     if (std::ranges::find(values, text) == values.end()) values.push_back(text);
   }
   return values;
@@ -140,10 +148,11 @@ std::vector<std::string> values_of(const std::vector<Facts>& side, const std::st
 std::string differences(const std::vector<Json>& before, const std::vector<Json>& after) {
   const std::vector<Facts> a = facts_of_each(before), b = facts_of_each(after);
   std::vector<std::string> paths;
+  std::set<std::string> known;
   for (const std::vector<Facts>* side : {&a, &b}) {
     for (const Facts& facts : *side) {
-      for (const auto& [path, text] : facts) {
-        if (std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+      for (const std::string& path : facts.in_order) {
+        if (known.insert(path).second) paths.push_back(path);
       }
     }
   }
@@ -151,8 +160,9 @@ std::string differences(const std::vector<Json>& before, const std::vector<Json>
   for (const std::string& path : paths) {
     const auto of_a = values_of(a, path), of_b = values_of(b, path);
     if (of_a != of_b)
-      lines += fmt::format("differs  {}: {} -> {}\n", in_words(path), fmt::join(of_a, " and "),
-                           fmt::join(of_b, " and "));
+      lines += one_line(fmt::format("differs  {}: {} -> {}", in_words(path), fmt::join(of_a, " and "),
+                                    fmt::join(of_b, " and "))) +
+               "\n";
   }
   return lines;
 }

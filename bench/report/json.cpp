@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "bench/checks/answered.hpp"
 #include "bench/checks/bus_load.hpp"
 #include "bench/report/json_timing.hpp"
 #include "bench/report/provenance.hpp"
@@ -249,6 +250,21 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
   if (run.seen.target_timing_seen)
     page["target_timing_us"] = {{"queue_max", run.seen.queue_max_us},
                                 {"compute_max", run.seen.compute_max_us}};
+  for (const std::string_view message : closing_answers(scenario)) {
+    const checks::Answered answers =
+        checks::answered(run.seen, message, {.from_us = 0, .to_us = scenario.duration_us});
+    if (answers.due > 0)
+      page["answers"][std::string(message)] = {{"due", answers.due}, {"came", answers.came}};
+  }
+  const checks::TargetReports& reports = run.seen.reports;
+  if (reports.heartbeats() > 0) {
+    Json& heartbeat =
+        page["target_heartbeat"] = {{"count", reports.heartbeats()}, {"reports", Json::array()}};
+    for (const checks::Report& one : reports.reports())
+      heartbeat["reports"].push_back({{"estimator", one.estimator},
+                                      {"what", one.what},
+                                      {"from_s", static_cast<double>(one.t_us) / 1e6}});
+  }
   if (run.seen.counters) {
     page["target_counters"] = {{"frames_lost", run.seen.counters->frames_lost},
                                {"bad_crc", run.seen.counters->bad_crc},

@@ -65,11 +65,16 @@ RankTest rank_test(const Buckets& a, const Buckets& b) {
   return {.effect = u / (m * n), .p = checks::normal_above((u - m * n / 2 - 0.5) / std::sqrt(variance))};
 }
 
-TailTest tail_test(const Buckets& a, const Buckets& b) {
+ShareTest tail_test(const Buckets& a, const Buckets& b) {
   const double m = count_of(a), n = count_of(b);
   if (m == 0 || n == 0) return {};
   const std::int64_t bar_us = p99_bucket(a);
-  TailTest test{.share_a = count_beyond(a, bar_us) / m, .share_b = count_beyond(b, bar_us) / n};
+  return share_test(count_beyond(a, bar_us), m, count_beyond(b, bar_us), n);
+}
+
+ShareTest share_test(double k, double m, double l, double n) {
+  if (m == 0 || n == 0) return {};
+  ShareTest test{.share_a = k / m, .share_b = l / n};
   const double pooled = (test.share_a * m + test.share_b * n) / (m + n);
   const double variance = pooled * (1 - pooled) * (1 / m + 1 / n);
   if (variance > 0) test.p = checks::normal_above((test.share_b - test.share_a) / std::sqrt(variance));

@@ -18,12 +18,15 @@ struct RankTest {
 };
 RankTest rank_test(const Buckets& a, const Buckets& b);
 
-/// Test of two proportions: whether a larger fraction of `b` than of `a` exceeds the 99 % quantile of `a`.
-struct TailTest {
+/// Test of two proportions: whether the share is larger in `b` than in `a`.
+struct ShareTest {
   double share_a = 0, share_b = 0;
   double p = 1;  ///< one-sided, normal approximation with the pooled proportion
 };
-TailTest tail_test(const Buckets& a, const Buckets& b);
+/// `k` of `m` on the side `a`, `l` of `n` on the side `b`.
+ShareTest share_test(double k, double m, double l, double n);
+/// Tests the shares that exceed the 99 % quantile of `a`.
+ShareTest tail_test(const Buckets& a, const Buckets& b);
 
 /// Student's t test of one quantile of each run [us]: each run is one sample, so the difference is compared
 /// with the scatter between runs.

@@ -2,23 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include "dbc/text/escape.hpp"
 
 namespace canhil::report {
 
-std::string escaped(std::string_view plain) {
-  constexpr std::string_view special = "&<>\"";
-  constexpr std::array<std::string_view, special.size()> entities{"&amp;", "&lt;", "&gt;", "&quot;"};
-  std::string safe;
-  for (const char c : plain) {
-    const std::size_t place = special.find(c);
-    if (place != std::string_view::npos)
-      safe += entities[place];
-    else
-      safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return safe;
-}
+std::string escaped(std::string_view plain) { return for_markup(plain); }
 
 std::string table(const std::vector<std::string>& head, const Rows& rows, std::string_view style) {
   std::string out = fmt::format("<table class=\"{}\"><thead><tr>", style);

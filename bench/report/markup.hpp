@@ -9,8 +9,7 @@
 
 namespace canhil::report {
 
-/// Escapes UTF-8 text for an element or a quoted attribute of HTML or XML. Control characters, most of which
-/// XML forbids, become blanks.
+/// canhil::for_markup.
 std::string escaped(std::string_view plain);
 
 using Rows = std::vector<std::vector<std::string>>;

@@ -5,14 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/report/page_parts.hpp"
-#include "bench/report/run_reports.hpp"
-#include "bench/report/whole.hpp"
-#include "dbc/files/text_file.hpp"
 
 namespace canhil::report {
 namespace {
-
-constexpr int most_depth = 32;  // limit for the depth of nested values; a report has depth 6
 
 // A plot needs one value for each time. This function describes the first array that has another length, and
 // returns an empty text if there is none.
@@ -96,31 +91,6 @@ Result<std::string> html(const Json& document) {
   } catch (const Json::exception& error) {
     return failure(fmt::format("the report is not whole: {}", error.what()));
   }
-}
-
-Result<Json> read_document(const std::string& path) {
-  const auto text = read_text_file(path, "a report as JSON", 64 * mebibyte);
-  if (!text) return tl::unexpected(text.error());
-  // The page is made by recursion over nested values, so the depth of nesting is limited.
-  bool too_deep = false;
-  const auto shallow = [&too_deep](int depth, Json::parse_event_t /*event*/, const Json& /*value*/) {
-    too_deep = too_deep || depth > most_depth;
-    return depth <= most_depth;
-  };
-  Json document = Json::parse(*text, shallow, false);
-  if (too_deep) {
-    return failure(fmt::format("file '{}': values lie {} deep within one another, expected a report", path,
-                               most_depth + 1));
-  }
-  // The parser ends at a NUL, even if more text follows.
-  if (document.is_discarded() || text->find('\0') != std::string::npos)
-    return failure(fmt::format("file '{}': is not JSON, expected a report of hil-bench run --json", path));
-  if (!document.is_object() || !document.contains("schema") || document.at("schema") != schema)
-    return failure(
-        fmt::format("file '{}': is not a report, expected one with \"schema\": \"{}\"", path, schema));
-  if (const std::string why = why_not_whole(document); !why.empty())
-    return failure(fmt::format("file '{}': {}", path, why));
-  return document;
 }
 
 }  // namespace canhil::report

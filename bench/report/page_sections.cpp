@@ -284,6 +284,12 @@ std::string bus_section(const Json& report) {
   add_incidents(rows, report.at("bus"), "bus");
   add_incidents(rows, report.at("from_target"), "from the target");
   if (report.contains("target_counters")) add_incidents(rows, report.at("target_counters"), "to the target");
+  if (report.contains("target_heartbeat")) {
+    for (const Json& said : report.at("target_heartbeat").at("reports"))
+      rows.push_back({escaped(fmt::format("heartbeat of {}: {}", text_in(said.at("estimator")),
+                                          text_in(said.at("what")))),
+                      fmt::format("from {:g} s", said.at("from_s").get<double>())});
+  }
   if (report.contains("latency_s")) {
     for (const auto& [message, latency] : report.at("latency_s").items()) {
       if (latency.at("unanswered").get<std::uint64_t>() > 0)

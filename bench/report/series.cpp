@@ -7,6 +7,7 @@
 #include "bench/checks/probability.hpp"
 #include "bench/checks/rule.hpp"
 #include "bench/estimators/registry.hpp"
+#include "bench/report/summary.hpp"
 
 namespace canhil::report {
 namespace {
@@ -134,6 +135,7 @@ void GrowingSeries::end(const Track& track) {
 }
 
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give) {
+  if (is_cut_off(run)) return;
   const estimators::Truth truth = drive::truth_of(run.truth, run.per_run_truth, scenario.duration_us);
   for (const estimators::Estimator* one : estimators::in(scenario)) {
     if (!scenario.runs(one->name)) continue;

@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 #include <string_view>
 
 #include "bench/checks/judge.hpp"
 #include "bench/checks/verdict.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::report {
 namespace {
@@ -35,23 +39,27 @@ Says outcome_of(const std::string& name, const std::string& of) {
 struct Key {
   std::string name, kind;
   std::size_t nth = 0;
-  bool operator==(const Key&) const = default;
+  auto operator<=>(const Key&) const = default;
 };
 struct Judged {
-  Key key;
   Says outcome = pass;
   std::string measured;
 };
+struct Checks {
+  std::map<Key, Judged> judged;
+  std::vector<Key> in_order;
+};
 
-std::vector<Judged> judged_in(const Json& report) {
-  std::vector<Judged> all;
+Checks judged_in(const Json& report) {
+  Checks all;
+  std::map<Key, std::size_t> seen;  // by name and kind
   for (const Json& check : report.at("checks")) {
     Key key{check.at("name").get<std::string>(), check.at("kind").get<std::string>()};
-    key.nth = static_cast<std::size_t>(std::ranges::count_if(
-        all, [&](const Judged& j) { return j.key.name == key.name && j.key.kind == key.kind; }));
+    key.nth = seen[key]++;
     const Says outcome =
         outcome_of(check.at("outcome").get<std::string>(), fmt::format("check '{}'", key.name));
-    all.push_back({std::move(key), outcome, check.at("measured").get<std::string>()});
+    all.judged.emplace(key, Judged{outcome, check.at("measured").get<std::string>()});
+    all.in_order.push_back(std::move(key));
   }
   return all;
 }
@@ -73,18 +81,18 @@ struct Tally {
   }
 };
 
-Tally tally_of(const std::vector<std::vector<Judged>>& side, const Key& key) {
+Tally tally_of(const std::vector<Checks>& side, const Key& key) {
   // The report of a run contains an implied check only if the check did not pass.
   const bool implied = key.name == key.kind && checks::is_implied(key.kind);
   Tally tally;
   for (const auto& run : side) {
-    const auto found = std::ranges::find(run, key, &Judged::key);
-    if (found == run.end()) {
+    const auto found = run.judged.find(key);
+    if (found == run.judged.end()) {
       ++tally.saying[implied ? pass : not_there];
       continue;
     }
-    if (tally.saying[fail] == 0) tally.measured = found->measured;
-    ++tally.saying[found->outcome];
+    if (tally.saying[fail] == 0) tally.measured = found->second.measured;
+    ++tally.saying[found->second.outcome];
   }
   return tally;
 }
@@ -94,8 +102,8 @@ bool got_worse(const Tally& before, const Tally& after) {
   return (before.saying[fail] == 0 && after.saying[fail] > 0) || (mostly(after) && !mostly(before));
 }
 
-std::vector<std::vector<Judged>> judged_in_all(const Reports& side) {
-  std::vector<std::vector<Judged>> all;
+std::vector<Checks> judged_in_all(const Reports& side) {
+  std::vector<Checks> all;
   for (const Json& report : side) all.push_back(judged_in(report));
   return all;
 }
@@ -114,10 +122,11 @@ Tally verdicts(const Reports& side) {
 ChecksCompared compare_checks(const Reports& before, const Reports& after, bool lockstep) {
   const auto first = judged_in_all(before), second = judged_in_all(after);
   std::vector<Key> keys;
+  std::set<Key> known;
   for (const auto* side : {&second, &first}) {
-    for (const auto& run : *side) {
-      for (const Judged& judged : run) {
-        if (std::ranges::find(keys, judged.key) == keys.end()) keys.push_back(judged.key);
+    for (const Checks& run : *side) {
+      for (const Key& key : run.in_order) {
+        if (known.insert(key).second) keys.push_back(key);
       }
     }
   }
@@ -132,17 +141,15 @@ ChecksCompared compare_checks(const Reports& before, const Reports& after, bool 
     result.unknown = result.unknown || unknown;
     const std::string from = was.text(), to = is.text();
     if (from == to && !unknown) continue;
-    result.text +=
-        fmt::format("{:<8} check '{}': {} -> {}{}\n",
-                    worse     ? "worse"
-                    : unknown ? "unknown"
-                              : "changed",
-                    key.name, from, to, is.measured.empty() ? "" : fmt::format(" ({})", is.measured));
+    const std::string_view what = worse ? "worse" : unknown ? "unknown" : "changed";
+    result.text += one_line(fmt::format("{:<8} check '{}': {} -> {}{}", what, key.name, from, to,
+                                        is.measured.empty() ? "" : fmt::format(" ({})", is.measured))) +
+                   "\n";
   }
   const Tally was = verdicts(before), is = verdicts(after);
   if (!result.worse && got_worse(was, is)) {
     result.worse = true;
-    result.text += fmt::format("worse    the run: {}\n", is.measured);
+    result.text += fmt::format("worse    the run: {}\n", one_line(is.measured));
   }
   return result;
 }

@@ -24,7 +24,12 @@ bool is_due(const scenario::Scenario& scenario, const MessageInfo& message) {
   return sender != nullptr && scenario.runs(sender->name);
 }
 
+bool is_cut_off(const drive::Run& run) {
+  return run.ending.kind == drive::Ending::Kind::interrupted && !run.options.bus.text.starts_with("log:");
+}
+
 std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run) {
+  if (is_cut_off(run)) return {};
   const estimators::Truth truth = drive::truth_of(run.truth, run.per_run_truth, scenario.duration_us);
   std::vector<EstimatorResults> all;
   for (const estimators::Estimator* one : estimators::in(scenario)) {

@@ -16,7 +16,10 @@ struct EstimatorResults {
   std::vector<estimators::ResultLine> lines;
 };
 
-/// The results of each estimator of the scenario.
+/// Whether a signal ended the run. Its answers are then not evaluated, because the command must end at once.
+bool is_cut_off(const drive::Run& run);
+
+/// The results of each estimator of the scenario; none of a run that was cut off.
 std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run);
 
 /// The tested program: the command that started it, or where it runs.

@@ -12,6 +12,7 @@
 #include "bench/report/summary.hpp"
 #include "bench/report/uncertainty.hpp"
 #include "bench/scenario/foreign.hpp"
+#include "dbc/text/escape.hpp"
 #include "dbc/version/version.hpp"
 
 namespace canhil::report {
@@ -43,7 +44,7 @@ std::string to_text(const checks::BusRecord& bus, std::int64_t first_ns) {
                        bus.late_in_queue);
   if (bus.foreign > 0) lines += fmt::format("; {} frames in the format that it is not to have", bus.foreign);
   lines += '\n';
-  for (const std::string& note : bus.notes) lines += fmt::format("    {}\n", note);
+  for (const std::string& note : bus.notes) lines += fmt::format("    {}\n", one_line(note));
   for (const checks::BusIncident& incident : bus.incidents) {
     if (&incident == bus.incidents.data() + shown) break;
     lines += fmt::format("    t={:.3f} s  {} (tx {}, rx {})\n",
@@ -159,15 +160,15 @@ std::string wire_words(const checks::Observations& seen) {
 std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   std::string page;
 
-  page += fmt::format("{}\n", scenario.title);
-  page +=
-      fmt::format("  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus.text,
-                  run.options.format == BusFormat::fd          ? " · CAN FD (canhil-fd)"
-                  : run.options.format == BusFormat::fd_frames ? " · CAN FD"
-                                                               : "",
-                  clock_name(run), static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
+  page += one_line(scenario.title) + "\n";
+  page += fmt::format("  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", one_line(scenario.file),
+                      one_line(run.options.bus.text),
+                      run.options.format == BusFormat::fd          ? " · CAN FD (canhil-fd)"
+                      : run.options.format == BusFormat::fd_frames ? " · CAN FD"
+                                                                   : "",
+                      clock_name(run), static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
-  if (scenario.foreign != nullptr) page += fmt::format("  by {}\n", scenario.foreign->file);
+  if (scenario.foreign != nullptr) page += fmt::format("  by {}\n", one_line(scenario.foreign->file));
   page += fmt::format("  canhil {} (revision {}){}{}\n", version_text(), revision(),
                       run.seen.target_version.empty() ? "" : " · target " + run.seen.target_version,
                       run.options.operator_name.empty() ? "" : " · operator " + run.options.operator_name);
@@ -182,7 +183,7 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   }
   for (const std::string& line : period_overrides(scenario)) page += fmt::format("  {}\n", line);
   for (const faults::FaultReport& fault : run.faults)
-    page += fmt::format("  fault '{}' of the {}: {}\n", fault.name, faults::name(fault.stage),
+    page += fmt::format("  fault '{}' of the {}: {}\n", one_line(fault.name), faults::name(fault.stage),
                         fault.count == 0   ? "did not strike"
                         : fault.count == 1 ? "struck once"
                                            : fmt::format("struck {} times", fault.count));
@@ -191,8 +192,9 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   std::size_t width = 5;
   for (const checks::CheckResult& check : run.verdict.checks) width = std::max(width, check.name.size());
   for (const checks::CheckResult& check : run.verdict.checks) {
-    page += fmt::format("  {:<12}  {:<{}}  {}  (expected {})\n", label(check.outcome), check.name, width,
-                        check.measured, check.expected);
+    page += one_line(fmt::format("  {:<12}  {:<{}}  {}  (expected {})", label(check.outcome), check.name,
+                                 width, check.measured, check.expected)) +
+            "\n";
   }
 
   page += '\n';
@@ -214,6 +216,8 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
     }
   }
   page += load_words(run);
+  if (run.seen.reports.heartbeats() > 0)
+    page += fmt::format("  target's heartbeat            {}\n", run.seen.reports.to_text());
   const auto& counters = run.seen.counters;
   page += fmt::format(
       "  lost on the way to the target {}; from the target {} frames, {} bad; bench overflow {}\n",
@@ -224,7 +228,7 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
 
   page += to_text(run.seen.bus, run.seen.first_ns);
 
-  page += fmt::format("\n{}: {}\n", checks::name(run.verdict.outcome), run.verdict.reason);
+  page += fmt::format("\n{}: {}\n", checks::name(run.verdict.outcome), one_line(run.verdict.reason));
   return page;
 }
 

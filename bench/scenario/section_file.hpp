@@ -13,6 +13,7 @@
 
 #include "bench/scenario/key_depth.hpp"
 #include "bench/scenario/section.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::scenario {
 
@@ -58,12 +59,7 @@ struct Section::File {
 
   void fail(std::size_t line, std::string_view what) {
     if (error) return;
-    std::string message = fmt::format("{}: {}", where(line), what);
-    for (char& c : message) {
-      if (static_cast<unsigned char>(c) < ' ' || c == 0x7F)
-        c = '?';  // a quoted key may contain any character
-    }
-    error = Error{std::move(message)};
+    error = Error{one_line(fmt::format("{}: {}", where(line), what))};  // a key may contain any character
   }
 
   /// Sets a value by its key, and creates missing tables.

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "bench/scenario/quantity.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::scenario {
 namespace {
@@ -70,14 +71,10 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-/// A user's text for a message of one line: at most 40 characters, without control characters.
+/// A user's text for a message of one line: at most 40 characters, escaped.
 std::string shown(std::string_view text) {
   constexpr std::size_t most = 40;
-  std::string part(text.substr(0, most));
-  for (char& c : part) {
-    if (static_cast<unsigned char>(c) < ' ' || c == 0x7F) c = '?';
-  }
-  return part + (text.size() > most ? "..." : "");
+  return one_line(text.substr(0, most)) + (text.size() > most ? "..." : "");
 }
 
 /// The column with a requested name: its index in the file, and the factor from its unit to the requested

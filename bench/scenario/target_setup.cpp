@@ -78,8 +78,10 @@ TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
       .before = section.text(
           {"before", "With `mapping`: shell command that is run before the flight; it must exit with 0."},
           ""),
-      .after = section.text(
-          {"after", "With `mapping`: shell command that is run after the flight; it must exit with 0."}, "")};
+      .after = section.text({"after",
+                             "With `mapping`: shell command that is run after the flight, also if the flight "
+                             "failed or was interrupted; it must exit with 0."},
+                            "")};
   section.finish();
   return target;
 }

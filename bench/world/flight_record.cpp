@@ -5,6 +5,8 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cassert>
 
+#include "bench/world/stoppable.hpp"
+
 namespace canhil::world {
 namespace {
 
@@ -99,7 +101,7 @@ FlightRecord::FlightRecord(const Flight& flight, std::int64_t duration_us, std::
   increments_.reserve(count);
   Position position = flight.start;
   epochs_.push_back(truth_of(motion, position, 0));
-  for (std::int64_t end = interval_us; end <= duration_us; end += interval_us) {
+  for (std::int64_t end = interval_us; end <= duration_us && !Stoppable::stopped(); end += interval_us) {
     ImuIncrement increment{.t_us = end, .interval_us = interval_us};
     between_jumps(motion, end - interval_us, end, [&](std::int64_t a_us, std::int64_t b_us) {
       integrate(motion, a_us, b_us, position, increment);

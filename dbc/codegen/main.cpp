@@ -10,7 +10,6 @@
 #include <iterator>
 #include <regex>
 #include <string_view>
-#include <utility>
 
 #include "dbc/codegen/fd.hpp"
 #include "dbc/codegen/generate.hpp"
@@ -19,7 +18,10 @@
 #include "dbc/codegen/load.hpp"
 #include "dbc/codegen/rules.hpp"
 #include "dbc/command_line/command_line.hpp"
+#include "dbc/files/command_files.hpp"
+#include "dbc/files/output_file.hpp"
 #include "dbc/parser/parse.hpp"
+#include "dbc/text/escape.hpp"
 #include "dbc/version/version.hpp"
 
 namespace {
@@ -40,7 +42,7 @@ struct Options {
 };
 
 int complain(const std::string& line) {
-  fmt::print(stderr, "{}\n", canhil::command_line::one_line(line));
+  fmt::print(stderr, "{}\n", canhil::one_line(line));
   return 2;
 }
 
@@ -71,9 +73,8 @@ bool holds(const std::string& path, const std::string& text) {
 // file keeps its modification time, and sources that include it are not recompiled.
 int write_file(const std::string& path, const std::string& text) {
   if (holds(path, text)) return 0;
-  std::ofstream file(path, std::ios::binary);
-  file << text << std::flush;
-  return file ? 0 : complain(fmt::format("{}: cannot be written, expected a path for the result", path));
+  const auto written = canhil::check_writable(path).and_then([&] { return canhil::write_file(path, text); });
+  return written ? 0 : complain("dbcgen: " + written.error().message);
 }
 
 int write(const canhil::dbc::Database& database, const Options& options) {
@@ -88,14 +89,6 @@ int write(const canhil::dbc::Database& database, const Options& options) {
   return options.output.empty() ? print(*text) : write_file(options.output, *text);
 }
 
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code unknown;
-  const auto where = [&](const std::string& path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, unknown), unknown);
-  };
-  return !a.empty() && !b.empty() && where(a) == where(b);
-}
-
 // True for a C++ namespace: one or more identifiers separated by '::', such as messages::fd.
 bool is_namespace(std::string_view name) {
   static const std::regex parts("[A-Za-z_][A-Za-z0-9_]*(::[A-Za-z_][A-Za-z0-9_]*)*");
@@ -104,10 +97,11 @@ bool is_namespace(std::string_view name) {
 
 // Returns why the options are rejected; an empty string: they are accepted.
 std::string refused(const Options& options) {
-  for (const auto& [a, b] : {std::pair(options.output, options.dbc), std::pair(options.source, options.dbc),
-                             std::pair(options.source, options.output)}) {
-    if (same_file(a, b)) return fmt::format("file '{}': is named twice, expected different files", a);
-  }
+  canhil::CommandFiles files;
+  files.reads("DBC", options.dbc);
+  files.writes_file("--output", options.output);
+  files.writes_file("--source", options.source);
+  if (const auto distinct = files.check_distinct(); !distinct) return distinct.error().message;
   if (!is_namespace(options.name_space))
     return fmt::format("--namespace: '{}' is not a valid C++ namespace", options.name_space);
   const int asked = options.quantisation + options.load + options.json + options.fd + options.fd_header +

@@ -150,12 +150,6 @@ Result<std::optional<int>> Program::parse(int argc, const char* const* argv) {
   return std::nullopt;
 }
 
-std::string one_line(std::string message) {
-  const auto control = [](unsigned char c) { return c < ' ' || c == 0x7F; };
-  std::replace_if(message.begin(), message.end(), control, '?');
-  return message;
-}
-
 int finish(const char* program, int code) {
   constexpr int usage = 2;
   errno = 0;

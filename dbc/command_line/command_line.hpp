@@ -108,10 +108,6 @@ class Program : public Command {
   std::unique_ptr<CLI::App> app_;
 };
 
-/// Replaces control characters in a message by '?', because file names may contain line breaks and escape
-/// sequences.
-std::string one_line(std::string message);
-
 /// Returns the exit code of a program that ends with `code`. If writing to standard output failed, prints a
 /// line on stderr and returns 2. It prints no line if `code` is 2, because the program has then printed an
 /// error line already.

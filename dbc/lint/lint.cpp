@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "dbc/command_line/command_line.hpp"
 #include "dbc/parser/parse.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::dbc {
 namespace {
@@ -57,9 +57,8 @@ std::size_t count(const Linted& linted, Severity severity) {
 std::string to_text(const std::vector<Linted>& files) {
   std::string text;
   for (const Linted& linted : files) {
-    for (const Finding& finding : linted.findings)
-      text += command_line::one_line(finding_line(linted, finding)) + "\n";
-    text += command_line::one_line(file_line(linted)) + "\n";
+    for (const Finding& finding : linted.findings) text += one_line(finding_line(linted, finding)) + "\n";
+    text += one_line(file_line(linted)) + "\n";
   }
   return text;
 }

@@ -49,22 +49,20 @@ const Format* format_of(const std::string& name) {
 
 }  // namespace
 
-Result<LogWriter> LogWriter::create(const std::string& path, const std::string& final_name) {
-  std::string name = final_name.empty() ? path : final_name;
+Result<LogWriter> LogWriter::create(std::FILE* stream, std::string name) {
+  logs::File file(stream);
   const Format* format = format_of(name);
   if (format == nullptr)
     return failure(
         fmt::format("cannot write log '{}': its ending names no format that can be written, expected "
                     ".log (candump), .pcap or .asc",
                     name));
-  logs::File file(std::fopen(path.c_str(), "we"));
-  if (!file) return failure(fmt::format("cannot write log '{}': {}", name, std::strerror(errno)));
   return LogWriter(format->sink(std::move(file)), std::move(name));
 }
 
 Result<void> LogWriter::close() {
   if (const int error = sink_->close(); error != 0)
-    return failure(fmt::format("cannot write log '{}': {}", path_, std::strerror(error)));
+    return failure(fmt::format("cannot write log '{}': {}", name_, std::strerror(error)));
   return {};
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,21 +58,20 @@ class LogSource {
 /// the error.
 class LogWriter {
  public:
-  /// Creates the file `path`. The caller may rename the file to `final_name` later. This name (or `path`, if
-  /// `final_name` is empty) determines the format and appears in error messages. Error: the ending names no
-  /// format that can be written, or the file cannot be created.
-  static Result<LogWriter> create(const std::string& path, const std::string& final_name = {});
+  /// Writes to a stream, and closes it. `name` is the name of the finished log: it determines the format and
+  /// appears in error messages. Error: the ending of the name names no format that can be written.
+  static Result<LogWriter> create(std::FILE* stream, std::string name);
   /// Appends an entry. If this fails, close() returns the error.
   void write(const LogEntry& entry) { sink_->write(entry); }
   /// Flushes the buffer and ends the log.
   Result<void> close();
 
  private:
-  LogWriter(std::unique_ptr<LogSink> sink, std::string path)
-      : sink_(std::move(sink)), path_(std::move(path)) {}
+  LogWriter(std::unique_ptr<LogSink> sink, std::string name)
+      : name_(std::move(name)), sink_(std::move(sink)) {}
 
+  std::string name_;
   std::unique_ptr<LogSink> sink_;
-  std::string path_;
 };
 
 /// Reads a log. A malformed line is an error. Remote frames are skipped, because a DBC does not describe

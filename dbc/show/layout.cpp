@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "dbc/command_line/command_line.hpp"
 #include "dbc/show/show.hpp"
 #include "dbc/show/table.hpp"
+#include "dbc/text/escape.hpp"
 #include "dbc/wire/bits.hpp"
 
 namespace canhil::dbc {
@@ -97,7 +97,7 @@ std::string head(const Message& message) {
                   message.fd ? " (FD)" : "", cycle_text(message), sender_text(message));
   std::string comment = message.comment;
   std::ranges::replace(comment, '\n', ' ');
-  return comment.empty() ? text : text + command_line::one_line(comment) + "\n";
+  return comment.empty() ? text : text + one_line(comment) + "\n";
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <charconv>
 #include <numeric>
 
-#include "dbc/command_line/command_line.hpp"
 #include "dbc/show/show.hpp"
 #include "dbc/show/table.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::dbc {
 namespace {
@@ -20,7 +20,8 @@ std::size_t width_of(std::string_view text) {
 }  // namespace
 
 std::string aligned(std::vector<Row> rows) {
-  for (Row& row : rows) std::ranges::transform(row, row.begin(), command_line::one_line);
+  for (Row& row : rows)
+    std::ranges::transform(row, row.begin(), [](const std::string& cell) { return one_line(cell); });
   std::vector<std::size_t> widths(rows.empty() ? 0 : rows.front().size());
   for (const Row& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));

@@ -11,7 +11,7 @@ namespace canhil::dbc {
 using Row = std::vector<std::string>;
 
 /// Formats a table; all rows must have the same number of cells. Each column is as wide as its widest cell,
-/// and two blanks separate the columns. Control characters become '?'.
+/// and two blanks separate the columns. one_line() escapes the cells.
 std::string aligned(std::vector<Row> rows);
 
 /// The id as text: "0x123" for 11 bits, "0x00000123" for 29 bits. The number of digits is that of candump.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dbc/ports/several.hpp"
+#include "dbc/text/escape.hpp"
 #include "target/device/device.hpp"
 #include "target/process/bus_notes.hpp"
 #include "target/process/timing_window.hpp"
@@ -52,7 +53,7 @@ void send(Port& port, std::span<const Frame> frames, BusNotes& notes) {
 void print(const std::string& news) {
   for (std::size_t begin = 0; begin < news.size();) {
     const std::size_t end = news.find('\n', begin);
-    std::fprintf(stderr, "hil-target: %s\n", news.substr(begin, end - begin).c_str());
+    std::fprintf(stderr, "hil-target: %s\n", one_line(news.substr(begin, end - begin)).c_str());
     begin = end + 1;
   }
 }

@@ -10,6 +10,7 @@
 
 #include "dbc/logs/log.hpp"
 #include "dbc/ports/socketcan.hpp"
+#include "tests/log_writer.hpp"
 #include "tests/vcan/interface.hpp"
 
 namespace canhil {
@@ -226,15 +227,14 @@ std::vector<Frame> mixed_frames(int count) {
 }
 
 void write_log(const std::string& path, const std::vector<Frame>& frames) {
-  auto writer = LogWriter::create(path);
-  ASSERT_TRUE(writer);
+  auto writer = test::log_writer(path);
   for (std::size_t n = 0; n < frames.size(); ++n) {
-    writer->write({.t_ns = static_cast<std::int64_t>(1'000'000'000'123'456'789 + n * 1'000'000),
-                   .interface = "vcan1",
-                   .frame = frames[n],
-                   .transmitted = n % 2 == 0});
+    writer.write({.t_ns = static_cast<std::int64_t>(1'000'000'000'123'456'789 + n * 1'000'000),
+                  .interface = "vcan1",
+                  .frame = frames[n],
+                  .transmitted = n % 2 == 0});
   }
-  ASSERT_TRUE(writer->close());
+  ASSERT_TRUE(writer.close());
 }
 
 TEST(CanUtils, CandumpRecordsWhatOurWriterWrites) {

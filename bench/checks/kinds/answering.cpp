@@ -50,7 +50,8 @@ Answering Answering::read(scenario::Section& /*section*/, const scenario::CheckC
   // A sample that was measured before a fault may be transmitted during the fault.
   for (const scenario::FaultWindow& fault : context.faults)
     rule.excused.push_back(
-        {.from_us = fault.window.from_us - context.latency_us, .to_us = fault.window.to_us});
+        {.name = fault.name,
+         .window = {.from_us = fault.window.from_us - context.latency_us, .to_us = fault.window.to_us}});
   return rule;
 }
 
@@ -67,13 +68,17 @@ Finding Answering::judge(const Evidence& evidence) const {
       values += track->points.size();
   }
   if (values == 0) return failed("no answers");
+  std::vector<scenario::Window> struck;  // a fault that did not strike excuses nothing
+  for (const scenario::FaultWindow& fault : excused) {
+    if (did_not_strike(evidence, fault.name).empty()) struck.push_back(fault.window);
+  }
   const scenario::Window whole{.from_us = 0, .to_us = evidence.truth.duration_us};
-  for (const scenario::Window& stretch : without(whole, excused)) {
+  for (const scenario::Window& stretch : without(whole, struck)) {
     if (auto gap = silence_of(evidence, judged, stretch); !gap.empty()) return failed(std::move(gap));
   }
   const double longest = longest_wait_us(static_cast<double>(messages::TargetHeartbeat::info.cycle_time_us));
   for (const scenario::Window& silence : seen.complaints.silences()) {
-    for (const scenario::Window& owed : without(silence, excused)) {
+    for (const scenario::Window& owed : without(silence, struck)) {
       if (static_cast<double>(owed.to_us - owed.from_us) > longest)
         return failed("no heartbeat " + seconds(owed));
     }

@@ -50,6 +50,12 @@ std::string Answers::subject() const {
   return one_of_several ? marks + " of " + estimator : marks;
 }
 
+// A missing answer may be one that would have had a mark of which only some may come.
+std::vector<std::string> Answers::needs_answers_of() const {
+  if (std::ranges::none_of(counts, [](const Count& count) { return count.at_most.has_value(); })) return {};
+  return {estimator};
+}
+
 Finding Answers::judge(const Evidence& evidence) const {
   Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
   const auto add = [](std::string& text, const std::string& more) {

@@ -23,6 +23,7 @@ struct Answers {
 
   static Answers read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const;
+  [[nodiscard]] std::vector<std::string> needs_answers_of() const;
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -42,13 +43,39 @@ Finding within_limits(std::span<const CountLimit> limits) {
   return finding;
 }
 
+Finding of_the_whole_run(Finding finding, const Observations& seen) {
+  const TargetReports& reports = seen.reports;
+  const auto add = [&](Outcome outcome, const std::string& why) {
+    finding.measured += "; " + why;
+    finding.outcome = outcome;
+  };
+  if (!reports.went_down().empty()) {
+    add(Outcome::fail, "the counts went down: " + reports.went_down());
+  } else if (const auto stopped_us = reports.counters_stopped_us()) {
+    // While a fault stops the target's process, the target sends nothing.
+    const bool held = std::ranges::any_of(seen.faults, [&](const FaultRecord& fault) {
+      return fault.of_target && fault.count > 0 && fault.window.to_us >= *stopped_us;
+    });
+    const std::string away = seen.bus.outages();
+    const std::string stopped =
+        fmt::format("TargetCounters stopped at {:g} s", static_cast<double>(*stopped_us) * 1e-6);
+    if (!away.empty())
+      add(Outcome::not_measured, stopped + "; " + away);
+    else if (!held)
+      add(Outcome::fail, stopped);
+  }
+  return finding;
+}
+
 Finding Counters::judge(const Evidence& evidence) const {
   if (!evidence.seen.counters) return {Outcome::fail, "no TargetCounters", "counters reported"};
   const messages::TargetCounters& counters = *evidence.seen.counters;
-  return within_limits(std::array<CountLimit, 4>{{{"frames lost", frames_lost_at_most, counters.frames_lost},
-                                                  {"bad CRC", bad_crc_at_most, counters.bad_crc},
-                                                  {"bad groups", bad_group_at_most, counters.bad_group},
-                                                  {"late", late_at_most, counters.late}}});
+  Finding finding =
+      within_limits(std::array<CountLimit, 4>{{{"frames lost", frames_lost_at_most, counters.frames_lost},
+                                               {"bad CRC", bad_crc_at_most, counters.bad_crc},
+                                               {"bad groups", bad_group_at_most, counters.bad_group},
+                                               {"late", late_at_most, counters.late}}});
+  return of_the_whole_run(std::move(finding), evidence.seen);
 }
 
 }  // namespace canhil::checks

@@ -7,6 +7,8 @@
 
 namespace canhil::checks {
 
+struct Observations;
+
 /// Limits of the counters; a counter without a limit is not judged.
 struct Counters {
   static constexpr std::string_view kind = "counters";
@@ -26,5 +28,9 @@ struct CountLimit {
 /// Passes if no count exceeds its limit. The finding contains two texts, for example "bad CRC 0, late 2" as
 /// the measured values and "bad CRC <= 0, late <= 3" as the expected values.
 Finding within_limits(std::span<const CountLimit> limits);
+
+/// The finding, unless the last TargetCounters does not give the counts of the whole run: if a count went
+/// down, or if TargetCounters stopped before the end, the finding does not pass.
+Finding of_the_whole_run(Finding finding, const Observations& seen);
 
 }  // namespace canhil::checks

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "bench/checks/evidence.hpp"
+#include "bench/checks/kinds/counters.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::checks {
@@ -72,12 +73,11 @@ Finding CountsMatch::judge(const Evidence& evidence) const {
   finding.expected += ", as the bench withheld and damaged";
   // If an outage of the bus lost frames, the target counts these frames too, although the bench did not
   // withhold them.
-  const std::uint64_t outages = seen.bus.downs + seen.bus.errors.bus_off;
-  if (finding.outcome == Outcome::fail && outages > 0) {
+  if (const std::string away = seen.bus.outages(); finding.outcome == Outcome::fail && !away.empty()) {
     finding.outcome = Outcome::not_measured;
-    finding.measured += fmt::format("; the bus was away {} time{}", outages, outages == 1 ? "" : "s");
+    finding.measured += "; " + away;
   }
-  return finding;
+  return of_the_whole_run(std::move(finding), seen);
 }
 
 }  // namespace canhil::checks

@@ -23,11 +23,14 @@ Finding DetectedWithin::judge(const Evidence& evidence) const {
   const std::string expected =
       fmt::format("{} within {:g} s of {}", by.empty() ? "a sign" : fmt::format("{}", fmt::join(by, ", ")),
                   seconds_of(within_us), disturbance.to_text());
-  const std::vector<Sign> signs = signs_of(evidence, disturbance, by);
+  if (auto why = not_measurable(evidence, disturbance); !why.empty())
+    return {Outcome::not_measured, std::move(why), expected};
+  const SignsOf signs = signs_of(evidence, disturbance, by);
   const std::int64_t onset_us = disturbance.window.from_us;
   // A sign may name a cause that is valid before the onset: the sample was measured before the onset and sent
   // after the onset.
-  const auto first = first_in(signs, disturbance.valid_from_us, evidence.truth.duration_us);
+  const auto first = first_in(signs.fresh, disturbance.valid_from_us, evidence.truth.duration_us);
+  if (!first && !signs.there_before.empty()) return {Outcome::not_measured, signs.why_hidden(), expected};
   if (!first) return {Outcome::fail, "no sign", expected};
   const std::int64_t after_us = std::max<std::int64_t>(first->t_us - onset_us, 0);
   return {pass_if(after_us <= within_us),

@@ -16,6 +16,7 @@ struct DetectedWithin {
 
   static DetectedWithin read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return disturbance.fault; }
+  [[nodiscard]] std::optional<std::int64_t> event_us() const { return disturbance.event_us(); }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

@@ -56,9 +56,11 @@ Finding Honest::judge(const Evidence& evidence) const {
     if (samples.empty()) return {Outcome::fail, fmt::format("{}: no answers to judge", one->name), expected};
     judged += samples.size();
     NotFinite not_finite;
+    bool any_trusted = !quantities::has(one->layout, quantities::degraded);
     for (std::size_t index = 0; index < samples.size(); ++index) {
       const double ratio = samples.value(index, quantities::trusted_over_sigma);
       not_finite.take(samples.times()[index], ratio);
+      any_trusted = any_trusted || samples.value(index, quantities::degraded) < 1;
       if (!(ratio > worst)) continue;
       worst = ratio;
       at_us = samples.times()[index];
@@ -67,6 +69,11 @@ Finding Honest::judge(const Evidence& evidence) const {
     if (auto why = not_finite.to_text(samples.size(), "errors in sigmas", one->layout.to_go_stretch_us > 0);
         !why.empty())
       return {Outcome::fail, std::move(why), expected};
+    if (!any_trusted)
+      return {Outcome::not_measured,
+              fmt::format("{}: all {} answers are degraded or blind, so none is trusted", one->name,
+                          samples.size()),
+              expected};
   }
   const double at_s = static_cast<double>(at_us) * 1e-6;
   return {pass_if(worst <= over_sigma),

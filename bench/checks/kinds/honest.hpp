@@ -18,6 +18,7 @@ struct Honest {
   static Honest read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return named; }
   [[nodiscard]] std::vector<std::string> held_against_truth() const;
+  [[nodiscard]] std::vector<std::string> needs_answers_of() const { return held_against_truth(); }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

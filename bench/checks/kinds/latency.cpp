@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/checks/answered.hpp"
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/output_period.hpp"
 #include "bench/checks/timing.hpp"
@@ -48,8 +49,14 @@ Finding Latency::judge(const Evidence& evidence) const {
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
   if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
   if (timed->latency.count() == 0) return {Outcome::fail, "no answers", expected};
-  const double value = timed->latency.quantile_ns(quantile) * 1e-9;
-  return {pass_if(value < bar_s), fmt::format("{:.3f} ms of {}", value * 1e3, timed->latency.count()),
+  const Answered came = answered(evidence.seen, message, window);
+  const auto value = quantile_s(timed->latency, quantile, came.missing());
+  if (!value) {
+    Finding missing = too_few(evidence.seen, message, came);
+    missing.expected = expected;
+    return missing;
+  }
+  return {pass_if(*value < bar_s), fmt::format("{:.3f} ms of {}", *value * 1e3, timed->latency.count()),
           expected};
 }
 

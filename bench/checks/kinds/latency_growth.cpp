@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/checks/answered.hpp"
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/latency.hpp"
 #include "bench/checks/timing.hpp"
@@ -35,8 +36,16 @@ Finding LatencyGrowth::judge(const Evidence& evidence) const {
   if (early == nullptr || late == nullptr) return {Outcome::not_measured, "no times were measured", expected};
   if (early->latency.count() == 0 || late->latency.count() == 0)
     return {Outcome::fail, "no answers", expected};
-  const double before_s = early->latency.quantile_ns(median) * 1e-9;
-  const double after_s = late->latency.quantile_ns(median) * 1e-9;
+  const auto before = quantile_s(early->latency, median, answered(evidence.seen, message, first).missing());
+  const auto after = quantile_s(late->latency, median, answered(evidence.seen, message, last).missing());
+  if (!before || !after) {
+    const scenario::Window& window = before ? last : first;
+    Finding missing = too_few(evidence.seen, message, answered(evidence.seen, message, window));
+    missing.measured += " " + seconds(window);
+    missing.expected = expected;
+    return missing;
+  }
+  const double before_s = *before, after_s = *after;
   // If the host slows down, both bench and target slow down. The target is judged only if the growth of the
   // bench's own lateness is small compared with the limit.
   const double host_s = (late->lateness.quantile_ns(median) - early->lateness.quantile_ns(median)) * 1e-9;

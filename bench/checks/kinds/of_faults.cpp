@@ -69,17 +69,35 @@ std::vector<std::string> read_signs(scenario::Section& section, const scenario::
   section.optional("by");
   if (!section.has("by")) return {};
   return section.some_of({"by",
-                          "Names of the signs that the check considers. Default: every sign that was absent "
-                          "in the 5 s before the onset."},
+                          "Names of the signs that the check considers. Default: all signs. A sign that was "
+                          "present in the 5 s before the onset never counts."},
                          sign_names(running(context)));
 }
 
-std::vector<Sign> signs_of(const Evidence& evidence, const Disturbance& of,
-                           const std::vector<std::string>& names) {
-  std::vector<Sign> signs = signs_in(evidence.seen, evidence.estimators);
-  if (names.empty()) return new_since(std::move(signs), of.valid_from_us);
-  std::erase_if(signs, [&](const Sign& sign) { return std::ranges::find(names, sign.name) == names.end(); });
+std::string SignsOf::why_hidden() const {
+  std::vector<std::string> texts;
+  for (const Sign& sign : there_before) texts.push_back(sign.to_text());
+  return fmt::format("already present before it: {}", fmt::join(texts, ", "));
+}
+
+SignsOf signs_of(const Evidence& evidence, const Disturbance& of, const std::vector<std::string>& names) {
+  SignsOf signs;
+  for (Sign& sign : signs_in(evidence.seen, evidence.estimators)) {
+    if (!names.empty() && std::ranges::find(names, sign.name) == names.end()) continue;
+    (was_there_before(sign, of.valid_from_us) ? signs.there_before : signs.fresh).push_back(std::move(sign));
+  }
   return signs;
+}
+
+std::string did_not_strike(const Evidence& evidence, std::string_view fault) {
+  const auto found = std::ranges::find(evidence.seen.faults, fault, &FaultRecord::name);
+  if (found == evidence.seen.faults.end() || found->count > 0) return "";
+  return fmt::format("the fault '{}' did not strike", fault);
+}
+
+std::string not_measurable(const Evidence& evidence, const Disturbance& of) {
+  if (!can_show_signs(evidence.seen, evidence.estimators)) return "this target has no signs";
+  return did_not_strike(evidence, of.fault);
 }
 
 std::vector<const estimators::Estimator*> running(const scenario::CheckContext& context) {

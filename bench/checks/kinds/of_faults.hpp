@@ -20,6 +20,10 @@ struct Disturbance {
   /// nodes measure before they send.
   std::int64_t valid_from_us = 0;
   [[nodiscard]] std::string to_text() const;  ///< "fault 'NAME'", "10 s"
+  /// The time of the disturbance, if it is not a fault of the scenario.
+  [[nodiscard]] std::optional<std::int64_t> event_us() const {
+    return fault.empty() ? std::optional(window.from_us) : std::nullopt;
+  }
 };
 
 /// The fault whose name is the value of the key `fault`; none: the key is absent. Error: an unknown name; the
@@ -38,9 +42,20 @@ std::int64_t read_within(scenario::Section& section, const scenario::CheckContex
 /// before the onset.
 std::vector<std::string> read_signs(scenario::Section& section, const scenario::CheckContext& context);
 
-/// The signs of these names; without names, the signs that did not appear just before the disturbance.
-std::vector<Sign> signs_of(const Evidence& evidence, const Disturbance& of,
-                           const std::vector<std::string>& names);
+/// The signs of a disturbance.
+struct SignsOf {
+  std::vector<Sign> fresh{};                     ///< signs that did not appear just before the disturbance
+  std::vector<Sign> there_before{};              ///< the other signs, which cannot show the disturbance
+  [[nodiscard]] std::string why_hidden() const;  ///< "already present before it: degraded in an answer"
+};
+/// The signs of these names; without names, all signs.
+SignsOf signs_of(const Evidence& evidence, const Disturbance& of, const std::vector<std::string>& names);
+
+/// Why the response to a disturbance cannot be measured: its fault did not strike, or the target cannot show
+/// signs. Empty: it can be measured.
+std::string not_measurable(const Evidence& evidence, const Disturbance& of);
+/// "the fault 'NAME' did not strike". Empty: it struck, or the scenario has no such fault.
+std::string did_not_strike(const Evidence& evidence, std::string_view fault);
 
 /// The estimators that run in this scenario and that the bench knows.
 std::vector<const estimators::Estimator*> running(const scenario::CheckContext& context);

@@ -54,8 +54,8 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
             expected};
   }
   if (timed->period.count() == 0) return {Outcome::fail, "fewer than two arrivals", expected};
-  const PeriodDeviation off =
-      period_deviation(timed->period, nominal, ended_before_s(evidence.seen, *timed), quantile);
+  const PeriodDeviation off = period_deviation(timed->period, nominal, began_after_s(evidence.seen, *timed),
+                                               ended_before_s(evidence.seen, *timed), quantile);
   return {pass_if(off.off_s <= nominal * within),
           fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count), expected};
 }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
@@ -54,6 +56,11 @@ std::vector<std::string> RecoversWithin::held_against_truth() const {
   return error ? std::vector{error->estimator} : std::vector<std::string>();
 }
 
+Stretch RecoversWithin::span() const {
+  return {.window = {.from_us = disturbance.window.to_us + within_us,
+                     .to_us = std::numeric_limits<std::int64_t>::max()}};
+}
+
 Finding RecoversWithin::judge(const Evidence& evidence) const {
   const auto seconds_of = [](std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; };
   std::string expected =
@@ -65,12 +72,25 @@ Finding RecoversWithin::judge(const Evidence& evidence) const {
   const scenario::Window after{.from_us = due_us, .to_us = evidence.truth.duration_us};
   if (auto gap = silence_of(evidence, answering, after); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
+  if (auto why = error ? did_not_strike(evidence, disturbance.fault) : not_measurable(evidence, disturbance);
+      !why.empty())
+    return {Outcome::not_measured, std::move(why), expected};
+  const SignsOf signs = signs_of(evidence, disturbance, by);
+  // A sign that the check names must end, even if it was present before.
+  std::vector<Sign> ending = signs.fresh;
+  if (!by.empty()) std::ranges::copy(signs.there_before, std::back_inserter(ending));
   bool holds = true;
   std::string measured = "no sign after its end";
-  if (const auto last = last_after(signs_of(evidence, disturbance, by), end_us)) {
+  if (const auto last = last_after(ending, end_us)) {
     holds = last->t_us <= due_us;
     measured = fmt::format("last sign {:.3f} s after: {}", seconds_of(last->t_us - end_us), last->text);
   }
+  // Without an error that is judged, only signs can show that there was something to recover from.
+  if (!error && holds && !first_in(signs.fresh, disturbance.valid_from_us, after.to_us))
+    return {Outcome::not_measured,
+            signs.there_before.empty() ? "no sign at any time: there was nothing to recover from"
+                                       : signs.why_hidden(),
+            expected};
   if (!error) return {pass_if(holds), std::move(measured), std::move(expected)};
   const auto tracks = tracks_of(evidence, error->estimator, *error->quantity);
   if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};

@@ -24,6 +24,9 @@ struct RecoversWithin {
   [[nodiscard]] std::string subject() const;
   [[nodiscard]] std::vector<Subject> subjects() const;
   [[nodiscard]] std::vector<std::string> held_against_truth() const;
+  [[nodiscard]] std::optional<std::int64_t> event_us() const { return disturbance.event_us(); }
+  /// The answers after the time that the target has for the recovery.
+  [[nodiscard]] Stretch span() const;
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bench/checks/evidence.hpp"
+#include "bench/checks/kinds/of_faults.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
 #include "bench/checks/not_finite.hpp"
 #include "bench/scenario/rule.hpp"
@@ -33,6 +34,8 @@ Finding SigmaGrows::judge(const Evidence& evidence) const {
   const std::string expected =
       fmt::format("sigma grows to more than {:g} times {}", by,
                   fault.empty() ? seconds(window) : fmt::format("through fault '{}'", fault));
+  if (auto why = did_not_strike(evidence, fault); !why.empty())
+    return {Outcome::not_measured, std::move(why), expected};
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
   const Stretch stretch{.window = window};

@@ -193,7 +193,7 @@ Result<void> fly(const std::vector<Round>& rounds, const std::vector<std::string
     ::close_range(3, ~0U, 0);
     echo(buses[1], rounds);
   }
-  auto target = drive::TargetProcess::start(HIL_TARGET, buses[0]);
+  auto target = drive::start_target(HIL_TARGET, buses[0]);
   if (!target) return tl::unexpected(target.error());
   const bool ready =
       bare.hears(messages::TargetHeartbeat::info.id) && device.hears(messages::TargetHeartbeat::info.id);

@@ -93,6 +93,14 @@ INSTANTIATE_TEST_SUITE_P(
         Defect{"AnyParameter", {"P-UNNAMED"}}, Defect{"KeptParameters", {"P-INITIAL"}}),
     [](const auto& named) { return named.param.name; });
 
+// The bench ends the process after the last rule.
+TEST(Conformance, AProcessThatCrashesWhenItIsEndedBreaksTheLastRule) {
+  const nlohmann::json report = conformance(python(
+      "tests/processes/conformance/defective_target.py " SOURCE_DIR "/docs/examples/kit CrashWhenEnded"));
+  EXPECT_EQ(broken(report).size(), 1U) << report.dump(1);
+  EXPECT_THAT(report["rules"].back().dump(), HasSubstr("ended by SIGSEGV (Segmentation fault)"));
+}
+
 TEST(Conformance, BadInputIsOneLine) {
   expect_one_line(hil_bench("conformance --target /no/such/program"), "'/no/such/program': is not a program");
   expect_one_line(hil_bench("conformance --target /usr/bin/true"),

@@ -4,6 +4,8 @@ defective_target.py KIT_FOLDER DEFECT --bus BUS
 """
 
 import itertools
+import os
+import signal
 import sys
 
 sys.path.insert(0, sys.argv[1])
@@ -330,6 +332,23 @@ class KeptParameters(Sound):
         kept = getattr(self, "parameters", None)
         super().forget()
         self.parameters = kept or self.parameters
+
+
+class CrashInFlight(Sound):
+    """Crashes shortly before the end of a flight of 6 s: so late that its silence is not noticed any more."""
+
+    def on_sync(self, sync):
+        if self.state == "running" and sync["time_us"] >= 5_900_000:
+            os.kill(os.getpid(), signal.SIGSEGV)
+        super().on_sync(sync)
+
+
+class CrashWhenEnded(Sound):
+    """Crashes when it is asked to end."""
+
+    def __init__(self, *arguments):
+        signal.signal(signal.SIGTERM, lambda *_: os.kill(os.getpid(), signal.SIGSEGV))
+        super().__init__(*arguments)
 
 
 if __name__ == "__main__":

@@ -110,7 +110,8 @@ TEST(DbcLint, BadInputIsOneLine) {
                   "/nowhere.dbc: cannot be read");
   expect_one_line(hil_bench(fmt::format("dbc lint --json --sarif - {}", canhil_dbc)), "expected one of them");
   expect_one_line(hil_bench(fmt::format("dbc lint --sarif /nowhere/x {}", canhil_dbc)), "cannot be written");
-  expect_one_line(hil_bench(fmt::format("dbc lint --sarif {0} {0}", refused_file())), "is named twice");
+  expect_one_line(hil_bench(fmt::format("dbc lint --sarif {0} {0}", refused_file())),
+                  "is the same file as FILE");
 }
 
 TEST(DbcShow, ListsTheMessages) {

@@ -218,8 +218,8 @@ TEST(Outputs, ADashIsStandardOutputInPlaceOfTheText) {
   EXPECT_TRUE(junit.out.starts_with("<?xml")) << junit.out;
   EXPECT_TRUE(junit.out.ends_with("</testsuites>\n")) << junit.out;
   EXPECT_EQ(read_json(scratch("beside.json"))["checks"].size(), json_of(json.out)["checks"].size());
-  expect_one_line(hil_bench(run + "--json - --junit -"), "file '-': is named twice");
-  expect_one_line(hil_bench(run + "--log -"), "file '-': standard output cannot hold this");
+  expect_one_line(hil_bench(run + "--json - --junit -"), "--json -, --junit -: both to standard output");
+  expect_one_line(hil_bench(run + "--log -"), "--log -: standard output cannot hold this");
   EXPECT_FALSE(std::filesystem::exists("-"));
   const Ended full = shell(fmt::format("{} {} --junit - >/dev/full", HIL_BENCH, run));
   expect_one_line(full, "standard output: cannot be written: No space left on device");
@@ -280,7 +280,7 @@ TEST(BadInput, FilesThatWouldReplaceSomethingElse) {
   expect_one_line(hil_bench(fmt::format("run {} --junit {}", quick, scratch("pipe"))),
                   "is not a regular file");
   ASSERT_EQ(shell(fmt::format("cp {} {}", quick, scratch("self.toml"))).code, 0);
-  expect_one_line(hil_bench(fmt::format("run {0} --log {0}", scratch("self.toml"))), "is named twice");
+  expect_one_line(hil_bench(fmt::format("run {0} --log {0}", scratch("self.toml"))), "is the same file as");
   EXPECT_EQ(read(scratch("self.toml")), read(quick));
 }
 

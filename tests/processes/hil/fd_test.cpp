@@ -14,6 +14,7 @@
 #include "dbc/wire/bit_length.hpp"
 #include "dbc/wire/message.hpp"
 #include "messages/canhil.hpp"
+#include "tests/log_writer.hpp"
 #include "tests/processes/hil/program.hpp"
 
 namespace canhil::test {
@@ -132,7 +133,7 @@ TEST(Fd, TheWireCarriesWhatTheLogAndTheReportSay) {
   ASSERT_NE(ended.code, 2) << ended.err;
   const std::vector<Frame>& frames = wiretap.end();
 
-  auto writer = LogWriter::create(raw).value();
+  auto writer = test::log_writer(raw);
   for (const Frame& frame : frames) writer.write({.interface = "fd0", .frame = frame});
   ASSERT_TRUE(writer.close());
   const Ended compared =

@@ -1,6 +1,8 @@
 // A target that is correct except for one fault, which the bench must detect. The first argument selects the
 // fault.
 //   lying_target LIE --bus BUS
+#include <unistd.h>
+
 #include <array>
 #include <atomic>
 #include <cstdio>
@@ -30,7 +32,7 @@ class Lie {
   template <class Change>
   Lie(Change change) {
     if constexpr (std::is_invocable_v<Change, Frame&>) {
-      change_ = [change](Frame& frame, std::vector<Frame>&) { return change(frame); };
+      change_ = [change](Frame& frame, std::vector<Frame>&) mutable { return change(frame); };
     } else {
       change_ = change;
     }
@@ -99,6 +101,58 @@ auto late(std::type_identity_t<void (*)(std::tuple<Messages...>&)> spoil = nullp
   };
 }
 
+/// Changes those messages of this type that the target sends in flight, from the `first` on; the messages
+/// before it are counted.
+template <class Message, class Change>
+Lie from_the(int first, Change values) {
+  return [first, values, sent = 0](Frame& frame) mutable {
+    change<Message>(frame, [&](Message& message) {
+      if constexpr (std::is_same_v<Message, TargetHeartbeat>) {
+        if (message.state != TargetState::running) return;
+      }
+      if (sent++ >= first) values(message);
+    });
+    return true;
+  };
+}
+
+void protect(Frame& frame, std::uint8_t counter);
+
+// Sends only some of the answers to the seeker. The counters of the frames have no gap, so the bench sees no
+// loss on the bus. `copies`: how often the answer with this number is sent.
+Lie answers(const std::function<int(int number)>& copies) {
+  return [copies, number = -1, counter = std::uint8_t{0}, group = std::vector<Frame>()](
+             Frame& frame, std::vector<Frame>& after) mutable {
+    const bool first = frame.id == LosRateEstimate::info.id, last = frame.id == LosRateTarget::info.id;
+    if (!first && !last && frame.id != LosRateSigma::info.id) return true;
+    if (first) group.clear();
+    group.push_back(frame);
+    if (!last) return false;
+    ++number;
+    for (int copy = 0; copy < copies(number); ++copy) {
+      for (Frame& one : group) {
+        protect(one, counter);
+        after.push_back(one);
+      }
+      counter = e2e::next(counter);
+    }
+    return false;
+  };
+}
+
+// Starts the program anew, without a lie, as a board does that resets itself.
+std::vector<char*>& arguments() {
+  static std::vector<char*> all;
+  return all;
+}
+void reboot() {
+  static std::string none = "none";
+  std::vector<char*> anew = arguments();
+  anew[1] = none.data();
+  anew.push_back(nullptr);
+  execv("/proc/self/exe", anew.data());
+}
+
 std::uint8_t moved(std::uint8_t counter) { return e2e::next(counter); }
 
 void protect(Frame& frame, std::uint8_t counter) {
@@ -161,6 +215,29 @@ const std::map<std::string_view, Lie>& lies() {
                            [](std::tuple<LosRateEstimate, LosRateSigma, LosRateTarget>& answer) {
                              std::get<LosRateEstimate>(answer).los_rate_pitch_radps = 3;
                            })},
+      {"none", [](Frame&) { return true; }},
+      {"counters_stop",
+       [sent = 0](Frame& frame) mutable { return frame.id != TargetCounters::info.id || sent++ < 10; }},
+      {"counts_fall",
+       from_the<TargetCounters>(
+           0, [sent = 0](TargetCounters& message) mutable { message.frames_lost = sent++ < 10 ? 77 : 0; })},
+      {"idle_in_flight",
+       from_the<TargetHeartbeat>(10, [](TargetHeartbeat& message) { message.state = TargetState::idle; })},
+      {"numeric_error",
+       from_the<TargetHeartbeat>(10, [](TargetHeartbeat& message) { message.error_numeric = 1; })},
+      {"another_version",
+       from_the<TargetHeartbeat>(10, [](TargetHeartbeat& message) { ++message.version_minor; })},
+      {"reboots", from_the<TargetHeartbeat>(10, [](TargetHeartbeat&) { reboot(); })},
+      {"always_degraded",
+       [](Frame& frame) {
+         change<LosRateSigma>(frame, [](LosRateSigma& message) { message.degraded = 1; });
+         return true;
+       }},
+      {"one_answer_in_150", answers([](int number) { return number % 150 == 0 ? 1 : 0; })},
+      {"silent_from_600", answers([](int number) { return number < 600 ? 1 : 0; })},
+      {"silent_before_900", answers([](int number) { return number < 900 ? 0 : 1; })},
+      {"one_answer_missing", answers([](int number) { return number == 700 ? 0 : 1; })},
+      {"answers_twice", answers([](int number) { return number % 50 == 0 ? 2 : 1; })},
       {"never_ready",
        [](Frame& frame) {
          change<TargetHeartbeat>(frame, [](TargetHeartbeat& message) { message.state = TargetState::idle; });
@@ -206,6 +283,7 @@ int complain(const std::string& what) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  arguments().assign(argv, argv + argc);
   if (argc < 4 || std::string_view(argv[2]) != "--bus") return complain("expected LIE --bus BUS");
   const auto lie = lies().find(argv[1]);
   if (lie == lies().end()) return complain(std::string("no such lie: ") + argv[1]);

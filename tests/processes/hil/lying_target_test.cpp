@@ -9,7 +9,7 @@
 
 #include "dbc/logs/log.hpp"
 #include "messages/canhil.hpp"
-#include "tests/processes/hil/program.hpp"
+#include "tests/processes/hil/liar.hpp"
 
 namespace canhil::test {
 namespace {
@@ -18,21 +18,6 @@ using testing::AllOf;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-/// The path of a script that starts lying_target with this fault, for the option --target.
-std::string liar(const std::string& lie) {
-  std::string path = scratch(lie);
-  std::ofstream(path) << fmt::format("#!/bin/sh\nexec {} {} \"$@\"\n", LYING_TARGET, lie);
-  EXPECT_EQ(shell("chmod +x " + path).code, 0);
-  return path;
-}
-
-/// The path of a copy of a scenario of bench/flights, with the text `more` appended.
-std::string with(const std::string& flight, const std::string& more) {
-  std::string path = scratch(flight + "_and_more.toml");
-  std::ofstream(path) << read(scenario(flight)) << more;
-  return path;
-}
 
 /// A quick flight in which samples are lost, repeated and damaged. An additional check compares the target's
 /// counts of such samples with the number of faults.
@@ -59,37 +44,6 @@ every = 3
 [[check]]
 kind = "counts_match"
 )");
-}
-
-struct Flown {
-  Ended ended;
-  nlohmann::json report;
-};
-Flown fly(const std::string& file, const std::string& more) {
-  const std::string report = scratch("report.json");
-  Flown flown{
-      .ended = hil_bench(fmt::format("run {} --bus {} --lockstep --json {} {}", file, bus(), report, more)),
-      .report = {}};
-  EXPECT_NE(flown.ended.code, 2) << flown.ended.err;
-  if (flown.ended.code != 2) flown.report = read_json(report);
-  return flown;
-}
-
-/// The kinds of the checks that failed; each kind is listed once.
-std::vector<std::string> failed(const nlohmann::json& report) {
-  std::vector<std::string> kinds;
-  for (const auto& check : report["checks"]) {
-    if (check["outcome"] == "fail") kinds.push_back(check["kind"]);
-  }
-  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
-  return kinds;
-}
-
-std::string measured(const nlohmann::json& report, const std::string& kind) {
-  for (const auto& check : report["checks"]) {
-    if (check["kind"] == kind) return check["measured"];
-  }
-  return "no such check";
 }
 
 using Kinds = std::vector<std::string>;

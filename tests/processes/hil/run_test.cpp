@@ -64,8 +64,8 @@ TEST(Run, ATargetKilledInMidRunIsNamed) {
   const Ended ended = hil_bench(fmt::format("run {} --bus {} --target {} --json {}",
                                             scenario("transfer_alignment"), bus(), mortal, report));
   EXPECT_EQ(ended.code, 1) << ended.err;
-  EXPECT_THAT(ended.out, HasSubstr("fail: target silent since t="));
-  // The run ends when the bench detects the silence, not after 20 s.
+  EXPECT_THAT(ended.out, HasSubstr("fail: target: ended by SIGKILL (Killed) at t="));
+  // The run ends when the bench detects this, not after 20 s.
   EXPECT_LT(read_json(report)["wall_s"].get<double>(), 15.0);
   EXPECT_LT(read_json(report)["ending"]["t_s"].get<double>(), 15.0);
 }

@@ -296,7 +296,7 @@ TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
   expect_refused("own_ecu.toml", "quantity = \"attitude.roll\"", "quantity = \"velocity.north\"",
                  "'velocity.north' is unknown, expected one of: attitude.pitch, attitude.roll");
   expect_refused("own_ecu.toml", "settle_s", "before = \"false\"\nsettle_s",
-                 "'false' ended with 1, expected 0");
+                 "'false' exited with 1, expected 0");
 }
 
 std::string measured(const nlohmann::json& report, const std::string& name) {

@@ -22,8 +22,7 @@ Collected fly(const scenario::Scenario& scenario) {
   return std::move(*flown);
 }
 
-template <class Answer>
-void expect_same(const Spool<Answer>& together, const Spool<Answer>& alone, auto&&... members) {
+void expect_same(const auto& together, const auto& alone, auto&&... members) {
   ASSERT_GT(together.size(), 30U);
   ASSERT_EQ(together.size(), alone.size());
   for (std::size_t i = 0; i < alone.size(); ++i)

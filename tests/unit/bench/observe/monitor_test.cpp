@@ -199,6 +199,7 @@ TEST_F(Watched, AFixGroupIsOneAnswerInSiUnits) {
   EXPECT_NEAR(fix.fix_bias_sigma.x(), 1, 1e-12);
   EXPECT_TRUE(fix.handed_over);
   EXPECT_EQ(std::tuple(fix.repairs, fix.gated, fix.refused), std::tuple(7U, 8U, 9U));
+  EXPECT_TRUE(fix.repaired) << "no repair was reported before";
 }
 
 TEST_F(Watched, AFixIsPairedWithTheGroupOfItsSource) {

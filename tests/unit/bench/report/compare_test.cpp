@@ -80,7 +80,7 @@ TEST(TailTest, SharesBeyondTheFirstP99) {
   std::vector<int> a(99, 10), b(90, 10);
   a.push_back(50);
   b.insert(b.end(), 10, 40);
-  const TailTest test = tail_test(buckets_of(a), buckets_of(b));
+  const ShareTest test = tail_test(buckets_of(a), buckets_of(b));
   EXPECT_NEAR(test.share_a, 0.01, 1e-12);
   EXPECT_NEAR(test.share_b, 0.10, 1e-12);
   EXPECT_LT(test.p, 0.01);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/log_writer.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/unit/dbc/ports/frames.hpp"
 
@@ -125,15 +126,14 @@ TEST(LogLine, RoundsTimesDownToMicroseconds) {
 }
 
 TEST_F(Log, IsWrittenAndReplayed) {
-  auto writer = LogWriter::create(path_);
-  ASSERT_TRUE(writer);
+  auto writer = test::log_writer(path_);
   for (std::uint32_t n = 0; n < 3; ++n) {
-    writer->write({.t_ns = std::int64_t{1'000} * n,
-                   .interface = "vcan0",
-                   .frame = frame_of(0x100 + n),
-                   .transmitted = n == 1});
+    writer.write({.t_ns = std::int64_t{1'000} * n,
+                  .interface = "vcan0",
+                  .frame = frame_of(0x100 + n),
+                  .transmitted = n == 1});
   }
-  ASSERT_TRUE(writer->close());
+  ASSERT_TRUE(writer.close());
   EXPECT_EQ(text(), "(0.000000) vcan0 100# R\n(0.000001) vcan0 101# T\n(0.000002) vcan0 102# R\n");
 
   auto opened = open_port("log:" + path_, {});
@@ -203,18 +203,14 @@ TEST(LogReading, LinesUpToTheLimitAreRead) {
 }
 
 TEST(LogWriting, ReportsAFullDisk) {
-  auto writer = LogWriter::create("/dev/full");
-  ASSERT_TRUE(writer);
-  writer->write({.interface = "c", .frame = frame_of(1)});
-  const auto closed = writer->close();
+  auto writer = test::log_writer("/dev/full");
+  writer.write({.interface = "c", .frame = frame_of(1)});
+  const auto closed = writer.close();
   ASSERT_FALSE(closed);
   EXPECT_EQ(closed.error().message, "cannot write log '/dev/full': No space left on device");
-  EXPECT_FALSE(LogWriter::create("/no/such/folder/x.log"));
-  EXPECT_EQ(LogWriter::create("/no/such/folder/x.log.7.part", "x.log").error().message,
-            "cannot write log 'x.log': No such file or directory");
-  auto unfinished = LogWriter::create("/dev/full", "x.log");
-  unfinished->write({.interface = "c", .frame = frame_of(1)});
-  EXPECT_EQ(unfinished->close().error().message, "cannot write log 'x.log': No space left on device");
+  auto unfinished = test::log_writer("/dev/full", "x.log");
+  unfinished.write({.interface = "c", .frame = frame_of(1)});
+  EXPECT_EQ(unfinished.close().error().message, "cannot write log 'x.log': No space left on device");
 }
 
 }  // namespace

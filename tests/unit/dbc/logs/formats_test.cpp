@@ -8,6 +8,7 @@
 #include "dbc/logs/asc.hpp"
 #include "dbc/logs/log.hpp"
 #include "dbc/logs/pcap.hpp"
+#include "tests/log_writer.hpp"
 #include "tests/own_folder.hpp"
 
 namespace canhil {
@@ -50,10 +51,9 @@ std::vector<LogEntry> all_kinds() {
 std::string path_of(const std::string& name) { return test::own_folder() + "/" + name; }
 
 void write(const std::string& path, const std::vector<LogEntry>& entries) {
-  auto writer = LogWriter::create(path);
-  ASSERT_TRUE(writer);
-  for (const LogEntry& entry : entries) writer->write(entry);
-  ASSERT_TRUE(writer->close());
+  auto writer = test::log_writer(path);
+  for (const LogEntry& entry : entries) writer.write(entry);
+  ASSERT_TRUE(writer.close());
 }
 
 std::vector<LogEntry> read(const std::string& path) {
@@ -125,10 +125,9 @@ TEST(Formats, AnEmptyLogIsOne) {
 
 TEST(Formats, AFullDiskIsReportedByEach) {
   for (const char* name : {"x.pcap", "x.asc", "x.log"}) {
-    auto writer = LogWriter::create("/dev/full", name);
-    ASSERT_TRUE(writer);
-    writer->write({.interface = "c", .frame = frame_of(1, 8)});
-    const auto closed = writer->close();
+    auto writer = test::log_writer("/dev/full", name);
+    writer.write({.interface = "c", .frame = frame_of(1, 8)});
+    const auto closed = writer.close();
     ASSERT_FALSE(closed) << name;
     EXPECT_EQ(closed.error().message,
               "cannot write log '" + std::string(name) + "': No space left on device");

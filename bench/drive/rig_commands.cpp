@@ -1,0 +1,52 @@
+#include "bench/drive/rig_commands.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "bench/drive/child_process.hpp"
+#include "dbc/text/escape.hpp"
+
+namespace canhil::drive {
+namespace {
+
+constexpr std::chrono::milliseconds between_looks{5};
+
+// Runs a shell command. If `stop` becomes true, ends it.
+Result<void> run_command(std::string_view key, const std::string& command, const std::atomic<bool>& stop) {
+  const auto wrong = [&](const std::string& how) {
+    return failure(fmt::format("key 'target.{}': '{}' {}, expected 0", key, command, how));
+  };
+  auto started = ChildProcess::start("/bin/sh", {"sh", "-c", command});
+  if (!started) return wrong("cannot be started: " + started.error().message);
+  while (!started->ended()) {
+    if (stop) {
+      started->end(ChildProcess::short_patience);
+      return failure(fmt::format("interrupted while 'target.{}' ran", key));
+    }
+    std::this_thread::sleep_for(between_looks);
+  }
+  const ProcessEnd end = *started->ended();
+  started->leave();  // what the command started in the background goes on, for example a simulator
+  return end.exited_with_0() ? Result<void>() : wrong(to_text(end));
+}
+
+}  // namespace
+
+Result<void> RigCommands::begin(const std::atomic<bool>& stop) {
+  begun_ = true;
+  return before_.empty() ? Result<void>() : run_command("before", before_, stop);
+}
+
+void RigCommands::finish() {
+  static const std::atomic<bool> never = false;
+  if (!std::exchange(begun_, false) || after_.empty()) return;
+  if (const auto done = run_command("after", after_, never); !done)
+    fmt::print(stderr, "hil-bench: {}\n", one_line(done.error().message));
+}
+
+}  // namespace canhil::drive
