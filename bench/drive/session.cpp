@@ -1,13 +1,13 @@
 #include "bench/drive/session.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <utility>
 
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/timing.hpp"
+#include "bench/drive/bus_facts.hpp"
 #include "bench/drive/dialect.hpp"
 #include "bench/drive/judged.hpp"
 #include "bench/drive/lockstep.hpp"
@@ -29,20 +29,6 @@ namespace canhil::drive {
 namespace {
 
 constexpr std::int64_t step_limit_ns = 5'000'000'000;
-
-Capabilities known_of(const Port& port, const WireFacts& controller) {
-  Capabilities bus = port.capabilities();
-  if (bus.wire.rates.nominal == 0) bus.wire = controller;
-  return bus;
-}
-
-observe::LoadBy load_by(const Capabilities& bus, ClockKind clock, bool time_base) {
-  if (!time_base)
-    return clock == ClockKind::lockstep ? observe::LoadBy::virtual_time : observe::LoadBy::stamps;
-  if (clock == ClockKind::lockstep)
-    return bus.in_process ? observe::LoadBy::time_base_alone : observe::LoadBy::time_base;
-  return bus.wire.rates.nominal > 0 ? observe::LoadBy::stamps : observe::LoadBy::time_base;
-}
 
 RigCommands rig_commands_of(const scenario::Scenario& scenario) {
   const scenario::OwnStart start = scenario.targets.front().own_start.value_or(scenario::OwnStart{});
@@ -344,27 +330,6 @@ Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const wor
 
 }  // namespace
 
-BusFormat format_of(const scenario::Scenario& scenario) {
-  if (scenario.foreign != nullptr)
-    return scenario.foreign->messages.front().fd ? BusFormat::fd_frames : BusFormat::classic;
-  return scenario.fd.value_or(false) ? BusFormat::fd : BusFormat::classic;
-}
-
-ClockKind clock_of(BusTime time, bool lockstep) {
-  if (time == BusTime::waits) return ClockKind::simulated_wire;
-  return lockstep || time == BusTime::set ? ClockKind::lockstep : ClockKind::real_time;
-}
-
-Options in_lockstep_against(std::string command) {
-  static std::atomic<std::uint64_t> buses = 0;  // the number of the next bus: each flight has its own
-  Options options;
-  options.bus =
-      BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));
-  options.target = std::move(command);
-  options.lockstep = true;
-  return options;
-}
-
 Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
                 const Progress& progress) {
   const auto in_file = [&](const Error& error) {
@@ -375,7 +340,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
   if (!truth) return in_file(truth.error());
   auto flight = make_flight(scenario, *truth, options.run_index);
   if (!flight) return in_file(flight.error());
-  if (auto fits = check_stimuli(scenario, *truth, options.run_index); !fits) return in_file(fits.error());
+  if (auto fits = check_stimuli(scenario, *truth, options.run_index, stop); !fits)
+    return in_file(fits.error());
   std::vector<RunFile> files = files_of(scenario, options, options.bus.in_process);
   const auto opened = Session::open(scenario, *truth, std::move(*flight), options);
   if (!opened) return tl::unexpected(opened.error());

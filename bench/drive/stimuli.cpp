@@ -5,7 +5,7 @@
 namespace canhil::drive {
 
 Result<void> check_stimuli(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                           std::uint64_t run_index) {
+                           std::uint64_t run_index, const std::atomic<bool>& stop) {
   if (scenario.engagement && scenario.engagement->guidance == world::Guidance::target) return {};
   scenario::Scenario undisturbed = scenario;
   undisturbed.faults.clear();
@@ -16,7 +16,7 @@ Result<void> check_stimuli(const scenario::Scenario& scenario, const world::Flig
   if (!dialect) return {};  // the run itself reports this error
   const auto schedule =
       (*dialect)->schedule(std::make_unique<faults::Faults>(undisturbed, run_index, (*dialect)->messages()));
-  while (schedule->due_us() != nodes::never_us) {
+  while (schedule->due_us() != nodes::never_us && !stop) {
     static_cast<void>(schedule->take());
     const nodes::Clipped& clipped = schedule->outbox().clipped();
     if (!clipped.empty()) return failure(clipped.to_text().front());

@@ -176,7 +176,7 @@ std::int64_t Listener::bench_us(std::int64_t t_ns) const {
   return virtual_time_ ? due_us_ : due_us_ + (t_ns - due_ns_) / 1000;
 }
 
-void Listener::target_restarted() {
+void Listener::target_restarts() {
   receivers_ = std::vector<protection::Receiver>(receivers_.size());
   for (const Hear& hear : conversation_.mapping.hears) pairing_of(hear).pairing.end(settler(hear));
 }

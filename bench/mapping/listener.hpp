@@ -22,7 +22,7 @@ class Listener final : public observe::Watcher {
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
-  void target_restarted() override;
+  void target_restarts() override;
   [[nodiscard]] const checks::Observations& observations() const override { return seen_; }
   checks::Observations finish() override;
 

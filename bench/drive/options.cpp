@@ -1,0 +1,34 @@
+// Options that follow from a scenario, a bus or a target.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+
+#include "bench/drive/session.hpp"
+#include "bench/scenario/foreign.hpp"
+#include "dbc/ports/local_bus.hpp"
+
+namespace canhil::drive {
+
+BusFormat format_of(const scenario::Scenario& scenario) {
+  if (scenario.foreign != nullptr)
+    return scenario.foreign->messages.front().fd ? BusFormat::fd_frames : BusFormat::classic;
+  return scenario.fd.value_or(false) ? BusFormat::fd : BusFormat::classic;
+}
+
+ClockKind clock_of(BusTime time, bool lockstep) {
+  if (time == BusTime::waits) return ClockKind::simulated_wire;
+  return lockstep || time == BusTime::set ? ClockKind::lockstep : ClockKind::real_time;
+}
+
+Options in_lockstep_against(std::string command) {
+  static std::atomic<std::uint64_t> buses = 0;  // the number of the next bus: each flight has its own
+  Options options;
+  options.bus =
+      BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));
+  options.target = std::move(command);
+  options.lockstep = true;
+  return options;
+}
+
+}  // namespace canhil::drive
