@@ -17,7 +17,6 @@
 #include "bench/drive/target_command.hpp"
 #include "bench/observe/divergence.hpp"
 #include "bench/report/file.hpp"
-#include "bench/scenario/commands.hpp"
 #include "dbc/files/command_files.hpp"
 #include "dbc/files/text_file.hpp"
 
@@ -32,7 +31,6 @@ struct Arguments {
   std::vector<std::string> scenarios;
   std::string target = drive::quoted_word(own_folder() + "/hil-target");
   std::optional<std::uint64_t> tolerance;
-  bool no_commands = false;
   std::string json;
 };
 
@@ -74,10 +72,6 @@ Result<void> fly(const scenario::Scenario& scenario, const Arguments& arguments,
   return {};
 }
 
-Result<void> check_commands(const Arguments& arguments, const scenario::Scenario& scenario) {
-  return arguments.no_commands ? scenario::refuse_commands(scenario) : Result<void>();
-}
-
 ExitCode record(const Arguments& arguments) {
   const fs::path folder = arguments.folder;
   std::vector<std::string> names, texts;
@@ -88,7 +82,6 @@ ExitCode record(const Arguments& arguments) {
     if (!text) return complain(text.error());
     auto read = keepable(drive::parse_scenario(*text, scenario), scenario);
     if (!read) return complain(read.error());
-    if (auto fine = check_commands(arguments, *read); !fine) return complain(fine.error());
     if (read->recordings_hash != 0)
       return complain(
           {fmt::format("{}: uses recordings, which are not kept with it, expected a scenario "
@@ -155,7 +148,6 @@ ExitCode check(const Arguments& arguments) {
   for (const fs::path& file : files) {
     auto read = keepable(drive::read_scenario(file), file);
     if (!read) return complain(read.error());  // the input file is wrong, not the target
-    if (auto fine = check_commands(arguments, *read); !fine) return complain(fine.error());
     scenarios.push_back(std::move(*read));
   }
   CommandFiles named;
@@ -218,8 +210,6 @@ void add_golden(command_line::Command app, int& code) {
     own.add_option("FOLDER", arguments->folder, "where scenarios and frames are kept").required();
     own.add_option("--target", arguments->target,
                    "program and its arguments, as one word (default: hil-target beside hil-bench)");
-    own.add_flag("--no-commands", arguments->no_commands,
-                 "refuse scenarios with shell commands (keys before and after of [target])");
     own.on_given([&code, arguments, execute] {
       if (auto fine = drive::check_target(arguments->target); !fine) {
         code = static_cast<int>(complain(fine.error()));

@@ -303,13 +303,8 @@ class Commands(InFolder):
         for key in ("before", "after"):
             self.write("s.toml", plain.replace("[target]\n", f'[target]\n{key} = "touch {self.folder}/was-run"\n'))
             self.write("c.toml", 'title = "C"\nruns = 1\nseed = 1\n[[variant]]\nname = "V"\nscenario = "s.toml"\n')
-            kept = self.folder / "golden"
-            kept.mkdir(exist_ok=True)
-            shutil.copy(self.folder / "s.toml", kept)
-            for name in ("own_ecu.mapping.toml", "own_ecu.dbc"):
-                shutil.copy(own / name, kept)
             for words in (("run", "s.toml", *target), ("campaign", "c.toml", *target), ("campaign", "replay", "c.toml", "0"),
-                          ("faults", "s.toml", *target), ("golden", "record", "new", "s.toml", *target), ("golden", "check", "golden", *target)):
+                          ("faults", "s.toml", *target)):
                 with self.subTest((key, words)):
                     err = self.refused(*words, "--no-commands")
                     self.assertIn(f"key 'target.{key}'", err)
