@@ -10,6 +10,7 @@
 #include "bench/drive/judged.hpp"
 #include "bench/faults/in_run.hpp"
 #include "bench/observe/load_meter.hpp"
+#include "bench/scenario/foreign.hpp"
 #include "dbc/logs/candump.hpp"
 #include "messages/canhil.hpp"
 
