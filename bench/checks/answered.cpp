@@ -83,11 +83,14 @@ Answered answered(const Observations& seen, std::string_view message, const scen
                                    : is_canhils(seen)               ? 0
                                                                     : std::int64_t{info->cycle_time_us};
   const std::int64_t end_us = given_up_us(seen);
-  std::optional<std::int64_t> counted_us;
+  std::optional<std::int64_t> counted_us, before_us;
   bool thinned = false;
+  std::uint64_t stretches = 1;  // without a gap in the samples
   for (const OwedAnswer& one : *owed) {
     if (!within(window, one.valid_us) || one.valid_us >= end_us || is_excused(seen, one.valid_us)) continue;
     found.came += one.came ? 1 : 0;
+    if (before_us && one.valid_us - *before_us > interval_us) ++stretches;
+    before_us = one.valid_us;
     if (counted_us && one.valid_us - *counted_us < interval_us) {
       thinned = true;
       continue;
@@ -95,8 +98,8 @@ Answered answered(const Observations& seen, std::string_view message, const scen
     counted_us = one.valid_us;
     ++found.due;
   }
-  // The intervals of the target need not begin with the window.
-  if (thinned) --found.due;
+  // The intervals of the target need not begin with the window, nor anew after a gap.
+  if (thinned) found.due -= std::min(found.due, stretches);
   found.came = std::min(found.came, found.due);
   return found;
 }
