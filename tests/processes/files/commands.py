@@ -127,7 +127,7 @@ class Workplace:
 
 TARGET = ("--target", "./my-target gain.txt")
 ECU = ("own_ecu.toml", "own_ecu.mapping.toml", "own_ecu.dbc")
-SUITE = ("suites/acceptance/los_rate/suite.toml", "suites/acceptance/los_rate/campaign.toml", "suites/flights/los_quick.toml")
+SUITE = ("suites/acceptance/los_rate/suite.toml", "suites/acceptance/los_rate/campaign.toml", "suites/flights/los_closed_loop.toml")
 BENCH, CAMPAIGN = "bin/hil-bench", "bin/hil-bench-campaign"
 
 # For each command that writes: words with all its inputs, and these inputs. A command may have several such lines.
