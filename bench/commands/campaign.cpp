@@ -227,8 +227,10 @@ ExitCode report_on(const ReportArguments& arguments) {
   if (!store) return complain(store.error());
   const auto campaign = campaign_of(*store);
   if (!campaign) return complain(campaign.error());
-  say(report::signature_line(arguments.merged));
-  return print_report(*campaign, arguments.merged, std::string(arguments.json ? report::to_stdout : ""));
+  const ExitCode code =
+      print_report(*campaign, arguments.merged, std::string(arguments.json ? report::to_stdout : ""));
+  if (code != ExitCode::usage) say(report::signature_line(arguments.merged));
+  return code;
 }
 
 ExitCode export_results(const ExportArguments& arguments) {

@@ -20,7 +20,6 @@
 #include "bench/fault_matrix/report.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/signature.hpp"
-#include "bench/scenario/commands.hpp"
 #include "dbc/files/command_files.hpp"
 
 namespace canhil::commands {
@@ -40,7 +39,7 @@ struct Arguments {
   std::string set;
   std::optional<std::uint64_t> seed, runs, threads;
   std::string out, shard, target;
-  bool resume = false, no_commands = false;
+  bool resume = false;
   Shown shown;
   Live live;
 };
@@ -118,10 +117,6 @@ ExitCode execute(const Arguments& arguments) {
     return complain(distinct.error());
   const auto plan = plan_of(arguments);
   if (!plan) return complain(plan.error());
-  for (const fault_matrix::Column& column : plan->columns) {
-    if (!arguments.no_commands) break;
-    if (auto fine = scenario::refuse_commands(column.scenario); !fine) return complain(fine.error());
-  }
   const fs::path folder = arguments.out;
   const fs::path file =
       folder / (shard->count == 1 ? std::string("faults.jsonl")
@@ -238,8 +233,6 @@ void add_faults(command_line::Command app, int& code) {
   command.add_option("--target", arguments->target,
                      "program to fly against, with its arguments, as one word; in lockstep (default: the "
                      "target's own code in process)");
-  command.add_flag("--no-commands", arguments->no_commands,
-                   "refuse scenarios with shell commands (keys before and after of [target])");
   add_shown(command, arguments->shown);
   add_live(command, arguments->live);
   command.require_subcommands(0, 1);

@@ -127,7 +127,7 @@ class Workplace:
 
 TARGET = ("--target", "./my-target gain.txt")
 ECU = ("own_ecu.toml", "own_ecu.mapping.toml", "own_ecu.dbc")
-SUITE = ("suites/acceptance/los_rate/suite.toml", "suites/acceptance/los_rate/campaign.toml", "suites/flights/los_quick.toml")
+SUITE = ("suites/acceptance/los_rate/suite.toml", "suites/acceptance/los_rate/campaign.toml", "suites/flights/los_closed_loop.toml")
 BENCH, CAMPAIGN = "bin/hil-bench", "bin/hil-bench-campaign"
 
 # For each command that writes: words with all its inputs, and these inputs. A command may have several such lines.
@@ -144,7 +144,6 @@ LINES = [
     ("hil-bench campaign replay", ("campaign.toml", "0"), ("campaign.toml", "recorded.toml", "run.log")),
     ("hil-bench faults", ("recorded.toml", "--set", "faults.toml", "--out", "new", *TARGET),
      ("recorded.toml", "run.log", "faults.toml", "my-target", "gain.txt")),
-    ("hil-bench faults", ("own_ecu.toml", "--out", "new", *TARGET), ECU),
     ("hil-bench faults merge", ("matrix/faults.jsonl",), ("matrix/faults.jsonl",)),
     ("hil-bench golden check", ("golden", *TARGET), ("golden/plain.toml", "golden/plain.log", "my-target")),
     ("hil-bench doctor", ("--bus", "local:", "--seconds", "1"), (BENCH,)),

@@ -110,7 +110,6 @@ class Outputs(InWorkplace):
         place.write("violation-0.toml", (place.folder / "plain.toml").read_text())
         # a log of which only a part could be written
         (place.folder / "cut.log.incomplete").write_bytes((place.folder / "run.log").read_bytes())
-        place.write("cut.toml", (place.folder / "recorded.toml").read_text().replace("run.log", "cut.log.incomplete"))
         # the results of a campaign
         os.link(place.folder / "run.log", place.folder / "log.sqlite")
         self.before = place.files()
@@ -120,7 +119,7 @@ class Outputs(InWorkplace):
         self.refused(["hil-bench", "report", "page.html"], "page.html")
         self.refused(["hil-bench", "golden", "check", "golden", "--target", "./my-target"], "plain.check.log")
         self.refused(["hil-bench", "faults", "violation-0.toml", "--set", "faults.toml", "--out", "."], "violation-0.toml")
-        self.refused(["hil-bench", "run", "cut.toml", "--log", "cut.log"], "cut.log.incomplete")
+        self.refused(["hil-bench", "run", "plain.toml", "--target", "./my-target cut.log.incomplete", "--log", "cut.log"], "cut.log.incomplete")
 
 
 class Links(InWorkplace):
