@@ -258,7 +258,8 @@ class Altered : public testing::Test {
     return run_edited({{file, text, instead}}, python, "--lockstep");
   }
   // A run of 3 s in real time; returns its report.
-  [[nodiscard]] nlohmann::json run_in_real_time(const std::string& target, std::vector<Edit> edits = {}) const {
+  [[nodiscard]] nlohmann::json run_in_real_time(const std::string& target,
+                                                std::vector<Edit> edits = {}) const {
     edits.push_back({"own_ecu.toml", "duration_s = 12.0", "duration_s = 3.0"});
     edits.push_back({"own_ecu.toml", "answers_at_least = 1190", "answers_at_least = 140"});
     const std::string report = scratch("edited.json");

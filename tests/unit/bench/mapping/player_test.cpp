@@ -181,8 +181,9 @@ TEST(Player, SaysWhatASignalCouldNotHold) {
       read("", mapping_with("\"Turned.AngleZ\"", "\"Turned.Millis\" = \"time\"\n\"Turned.AngleZ\""));
   ASSERT_TRUE(scenario) << scenario.error().message;
   const Flown flown(*scenario);
-  EXPECT_THAT(flown.clipped.to_text(),
-              testing::ElementsAre("Turned.Millis holds 0 to 255 ms, its node measures 980 (37 times beyond)"))
+  EXPECT_THAT(
+      flown.clipped.to_text(),
+      testing::ElementsAre("Turned.Millis holds 0 to 255 ms, its node measures 980 (37 times beyond)"))
       << "of 49: from 260 ms on";
   EXPECT_EQ(flown.value(2 * std::size_t{48}, "Millis"), 255);
 }
