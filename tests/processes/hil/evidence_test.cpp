@@ -89,8 +89,9 @@ TEST(Evidence, MissingAnswersFailEveryCheckOfValues) {
        {"one_answer_in_150", "silent_from_600", "silent_before_900", "one_answer_missing"}) {
     const auto report = fly(file, target(lie)).report;
     for (const auto& check : report["checks"]) {
-      if (check["name"] == "never degraded" || check["kind"] == "honest")
+      if (check["name"] == "never degraded" || check["kind"] == "honest") {
         EXPECT_EQ(check["outcome"], "fail") << lie << ": " << check.dump();
+      }
     }
   }
   EXPECT_THAT(failed(fly(file, target("one_answer_in_150")).report),

@@ -149,7 +149,8 @@ TEST(Reports, TellWhatBecameOfFixes) {
   EXPECT_THAT(text(scenario, run), AllOf(HasSubstr("answers 0\n"), Not(HasSubstr("accepted"))));
   estimators::FixAnswer fix{.cause_us = 100'000};
   fix.attitude_sigma.z() = 0.01;
-  run.seen.of<estimators::InflightAnswers>().fixes = {fix, fix, fix};
+  run.seen.of<estimators::InflightAnswers>().fixes =
+      estimators::InOrderOfCause<estimators::FixAnswer>(std::vector{fix, fix, fix});
   EXPECT_THAT(
       text(scenario, run),
       AllOf(
@@ -175,7 +176,8 @@ TEST(Reports, TellWhatBecameOfFixes) {
 
 TEST(Reports, SayNothingOfAHandOverWhereTheAlgorithmHasNone) {
   drive::Run run = run_of();
-  run.seen.of<estimators::InflightAnswers>().fixes = {{.cause_us = 100'000, .attitude_sigma = {0, 0, 0.01}}};
+  run.seen.of<estimators::InflightAnswers>().fixes.push_back(
+      {.cause_us = 100'000, .attitude_sigma = {0, 0, 0.01}});
   scenario::Scenario scenario = scenario_of();
   scenario.targets = {
       {.estimator = "inflight_alignment", .algorithm = "ukf", .initial_sigma = {}, .parameters = {}}};
