@@ -13,6 +13,7 @@
 
 #include "dbc/logs/log.hpp"
 #include "dbc/ports/local_bus.hpp"
+#include "dbc/wire/message.hpp"
 #include "messages/canhil.hpp"
 #include "tests/processes/hil/program.hpp"
 
@@ -175,7 +176,9 @@ TEST(Recorded, TheStampsOfALockstepRunAreItsVirtualTime) {
   std::optional<std::pair<std::int64_t, std::uint64_t>> first;
   std::int64_t span_us = 0, last_ns = 0;
   for (const LogEntry& entry : entries_of(recorded())) {
-    if (first) EXPECT_GE(entry.t_ns, last_ns) << "the log is in order";
+    if (first) {
+      EXPECT_GE(entry.t_ns, last_ns) << "the log is in order";
+    }
     last_ns = entry.t_ns;
     if (entry.frame.id != messages::Sync::info.id) continue;
     const std::uint64_t t_us = from_frame<messages::Sync>(entry.frame).time_us;
