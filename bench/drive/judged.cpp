@@ -34,9 +34,8 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
 Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario) {
   if (flown.ending.kind != Ending::Kind::completed) return flown;
   for (const checks::CheckResult& check : checks::of_every_run(scenario, flown.seen)) {
-    // What the bench or another node did is not a fault of the target: the run does not count.
-    if (check.outcome == checks::Outcome::fail) flown.ending.kind = Ending::Kind::wrong_answers;
-    if (flown.ending.kind == Ending::Kind::completed) flown.ending.kind = Ending::Kind::not_flown;
+    // A flight whose stimuli the bench clipped is impossible, whatever the target answered.
+    flown.ending.kind = flown.seen.clipped.empty() ? Ending::Kind::wrong_answers : Ending::Kind::not_flown;
     flown.ending.detail +=
         fmt::format("{}{}: {}", flown.ending.detail.empty() ? "" : "; ", check.kind, check.measured);
   }

@@ -30,10 +30,11 @@ Finding DetectedWithin::judge(const Evidence& evidence) const {
   // A sign may name a cause that is valid before the onset: the sample was measured before the onset and sent
   // after the onset.
   const auto first = first_in(signs.fresh, disturbance.valid_from_us, evidence.truth.duration_us);
-  if (!first && !signs.there_before.empty()) return {Outcome::not_measured, signs.why_hidden(), expected};
+  const std::int64_t after_us = first ? std::max<std::int64_t>(first->t_us - onset_us, 0) : 0;
+  const bool in_time = first && after_us <= within_us;
+  if (!in_time && !signs.there_before.empty()) return {Outcome::not_measured, signs.why_hidden(), expected};
   if (!first) return {Outcome::fail, "no sign", expected};
-  const std::int64_t after_us = std::max<std::int64_t>(first->t_us - onset_us, 0);
-  return {pass_if(after_us <= within_us),
+  return {pass_if(in_time),
           fmt::format("after {:.3f} s: {}", seconds_of(after_us), first->text), expected};
 }
 

@@ -53,11 +53,13 @@ class Judged : public testing::Test {
       stimuli_["SlaveImu"].push_back({.valid_us = t_us, .t_ns = t_us * 1000, .due_ns = t_us * 1000});
       seen_.of<TransferAnswers>().navigation.push_back({.cause_us = t_us, .angles = {}});
       came<messages::AlignAttitude>().push_back({.t_ns = t_us * 1000 + 200'000, .cause_us = t_us});
+      came<messages::AlignVelocityD>().push_back({.t_ns = t_us * 1000 + 200'000, .cause_us = t_us});
       seen_.timing.lateness.add(50'000);
       if (t_us % 100'000 != 0) continue;
       stimuli_["MasterIns"].push_back({.valid_us = t_us, .t_ns = t_us * 1000, .due_ns = t_us * 1000});
       seen_.of<TransferAnswers>().filter.push_back(
           {.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Ones()});
+      came<messages::AlignUpdate>().push_back({.t_ns = t_us * 1000 + 200'000, .cause_us = t_us});
       came<messages::TargetHeartbeat>().push_back({.t_ns = t_us * 1000});
     }
     seen_.last_ns = duration_us * 1000;
@@ -72,7 +74,8 @@ class Judged : public testing::Test {
                   [&](const auto& answer) { return answer.cause_us >= t_us; });
     std::erase_if(*test::Edited(seen_.of<TransferAnswers>().filter),
                   [&](const auto& answer) { return answer.cause_us >= t_us; });
-    std::erase_if(came<messages::AlignAttitude>(), [&](const Came& one) { return one.cause_us >= t_us; });
+    for (std::vector<Came>& came : came_)
+      std::erase_if(came, [&](const Came& one) { return one.cause_us >= t_us; });
   }
 
   // Observations of the bench, with the timing that these checks need.

@@ -70,7 +70,8 @@ std::vector<Event> random_events(std::mt19937& random, std::uint64_t modulus) {
     answer_ns = std::max<std::int64_t>(answer_ns, t_ns + (below(2) == 0 ? 1 : below(50))) + 1;
     events.push_back({.echoed = echoed, .t_ns = answer_ns});
   }
-  std::ranges::stable_sort(events, {}, &Event::t_ns);
+  // A stimulus that is sent at the time of an answer comes before this answer.
+  std::ranges::stable_sort(events, {}, [](const Event& one) { return std::pair(one.t_ns, !one.stimulus); });
   return events;
 }
 

@@ -26,10 +26,10 @@ BO_ 100 Rates: 8 IMU
  SG_ Count : 32|8@1+ (1,0) [0|0] "" ECU
  SG_ Time : 40|16@1+ (1,0) [0|0] "ms" ECU
  SG_ Mode : 56|8@1+ (1,0) [0|0] "m" ECU
- SG_ Course : 56|8@1+ (1.5,0) [0|0] "deg" ECU
 BO_ 2147484000 Turned: 8 IMU
  SG_ AngleZ : 7|32@0- (1,0) [0|0] "deg" ECU
  SG_ Millis : 39|8@0+ (1,0) [0|0] "ms" ECU
+ SG_ Course : 47|8@0+ (1.5,0) [0|0] "deg" ECU
 BO_ 101 Answer: 8 ECU
  SG_ Roll : 0|16@1- (0.01,0) [0|0] "" IMU
  SG_ Repeated : 16|4@1+ (1,0) [0|0] "" IMU
@@ -191,7 +191,7 @@ TEST(Player, SaysWhatASignalCouldNotHold) {
 // The heading is a little west of north. The bench's own heading is between -180 and 180 deg.
 TEST(Player, SendsAnAngleAsTheEqualAngleThatTheSignalHolds) {
   const auto scenario = read("[master_ins]\nperiod_ms = 10\nattitude_bias_deg = [0, 0, -60]",
-                             mapping_with("\"Rates.Mode\" = 7", "\"Rates.Course\" = \"master_ins.heading\""));
+                             mapping_with("\"Rates.Mode\" = 7", "\"Turned.Course\" = \"master_ins.heading\""));
   ASSERT_TRUE(scenario) << scenario.error().message;
   const Flown flown(*scenario);
   EXPECT_THAT(flown.clipped.to_text(), testing::IsEmpty());
@@ -200,7 +200,7 @@ TEST(Player, SendsAnAngleAsTheEqualAngleThatTheSignalHolds) {
         world::euler_from(flown.truth.at(20'000 * static_cast<std::int64_t>(k + 1)).C_bn).heading;
     const double wanted = std::remainder(heading / world::units::deg - 60, 360);
     ASSERT_LT(wanted, 0) << "otherwise this test proves nothing";
-    EXPECT_NEAR(flown.value(2 * k + 1, "Course"), wanted + 360, 1);
+    EXPECT_NEAR(flown.value(2 * k, "Course"), wanted + 360, 1);
   }
 }
 

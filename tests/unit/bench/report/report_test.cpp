@@ -81,7 +81,7 @@ TEST(Junit, CarriesWhatAPassedCheckMeasuredAndWhenTheRunBegan) {
 
 TEST(Junit, EscapesWhatXmlForbids) {
   const auto suite = suite_of(run_of());
-  const std::string readable = "a<b> & \"c\" 'd'   \xC2\xB5";
+  const std::string readable = "a<b> & \"c\" 'd' \\x01 \xC2\xB5";
   EXPECT_EQ(suite.get<std::string>("<xmlattr>.name"), readable);
   // Skips attributes, properties and the test case of the run itself.
   auto second = std::next(suite.begin(), 3)->second;

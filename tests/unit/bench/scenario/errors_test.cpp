@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
               "17: key 'check[1].below_mrad': is unknown, expected one of: kind, requirement, "
               "silent_at_most_s, name"},
         Wrong{"seed = 7", "seed = 7\n\"a\\nb\" = 1",
-              "4: key 'a?b': is unknown, expected one of: " + keys_of_a_file()},
+              "4: key 'a\\nb': is unknown, expected one of: " + keys_of_a_file()},
         Wrong{"[truth]", "[target.parameters]\nh2_cases = 1\n[truth]",
               "9: key 'target.parameters.h2_cases': is unknown, expected 'h2_case'"}));
 
