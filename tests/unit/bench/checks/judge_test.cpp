@@ -508,6 +508,7 @@ TEST_F(Judged, AWindowTakesTheTimesOfItsPartOfTheRun) {
   came<messages::AlignAttitude>()[199].t_ns += 5'000'000;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
   rule.message = "AlignUpdate";
+  came<messages::AlignUpdate>().clear();
   EXPECT_EQ(judge(rule).measured, "no answers");
 }
 
