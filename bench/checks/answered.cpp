@@ -15,6 +15,8 @@ namespace {
 // A sample that was sent just before the target's process is stopped or killed, or before the target gives
 // up, may remain unanswered.
 constexpr std::int64_t on_the_way_us = messages::TargetHeartbeat::info.cycle_time_us;
+// A fault may move the times of validity beyond its end, and the first samples after it may then seem old.
+constexpr std::int64_t settling_us = 100'000;
 
 // The time from which no answers are due, because an estimator reported the state `fault`, which ends the
 // run.
@@ -29,7 +31,7 @@ std::int64_t given_up_us(const Observations& seen) {
 bool is_excused(const Observations& seen, std::int64_t valid_us) {
   return std::ranges::any_of(seen.faults, [&](const FaultRecord& fault) {
     const std::int64_t from_us = fault.valid_from_us - (fault.of_target ? on_the_way_us : 0);
-    return fault.count > 0 && valid_us >= from_us && valid_us <= fault.window.to_us;
+    return fault.count > 0 && valid_us >= from_us && valid_us <= fault.window.to_us + settling_us;
   });
 }
 
