@@ -97,8 +97,7 @@ TEST(Merge, DoesNotReplaceResultsOfAnotherCampaign) {
   const std::string before = content(out);
   EXPECT_THAT(merge(out, Files{whole}).error().message, HasSubstr("theirs.sqlite: is of another campaign"));
   EXPECT_EQ(content(out), before);
-  EXPECT_THAT(merge("/proc/none/x.sqlite", Files{whole}).error().message,
-              HasSubstr("cannot be written"));
+  EXPECT_THAT(merge("/proc/none/x.sqlite", Files{whole}).error().message, HasSubstr("cannot be written"));
 }
 
 }  // namespace

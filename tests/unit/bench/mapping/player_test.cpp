@@ -190,8 +190,9 @@ TEST(Player, SaysWhatASignalCouldNotHold) {
 
 // The heading is a little west of north. The bench's own heading is between -180 and 180 deg.
 TEST(Player, SendsAnAngleAsTheEqualAngleThatTheSignalHolds) {
-  const auto scenario = read("[master_ins]\nperiod_ms = 10\nattitude_bias_deg = [0, 0, 60]",
-                             mapping_with("\"Rates.Mode\" = 7", "\"Turned.Course\" = \"master_ins.heading\""));
+  const auto scenario =
+      read("[master_ins]\nperiod_ms = 10\nattitude_bias_deg = [0, 0, 60]",
+           mapping_with("\"Rates.Mode\" = 7", "\"Turned.Course\" = \"master_ins.heading\""));
   ASSERT_TRUE(scenario) << scenario.error().message;
   const Flown flown(*scenario);
   EXPECT_THAT(flown.clipped.to_text(), testing::IsEmpty());
