@@ -19,7 +19,9 @@ class CommandFiles {
   };
 
   CommandFiles();
+  /// An input, or several inputs.
   void reads(std::string role, std::string path);
+  /// See reads() of one input.
   void reads(const std::vector<File>& files);
   /// An output; "-" is standard output, which can hold one output.
   void writes(std::string role, std::string path);

@@ -17,6 +17,7 @@ class OutputFile {
  public:
   /// Creates an empty file in the folder of `path`. The error is one line with `path` and the reason.
   static Result<OutputFile> create(const std::string& path);
+  /// Takes over the file; `other` no longer removes it.
   OutputFile(OutputFile&& other) noexcept;
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -27,6 +28,7 @@ class OutputFile {
   /// A buffered stream for writing, which the caller must close. May be called once. Null, with errno: no
   /// memory.
   [[nodiscard]] std::FILE* take_stream();
+  /// The path of the file until it has its name.
   [[nodiscard]] const std::string& temporary_name() const { return temporary_name_; }
   /// Renames the file, and thereby replaces a file or a link of this name. Returns errno; 0: no error.
   [[nodiscard]] int give_name(const std::string& name);
@@ -46,6 +48,7 @@ using Sink = std::function<void(std::string_view part)>;
 /// unchanged. `content` passes the parts of the content to the sink one by one, so a large content is never
 /// in memory as a whole.
 Result<void> write_file(const std::string& path, const std::function<void(const Sink&)>& content);
+/// Writes a content that is in memory, completely or not at all.
 Result<void> write_file(const std::string& path, std::string_view content);
 
 /// Checks, before a long run, whether a file can be written: the folder of the file must be writable, and an
