@@ -209,6 +209,7 @@ address_sanitizer() {
     'Faults[.](WhatIsKnown|Shards|AViolation)' 'IsJudgedAsItWasFlown/.(all_four|inflight)' 'OfScenario[.].*/.?inflight_(gps|ssbl_180)'
     'LogFlownAgain.*all_four'
     'kit_in_Python|/Python$' # the target of these tests is a Python program, so it is not instrumented
+    'interruptions[.]' # these send a signal a fixed time after the start, when a program with the sanitizer has not yet begun to fly
     'live[.](Refusals|Run|Terminal)' # these wait for the live view, which has the lowest priority and is too slow with the sanitizer
   )
   await_ahead asan
