@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "bench/accept/dialogue.hpp"
 #include "bench/accept/profile.hpp"
@@ -46,25 +47,32 @@ class Run {
   // The fastest tests run first; the flights in real time run last.
   Result<std::vector<Item>> fly() {
     if (auto flown = fly_all(false); !flown) return tl::unexpected(flown.error());
-    if (suite_.dialogue && (wanted("protocol") || wanted("parameters")) && !done()) {
+    if (suite_.dialogue && (wanted("protocol") || wanted("parameters")) && done()) {
+      for (const Requirement& requirement : protocol_requirements(suite_)) skipped_.insert(requirement.id);
+    } else if (suite_.dialogue && (wanted("protocol") || wanted("parameters"))) {
       options_.progress(fmt::format("{}: dialogue", suite_.estimator));
       auto said = talk(suite_, options_.target, stop_);
       if (!said) return tl::unexpected(said.error());
       for (Item& item : *said) add(std::move(item));
     }
     for (const std::string& campaign : suite_.campaigns) {
-      if (!(wanted("errors") || wanted("honesty")) || done()) break;
+      if (!(wanted("errors") || wanted("honesty"))) break;
       if (auto flown = fly_campaign(campaign); !flown) return tl::unexpected(flown.error());
     }
     if (auto flown = fly_all(true); !flown) return tl::unexpected(flown.error());
     return std::move(items_);
   }
+  // The requirements of which a test was left out after the first failure.
+  [[nodiscard]] const std::set<std::string>& skipped() const { return skipped_; }
 
  private:
   Result<void> fly_all(bool in_real_time) {
     for (const Flight& flight : suite_.flights) {
       if (flight.real_time != in_real_time || !wanted(flight)) continue;
-      if (done()) break;
+      if (done()) {
+        for (const std::string& id : tested_by(flight)) skipped_.insert(id);
+        continue;
+      }
       options_.progress(fmt::format("{}: flight '{}'", suite_.estimator, flight.name));
       if (auto flown = fly(flight); !flown) return flown;
     }
@@ -88,6 +96,16 @@ class Run {
            });
   }
   [[nodiscard]] bool done() const { return stop_ || (options_.first_failure && failed_); }
+
+  // The requirements that a flight tests.
+  static std::vector<std::string> tested_by(const Flight& flight) {
+    std::vector<std::string> ids{flight.requirement};
+    if (flight.reference) ids.push_back(*flight.reference);
+    if (flight.same_as) ids.push_back(flight.same_as->requirement);
+    if (flight.moves) ids.push_back(flight.moves->requirement);
+    for (const scenario::Check& check : flight.scenario.checks) ids.push_back(check.requirement);
+    return ids;
+  }
 
   using Items = std::vector<Item>;
 
@@ -189,6 +207,10 @@ class Run {
   Result<void> fly_campaign(const std::string& name) {
     auto campaign = campaign::read_campaign(suite_.folder / name);
     if (!campaign) return tl::unexpected(campaign.error());
+    if (done()) {
+      for (const campaign::Metric& metric : campaign->metrics) skipped_.insert(metric.requirement);
+      return {};
+    }
     if (options_.seed) {
       for (campaign::Variant& variant : campaign->variants) variant.scenario.seed = *options_.seed;
     }
@@ -255,18 +277,28 @@ class Run {
   const std::atomic<bool>& stop_;
   std::map<std::string, Answers> flown_;
   std::vector<Item> items_;
+  std::set<std::string> skipped_;
   bool failed_ = false;
 };
 
 }  // namespace
 
-Outcome Finding::outcome() const { return checks::outcome_of(items, &Item::outcome); }
+Outcome Finding::outcome() const {
+  const Outcome found = checks::outcome_of(items, &Item::outcome);
+  return reached || found == Outcome::fail ? found : Outcome::not_measured;
+}
+
+std::string_view word(const Finding& finding) {
+  const bool cut = !finding.reached && finding.outcome() != Outcome::fail;
+  return cut ? "not reached" : checks::name(finding.outcome());
+}
 
 Outcome Acceptance::outcome() const { return checks::outcome_of(findings, &Finding::outcome); }
 
 Result<Acceptance> accept(const Suite& suite, const Options& options, const std::atomic<bool>& stop) {
   const auto start = std::chrono::steady_clock::now();
-  auto items = Run(suite, options, stop).fly();
+  Run run(suite, options, stop);
+  auto items = run.fly();
   if (!items) return tl::unexpected(items.error());
   Acceptance acceptance{.estimator = suite.estimator, .title = suite.title, .findings = {}};
   std::vector<Requirement> all = suite.requirements;
@@ -275,8 +307,10 @@ Result<Acceptance> accept(const Suite& suite, const Options& options, const std:
   std::erase_if(all, [&](const Requirement& one) {
     return !asked.empty() && std::ranges::find(asked, one.family) == asked.end();
   });
-  for (Requirement& requirement : all)
-    acceptance.findings.push_back({.requirement = std::move(requirement), .items = {}});
+  for (Requirement& requirement : all) {
+    const bool reached = !run.skipped().contains(requirement.id);
+    acceptance.findings.push_back({.requirement = std::move(requirement), .items = {}, .reached = reached});
+  }
   for (Item& item : *items) {
     const auto found = std::ranges::find_if(acceptance.findings, [&](const Finding& finding) {
       return finding.requirement.id == item.requirement;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/accept/suite.hpp"
@@ -36,8 +37,11 @@ struct Options {
 struct Finding {
   Requirement requirement;
   std::vector<Item> items;
+  bool reached = true;  ///< false: the first failure ended the suite before all tests of the requirement
   [[nodiscard]] checks::Outcome outcome() const;
 };
+/// The outcome of a requirement in words: "pass", "fail", "not measured" or "not reached".
+std::string_view word(const Finding& finding);
 
 /// The result of one suite.
 struct Acceptance {

@@ -16,17 +16,16 @@ using checks::Outcome;
 using nlohmann::ordered_json;
 using report::escaped;
 
-std::size_t count(const Acceptance& suite, Outcome outcome) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      suite.findings, [&](const Finding& finding) { return finding.outcome() == outcome; }));
+std::size_t count(const Acceptance& suite, std::string_view outcome) {
+  return static_cast<std::size_t>(std::ranges::count(suite.findings, outcome, word));
 }
 
 std::string counts(const Acceptance& suite) {
-  const std::size_t failed = count(suite, Outcome::fail), open = count(suite, Outcome::not_measured);
-  std::string words =
-      fmt::format("{} of {} requirements met", count(suite, Outcome::pass), suite.findings.size());
-  if (failed > 0) words += fmt::format(", {} not met", failed);
-  if (open > 0) words += fmt::format(", {} not measured", open);
+  std::string words = fmt::format("{} of {} requirements met", count(suite, "pass"), suite.findings.size());
+  if (const auto failed = count(suite, "fail"); failed > 0) words += fmt::format(", {} not met", failed);
+  for (const std::string_view open : {"not measured", "not reached"}) {
+    if (count(suite, open) > 0) words += fmt::format(", {} {}", count(suite, open), open);
+  }
   return words;
 }
 
@@ -42,9 +41,9 @@ std::vector<const Item*> shown_items(const Finding& finding) {
 
 constexpr std::size_t most_shown = 5;
 
-std::string sign_of(Outcome outcome) {
+std::string sign_of(Outcome outcome, std::string_view words) {
   const auto [style, sign] = report::look_of(checks::name(outcome));
-  return fmt::format("<span class=\"{}\">{} {}</span>", style, sign, checks::name(outcome));
+  return fmt::format("<span class=\"{}\">{} {}</span>", style, sign, words);
 }
 
 /// All items as an HTML list, collapsed by default.
@@ -71,7 +70,7 @@ std::string section(const Acceptance& suite) {
                             escaped(wrong[i]->measured), escaped(wrong[i]->expected));
       if (wrong.size() > most_shown) seen += fmt::format("<p>and {} more</p>", wrong.size() - most_shown);
       rows.push_back({escaped(finding.requirement.id), escaped(finding.requirement.text),
-                      sign_of(finding.outcome()), seen});
+                      sign_of(finding.outcome(), word(finding)), seen});
     }
     if (rows.empty()) continue;
     out += fmt::format("<h3>{}</h3>\n", family) +
@@ -91,7 +90,7 @@ std::string text(const Report& report) {
     for (const std::string& family : families) {
       for (const Finding& finding : suite.findings) {
         if (finding.requirement.family != family) continue;
-        out += fmt::format("  {:<12}  {:<12} {}  ({} looked at)\n", report::label(finding.outcome()),
+        out += fmt::format("  {:<12}  {:<12} {}  ({} looked at)\n", report::label(word(finding)),
                            finding.requirement.id, finding.requirement.text, finding.items.size());
         const auto wrong = shown_items(finding);
         for (std::size_t i = 0; i < std::min(wrong.size(), most_shown); ++i)
@@ -121,7 +120,7 @@ std::string json(const Report& report) {
       requirements.push_back({{"id", finding.requirement.id},
                               {"family", finding.requirement.family},
                               {"text", finding.requirement.text},
-                              {"outcome", checks::name(finding.outcome())},
+                              {"outcome", word(finding)},
                               {"items", std::move(items)}});
     }
     suites.push_back({{"estimator", suite.estimator},
@@ -164,7 +163,8 @@ std::string page(const Report& report) {
   body += fmt::format("<p class=\"verdict {}\"><b>{} {}</b></p>\n", style, sign, verdict);
   report::Rows rows;
   for (const Acceptance& suite : report.suites)
-    rows.push_back({escaped(suite.estimator), sign_of(suite.outcome()), counts(suite)});
+    rows.push_back(
+        {escaped(suite.estimator), sign_of(suite.outcome(), checks::name(suite.outcome())), counts(suite)});
   body += report::table({"estimator", "outcome", "requirements"}, rows);
   for (const Acceptance& suite : report.suites) body += section(suite);
   return report::whole_page(fmt::format("{}: acceptance", verdict), report::styles, body);

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bench/checks/estimator.hpp"
+#include "bench/checks/finding.hpp"
+#include "bench/checks/histogram.hpp"
 #include "bench/checks/observations.hpp"
 
 namespace canhil::checks {
@@ -17,6 +19,8 @@ struct Evidence {
   std::span<const estimators::Estimator* const> estimators{};  ///< the estimators whose answers may be judged
   std::string ended_early{};   ///< why the run ended early; empty: it was completed
   std::string timing_unfit{};  ///< why timing cannot be judged; empty: it can be judged
+  Histogram target_wait{};  ///< time in which the target was ready to run but other programs held the CPU, in
+                            ///< each 10 ms of the run; empty: unknown
   std::vector<estimators::OwnTrack>
       tracks{};  ///< tracks of the quantities that the rules use; judge() adds these tracks
 };
@@ -31,8 +35,13 @@ std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::s
 std::string unfit(const Evidence& evidence, double quantile, double bar_s);
 /// The largest permitted lateness of the bench, as a fraction of the check's limit; the lateness is taken at
 /// the quantile of the check. If the lateness was larger, the host may have delayed the target by the same
-/// amount.
+/// amount. The same fraction holds for the target's wait for a CPU.
 inline constexpr double lateness_share = 0.5;
+
+/// If a quantile of the timing exceeds its limit `bar_s`, the reason may be that other programs kept the
+/// target waiting for a CPU. Returns the finding, unless it is a failure with this excuse: then it is not
+/// measured.
+Finding unless_target_waited(const Evidence& evidence, double quantile, double bar_s, Finding finding);
 
 /// "max", "99 % quantile".
 std::string quantile_name(double quantile);

@@ -53,4 +53,18 @@ std::string unfit(const Evidence& evidence, double quantile, double bar_s) {
                      late_s * 1e3, quantile_name(quantile), lateness_share * 100);
 }
 
+// A slow target computes or sleeps; it does not wait for a CPU. If it waited, the measured times contain the
+// wait, so a check that passes needs no excuse.
+Finding unless_target_waited(const Evidence& evidence, double quantile, double bar_s, Finding finding) {
+  const double waited_s = evidence.target_wait.quantile_ns(quantile) * 1e-9;
+  if (finding.outcome != Outcome::fail || waited_s <= lateness_share * bar_s) return finding;
+  finding.outcome = Outcome::not_measured;
+  finding.measured = fmt::format(
+      "{}; on this host other programs kept the target waiting for a CPU for {:.2f} ms ({}), more than {:g} "
+      "% of "
+      "the limit",
+      finding.measured, waited_s * 1e3, quantile_name(quantile), lateness_share * 100);
+  return finding;
+}
+
 }  // namespace canhil::checks

@@ -43,14 +43,16 @@ Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario) {
 }
 
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                           const Collected& flown, const std::string& timing_unfit) {
+                           const Collected& flown, const std::string& timing_unfit,
+                           const checks::Histogram& target_wait) {
   const bool to_the_end = flown.ending.kind == Ending::Kind::wrong_end;
   checks::Verdict verdict =
       checks::judge(scenario, {.seen = flown.seen,
                                .truth = truth_of(truth, flown.per_run_truth, scenario.duration_us),
                                .estimators = estimators::in(scenario),
                                .ended_early = to_the_end ? "" : flown.ending.detail,
-                               .timing_unfit = timing_unfit});
+                               .timing_unfit = timing_unfit,
+                               .target_wait = target_wait});
   if (to_the_end) checks::conclude(verdict, flown.ending.detail);
   if (flown.ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
   return verdict;

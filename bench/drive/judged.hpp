@@ -15,8 +15,9 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
 /// the ending is `wrong_answers` or, if the bench clipped a stimulus, `not_flown`, and says why.
 Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario);
 
-/// The verdict on a flight, whether or not it was completed.
+/// The verdict on a flight, whether or not it was completed. `target_wait`: see checks::Evidence.
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                           const Collected& flown, const std::string& timing_unfit);
+                           const Collected& flown, const std::string& timing_unfit,
+                           const checks::Histogram& target_wait = {});
 
 }  // namespace canhil::drive

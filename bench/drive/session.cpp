@@ -22,6 +22,7 @@
 #include "bench/observe/intruders.hpp"
 #include "bench/observe/load_meter.hpp"
 #include "bench/observe/recorder.hpp"
+#include "bench/observe/target_waits.hpp"
 #include "bench/scenario/foreign.hpp"
 #include "bench/world/stoppable.hpp"
 
@@ -116,6 +117,7 @@ class Session {
     if (options_.for_verdict) {
       load_watched.emplace(link_, load_);
       host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
+      if (target_ && clock_ == ClockKind::real_time) waits_.emplace(target_->id());
     }
     std::optional<Attached> looking_on;
     if (options_.onlooker != nullptr) {
@@ -132,6 +134,7 @@ class Session {
                   ? run_lockstep(link_, *schedule_, *target, step_limit_ns, stop, progress, is_gone)
                   : run_real_time(link_, *schedule_, *target, dialect_->silence_limit_ns(), stop, progress,
                                   options_.spin_ns, is_gone);
+    if (waits_) target_wait_ = waits_->record();
   }
 
   // Stops the target, closes the log and ends the target's process.
@@ -156,6 +159,7 @@ class Session {
   }
 
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
+  [[nodiscard]] const checks::Histogram& target_wait() const { return target_wait_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
   // Adds the possible cause to an error message: the frames that flooded the bus or, if there was no flood,
   // the first note, for example about a program that the bench rejected on its local bus.
@@ -220,6 +224,7 @@ class Session {
     target_.reset();
     watcher_->target_restarts();
     auto ready = start_target(target_cpus_);
+    if (ready && waits_) waits_->follow(target_->id());
     flight_.initial = initial_states(scenario_, truth_, flight_.per_run_truth, options_.run_index, t_us);
     if (ready) ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(*stop_); });
     if (!ready) restart_error_ = "; restarted: " + ready.error().message;
@@ -300,8 +305,10 @@ class Session {
   std::optional<observe::Intruders> intruders_;
   observe::LoadMeter load_;
   std::optional<observe::HostWatch> host_;  // watches from its construction on
+  checks::Histogram target_wait_;
   std::unique_ptr<observe::Recorder> log_;
   std::optional<ChildProcess> target_;
+  std::optional<observe::TargetWaits> waits_;
   RigCommands commands_;  // after the target: `after` runs before the target's process ends
   const std::atomic<bool>* stop_ = nullptr;  // of the flight
   std::vector<int> target_cpus_;
@@ -355,7 +362,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
 
   std::string timing_unfit = session.timing_unfit(flown.seen);
   const ClockKind clock = session.clock();
-  checks::Verdict verdict = verdict_of(scenario, *truth, flown, timing_unfit);
+  checks::Verdict verdict = verdict_of(scenario, *truth, flown, timing_unfit, session.target_wait());
   if (flown.ending.detail.empty() && verdict.outcome != checks::Outcome::pass)
     verdict.reason = session.explained(verdict.reason);
   return Run{.verdict = std::move(verdict),

@@ -14,7 +14,7 @@
 namespace canhil::report {
 
 /// The outcome as shown on a terminal: "PASS", "NOT MEASURED".
-std::string label(checks::Outcome outcome);
+std::string label(std::string_view outcome);
 
 /// The report for a terminal, a page of text: verdict, checks, convergence, latency, losses.
 std::string text(const scenario::Scenario& scenario, const drive::Run& run);

@@ -17,8 +17,8 @@
 
 namespace canhil::report {
 
-std::string label(checks::Outcome outcome) {
-  std::string label(checks::name(outcome));
+std::string label(std::string_view outcome) {
+  std::string label(outcome);
   for (char& c : label) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return label;
 }
@@ -192,8 +192,8 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   std::size_t width = 5;
   for (const checks::CheckResult& check : run.verdict.checks) width = std::max(width, check.name.size());
   for (const checks::CheckResult& check : run.verdict.checks) {
-    page += one_line(fmt::format("  {:<12}  {:<{}}  {}  (expected {})", label(check.outcome), check.name,
-                                 width, check.measured, check.expected)) +
+    page += one_line(fmt::format("  {:<12}  {:<{}}  {}  (expected {})", label(checks::name(check.outcome)),
+                                 check.name, width, check.measured, check.expected)) +
             "\n";
   }
 

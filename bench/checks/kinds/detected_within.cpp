@@ -34,8 +34,7 @@ Finding DetectedWithin::judge(const Evidence& evidence) const {
   const bool in_time = first && after_us <= within_us;
   if (!in_time && !signs.there_before.empty()) return {Outcome::not_measured, signs.why_hidden(), expected};
   if (!first) return {Outcome::fail, "no sign", expected};
-  return {pass_if(in_time),
-          fmt::format("after {:.3f} s: {}", seconds_of(after_us), first->text), expected};
+  return {pass_if(in_time), fmt::format("after {:.3f} s: {}", seconds_of(after_us), first->text), expected};
 }
 
 }  // namespace canhil::checks

@@ -56,8 +56,10 @@ Finding Latency::judge(const Evidence& evidence) const {
     missing.expected = expected;
     return missing;
   }
-  return {pass_if(*value < bar_s), fmt::format("{:.3f} ms of {}", *value * 1e3, timed->latency.count()),
-          expected};
+  return unless_target_waited(
+      evidence, quantile, bar_s,
+      {pass_if(*value < bar_s), fmt::format("{:.3f} ms of {}", *value * 1e3, timed->latency.count()),
+       expected});
 }
 
 }  // namespace canhil::checks

@@ -56,8 +56,9 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
   if (timed->period.count() == 0) return {Outcome::fail, "fewer than two arrivals", expected};
   const PeriodDeviation off = period_deviation(timed->period, nominal, began_after_s(evidence.seen, *timed),
                                                ended_before_s(evidence.seen, *timed), quantile);
-  return {pass_if(off.off_s <= nominal * within),
-          fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count), expected};
+  return unless_target_waited(evidence, quantile, nominal * within,
+                              {pass_if(off.off_s <= nominal * within),
+                               fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count), expected});
 }
 
 }  // namespace canhil::checks

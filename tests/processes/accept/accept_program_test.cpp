@@ -156,7 +156,7 @@ TEST_F(Accept, StopsAtTheFirstFailureWhenAskedTo) {
   change("flight.toml", "accel_noise_ugprthz = 50", "accel_noise_ugprthz = 80");
   const Ended ended = accept("--first-failure");
   EXPECT_EQ(ended.code, 1);
-  EXPECT_THAT(ended.out, HasSubstr("NOT MEASURED  S-4"));
+  EXPECT_THAT(ended.out, HasSubstr("NOT REACHED   S-4"));
 }
 
 TEST_F(Accept, BadInputIsOneLine) {

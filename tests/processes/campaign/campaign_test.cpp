@@ -424,8 +424,7 @@ TEST(CampaignBadInput, ReadOnlyFolderIsOneLineAndLeavesWhatIsThere) {
   const auto campaign = [&](const std::string& out) {
     return shell(fmt::format("{} campaign {} --out {}", bound_by_modes, campaign_file(), out));
   };
-  expect_one_line(campaign(at),
-                  "campaign30.sqlite': cannot be written: Permission denied");
+  expect_one_line(campaign(at), "campaign30.sqlite': cannot be written: Permission denied");
   expect_one_line(campaign(half + " --resume"),
                   "half.sqlite: cannot be read or written: attempt to write a "
                   "readonly database; 60 of 120 runs are kept, to be resumed");

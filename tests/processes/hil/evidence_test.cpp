@@ -58,7 +58,8 @@ TEST(Evidence, WhatTheHeartbeatSaysIsJudged) {
   EXPECT_THAT(said("numeric_error"), ContainsRegex("^error los_rate numeric from [0-9.]+ s$"));
   EXPECT_THAT(said("another_version"), ContainsRegex("los_rate version_minor .* from [0-9.]+ s"));
   const auto honest = fly(scenario("los_quick"), target("none")).report;
-  EXPECT_THAT(failed(honest), IsEmpty()) << "at the end of the flight no samples come: this explains input_lost";
+  EXPECT_THAT(failed(honest), IsEmpty())
+      << "at the end of the flight no samples come: this explains input_lost";
 }
 
 TEST(Evidence, ATargetThatRebootsFails) {
@@ -150,7 +151,8 @@ TEST(Evidence, ASignThatWasThereBeforeShowsNothing) {
 }
 
 TEST(Evidence, WithoutASignThereIsNothingToRecoverFrom) {
-  const auto report = fly(response(tolerated, "kind = \"recovers_within\"\nwithin_s = 0.5\nby = [\"numeric\"]"), "").report;
+  const auto report =
+      fly(response(tolerated, "kind = \"recovers_within\"\nwithin_s = 0.5\nby = [\"numeric\"]"), "").report;
   EXPECT_EQ(of_check(report, "recovers_within", "outcome"), "not measured");
   EXPECT_THAT(measured(report, "recovers_within"), HasSubstr("nothing to recover from"));
 }

@@ -70,6 +70,10 @@ TEST(SlowTarget, ThatComputesForLongFailsTheCheckOfLatency) {
   expect_too_late("CANHIL_SLOW_COMPUTE_US=4000", "compute_max");
 }
 
+TEST(SlowTarget, ThatKeepsItsCpuBusyFailsTheCheckOfLatency) {
+  expect_too_late("CANHIL_SLOW_BUSY_US=4000", "compute_max");
+}
+
 TEST(SlowTarget, ThatLetsFramesWaitFailsTheCheckOfLatency) {
   expect_too_late("CANHIL_SLOW_QUEUE_US=4000", "queue_max");
 }
@@ -135,6 +139,31 @@ TEST(CpuHog, BesideTheBenchLeavesTimingNotMeasured) {
   const Ended ended = shell(fmt::format("taskset -c {} {} run {} --json {}", cpu, HIL_BENCH,
                                         scenario("transfer_alignment_quick"), report));
   expect_not_measured(ended, read_json(report));
+}
+
+// The bench runs on another CPU than the hog and the target, so that only the target waits for a CPU. If
+// other programs delay the bench too, it reports this first, and the test repeats the run.
+TEST(CpuHog, BesideTheTargetLeavesItsLatencyNotMeasured) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "needs two CPUs";
+  const int cpu = some_cpu();
+  const std::string report = scratch("hogged_target.json");
+  const std::string waited =
+      "[0-9.]+ ms of [0-9]+; on this host other programs kept the target waiting for a "
+      "CPU for [0-9.]+ ms \\(99 % quantile\\), more than 50 % of the limit";
+  std::string measured;
+  for (int chance = 1; chance <= 5; ++chance) {
+    std::vector<std::unique_ptr<Hog>> hogs;
+    for (int i = 0; i < 4; ++i) hogs.push_back(std::make_unique<Hog>(cpu, 0, 20ms, 20ms));
+    const Ended ended =
+        hil_bench(fmt::format("run {} --target-cpu {} --json {}", judged_by("0.99"), cpu, report));
+    const nlohmann::json latency = check(read_json(report), "latency");
+    measured = latency["measured"].get<std::string>();
+    ASSERT_EQ(latency["outcome"], "not measured") << measured;
+    EXPECT_EQ(ended.code, 3) << ended.out;
+    if (testing::Value(measured, MatchesRegex(waited))) return;
+    std::cerr << "chance " << chance << ": " << measured << '\n';
+  }
+  FAIL() << "the bench was never fit to measure: " << measured;
 }
 
 // The hog runs too rarely to take a noticeable share of CPU time. But each time it runs for longer than the

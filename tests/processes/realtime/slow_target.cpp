@@ -1,8 +1,10 @@
 // hil-target with delays: the object files of the delivered program, in which the linker option --wrap
 // replaces two functions by functions with a pause. CANHIL_SLOW_COMPUTE_US: additional computing time for
-// each answered frame. CANHIL_SLOW_QUEUE_US: how long frames wait before they are processed.
+// each answered frame, in which the target sleeps; CANHIL_SLOW_BUSY_US: in which it computes.
+// CANHIL_SLOW_QUEUE_US: how long frames wait before they are processed.
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -34,7 +36,12 @@ bool slow_wait(Port& port, WaitFor what,
 std::span<const Frame> slow_receive(target::Device& device, const Frame& frame) {
   static const useconds_t pause_us = microseconds("CANHIL_SLOW_COMPUTE_US");
   const std::span<const Frame> answers = delivered_receive(device, frame);
+  static const std::chrono::microseconds busy(microseconds("CANHIL_SLOW_BUSY_US"));
   if (pause_us > 0 && !answers.empty()) usleep(pause_us);
+  if (busy.count() == 0 || answers.empty()) return answers;
+  for (const auto start = std::chrono::steady_clock::now();
+       std::chrono::steady_clock::now() - start < busy;) {
+  }
   return answers;
 }
 

@@ -1,10 +1,15 @@
 #include "bench/observe/host_watch.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <ctime>
+#include <vector>
 
+#include "bench/checks/evidence.hpp"
 #include "bench/checks/judge.hpp"
+#include "bench/observe/target_waits.hpp"
+#include "bench/world/flight_record.hpp"
 
 namespace canhil::observe {
 namespace {
@@ -56,6 +61,56 @@ TEST(HostWatch, AccountsTheTimeOfThisProcess) {
   }
   EXPECT_GT(watch.record().wall_s, 0);
   EXPECT_LE(watch.record().stolen_share, 1);
+}
+
+TEST(TargetWaits, TakeTheThreadThatWaitedLongest) {
+  const std::vector<ThreadTimes> before{{1, 10 * ms, 1 * ms}, {2, 0, 0}};
+  EXPECT_EQ(waited_for_others_ns(before, std::vector<ThreadTimes>{{1, 10 * ms, 4 * ms}, {2, 0, 1 * ms}}),
+            3 * ms);
+  EXPECT_EQ(waited_for_others_ns(before, std::vector<ThreadTimes>{{2, 0, 0}, {3, 0, 2 * ms}}), 2 * ms)
+      << "a new thread waits from its start";
+}
+
+// While a thread waits, the target's other threads may hold the CPU: this is the target's own doing.
+TEST(TargetWaits, DoNotCountAWaitForTheTargetsOwnThreads) {
+  const std::vector<ThreadTimes> before{{1, 0, 0}, {2, 0, 0}};
+  EXPECT_EQ(waited_for_others_ns(before, std::vector<ThreadTimes>{{1, 9 * ms, 0}, {2, 1 * ms, 8 * ms}}), 0);
+  EXPECT_EQ(waited_for_others_ns(before, std::vector<ThreadTimes>{{1, 2 * ms, 0}, {2, 1 * ms, 8 * ms}}),
+            6 * ms);
+}
+
+TEST(TargetWaits, SeeTheThreadsOfAProcess) {
+  const auto times = thread_times(getpid());
+  ASSERT_FALSE(times.empty());
+  EXPECT_EQ(times.front().thread, getpid());
+  EXPECT_GT(times.front().run_ns, 0);
+}
+
+// A timing check of a run whose target waited.
+class Waited : public testing::Test {
+ protected:
+  // `periods` of 100 periods with a wait of 3 ms.
+  [[nodiscard]] checks::Finding judged(std::uint64_t periods, double quantile,
+                                       checks::Outcome outcome) const {
+    const checks::Observations seen;
+    checks::Evidence evidence{.seen = seen, .truth = {.flight = flight_}};
+    evidence.target_wait.add(0, 100 - periods);
+    if (periods > 0) evidence.target_wait.add(3 * ms, periods);
+    return checks::unless_target_waited(evidence, quantile, 5e-3,
+                                        {.outcome = outcome, .measured = "7 ms", .expected = "< 5 ms"});
+  }
+  world::FlightRecord flight_{{.start = {}, .motion = world::Rest{}}, 0, 10'000};
+};
+
+TEST_F(Waited, AFailureIsTheHostsAtTheQuantileOfTheCheck) {
+  EXPECT_EQ(judged(2, 0.99, checks::Outcome::fail).outcome, checks::Outcome::not_measured);
+  EXPECT_EQ(judged(1, 0.99, checks::Outcome::fail).outcome, checks::Outcome::fail);
+  EXPECT_EQ(judged(1, 1, checks::Outcome::fail).outcome, checks::Outcome::not_measured);
+  EXPECT_EQ(judged(0, 1, checks::Outcome::fail).outcome, checks::Outcome::fail);
+}
+
+TEST_F(Waited, WhatPassesAlthoughTheTargetWaitedPasses) {
+  EXPECT_EQ(judged(100, 0.5, checks::Outcome::pass).outcome, checks::Outcome::pass);
 }
 
 class Unfit : public testing::Test {
