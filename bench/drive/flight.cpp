@@ -65,7 +65,8 @@ Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, std::
 /// The period of the node that samples at every epoch. If this node is not on the bus, the result is its
 /// cycle time in the DBC.
 std::int64_t epoch_interval_us(const scenario::Scenario& scenario) {
-  const nodes::Kind& kind = **std::ranges::find_if(nodes::all(), &nodes::Kind::at_every_epoch);
+  const nodes::Kind& kind = **std::ranges::find_if(
+      nodes::all(), [](const nodes::Kind* one) { return one->sensor->at_every_epoch; });
   const scenario::NodeSettings* node = scenario.node(kind.table.key);
   return node == nullptr ? kind.table.closes.cycle_time_us : node->period_us();
 }

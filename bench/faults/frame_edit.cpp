@@ -7,6 +7,7 @@
 #include "bench/observe/values.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/message.hpp"
+#include "dbc/wire/turns.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::faults {
@@ -18,7 +19,7 @@ void set_in(Frame& frame, std::string_view name, double value) {
   Message::visit(message, [&](const SignalInfo& signal, auto& member) {
     using Member = std::remove_cvref_t<decltype(member)>;
     if (signal.name != name) return;
-    if (observe::turns(signal)) value = std::remainder(value, 360);
+    if (wire::turns(signal)) value = std::remainder(value, 360);
     if constexpr (std::is_floating_point_v<Member>) {
       member = static_cast<Member>(value);
     } else {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "bench/mapping/units.hpp"
+#include "bench/mapping/range.hpp"
 #include "bench/observe/values.hpp"
 #include "dbc/parser/database.hpp"
 

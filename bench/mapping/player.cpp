@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "bench/mapping/units.hpp"
+#include "bench/mapping/range.hpp"
 #include "bench/nodes/recorded_group.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/observe/values.hpp"

@@ -7,7 +7,7 @@
 
 #include "bench/mapping/mapping.hpp"
 #include "bench/mapping/read_protection.hpp"
-#include "bench/mapping/units.hpp"
+#include "bench/quantities/wire_unit.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/parser/parse.hpp"
@@ -101,8 +101,8 @@ class Reader {
     for (const std::string& key : section.keys()) {
       const auto [of, one] = signal_of(section, key, key);
       const std::string unit = section.text(key);
-      if (!unit.empty() && !wire_unit(unit))
-        section.reject(key, fmt::format("'{}' is not a known unit", unit), "one of: " + wire_units());
+      if (!unit.empty() && !quantities::wire_unit(unit))
+        section.reject(key, fmt::format("'{}' is not a known unit", unit), "one of: " + quantities::wire_units());
       if (one != nullptr) units_[one] = unit;
     }
     section.finish();
@@ -113,7 +113,7 @@ class Reader {
                 std::string_view si, std::string_view quantity) {
     const auto given = units_.find(&one);
     const std::string& text = given == units_.end() ? one.unit : given->second;
-    const auto unit = wire_unit(text);
+    const auto unit = quantities::wire_unit(text);
     if (!unit && !si.empty())
       section.reject(
           key,

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "bench/mapping/units.hpp"
 #include "bench/nodes/recorded_group.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/observe/values.hpp"
+#include "bench/quantities/wire_unit.hpp"
+#include "dbc/wire/turns.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::mapping {
@@ -29,7 +30,7 @@ std::vector<Stimulus> all_stimuli() {
       const bool flagged =
           std::ranges::any_of(signals, [](const auto* one) { return role_of(*one) == Role::validity; });
       for (const SignalInfo* signal : signals) {
-        const auto unit = signal->unit.empty() ? std::nullopt : wire_unit(signal->unit);
+        const auto unit = signal->unit.empty() ? std::nullopt : quantities::wire_unit(signal->unit);
         // The time and the interval of a sample are not measurements, and a mapping defines its own time
         // signals.
         if (!unit || role_of(*signal) != Role::value) continue;
@@ -40,7 +41,7 @@ std::vector<Stimulus> all_stimuli() {
                           .signal = signal->name,
                           .column = signal->name,
                           .factor = unit->factor,
-                          .turns = observe::turns(*signal),
+                          .turns = wire::turns(*signal),
                           .flagged = flagged};
         const auto increment =
             std::ranges::find(table.increments, signal->name, &scenario::Increment::signal);

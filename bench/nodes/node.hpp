@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <type_traits>
 #include <vector>
 
 #include "bench/nodes/clipped.hpp"
+#include "bench/sensors/sample.hpp"
 #include "dbc/wire/transmit.hpp"
 
 namespace canhil::nodes {
@@ -26,13 +26,15 @@ class Transmission : public Outbox<8> {
         valid = valid && member != messages::Validity::invalid;
     });
     Message::visit(message, [&](const SignalInfo& signal, const auto& member) {
-      if (!valid) return;
-      const auto value = static_cast<double>(member);
-      const double rounding = wire::lsb(signal) / 2;
-      if (value >= signal.minimum - rounding && value <= signal.maximum + rounding) return;
-      clipped_.add(Message::info.name, signal.name, value, {signal.minimum, signal.maximum, signal.unit});
+      if (valid) note(Message::info, signal, static_cast<double>(member));
     });
     Outbox<8>::send(message);
+  }
+  /// A value is to be sent, in the unit of the signal; remembers whether the signal clips it.
+  void note(const MessageInfo& message, const SignalInfo& signal, double value) {
+    const double rounding = wire::lsb(signal) / 2;
+    if (value >= signal.minimum - rounding && value <= signal.maximum + rounding) return;
+    clipped_.add(message.name, signal.name, value, {signal.minimum, signal.maximum, signal.unit});
   }
   /// The values that were clipped since the construction.
   [[nodiscard]] const Clipped& clipped() const { return clipped_; }
@@ -42,7 +44,7 @@ class Transmission : public Outbox<8> {
   Clipped clipped_;
 };
 
-inline constexpr std::int64_t never_us = std::numeric_limits<std::int64_t>::max();
+using sensors::never_us;
 
 /// A node of the bus, emulated by the bench. All times are in the bench's time base [us].
 class Node {

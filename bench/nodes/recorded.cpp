@@ -49,7 +49,9 @@ Result<void> read_csv(RecordedSettings& own, const NodeTable& table, Section& se
         return read_samples(table, rows, from_us, gap_us, period_us, duration_us);
       })
       .and_then([&](RecordedSamples samples) {
-        const std::int64_t median_us = scenario::median_step(samples.valid_us);
+        std::vector<std::int64_t> valid_us;
+        for (const sensors::Sample& sample : samples) valid_us.push_back(sample.valid_us);
+        const std::int64_t median_us = scenario::median_step(valid_us);
         own.samples = std::make_shared<const RecordedSamples>(std::move(samples));
         return check_period(median_us, period_us, own.recorded_from);
       });

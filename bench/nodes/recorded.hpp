@@ -19,13 +19,9 @@
 
 namespace canhil::nodes {
 
-/// Recorded samples: the values of the group's signals, message by message in the order of ids.
-struct RecordedSamples {
-  std::vector<std::int64_t> valid_us{};     ///< ascending
-  std::vector<std::int64_t> interval_us{};  ///< since the previous sample, for groups with an interval
-  std::vector<double> values{};             ///< sample by sample, in the units of the signals
-  std::size_t signals = 0;                  ///< number of signals of a sample
-};
+/// Recorded samples, in the order of their times of validity. For groups with an interval, the interval of a
+/// sample is the time since the previous one.
+using RecordedSamples = std::vector<sensors::Sample>;
 
 /// Frames of a log, unchanged.
 struct RecordedFrames {

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <optional>
 
-#include "bench/nodes/increment_rounding.hpp"
+#include "bench/nodes/bound_sensor.hpp"
 #include "bench/nodes/recorded.hpp"
 #include "bench/nodes/recorded_group.hpp"
+#include "bench/nodes/registry.hpp"
 #include "bench/scenario/table.hpp"
-#include "dbc/wire/time_base.hpp"
+#include "dbc/wire/turns.hpp"
 
 namespace canhil::nodes {
 namespace {
@@ -100,8 +101,7 @@ Result<double> value_of(const Source& source, const Table& table, std::size_t ro
   const std::size_t index = source.column ? *source.column : *source.rate;
   double value = table.value(row, index) * (source.rate ? interval : 1);
   const SignalInfo& signal = source.signal;
-  if (signal.unit == "deg" && signal.minimum == -180 && signal.maximum == 180)
-    value = std::remainder(value, 360);
+  if (wire::turns(signal)) value = std::remainder(value, 360);
   if (value < signal.minimum || value > signal.maximum)
     return tl::unexpected(
         table.about(row, index,
@@ -122,59 +122,24 @@ std::int64_t interval_of(const std::vector<std::int64_t>& t_us, std::size_t row,
   return whole(t_us[row]) - whole(t_us[row - 1]);
 }
 
-class Samples final : public Node {
+class Samples final : public sensors::Sensor {
  public:
   Samples(const NodeSettings& node, const Run& run)
-      : closes_(node.table().closes),
-        samples_(node.own<RecordedSettings>()->samples),
+      : samples_(node.own<RecordedSettings>()->samples),
         latency_us_(node.latency_us()),
-        end_us_(run.flight.end_us()),
-        remainders_(samples_->signals, 0) {}
+        end_us_(run.flight.end_us()) {}
 
   [[nodiscard]] std::int64_t due_us() const override {
-    if (next_ == samples_->valid_us.size()) return never_us;
-    const std::int64_t due_us = samples_->valid_us[next_] + latency_us_;
+    if (next_ == samples_->size()) return never_us;
+    const std::int64_t due_us = (*samples_)[next_].valid_us + latency_us_;
     return due_us > end_us_ ? never_us : due_us;
   }
-  void transmit(Transmission& out) override {
-    std::size_t index = 0;  // of the signal in the sample
-    each_message(closes_, [&]<class Message>() {
-      Message message{};
-      Message::visit(message, [&](const SignalInfo& signal, auto& member) {
-        assign(member, signal, index++, out.rounding());
-      });
-      out.send(message);
-    });
-    ++next_;
-  }
+  sensors::Sample measure() override { return (*samples_)[next_++]; }
 
  private:
-  template <class Member>
-  void assign(Member& member, const SignalInfo& signal, std::size_t index, Rounding rounding) {
-    const Role role = role_of(signal);
-    double value = samples_->values[next_ * samples_->signals + index];
-    if (role == Role::time_of_validity) {
-      // Time signals with 16 bits have a resolution of 10 us, those with 32 bits a resolution of 1 us.
-      const std::int64_t t_us = samples_->valid_us[next_];
-      value = static_cast<double>(std::is_floating_point_v<Member> ? wrap_short_us(t_us) : wrap_us(t_us));
-    } else if (role == Role::interval) {
-      value = static_cast<double>(samples_->interval_us[next_]);
-    } else if (signal.carries_remainder) {
-      value = round_increment(value, rounding == Rounding::none ? 0 : wire::lsb(signal), signal,
-                              remainders_[index]);
-    }
-    if constexpr (std::is_floating_point_v<Member>) {
-      member = static_cast<Member>(value);
-    } else {
-      member = static_cast<Member>(std::llround(value));
-    }
-  }
-
-  const MessageInfo& closes_;
   std::shared_ptr<const RecordedSamples> samples_;
   std::int64_t latency_us_;
   std::int64_t end_us_;
-  std::vector<double> remainders_;  // for each signal of a sample
   std::size_t next_ = 0;
 };
 
@@ -200,27 +165,31 @@ Result<RecordedSamples> read_samples(const NodeTable& table, const Table& rows, 
   if (!part) return tl::unexpected(part.error());
   const auto interval = std::ranges::find(*sources, Role::interval, &Source::role);
   const double step_us = interval == sources->end() ? 1 : wire::lsb(interval->signal);
-  RecordedSamples samples{.signals = sources->size()};
+  const SampleEncoder encoder(table.closes, kind_of(table).sensor->outputs);
+  RecordedSamples samples;
   for (std::size_t row = part->first; row < part->last; ++row) {
-    samples.valid_us.push_back((*t_us)[row]);
-    samples.interval_us.push_back(interval_of(*t_us, row, period_us, step_us));
-    const auto interval_us = static_cast<double>(samples.interval_us.back());
+    sensors::Sample& sample = samples.emplace_back();
+    sample.valid_us = sample.stamp_us = (*t_us)[row];
+    sample.interval_us = interval_of(*t_us, row, period_us, step_us);
+    const auto interval_us = static_cast<double>(sample.interval_us);
     if (interval != sources->end() && interval_us > interval->signal.maximum)
       return tl::unexpected(rows.about(
           row, time_column,
           fmt::format("{:g} us since the row before do not fit into signal {}, expected at most {:g}",
                       interval_us, interval->signal.name, interval->signal.maximum)));
-    for (const Source& source : *sources) {
-      const auto value = value_of(source, rows, row, 1e-6 * interval_us);
+    for (std::size_t i = 0; i < sources->size(); ++i) {
+      const auto value = value_of((*sources)[i], rows, row, 1e-6 * interval_us);
       if (!value) return tl::unexpected(value.error());
-      samples.values.push_back(*value);
+      const SampleEncoder::Slot& slot = encoder.slots()[i];
+      if (slot.role == Role::value) sample.values[slot.index] = *value * slot.factor;
+      if (slot.role == Role::validity && *value == 0) sample.invalid |= 1U << slot.index;
     }
   }
   return samples;
 }
 
 std::unique_ptr<Node> make_samples(const NodeSettings& node, const Run& run) {
-  return std::make_unique<Samples>(node, run);
+  return std::make_unique<BoundSensor>(std::make_unique<Samples>(node, run), kind_of(node.table()));
 }
 
 }  // namespace canhil::nodes

@@ -5,37 +5,70 @@
 #include <array>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 
-#include "bench/nodes/fins.hpp"
-#include "bench/nodes/glider_nav.hpp"
-#include "bench/nodes/gps.hpp"
-#include "bench/nodes/master_ins.hpp"
-#include "bench/nodes/seeker.hpp"
-#include "bench/nodes/slave_imu.hpp"
-#include "bench/nodes/ssbl.hpp"
+#include "bench/nodes/fits.hpp"
+#include "bench/sensors/fins.hpp"
+#include "bench/sensors/glider_nav.hpp"
+#include "bench/sensors/gps.hpp"
+#include "bench/sensors/master_ins.hpp"
+#include "bench/sensors/seeker.hpp"
+#include "bench/sensors/slave_imu.hpp"
+#include "bench/sensors/ssbl.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::nodes {
 namespace {
 
-constexpr std::array registered{
-    &master_ins,  // of the carrier
-    &slave_imu,   // of the weapon, or of the vehicle
-    &ssbl,        // of a ship
-    &gps,         // of the vehicle
-    &seeker,      // of a missile
-    &glider_nav,  // the GPS/INS of the glider
-    &fins,        // of the glider
-};
+// A sensor and the last message of its sample group.
+Kind bind(const sensors::Kind& sensor, const MessageInfo& closes, decltype(Kind::fits) fits = nullptr) {
+  return {.table = {.key = sensor.key,
+                    .closes = closes,
+                    .samples = sensor.samples,
+                    .read = sensor.read,
+                    .aid = sensor.aid,
+                    .assumed = sensor.assumed,
+                    .increments = sensor.increments},
+          .sensor = &sensor,
+          .fits = fits};
+}
+
+const auto& kinds() {
+  using namespace messages;
+  static const std::array registered{
+      bind(sensors::master_ins, MasterInsVelocityD::info),             // of the carrier
+      bind(sensors::slave_imu, SlaveImuStatus::info, slave_imu_fits),  // of the weapon, or of the vehicle
+      bind(sensors::ssbl, SsblRelativeD::info),                        // of a ship
+      bind(sensors::gps, GpsTime::info),                               // of the vehicle
+      bind(sensors::seeker, SeekerRange::info, seeker_fits),           // of a missile
+      bind(sensors::glider_nav, GliderNavVelocityD::info),             // the GPS/INS of the glider
+      bind(sensors::fins, FinDeflections::info),                       // of the glider
+  };
+  return registered;
+}
 
 }  // namespace
 
-std::span<const Kind* const> all() { return registered; }
+std::span<const Kind* const> all() {
+  static const auto pointers = [] {
+    std::array<const Kind*, std::tuple_size_v<std::remove_cvref_t<decltype(kinds())>>> all{};
+    std::ranges::transform(kinds(), all.begin(), [](const Kind& kind) { return &kind; });
+    return all;
+  }();
+  return pointers;
+}
+
+const Kind& bound(const sensors::Kind& sensor) { return **std::ranges::find(all(), &sensor, &Kind::sensor); }
+
+const Kind& kind_of(const NodeTable& table) {
+  return **std::ranges::find(all(), table.key, [](const Kind* kind) { return kind->table.key; });
+}
 
 std::vector<const scenario::NodeTable*> tables() {
-  std::vector<const scenario::NodeTable*> all;
-  for (const Kind* kind : registered) all.push_back(&kind->table);
-  return all;
+  std::vector<const scenario::NodeTable*> tables;
+  for (const Kind* kind : all()) tables.push_back(&kind->table);
+  return tables;
 }
 
 std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run& run) {
@@ -49,7 +82,7 @@ std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run
 // The nodes are first ordered by the truth that they sample (TruthOf), then by bus priority (the lower id
 // first). So a fin deflection arrives before the navigation group of the same instant is complete.
 std::vector<std::unique_ptr<Node>> make(const Run& run) {
-  auto kinds = registered;
+  std::vector<const Kind*> kinds(all().begin(), all().end());
   std::ranges::sort(kinds, {},
                     [](const Kind* kind) { return std::pair(kind->table.samples, kind->table.closes.id); });
   std::vector<std::unique_ptr<Node>> nodes;

@@ -12,6 +12,11 @@ namespace canhil::nodes {
 /// All kinds, in the order in which tables are read and reported.
 std::span<const Kind* const> all();
 
+/// The kind that binds this sensor.
+const Kind& bound(const sensors::Kind& sensor);
+/// The kind that has this table.
+const Kind& kind_of(const NodeTable& table);
+
 /// The tables of all kinds, for scenario::DbcVocabulary.
 std::vector<const scenario::NodeTable*> tables();
 

@@ -1,5 +1,4 @@
-#include "bench/nodes/slave_imu.hpp"
-
+// Whether the increments of the IMU fit into their signals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,10 +6,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/nodes/increment_rounding.hpp"
-#include "bench/nodes/sampler.hpp"
+#include "bench/nodes/fits.hpp"
 #include "bench/nodes/wire_limits.hpp"
-#include "dbc/wire/time_base.hpp"
+#include "bench/sensors/slave_imu.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::nodes {
 namespace {
@@ -18,59 +17,7 @@ namespace {
 using messages::SlaveImuDeltaTheta;
 using messages::SlaveImuDeltaV;
 using messages::SlaveImuStatus;
-using messages::Validity;
-
-constexpr std::int8_t temperature_degc = 25;  // the error model has no temperature
-constexpr std::array<scenario::Assumed, 1> assumed{{{"temperature_degc", temperature_degc}}};
-constexpr std::array<scenario::Increment, 6> increments{
-    {{"delta_theta_x_rad", "rate_x_radps", "imu.rate.x"},
-     {"delta_theta_y_rad", "rate_y_radps", "imu.rate.y"},
-     {"delta_theta_z_rad", "rate_z_radps", "imu.rate.z"},
-     {"delta_v_x_mps", "specific_force_x_mps2", "imu.specific_force.x"},
-     {"delta_v_y_mps", "specific_force_y_mps2", "imu.specific_force.y"},
-     {"delta_v_z_mps", "specific_force_z_mps2", "imu.specific_force.z"}}};
-
-NodeSettings read(const NodeTable& table, Section& section) {
-  const Limits sigma = Limits::at_least(0);
-  SlaveImuSettings node;
-  node.schedule = read_schedule(section);
-  node.errors.gyro = {
-      .bias = {.value = section.three({"gyro_bias_degph", "Constant bias of the gyros, [x, y, z]."}),
-               .sigma = section.three(
-                   {"gyro_bias_sigma_degph", "1-sigma of the bias of the gyros, drawn for each run."},
-                   sigma)},
-      .noise = section.three({"gyro_noise_degprth", "Density of the white noise of the gyros."}, sigma),
-      .scale_factor = {.value = section.three(
-                           {"gyro_scale_factor_ppm", "Constant scale factor error of the gyros."}),
-                       .sigma = section.three(
-                           {"gyro_scale_factor_sigma_ppm",
-                            "1-sigma of the scale factor error of the gyros, drawn for each run."},
-                           sigma)},
-      .misalignment_sigma = section.number(
-          {"gyro_misalignment_sigma_mrad", "1-sigma of each misalignment of the gyros, drawn for each run."},
-          sigma, 0)};
-  node.errors.accel = {
-      .bias = {.value = section.three({"accel_bias_ug", "Constant bias of the accelerometers, [x, y, z]."}),
-               .sigma = section.three(
-                   {"accel_bias_sigma_ug", "1-sigma of the bias of the accelerometers, drawn for each run."},
-                   sigma)},
-      .noise =
-          section.three({"accel_noise_ugprthz", "Density of the white noise of the accelerometers."}, sigma),
-      .scale_factor = {.value = section.three(
-                           {"accel_scale_factor_ppm", "Constant scale factor error of the accelerometers."}),
-                       .sigma = section.three(
-                           {"accel_scale_factor_sigma_ppm",
-                            "1-sigma of the scale factor error of the accelerometers, drawn for each run."},
-                           sigma)},
-      .misalignment_sigma =
-          section.number({"accel_misalignment_sigma_mrad",
-                          "1-sigma of each misalignment of the accelerometers, drawn for each run."},
-                         sigma, 0)};
-  node.loss_probability = section.number(
-      {"loss_percent", "Share of the sample groups that are not sent. Their increments are lost."},
-      Limits::between(0, 100), 0);
-  return {table, node};
-}
+using sensors::SlaveImuSettings;
 
 // For each term of parts_of(), in the same order: the name of the setting that causes the term. Error
 // messages contain these names.
@@ -127,8 +74,10 @@ std::string check_triad(const Names& names, const world::TriadErrorModel& model,
   return {};
 }
 
-Result<void> fits(const NodeSettings& node, const scenario::Scenario& /*scenario*/,
-                  const world::FlightRecord& flight) {
+}  // namespace
+
+Result<void> slave_imu_fits(const NodeSettings& node, const scenario::Scenario& /*scenario*/,
+                            const world::FlightRecord& flight) {
   if (auto checked = check_interval("IMU interval", flight.interval_us(), SlaveImuStatus::info,
                                     SlaveImuStatus::signals());
       !checked)
@@ -141,52 +90,5 @@ Result<void> fits(const NodeSettings& node, const scenario::Scenario& /*scenario
   if (wrong.empty()) return {};
   return failure(std::move(wrong));
 }
-
-class SlaveImu final : public Sampler<SlaveImuSettings> {
- public:
-  SlaveImu(const NodeSettings& node, const Run& run)
-      : Sampler(node, run),
-        imu_(config_.errors, run.stream("slave_imu")),
-        losses_(run.stream("slave_imu.loss")),
-        theta_rounding_(SlaveImuDeltaTheta::signals()[0]),
-        velocity_rounding_(SlaveImuDeltaV::signals()[0]) {}
-
- private:
-  bool sample(std::int64_t /*t_us*/, Transmission& out) override {
-    const world::ImuIncrement measured = imu_.measure(run_.flight.increments()[next_++]);
-    const world::Vector3 delta_theta = theta_rounding_.round(measured.delta_theta, out.rounding());
-    const world::Vector3 delta_v = velocity_rounding_.round(measured.delta_v, out.rounding());
-    out.send(SlaveImuDeltaTheta{.delta_theta_x_rad = delta_theta.x(),
-                                .delta_theta_y_rad = delta_theta.y(),
-                                .delta_theta_z_rad = delta_theta.z(),
-                                .gyro_validity = Validity::valid});
-    out.send(SlaveImuDeltaV{.delta_v_x_mps = delta_v.x(),
-                            .delta_v_y_mps = delta_v.y(),
-                            .delta_v_z_mps = delta_v.z(),
-                            .accel_validity = Validity::valid});
-    out.send(SlaveImuStatus{.time_of_validity_us = wrap_us(measured.t_us),
-                            .interval_us = static_cast<double>(measured.interval_us),
-                            .temperature_degc = temperature_degc});
-    return losses_.uniform() >= config_.loss_probability;
-  }
-
-  world::ErroneousImu imu_;
-  world::Stream losses_;  // a separate stream: losses do not change measurements
-  std::size_t next_ = 0;
-  IncrementRounding theta_rounding_;
-  IncrementRounding velocity_rounding_;
-};
-
-}  // namespace
-
-constinit const Kind slave_imu{.table = {.key = "slave_imu",
-                                         .closes = messages::SlaveImuStatus::info,
-                                         .samples = scenario::TruthOf::navigation,
-                                         .read = read,
-                                         .assumed = assumed,
-                                         .increments = increments},
-                               .make = make<SlaveImu>,
-                               .fits = fits,
-                               .at_every_epoch = true};
 
 }  // namespace canhil::nodes

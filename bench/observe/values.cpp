@@ -66,10 +66,6 @@ std::vector<const SignalInfo*> signals_of(const MessageInfo& message) {
   return signals;
 }
 
-bool turns(const SignalInfo& signal) {
-  return signal.unit == "deg" && signal.minimum == -180 && signal.maximum == 180;
-}
-
 const SignalInfo* signal_of(const MessageInfo& message, std::string_view name) {
   for (const SignalInfo* signal : signals_of(message)) {
     if (signal->name == name) return signal;

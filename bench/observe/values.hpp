@@ -27,8 +27,6 @@ std::string_view message_of(const Frame& frame);
 
 /// The signals of a message in the DBC, except counter and checksum.
 std::vector<const SignalInfo*> signals_of(const MessageInfo& message);
-/// Whether a signal is an angle that comes round: -180 to 180 deg.
-bool turns(const SignalInfo& signal);
 /// Null: the message has no such signal.
 const SignalInfo* signal_of(const MessageInfo& message, std::string_view name);
 

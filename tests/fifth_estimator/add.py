@@ -2,7 +2,7 @@
 """Creates a copy of the project with a fifth estimator: python3 tests/fifth_estimator/add.py FOLDER
 
 This file makes all changes outside tests/fifth_estimator that the estimator needs: one line in each registry, and the additions to the DBC, which
-contract.dbc lists. The estimator's sensor and one of its checks are the examples of docs/adding-a-node.md and docs/adding-a-check.md. Their code is
+contract.dbc lists. The estimator's sensor and one of its checks are the examples of docs/adding-a-sensor.md and docs/adding-a-check.md. Their code is
 taken from these two pages, so the tests of the copy fail if a page is out of date.
 """
 import pathlib
@@ -31,15 +31,15 @@ def block(page: str, above: str) -> str:
 
 # Source files that two pages of docs contain: the text of each file is the code block below the line that begins with the file's name.
 FROM_PAGES = {name: block(page, f"`{name}`").encode() + b"\n" for page, name in [
-    ("adding-a-node", "bench/nodes/barometer.hpp"), ("adding-a-node", "bench/nodes/barometer.cpp"),
+    ("adding-a-sensor", "bench/sensors/barometer.hpp"), ("adding-a-sensor", "bench/sensors/barometer.cpp"),
     ("adding-a-check", "bench/checks/kinds/spread.hpp"), ("adding-a-check", "bench/checks/kinds/spread.cpp")]}
 
 # (registry, an existing line in it, the line to insert after it)
 LINES = [
     ("bench/estimators/registry.cpp", '#include "messages/canhil.hpp"', f'#include "{HERE}/baro_inertial.hpp"'),
     ("bench/estimators/registry.cpp", "    &los_rate,", "    &baro_inertial,"),
-    ("bench/nodes/registry.cpp", '#include "bench/nodes/master_ins.hpp"', '#include "bench/nodes/barometer.hpp"'),
-    ("bench/nodes/registry.cpp", "    &fins,        // of the glider", block("adding-a-node", "## 3. The registry")),
+    ("bench/nodes/registry.cpp", '#include "bench/sensors/master_ins.hpp"', '#include "bench/sensors/barometer.hpp"'),
+    ("bench/nodes/registry.cpp", "      bind(sensors::fins, FinDeflections::info),                       // of the glider", block("adding-a-sensor", "## 3. The registry")),
     ("bench/checks/kinds.cpp", '#include "bench/checks/kinds/sigma_grows.hpp"', '#include "bench/checks/kinds/spread.hpp"'),
     ("bench/checks/kinds.cpp", "constexpr std::array of_any_estimator{", block("adding-a-check", "## 2. The registry")),
     ("target/device/adapters.hpp", "std::unique_ptr<Adapter> make_wind_adapter();",
@@ -66,9 +66,9 @@ def contract(text: str) -> str:
     """Adds the parts of contract.dbc to the text of the DBC: the nodes to BU_, the estimator to the lists of estimators, the rest at the end."""
     own = (ROOT / HERE / "contract.dbc").read_text()
     nodes, rest = own.split("\n", 1)
-    for line in block("adding-a-node", "## 1. The DBC").splitlines():
+    for line in block("adding-a-sensor", "## 1. The DBC").splitlines():
         if line not in own.splitlines():
-            fail(f"docs/adding-a-node.md: '{line}' is not in {HERE}/contract.dbc")
+            fail(f"docs/adding-a-sensor.md: '{line}' is not in {HERE}/contract.dbc")
     lines = []
     for line in text.splitlines():
         if line.startswith("BU_:"):

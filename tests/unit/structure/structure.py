@@ -23,6 +23,7 @@ MAY_INCLUDE = {
     "bench/": ("dbc/", "bench/"),
     "bench/drive/": ("dbc/", "bench/", DEVICE),
     "bench/checks/": ("dbc/", "bench/"),
+    "bench/sensors/": ("bench/world/", "bench/scenario/", "bench/sensors/"),  # a sensor knows neither messages nor frames
 }
 # Folders that must not be included even indirectly: a check compares decoded frames with the truth and uses nothing
 # else.
@@ -35,7 +36,7 @@ ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/")
 # Code that may name an estimator: its folder and the registry; the papers, each about one estimator; the seeker,
 # which uses the answers of one estimator for guidance; and the truth of the glide, whose table [wind] has an
 # estimator's name.
-KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/nodes/seeker.", "bench/scenario/glide.")
+KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/sensors/seeker.", "bench/nodes/seeker.", "bench/nodes/bound_sensor.", "bench/scenario/glide.")
 
 # The aim is 300 lines. A file with a long table or a long derivation may exceed 300 lines; a file that is longer by a
 # third contains a second subject.
@@ -200,18 +201,18 @@ def estimator_breaches(sources):
 
 
 def node_breaches(sources, graph):
-    """Only the node itself and the registry include a node's header; only bench/nodes names its settings."""
-    headers = {n for n, t in sources.items() if n.startswith("bench/nodes/") and re.search(r"\bextern const struct Kind \w+;", t)}
+    """Only the sensor itself, the registry and the check of its ranges include a sensor's header; only these name its settings."""
+    headers = {n for n, t in sources.items() if n.startswith("bench/sensors/") and re.search(r"\bextern const struct Kind \w+;", t)}
     settings = {s for n in headers for s in re.findall(r"\bstruct (\w+Settings) \{", sources[n])}
     named = re.compile(rf"\b({'|'.join(sorted(settings))})\b") if settings else None
     for name, text in sources.items():
         own = name.rsplit(".", 1)[0] + ".hpp"
         for line, _, other in graph[name]:
-            if other in headers - {own} and name != "bench/nodes/registry.cpp":
-                yield f"{name}:{line}: includes {other}, expected the registry: what is particular stands in the node's own file"
-        if named and not name.startswith("bench/nodes/") and (found := named.search(clean := without_comments(text))):
+            if other in headers - {own, own.replace("bench/nodes/", "bench/sensors/")} and name != "bench/nodes/registry.cpp":
+                yield f"{name}:{line}: includes {other}, expected the registry: what is particular stands in the sensor's own file"
+        if named and not name.startswith(("bench/sensors/", "bench/nodes/")) and (found := named.search(clean := without_comments(text))):
             line = clean.count("\n", 0, found.start()) + 1
-            yield f"{name}:{line}: names {found[0]}, expected scenario::NodeSettings: its table stands in bench/nodes"
+            yield f"{name}:{line}: names {found[0]}, expected scenario::NodeSettings: its table stands in bench/sensors"
 
 
 def size_breaches(sources):

@@ -29,8 +29,8 @@ GOOD = {
     "target/estimators/wind/model.hpp": "#include <cmath>\n",
     "target/estimators/los_rate/model.hpp": '// #include "dbc/wire/frame.hpp"\n',
     "bench/main.cpp": '#include "bench/drive/runner.hpp"\n',
-    "bench/drive/runner.hpp": '#include "bench/nodes/seeker.hpp"\n#include "target/device/device.hpp"\n',
-    "bench/nodes/seeker.hpp": '#include "bench/world/truth.hpp"\n#include "dbc/wire/frame.hpp"\n',
+    "bench/drive/runner.hpp": '#include "bench/nodes/node.hpp"\n#include "target/device/device.hpp"\n',
+    "bench/nodes/node.hpp": '#include "bench/world/truth.hpp"\n#include "dbc/wire/frame.hpp"\n',
     "bench/world/truth.hpp": "#include <fmt/format.h>\n",
     "bench/checks/timing.hpp": '#include "bench/world/truth.hpp"\nint limit = 129;\nauto m = "id = 129";\n',
     "docs/architecture.md": "See https://example.org/work/page and $HOME/work/x.\n",
@@ -90,19 +90,24 @@ class Checker(unittest.TestCase):
                     "bench/estimators/registry.cpp": "const Estimator& one = odometry;\n",
                     "bench/papers/odometry/claims.cpp": 'auto name = "odometry";\n'}
         self.assertEqual(breaches_of({**odometry, "bench/drive/x.cpp": 'int odometry = 0; auto s = "odometry of a car";\n'}), [])
-        for name in ("bench/observe/monitor.cpp", "bench/checks/kinds/error.cpp", "bench/scenario/target_setup.cpp", "bench/nodes/gps.cpp"):
+        for name in ("bench/observe/monitor.cpp", "bench/checks/kinds/error.cpp", "bench/scenario/target_setup.cpp", "bench/nodes/registry.cpp"):
             for text in ('if (name == "odometry") return;\n', "auto speed = from_frame<OdometrySpeed>(frame);\n"):
                 with self.subTest(name=name, text=text):
                     self.expect(f"{name}:1: names", {**odometry, name: text})
 
-    def test_a_node_is_known_to_the_registry_alone(self):
-        gps = {"bench/nodes/gps.hpp": "struct GpsSettings {};\nextern const struct Kind gps;\n", "bench/nodes/gps.cpp": '#include "bench/nodes/gps.hpp"\n',
-               "bench/nodes/registry.cpp": '#include "bench/nodes/gps.hpp"\n'}
-        self.assertEqual(breaches_of(gps), [])
-        for name in ("bench/drive/flight.cpp", "bench/report/summary.cpp", "bench/nodes/ssbl.cpp"):
+    def test_a_sensor_is_known_to_the_registry_alone(self):
+        gps = {"bench/sensors/gps.hpp": "struct GpsSettings {};\nextern const struct Kind gps;\n", "bench/sensors/gps.cpp": '#include "bench/sensors/gps.hpp"\n',
+               "bench/nodes/registry.cpp": '#include "bench/sensors/gps.hpp"\n'}
+        self.assertEqual(breaches_of({**gps, "bench/nodes/gps.cpp": '#include "bench/sensors/gps.hpp"\n'}), [])
+        for name in ("bench/drive/flight.cpp", "bench/report/summary.cpp", "bench/sensors/ssbl.cpp", "bench/nodes/recorded.cpp"):
             with self.subTest(name):
-                self.expect(f"{name}:1: includes bench/nodes/gps.hpp", {**gps, name: '#include "bench/nodes/gps.hpp"\n'})
+                self.expect(f"{name}:1: includes bench/sensors/gps.hpp", {**gps, name: '#include "bench/sensors/gps.hpp"\n'})
         self.expect("bench/scenario/x.cpp:2: names GpsSettings", {**gps, "bench/scenario/x.cpp": "// GpsSettings\nGpsSettings all;\n"})
+
+    def test_a_sensor_knows_no_frame(self):
+        for other in ("dbc/wire/frame.hpp", "bench/nodes/node.hpp"):
+            with self.subTest(other):
+                self.expect_include("bench/sensors/gps.cpp", other)
 
     def test_dbc_knows_neither_side(self):
         for other in ("target/device/device.hpp", "bench/world/truth.hpp", "tests/unit/made.hpp"):
@@ -116,7 +121,7 @@ class Checker(unittest.TestCase):
         self.expect_include("target/device/device.hpp", "target/options.hpp")
 
     def test_bench_knows_the_target_by_its_frames(self):
-        for name in ("bench/main.cpp", "bench/nodes/seeker.hpp", "bench/world/truth.hpp", "bench/checks/timing.hpp"):
+        for name in ("bench/main.cpp", "bench/nodes/node.hpp", "bench/world/truth.hpp", "bench/checks/timing.hpp"):
             with self.subTest(name):
                 self.expect_include(name, "target/device/device.hpp")
         for name in ("bench/drive/runner.hpp", "bench/campaign/shard.hpp"):
@@ -126,11 +131,11 @@ class Checker(unittest.TestCase):
 
     def test_checks_reach_neither_nodes_nor_target(self):
         timing = "bench/checks/timing.hpp"
-        self.expect("reaches bench/nodes/seeker.hpp", {timing: '#include "bench/nodes/seeker.hpp"\n'})
+        self.expect("reaches bench/nodes/node.hpp", {timing: '#include "bench/nodes/node.hpp"\n'})
         self.expect("reaches target/device/device.hpp", {timing: '#include "bench/drive/runner.hpp"\n'})
 
     def test_folders_form_no_cycle(self):
-        self.expect("a cycle of folders", {"bench/world/truth.hpp": '#include "bench/nodes/seeker.hpp"\n'})
+        self.expect("a cycle of folders", {"bench/world/truth.hpp": '#include "bench/nodes/node.hpp"\n'})
         self.expect("a cycle of folders", {"dbc/wire/time_base.hpp": '#include "dbc/parser/parse.hpp"\n',
                                            "dbc/parser/parse.hpp": '#include "dbc/ports/port.hpp"\n'})
 

@@ -6,7 +6,7 @@
 
 #include "bench/drive/contract.hpp"
 #include "bench/nodes/registry.hpp"
-#include "bench/nodes/slave_imu.hpp"
+#include "bench/sensors/slave_imu.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -26,12 +26,12 @@ class ImuLimits : public testing::Test {
         truth_(*make_truth(scenario_)) {}
 
   [[nodiscard]] std::string refused(const world::ImuErrorModel& imu) const {
-    const auto fits = nodes::slave_imu.fits(with(imu), scenario_, truth_);
+    const auto fits = nodes::bound(sensors::slave_imu).fits(with(imu), scenario_, truth_);
     return fits ? "" : fits.error().message;
   }
 
   static scenario::NodeSettings with(const world::ImuErrorModel& imu) {
-    return {nodes::slave_imu.table, nodes::SlaveImuSettings{.errors = imu}};
+    return {nodes::bound(sensors::slave_imu).table, sensors::SlaveImuSettings{.errors = imu}};
   }
 
   scenario::Scenario scenario_;
@@ -39,7 +39,7 @@ class ImuLimits : public testing::Test {
 };
 
 TEST_F(ImuLimits, AnHonestImuFits) {
-  EXPECT_EQ(refused(scenario_.node("slave_imu")->own<nodes::SlaveImuSettings>()->errors), "");
+  EXPECT_EQ(refused(scenario_.node("slave_imu")->own<sensors::SlaveImuSettings>()->errors), "");
 }
 
 TEST_F(ImuLimits, EachErrorIsRefusedWhereItsSixSigmaLeaveTheRangeAndNotBefore) {

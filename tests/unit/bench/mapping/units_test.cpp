@@ -1,10 +1,10 @@
-#include "bench/mapping/units.hpp"
+#include "bench/quantities/wire_unit.hpp"
 
 #include <gtest/gtest.h>
 
 #include "bench/world/units.hpp"
 
-namespace canhil::mapping {
+namespace canhil::quantities {
 namespace {
 
 TEST(WireUnits, AreKnownInTheSpellingsOfDbcFiles) {
@@ -36,4 +36,4 @@ TEST(WireUnits, ThatNobodyKnowsAreNone) {
 }
 
 }  // namespace
-}  // namespace canhil::mapping
+}  // namespace canhil::quantities

@@ -1,13 +1,15 @@
 // The messages of the SSBL and of the GPS for a moving vehicle.
 #include <gtest/gtest.h>
 
-#include "bench/nodes/gps.hpp"
-#include "bench/nodes/ssbl.hpp"
+#include "bench/sensors/gps.hpp"
+#include "bench/sensors/ssbl.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/nodes/made.hpp"
 
 namespace canhil::nodes {
 namespace {
+
+using namespace sensors;
 
 using messages::Validity;
 using world::Vector3;

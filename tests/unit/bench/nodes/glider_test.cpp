@@ -3,14 +3,16 @@
 
 #include <cmath>
 
-#include "bench/nodes/fins.hpp"
-#include "bench/nodes/glider_nav.hpp"
+#include "bench/sensors/fins.hpp"
+#include "bench/sensors/glider_nav.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
 #include "tests/unit/bench/nodes/made.hpp"
 
 namespace canhil::nodes {
 namespace {
+
+using namespace sensors;
 
 using world::Vector3;
 using world::units::deg;

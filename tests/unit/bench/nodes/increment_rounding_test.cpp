@@ -1,4 +1,4 @@
-#include "bench/nodes/increment_rounding.hpp"
+#include "tests/unit/bench/nodes/rounded.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,14 +3,15 @@
 
 #include <memory>
 
-#include "bench/nodes/kind.hpp"
+#include "bench/nodes/registry.hpp"
 
 namespace canhil::nodes {
 
 template <class Settings>
-std::unique_ptr<Node> made(const Kind& kind, const Settings& settings, const world::FlightRecord& flight,
-                           const world::GlideRecord* glide = nullptr) {
-  static const scenario::Scenario any;  // nodes keep a reference to their scenario
+std::unique_ptr<Node> made(const sensors::Kind& sensor, const Settings& settings,
+                           const world::FlightRecord& flight, const world::GlideRecord* glide = nullptr) {
+  static const scenario::Scenario any;  // sensors keep a reference to their scenario
+  const Kind& kind = bound(sensor);
   return kind.make({kind.table, settings}, {.scenario = any, .index = 0, .flight = flight, .glide = glide});
 }
 

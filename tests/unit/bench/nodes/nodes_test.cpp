@@ -1,17 +1,19 @@
 // The messages that the emulated nodes send, and the times at which they send them.
 #include <gmock/gmock.h>
 
-#include "bench/nodes/increment_rounding.hpp"
 #include "bench/nodes/is_whole.hpp"
-#include "bench/nodes/master_ins.hpp"
-#include "bench/nodes/sample_loss.hpp"
-#include "bench/nodes/slave_imu.hpp"
 #include "bench/nodes/time_keeper.hpp"
+#include "bench/sensors/master_ins.hpp"
+#include "bench/sensors/sample_loss.hpp"
+#include "bench/sensors/slave_imu.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "tests/unit/bench/nodes/made.hpp"
+#include "tests/unit/bench/nodes/rounded.hpp"
 
 namespace canhil::nodes {
 namespace {
+
+using namespace sensors;
 
 using messages::SlaveImuDeltaTheta;
 using testing::ElementsAre;

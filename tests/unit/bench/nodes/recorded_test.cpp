@@ -6,9 +6,9 @@
 
 #include <fstream>
 
-#include "bench/nodes/gps.hpp"
 #include "bench/nodes/registry.hpp"
-#include "bench/nodes/slave_imu.hpp"
+#include "bench/sensors/gps.hpp"
+#include "bench/sensors/slave_imu.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "dbc/logs/candump.hpp"
 #include "messages/canhil.hpp"
@@ -17,6 +17,8 @@
 
 namespace canhil::nodes {
 namespace {
+
+using namespace sensors;
 
 using namespace messages;
 using scenario::read_table;

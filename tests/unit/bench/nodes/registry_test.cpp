@@ -48,7 +48,8 @@ TEST(Registry, WhatClosesAGroupIsTheLastOfItAndHasACycle) {
 
 // The truth has a single sampling interval, so only one kind of node can be sampled at every epoch.
 TEST(Registry, OneNodeSamplesEveryEpoch) {
-  EXPECT_EQ(std::ranges::count(all(), true, &Kind::at_every_epoch), 1);
+  EXPECT_EQ(std::ranges::count(all(), true, [](const Kind* kind) { return kind->sensor->at_every_epoch; }),
+            1);
 }
 
 }  // namespace

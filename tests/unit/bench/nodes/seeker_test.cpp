@@ -1,15 +1,17 @@
 // The messages of the seeker in an engagement, and the guidance that uses the target's answers.
-#include "bench/nodes/seeker.hpp"
+#include "bench/sensors/seeker.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "bench/nodes/kind.hpp"
+#include "bench/nodes/registry.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::nodes {
 namespace {
+
+using namespace sensors;
 
 using namespace messages;
 
@@ -38,11 +40,11 @@ Message message(const Transmission& out, std::size_t place) {
 class Bench {
  public:
   explicit Bench(const SeekerSettings& config = {}, const world::EngagementPlan& plan = {})
-      : node_(seeker.make({seeker.table, config}, {.scenario = with(plan),
-                                                   .index = 0,
-                                                   .flight = flight(),
-                                                   .glide = nullptr,
-                                                   .engagement = &record_})) {}
+      : node_(bound(seeker).make({bound(seeker).table, config}, {.scenario = with(plan),
+                                                                 .index = 0,
+                                                                 .flight = flight(),
+                                                                 .glide = nullptr,
+                                                                 .engagement = &record_})) {}
 
   /// The next sample; none if it was lost or the engagement has ended.
   std::optional<Sample> next() {

@@ -12,14 +12,14 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/estimators/inflight_alignment/answers.hpp"
-#include "bench/nodes/fins.hpp"
-#include "bench/nodes/glider_nav.hpp"
-#include "bench/nodes/kind.hpp"
-#include "bench/nodes/master_ins.hpp"
-#include "bench/nodes/seeker.hpp"
-#include "bench/nodes/slave_imu.hpp"
+#include "bench/nodes/registry.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/run_reports.hpp"
+#include "bench/sensors/fins.hpp"
+#include "bench/sensors/glider_nav.hpp"
+#include "bench/sensors/master_ins.hpp"
+#include "bench/sensors/seeker.hpp"
+#include "bench/sensors/slave_imu.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "tests/own_folder.hpp"
 
@@ -127,13 +127,16 @@ TEST(Reports, NameAPeriodThatIsNotTheDbcs) {
   scenario::Scenario scenario = scenario_of();
   EXPECT_THAT(text(scenario, run_of()), Not(HasSubstr("DBC:")));
   const scenario::Schedule often{.period_us = 20'000, .latency_us = 0};
-  const scenario::Schedule as_in_the_dbc{.period_us = nodes::seeker.table.closes.cycle_time_us,
-                                         .latency_us = 0};
-  scenario.nodes.emplace_back(nodes::fins.table, nodes::FinsSettings{.schedule = often});
-  scenario.nodes.emplace_back(nodes::glider_nav.table, nodes::GliderNavSettings{});
-  scenario.nodes.emplace_back(nodes::master_ins.table, nodes::MasterInsSettings{.schedule = often});
-  scenario.nodes.emplace_back(nodes::slave_imu.table, nodes::SlaveImuSettings{.schedule = often});
-  scenario.nodes.emplace_back(nodes::seeker.table, nodes::SeekerSettings{.schedule = as_in_the_dbc});
+  const scenario::Schedule as_in_the_dbc{
+      .period_us = nodes::bound(sensors::seeker).table.closes.cycle_time_us, .latency_us = 0};
+  scenario.nodes.emplace_back(nodes::bound(sensors::fins).table, sensors::FinsSettings{.schedule = often});
+  scenario.nodes.emplace_back(nodes::bound(sensors::glider_nav).table, sensors::GliderNavSettings{});
+  scenario.nodes.emplace_back(nodes::bound(sensors::master_ins).table,
+                              sensors::MasterInsSettings{.schedule = often});
+  scenario.nodes.emplace_back(nodes::bound(sensors::slave_imu).table,
+                              sensors::SlaveImuSettings{.schedule = often});
+  scenario.nodes.emplace_back(nodes::bound(sensors::seeker).table,
+                              sensors::SeekerSettings{.schedule = as_in_the_dbc});
   EXPECT_THAT(text(scenario, run_of()), HasSubstr("SlaveImu every 20 ms (DBC: 10 ms)"));
   const auto page = nlohmann::json::parse(json(scenario, run_of()));
   EXPECT_THAT(page["provenance"]["period_overrides"],

@@ -3,7 +3,7 @@
 
 #include "bench/checks/kinds/error.hpp"
 #include "bench/estimators/los_rate/miss_distance.hpp"
-#include "bench/nodes/seeker.hpp"
+#include "bench/sensors/seeker.hpp"
 #include "bench/quantities/quantity.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
@@ -50,7 +50,7 @@ TEST(EngagementFields, DefaultsAreThoseOfTheWorld) {
   EXPECT_EQ(plan.guidance, world::Guidance::truth);
   EXPECT_EQ(plan.guidance_delay_us, standard.guidance_delay_us);
   EXPECT_FALSE(plan.guidance_predicts);
-  const auto seeker = node_of<nodes::SeekerSettings>(s), usual = nodes::SeekerSettings{};
+  const auto seeker = node_of<sensors::SeekerSettings>(s), usual = sensors::SeekerSettings{};
   EXPECT_EQ(seeker.errors.thermal, usual.errors.thermal);
   EXPECT_EQ(seeker.errors.glint, usual.errors.glint);
   EXPECT_DOUBLE_EQ(seeker.errors.gyro_noise, usual.errors.gyro_noise);
@@ -103,7 +103,7 @@ TEST(EngagementFields, EveryKey) {
 }
 
 TEST(SeekerFields, EveryKey) {
-  const auto seeker = node_of<nodes::SeekerSettings>(
+  const auto seeker = node_of<sensors::SeekerSettings>(
       parsed(los_with("[seeker]",
                       "period_ms = 2\nlatency_ms = 1.5\njitter_ms = 0.5\nthermal_noise_radpm2 = 2e-10\n"
                       "glint_noise_m = 0.7\nglint_correlation_ms = 40\nconstant_noise_mrad = 1\n"

@@ -1,10 +1,10 @@
 // Every key of a scenario except its checks: the member that it sets, its unit, and its default.
 #include <gtest/gtest.h>
 
-#include "bench/nodes/gps.hpp"
-#include "bench/nodes/master_ins.hpp"
-#include "bench/nodes/slave_imu.hpp"
-#include "bench/nodes/ssbl.hpp"
+#include "bench/sensors/gps.hpp"
+#include "bench/sensors/master_ins.hpp"
+#include "bench/sensors/slave_imu.hpp"
+#include "bench/sensors/ssbl.hpp"
 #include "bench/world/hash.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
@@ -131,11 +131,11 @@ TEST(ScenarioFields, InitialErrorIsFixedOrDrawnForOneOrThreeAxes) {
 }
 
 TEST(ScenarioFields, MasterIns) {
-  const auto bare = node_of<nodes::MasterInsSettings>(parsed(valid));
+  const auto bare = node_of<sensors::MasterInsSettings>(parsed(valid));
   EXPECT_FALSE(bare.schedule.period_us.has_value()) << "the DBC's";
   EXPECT_EQ(bare.schedule.latency_us, 0);
   EXPECT_TRUE(bare.errors.velocity.sigma.isZero());
-  const auto node = node_of<nodes::MasterInsSettings>(
+  const auto node = node_of<sensors::MasterInsSettings>(
       parsed(inside("[master_ins]",
                     "period_ms = 50\nlatency_ms = 12.5\n"
                     "velocity_noise_mps = 0.05\nvelocity_bias_mps = [0.1, 0, 0]\n"
@@ -152,10 +152,10 @@ TEST(ScenarioFields, MasterIns) {
 }
 
 TEST(ScenarioFields, SlaveImu) {
-  const auto bare = node_of<nodes::SlaveImuSettings>(parsed(valid));
+  const auto bare = node_of<sensors::SlaveImuSettings>(parsed(valid));
   EXPECT_FALSE(bare.schedule.period_us.has_value());
   EXPECT_TRUE(bare.errors.gyro.noise.isZero() && bare.errors.accel.bias.sigma.isZero());
-  const auto node = node_of<nodes::SlaveImuSettings>(
+  const auto node = node_of<sensors::SlaveImuSettings>(
       parsed(inside("[slave_imu]",
                     "period_ms = 5\nlatency_ms = 1\nloss_percent = 2\n"
                     "accel_bias_ug = 10\naccel_bias_sigma_ug = 300\naccel_noise_ugprthz = 50\n"
@@ -241,11 +241,11 @@ std::string aided(const std::string& aid) {
 }
 
 TEST(ScenarioFields, Ssbl) {
-  const auto bare = node_of<nodes::SsblSettings>(parsed(aided("[ssbl]")));
+  const auto bare = node_of<sensors::SsblSettings>(parsed(aided("[ssbl]")));
   EXPECT_FALSE(bare.schedule.period_us.has_value());
   EXPECT_TRUE(bare.noise.isZero() && bare.bias.sigma.isZero() && bare.ship_error.sigma.isZero());
   EXPECT_FALSE(bare.faults.silence_us.has_value());
-  const auto node = node_of<nodes::SsblSettings>(
+  const auto node = node_of<sensors::SsblSettings>(
       parsed(aided("[ssbl]\nperiod_ms = 2000\nlatency_ms = 1500\n"
                    "ship_offset_m = [100, 200, -10]\nship_velocity_mps = [1, 2, 0]\n"
                    "ship_error_m = 4\nship_error_sigma_m = 3\nbias_m = [1, 0, 0]\nbias_sigma_m = 1\n"
@@ -270,16 +270,16 @@ TEST(ScenarioFields, Ssbl) {
 
 TEST(ScenarioFields, OutliersOfNoShareAreNone) {  // for example the first point of a sweep
   const auto faults =
-      node_of<nodes::SsblSettings>(parsed(aided("[ssbl]\noutlier_percent = 0\noutlier_m = 200"))).faults;
+      node_of<sensors::SsblSettings>(parsed(aided("[ssbl]\noutlier_percent = 0\noutlier_m = 200"))).faults;
   EXPECT_EQ(faults.outlier_probability, 0);
   EXPECT_EQ(faults.outlier, 200);
 }
 
 TEST(ScenarioFields, Gps) {
-  const auto bare = node_of<nodes::GpsSettings>(parsed(aided("[gps]")));
+  const auto bare = node_of<sensors::GpsSettings>(parsed(aided("[gps]")));
   EXPECT_FALSE(bare.lowest_height.has_value());
   EXPECT_TRUE(bare.noise.isZero() && bare.bias.sigma.isZero());
-  const auto node = node_of<nodes::GpsSettings>(
+  const auto node = node_of<sensors::GpsSettings>(
       parsed(aided("[gps]\nlatency_ms = 100\nbias_m = 1\nbias_sigma_m = [2, 2, 3]\n"
                    "noise_m = [10, 10, 15]\nlowest_height_m = -0.5\nloss_percent = 7")));
   EXPECT_EQ(node.schedule.latency_us, 100'000);

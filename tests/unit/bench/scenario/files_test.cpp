@@ -7,10 +7,10 @@
 
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/registry.hpp"
-#include "bench/nodes/gps.hpp"
-#include "bench/nodes/master_ins.hpp"
-#include "bench/nodes/slave_imu.hpp"
-#include "bench/nodes/ssbl.hpp"
+#include "bench/sensors/gps.hpp"
+#include "bench/sensors/master_ins.hpp"
+#include "bench/sensors/slave_imu.hpp"
+#include "bench/sensors/ssbl.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 
@@ -72,12 +72,12 @@ TEST(ScenarioFiles, TheKalmanFilterIsConfiguredWithTheTruth) {
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.tilt, s.initial_error.attitude.sigma.x());
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.velocity, s.initial_error.velocity.sigma.x());
   for (const Parameter& parameter : s.targets.front().parameters) {
-    const auto imu = node_of<nodes::SlaveImuSettings>(s).errors;
+    const auto imu = node_of<sensors::SlaveImuSettings>(s).errors;
     if (parameter.name == "velocity_noise_m2ps") {
       // The density is sigma^2 times the interval. The interval is 100 ms, the cycle time of the master's
       // velocity in the DBC.
       EXPECT_NEAR(parameter.value,
-                  0.1 * std::pow(node_of<nodes::MasterInsSettings>(s).errors.velocity.sigma.x(), 2), 1e-15);
+                  0.1 * std::pow(node_of<sensors::MasterInsSettings>(s).errors.velocity.sigma.x(), 2), 1e-15);
     } else if (parameter.name == "accel_bias_sigma_ug") {
       EXPECT_NEAR(parameter.value * world::units::ug, imu.accel.bias.sigma.x(), 1e-15);
     } else if (parameter.name == "gyro_noise_degprth") {
@@ -91,7 +91,7 @@ TEST(ScenarioFiles, TheH2FilterIsConfiguredWithOneDegreeOfFive) {
   EXPECT_EQ(s.targets.front().algorithm, "robust_h2");
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.heading, 1 * world::units::deg);
   EXPECT_DOUBLE_EQ(s.initial_error.attitude.sigma.z(), 5 * world::units::deg);
-  EXPECT_TRUE(node_of<nodes::MasterInsSettings>(s).errors.velocity.sigma.isZero());
+  EXPECT_TRUE(node_of<sensors::MasterInsSettings>(s).errors.velocity.sigma.isZero());
 }
 
 TEST(ScenarioFiles, TheFiltersOfInFlightAlignmentAreConfiguredWithTheTruth) {
@@ -106,7 +106,7 @@ TEST(ScenarioFiles, TheFiltersOfInFlightAlignmentAreConfiguredWithTheTruth) {
     EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.velocity, s.initial_error.velocity.sigma.x());
     EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.position, s.initial_error.position.sigma.x());
     EXPECT_GE(s.targets.front().initial_sigma.heading, s.initial_error.heading_magnitude);
-    const auto imu = node_of<nodes::SlaveImuSettings>(s).errors;
+    const auto imu = node_of<sensors::SlaveImuSettings>(s).errors;
     EXPECT_NEAR(parameter("accel_bias_sigma_ug") * world::units::ug, imu.accel.bias.sigma.x(), 1e-15);
     EXPECT_NEAR(parameter("gyro_bias_sigma_degph") * world::units::degph, imu.gyro.bias.sigma.x(), 1e-15);
     EXPECT_NEAR(parameter("accel_noise_ugprthz") * world::units::ugprthz, imu.accel.noise.x(), 1e-15);
@@ -114,13 +114,13 @@ TEST(ScenarioFiles, TheFiltersOfInFlightAlignmentAreConfiguredWithTheTruth) {
     const bool gps = s.node("gps") != nullptr;
     EXPECT_EQ(parameter("aiding"), gps ? 1.0 : 0.0);
     const world::Vector3 noise =
-        gps ? node_of<nodes::GpsSettings>(s).noise : node_of<nodes::SsblSettings>(s).noise;
+        gps ? node_of<sensors::GpsSettings>(s).noise : node_of<sensors::SsblSettings>(s).noise;
     EXPECT_EQ(parameter("fix_noise_horizontal_m"), noise.x());
     EXPECT_EQ(parameter("fix_noise_vertical_m"), noise.z());
     if (gps) {
       EXPECT_EQ(parameter("initial_height_sigma_m"), s.initial_error.position.sigma.z());
     } else {
-      const auto ssbl = node_of<nodes::SsblSettings>(s);
+      const auto ssbl = node_of<sensors::SsblSettings>(s);
       EXPECT_NEAR(parameter("fix_bias_sigma_m"), std::hypot(ssbl.bias.sigma.x(), ssbl.ship_error.sigma.x()),
                   1e-6);
     }

@@ -4,8 +4,8 @@
 #include "bench/checks/kinds/answers.hpp"
 #include "bench/checks/kinds/consistency.hpp"
 #include "bench/checks/kinds/error.hpp"
-#include "bench/nodes/fins.hpp"
-#include "bench/nodes/glider_nav.hpp"
+#include "bench/sensors/fins.hpp"
+#include "bench/sensors/glider_nav.hpp"
 #include "bench/quantities/quantity.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
@@ -76,7 +76,7 @@ TEST(GlideSections, NeedNoTruthOfNavigation) {
   EXPECT_EQ(s.glide->plan.coefficients.level, 0);
   EXPECT_EQ(s.glide->plan.density_error, 0);
   EXPECT_EQ(s.glide->release.air_velocity, 0);
-  EXPECT_FALSE(node_of<nodes::FinsSettings>(s).schedule.period_us);
+  EXPECT_FALSE(node_of<sensors::FinsSettings>(s).schedule.period_us);
   EXPECT_TRUE(std::holds_alternative<world::Rest>(s.truth.motion));
 }
 
@@ -111,12 +111,12 @@ TEST(GlideSections, CarryEveryKey) {
   EXPECT_EQ(s.glide->release.velocity, 0.5);
   EXPECT_NEAR(s.glide->release.attitude, 0.1 * deg, 1e-15);
   EXPECT_NEAR(s.glide->release.rate, 0.01 * deg, 1e-15);
-  const auto fins = node_of<nodes::FinsSettings>(s);
+  const auto fins = node_of<sensors::FinsSettings>(s);
   EXPECT_EQ(fins.schedule.period_us, 20'000);
   EXPECT_EQ(fins.schedule.latency_us, 50'000);
   EXPECT_EQ(fins.stamp_error_us, 40'000);
   EXPECT_NEAR(fins.loss.probability, 0.1, 1e-15);
-  const auto navigation = node_of<nodes::GliderNavSettings>(s);
+  const auto navigation = node_of<sensors::GliderNavSettings>(s);
   EXPECT_EQ(navigation.schedule.period_us, 50'000);
   EXPECT_EQ(navigation.velocity_noise, 0.25);
   EXPECT_NEAR(navigation.rate_noise, 0.125 * deg, 1e-15);

@@ -1,10 +1,10 @@
 // The fin actuators of the glider. Sends FinDeflections: the deflections and their time.
 #pragma once
 
-#include "bench/nodes/sample_loss.hpp"
 #include "bench/scenario/schedule.hpp"
+#include "bench/sensors/sample_loss.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 /// The table [fins].
 struct FinsSettings {
@@ -15,4 +15,4 @@ struct FinsSettings {
 
 extern const struct Kind fins;
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

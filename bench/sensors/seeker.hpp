@@ -8,7 +8,7 @@
 #include "bench/scenario/schedule.hpp"
 #include "bench/world/engagement/seeker_errors.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 /// The table [seeker].
 struct SeekerSettings {
@@ -23,4 +23,4 @@ struct SeekerSettings {
 
 extern const struct Kind seeker;
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

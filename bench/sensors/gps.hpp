@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include "bench/nodes/fix_faults.hpp"
 #include "bench/scenario/schedule.hpp"
+#include "bench/sensors/fix_faults.hpp"
 #include "bench/world/stream.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 /// The table [gps].
 struct GpsSettings {
@@ -20,4 +20,4 @@ struct GpsSettings {
 
 extern const struct Kind gps;
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

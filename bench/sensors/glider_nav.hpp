@@ -1,10 +1,10 @@
 // The GPS/INS of the glider. Sends the group GliderNav: ground velocity, attitude, rates and height.
 #pragma once
 
-#include "bench/nodes/sample_loss.hpp"
 #include "bench/scenario/schedule.hpp"
+#include "bench/sensors/sample_loss.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 /// The table [glider_nav].
 struct GliderNavSettings {
@@ -21,4 +21,4 @@ struct GliderNavSettings {
 
 extern const struct Kind glider_nav;
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

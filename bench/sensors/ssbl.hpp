@@ -2,11 +2,11 @@
 // the ship, and the ship's reported position.
 #pragma once
 
-#include "bench/nodes/fix_faults.hpp"
 #include "bench/scenario/schedule.hpp"
+#include "bench/sensors/fix_faults.hpp"
 #include "bench/world/stream.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 /// The table [ssbl].
 struct SsblSettings {
@@ -24,4 +24,4 @@ struct SsblSettings {
 
 extern const struct Kind ssbl;
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

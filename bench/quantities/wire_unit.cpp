@@ -1,4 +1,4 @@
-#include "bench/mapping/units.hpp"
+#include "bench/quantities/wire_unit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "bench/world/units.hpp"
 
-namespace canhil::mapping {
+namespace canhil::quantities {
 namespace {
 
 using world::units::deg;
@@ -75,28 +75,10 @@ std::optional<WireUnit> wire_unit(std::string_view text) {
   return found->second;
 }
 
-std::optional<std::pair<double, double>> physical_range(const dbc::Signal& signal) {
-  const auto between = [&](double a, double b) {
-    const double low = a * signal.scale + signal.offset, high = b * signal.scale + signal.offset;
-    return std::pair(std::min(low, high), std::max(low, high));
-  };
-  if (signal.is_float()) {
-    const dbc::RealRange range = dbc::real_range(signal);
-    return between(range.lowest, range.highest);
-  }
-  const auto range = dbc::raw_range(signal);
-  if (!range) return std::nullopt;
-  const auto number = [&](std::int64_t bits) {
-    return signal.is_signed() ? static_cast<double>(bits)
-                              : static_cast<double>(static_cast<std::uint64_t>(bits));
-  };
-  return between(number(range->lowest), number(range->highest));
-}
-
 std::string wire_units() {
   std::string all;
   for (const auto& [name, unit] : known) all += (all.empty() ? "" : ", ") + std::string(name);
   return all;
 }
 
-}  // namespace canhil::mapping
+}  // namespace canhil::quantities

@@ -4,7 +4,7 @@
 #include "bench/scenario/section.hpp"
 #include "bench/world/stream.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 struct SampleLoss {
   double probability = 0;      ///< for each sample independently
@@ -27,4 +27,4 @@ inline bool is_lost(const SampleLoss& loss, std::int64_t valid_us, world::Stream
   return by_chance || in_outage(loss, valid_us);
 }
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

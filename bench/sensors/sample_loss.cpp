@@ -1,6 +1,6 @@
-#include "bench/nodes/sample_loss.hpp"
+#include "bench/sensors/sample_loss.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 using scenario::Limits;
 
@@ -25,4 +25,4 @@ SampleLoss read_sample_loss(scenario::Section& section) {
   return loss;
 }
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

@@ -1,15 +1,17 @@
-#include "bench/nodes/ssbl.hpp"
+#include "bench/sensors/ssbl.hpp"
 
-#include "bench/nodes/sampler.hpp"
-#include "bench/world/units.hpp"
-#include "dbc/wire/time_base.hpp"
+#include <array>
 
-namespace canhil::nodes {
+#include "bench/sensors/sampler.hpp"
+
+namespace canhil::sensors {
 namespace {
 
-using messages::Validity;
 using world::Vector3;
-using world::units::deg;
+
+constexpr std::array<std::string_view, 7> values{"relative_north", "relative_east",  "latitude",     "height",
+                                                 "longitude",      "relative_sigma", "relative_down"};
+constexpr std::array<std::string_view, 1> flags{"position"};
 
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
@@ -51,7 +53,7 @@ class Ssbl final : public Sampler<SsblSettings> {
         bias_(draw(config_.bias, stream_)) {}
 
  private:
-  bool sample(std::int64_t t_us, Transmission& out) override {
+  bool take(std::int64_t t_us, Sample& sample) override {
     const Vector3 way = config_.ship_offset + 1e-6 * static_cast<double>(t_us) * config_.ship_velocity;
     const world::Position ship = displaced(run_.flight.epochs().front().position, way);
     const Vector3 relative = displacement_n(ship, run_.flight.at(t_us).position);
@@ -65,15 +67,9 @@ class Ssbl final : public Sampler<SsblSettings> {
     Vector3 measured = relative + bias_ + noise + fate.jump;
     if (fate.invalid) measured.setZero();  // an invalid fix has no position
     const world::Position reported = displaced(ship, ship_error_);
-    out.send(
-        messages::SsblRelativeNE{.relative_north_m = measured.x(),
-                                 .relative_east_m = measured.y(),
-                                 .position_validity = fate.invalid ? Validity::invalid : Validity::valid});
-    out.send(
-        messages::SsblShipLatitude{.latitude_deg = reported.latitude / deg, .height_m = reported.height});
-    out.send(messages::SsblShipLongitude{.longitude_deg = world::longitude_deg(reported),
-                                         .relative_sigma_m = sigma.maxCoeff()});
-    out.send(messages::SsblRelativeD{.relative_down_m = measured.z(), .time_of_validity_us = wrap_us(t_us)});
+    sample.values = {measured.x(),       measured.y(),     reported.latitude, reported.height,
+                     reported.longitude, sigma.maxCoeff(), measured.z()};
+    sample.invalid = fate.invalid ? 1 : 0;
     return !fate.lost;
   }
 
@@ -84,11 +80,11 @@ class Ssbl final : public Sampler<SsblSettings> {
 
 }  // namespace
 
-constinit const Kind ssbl{.table = {.key = "ssbl",
-                                    .closes = messages::SsblRelativeD::info,
-                                    .samples = scenario::TruthOf::navigation,
-                                    .read = read,
-                                    .aid = scenario::Aid{.aiding = 0, .lost = lost_fixes<SsblSettings>}},
-                          .make = make<Ssbl>};
+constinit const Kind ssbl{.key = "ssbl",
+                          .samples = scenario::TruthOf::navigation,
+                          .read = read,
+                          .make = make<Ssbl>,
+                          .outputs = {.values = values, .flags = flags},
+                          .aid = scenario::Aid{.aiding = 0, .lost = lost_fixes<SsblSettings>}};
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

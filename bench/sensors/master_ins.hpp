@@ -1,11 +1,11 @@
 // The carrier's INS. Sends the group MasterIns: the truth with the errors of a navigation system.
 #pragma once
 
-#include "bench/nodes/sample_loss.hpp"
 #include "bench/scenario/schedule.hpp"
+#include "bench/sensors/sample_loss.hpp"
 #include "bench/world/navigation_errors.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 /// The table [master_ins].
 struct MasterInsSettings {
@@ -16,4 +16,4 @@ struct MasterInsSettings {
 
 extern const struct Kind master_ins;
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

@@ -5,7 +5,7 @@
 #include "bench/scenario/schedule.hpp"
 #include "bench/world/imu_errors.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 /// The table [slave_imu].
 struct SlaveImuSettings {
@@ -16,4 +16,4 @@ struct SlaveImuSettings {
 
 extern const struct Kind slave_imu;
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

@@ -1,20 +1,19 @@
-#include "bench/nodes/glider_nav.hpp"
+#include "bench/sensors/glider_nav.hpp"
 
-#include <cmath>
+#include <array>
 
-#include "bench/nodes/sampler.hpp"
+#include "bench/sensors/sampler.hpp"
 #include "bench/world/correlated_noise.hpp"
-#include "bench/world/units.hpp"
-#include "dbc/wire/time_base.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 namespace {
 
 using world::Vector3;
-using world::units::deg;
 
-// Wraps an angle to the range of its signal, -180 to 180 deg.
-double angle_deg(double angle) { return std::remainder(angle / deg, 360); }
+constexpr std::array<std::string_view, 10> values{"velocity_north", "velocity_east", "height", "roll",
+                                                  "pitch",          "heading",       "rate_x", "rate_y",
+                                                  "rate_z",         "velocity_down"};
+constexpr std::array<std::string_view, 1> flags{"navigation"};
 
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
@@ -48,22 +47,22 @@ class GliderNav final : public Sampler<GliderNavSettings> {
         attitude_(config_.correlated_fraction, config_.correlation_time, stream_) {}
 
  private:
-  bool sample(std::int64_t t_us, Transmission& out) override {
+  bool take(std::int64_t t_us, Sample& sample) override {
     const world::GlideTruth& truth = run_.glide->at(t_us);
     const Vector3 velocity = truth.v_eb_n + config_.velocity_noise * velocity_.next(period_s_, stream_);
     const Vector3 rates = truth.omega_nb_b + config_.rate_noise * rates_.next(period_s_, stream_);
     const Vector3 turn = config_.attitude_noise * attitude_.next(period_s_, stream_);
     const world::Euler angles = world::euler_from(truth.C_bn);
-    out.send(messages::GliderNavVelocityNE{
-        .velocity_north_mps = velocity.x(), .velocity_east_mps = velocity.y(), .height_m = truth.height});
-    out.send(messages::GliderNavAttitude{.roll_deg = angle_deg(angles.roll + turn.x()),
-                                         .pitch_deg = angle_deg(angles.pitch + turn.y()),
-                                         .heading_deg = angle_deg(angles.heading + turn.z()),
-                                         .navigation_validity = messages::Validity::valid});
-    out.send(messages::GliderNavRates{
-        .rate_x_degps = rates.x() / deg, .rate_y_degps = rates.y() / deg, .rate_z_degps = rates.z() / deg});
-    out.send(messages::GliderNavVelocityD{.velocity_down_mps = velocity.z(),
-                                          .time_of_validity_us = wrap_us(t_us)});
+    sample.values = {velocity.x(),
+                     velocity.y(),
+                     truth.height,
+                     angles.roll + turn.x(),
+                     angles.pitch + turn.y(),
+                     angles.heading + turn.z(),
+                     rates.x(),
+                     rates.y(),
+                     rates.z(),
+                     velocity.z()};
     return !is_lost(config_.loss, t_us, losses_);
   }
 
@@ -77,10 +76,10 @@ class GliderNav final : public Sampler<GliderNavSettings> {
 
 }  // namespace
 
-constinit const Kind glider_nav{.table = {.key = "glider_nav",
-                                          .closes = messages::GliderNavVelocityD::info,
-                                          .samples = scenario::TruthOf::glide,
-                                          .read = read},
-                                .make = make<GliderNav>};
+constinit const Kind glider_nav{.key = "glider_nav",
+                                .samples = scenario::TruthOf::glide,
+                                .read = read,
+                                .make = make<GliderNav>,
+                                .outputs = {.values = values, .flags = flags}};
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

@@ -1,9 +1,9 @@
-#include "bench/nodes/fix_faults.hpp"
+#include "bench/sensors/fix_faults.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 using scenario::Limits;
 
@@ -46,4 +46,4 @@ Fate draw_fate(const FixFaults& faults, std::int64_t valid_us, world::Stream& st
   return fate;
 }
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

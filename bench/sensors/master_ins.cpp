@@ -1,13 +1,16 @@
-#include "bench/nodes/master_ins.hpp"
+#include "bench/sensors/master_ins.hpp"
 
-#include "bench/nodes/sampler.hpp"
-#include "bench/world/units.hpp"
-#include "dbc/wire/time_base.hpp"
+#include <array>
 
-namespace canhil::nodes {
+#include "bench/sensors/sampler.hpp"
+
+namespace canhil::sensors {
 namespace {
 
-using world::units::deg;
+constexpr std::array<std::string_view, 9> values{"velocity_north", "velocity_east", "roll",
+                                                 "pitch",          "heading",       "latitude",
+                                                 "height",         "longitude",     "velocity_down"};
+constexpr std::array<std::string_view, 1> flags{"velocity"};
 
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
@@ -35,19 +38,18 @@ class MasterIns final : public Sampler<MasterInsSettings> {
       : Sampler(node, run), stream_(run.stream("master_ins")), losses_(run.stream("master_ins.loss")) {}
 
  private:
-  bool sample(std::int64_t t_us, Transmission& out) override {
-    const world::NavigationSolution solution = measure(run_.flight.at(t_us), config_.errors, stream_);
+  bool take(std::int64_t t_us, Sample& sample) override {
+    const world::NavigationSolution solution = world::measure(run_.flight.at(t_us), config_.errors, stream_);
     const world::Euler angles = world::euler_from(solution.C_bn);
-    out.send(messages::MasterInsVelocityNE{.velocity_north_mps = solution.v_eb_n.x(),
-                                           .velocity_east_mps = solution.v_eb_n.y(),
-                                           .velocity_validity = messages::Validity::valid});
-    out.send(messages::MasterInsAttitude{
-        .roll_deg = angles.roll / deg, .pitch_deg = angles.pitch / deg, .heading_deg = angles.heading / deg});
-    out.send(messages::MasterInsLatitude{.latitude_deg = solution.position.latitude / deg,
-                                         .height_m = solution.position.height});
-    out.send(messages::MasterInsLongitude{.longitude_deg = world::longitude_deg(solution.position)});
-    out.send(messages::MasterInsVelocityD{.velocity_down_mps = solution.v_eb_n.z(),
-                                          .time_of_validity_us = wrap_us(t_us)});
+    sample.values = {solution.v_eb_n.x(),
+                     solution.v_eb_n.y(),
+                     angles.roll,
+                     angles.pitch,
+                     angles.heading,
+                     solution.position.latitude,
+                     solution.position.height,
+                     solution.position.longitude,
+                     solution.v_eb_n.z()};
     return !is_lost(config_.loss, t_us, losses_);
   }
 
@@ -57,10 +59,10 @@ class MasterIns final : public Sampler<MasterInsSettings> {
 
 }  // namespace
 
-constinit const Kind master_ins{.table = {.key = "master_ins",
-                                          .closes = messages::MasterInsVelocityD::info,
-                                          .samples = scenario::TruthOf::navigation,
-                                          .read = read},
-                                .make = make<MasterIns>};
+constinit const Kind master_ins{.key = "master_ins",
+                                .samples = scenario::TruthOf::navigation,
+                                .read = read,
+                                .make = make<MasterIns>,
+                                .outputs = {.values = values, .flags = flags}};
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

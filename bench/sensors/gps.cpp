@@ -1,20 +1,19 @@
-#include "bench/nodes/gps.hpp"
+#include "bench/sensors/gps.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "bench/nodes/sampler.hpp"
-#include "bench/world/units.hpp"
-#include "dbc/wire/time_base.hpp"
+#include "bench/sensors/sampler.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 namespace {
 
-using messages::Validity;
 using world::Vector3;
-using world::units::deg;
 
-constexpr std::uint8_t satellites = 9;  // the error model has no satellites
+constexpr double satellites = 9;  // the error model has no satellites
+constexpr std::array<std::string_view, 6> values{"latitude",   "height",           "longitude",
+                                                 "satellites", "horizontal_sigma", "vertical_sigma"};
+constexpr std::array<std::string_view, 1> flags{"position"};
 constexpr std::array<scenario::Assumed, 1> assumed{{{"satellites", satellites}}};
 
 NodeSettings read(const NodeTable& table, Section& section) {
@@ -44,20 +43,20 @@ class Gps final : public Sampler<GpsSettings> {
       : Sampler(node, run), stream_(run.stream("gps")), bias_(draw(config_.bias, stream_)) {}
 
  private:
-  bool sample(std::int64_t t_us, Transmission& out) override {
+  bool take(std::int64_t t_us, Sample& sample) override {
     const world::Position truth = run_.flight.at(t_us).position;
     const Vector3 noise = config_.noise.cwiseProduct(stream_.normal3());
     const Fate fate = draw_fate(config_.faults, t_us, stream_);
     const bool valid = !fate.invalid && !(config_.lowest_height && truth.height < *config_.lowest_height);
     const world::Position measured = valid ? displaced(truth, bias_ + noise + fate.jump)
                                            : world::Position{};  // an invalid fix has no position
-    out.send(messages::GpsLatitude{.latitude_deg = measured.latitude / deg, .height_m = measured.height});
-    out.send(messages::GpsLongitude{.longitude_deg = world::longitude_deg(measured),
-                                    .satellites = valid ? satellites : std::uint8_t{0},
-                                    .position_validity = valid ? Validity::valid : Validity::invalid});
-    out.send(messages::GpsTime{.horizontal_sigma_m = std::max(config_.noise.x(), config_.noise.y()),
-                               .vertical_sigma_m = config_.noise.z(),
-                               .time_of_validity_us = wrap_us(t_us)});
+    sample.values = {measured.latitude,
+                     measured.height,
+                     measured.longitude,
+                     valid ? satellites : 0,
+                     std::max(config_.noise.x(), config_.noise.y()),
+                     config_.noise.z()};
+    sample.invalid = valid ? 0 : 1;
     return !fate.lost;
   }
 
@@ -67,12 +66,12 @@ class Gps final : public Sampler<GpsSettings> {
 
 }  // namespace
 
-constinit const Kind gps{.table = {.key = "gps",
-                                   .closes = messages::GpsTime::info,
-                                   .samples = scenario::TruthOf::navigation,
-                                   .read = read,
-                                   .aid = scenario::Aid{.aiding = 1, .lost = lost_fixes<GpsSettings>},
-                                   .assumed = assumed},
-                         .make = make<Gps>};
+constinit const Kind gps{.key = "gps",
+                         .samples = scenario::TruthOf::navigation,
+                         .read = read,
+                         .make = make<Gps>,
+                         .outputs = {.values = values, .flags = flags},
+                         .aid = scenario::Aid{.aiding = 1, .lost = lost_fixes<GpsSettings>},
+                         .assumed = assumed};
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

@@ -9,7 +9,7 @@
 #include "bench/scenario/section.hpp"
 #include "bench/world/stream.hpp"
 
-namespace canhil::nodes {
+namespace canhil::sensors {
 
 /// Faults that affect each fix independently; all probabilities in [0, 1].
 struct FixFaults {
@@ -45,4 +45,4 @@ struct Fate {
 /// whatever the settings are.
 Fate draw_fate(const FixFaults& faults, std::int64_t valid_us, world::Stream& stream);
 
-}  // namespace canhil::nodes
+}  // namespace canhil::sensors

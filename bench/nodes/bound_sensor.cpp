@@ -1,0 +1,104 @@
+#include "bench/nodes/bound_sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/nodes/increment_rounding.hpp"
+#include "bench/quantities/wire_unit.hpp"
+#include "dbc/wire/time_base.hpp"
+#include "dbc/wire/turns.hpp"
+
+namespace canhil::nodes {
+namespace {
+
+using sensors::Sample;
+using Slot = SampleEncoder::Slot;
+
+// Time signals with 16 bits have a resolution of 10 us, those with 32 bits a resolution of 1 us.
+template <class Member>
+double stamp(const Sample& sample) {
+  return static_cast<double>(std::is_floating_point_v<Member> ? wrap_short_us(sample.stamp_us)
+                                                              : wrap_us(sample.stamp_us));
+}
+
+template <class Message, class Member>
+double carried(const SignalInfo& signal, Slot& slot, const Sample& sample, Transmission& out) {
+  switch (slot.role) {
+    case Role::time_of_validity:
+      return stamp<Member>(sample);
+    case Role::interval:
+      return static_cast<double>(sample.interval_us);
+    case Role::validity:
+      return (sample.invalid >> slot.index & 1U) != 0 ? 0 : 1;
+    case Role::value:
+      break;
+  }
+  const double value = sample.values[slot.index] / slot.factor;
+  if (slot.turns) return std::remainder(value, 360);
+  if (!signal.carries_remainder) return value;
+  out.note(Message::info, signal, value);
+  return round_increment(value, out.rounding() == Rounding::none ? 0 : wire::lsb(signal), signal,
+                         slot.remainder);
+}
+
+template <class Message>
+Slot* encode_message(Slot* slot, const Sample& sample, Transmission& out) {
+  Message message{};
+  Message::visit(message, [&](const SignalInfo& signal, auto& member) {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    const double value = carried<Message, Member>(signal, *slot++, sample, out);
+    if constexpr (std::is_floating_point_v<Member>)
+      member = static_cast<Member>(value);
+    else
+      member = static_cast<Member>(std::llround(value));
+  });
+  out.send(message);
+  return slot;
+}
+
+// The index of the name in `names` that stands before the last underscore of `signal`, or that is `signal`.
+std::optional<std::size_t> place(std::span<const std::string_view> names, std::string_view signal) {
+  for (const std::string_view name : {signal.substr(0, signal.rfind('_')), signal}) {
+    const auto found = std::ranges::find(names, name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+SampleEncoder::SampleEncoder(const MessageInfo& closes, const sensors::Outputs& outputs) {
+  for (const GroupSignal& signal : signals_of(closes)) {
+    Slot slot{.role = signal.role, .turns = wire::turns(signal.info)};
+    if (signal.role == Role::value || signal.role == Role::validity)
+      slot.index =
+          place(signal.role == Role::value ? outputs.values : outputs.flags, signal.info.name).value();
+    if (const auto unit = quantities::wire_unit(signal.info.unit)) slot.factor = unit->factor;
+    slots_.push_back(slot);
+  }
+  each_message(closes, [&]<class Message>() { messages_.push_back(encode_message<Message>); });
+}
+
+void SampleEncoder::encode(const Sample& sample, Transmission& out) {
+  Slot* slot = slots_.data();
+  for (const Encode encode : messages_) slot = encode(slot, sample, out);
+}
+
+std::unique_ptr<Node> Kind::make(const NodeSettings& node, const Run& run) const {
+  return std::make_unique<BoundSensor>(sensor->make(node, run), *this);
+}
+
+void BoundSensor::transmit(Transmission& out) {
+  const Sample sample = sensor_->measure();
+  if (sample.fate == Sample::Fate::none) return;
+  valid_us_ = sample.valid_us;
+  encoder_.encode(sample, out);
+  if (sample.fate == Sample::Fate::lost)
+    out.clear();  // the counters advance, so the receiver detects the gap
+}
+
+void BoundSensor::hear(const Frame& frame) {
+  if (const auto answer = answer_.take(frame, valid_us_)) sensor_->guide(*answer);
+}
+
+}  // namespace canhil::nodes

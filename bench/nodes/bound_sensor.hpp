@@ -1,0 +1,67 @@
+// A sensor of canhil.dbc: its samples become the messages of a sample group.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bench/nodes/kind.hpp"
+#include "bench/nodes/recorded_group.hpp"
+#include "dbc/wire/sample_group.hpp"
+
+namespace canhil::nodes {
+
+/// Packs samples into the messages of a group. Each signal carries the value or flag of its name: the name of
+/// the signal without its unit ("velocity_north_mps"), or without "_validity". Values are converted from SI
+/// to the unit of the signal. Angles are wrapped to the range of the signal. The rounding remainder of an
+/// increment is added to the next sample.
+class SampleEncoder {
+ public:
+  SampleEncoder(const MessageInfo& closes, const sensors::Outputs& outputs);
+  void encode(const sensors::Sample& sample, Transmission& out);
+
+  /// What a signal carries.
+  struct Slot {
+    Role role = Role::value;
+    std::size_t index = 0;  ///< of the value or flag in the sample
+    double factor = 1;      ///< from the unit of the signal to SI
+    bool turns = false;
+    double remainder = 0;  ///< of the last increment, in the unit of the signal
+  };
+  /// For each signal of the group, message by message.
+  [[nodiscard]] const std::vector<Slot>& slots() const { return slots_; }
+
+ private:
+  using Encode = Slot* (*)(Slot* slot, const sensors::Sample& sample, Transmission& out);
+  std::vector<Slot> slots_;
+  std::vector<Encode> messages_;
+};
+
+/// Reads the target's answers that guide the missile of a seeker.
+class AnswerOfLosRate {
+ public:
+  /// The answer that this frame completes, if it has an estimate. `near_us`: a time near that of the sample.
+  std::optional<sensors::Guidance> take(const Frame& frame, std::int64_t near_us);
+
+ private:
+  SampleGroup<messages::LosRateEstimate, messages::LosRateSigma, messages::LosRateTarget> group_;
+};
+
+class BoundSensor final : public Node {
+ public:
+  BoundSensor(std::unique_ptr<sensors::Sensor> sensor, const Kind& kind)
+      : sensor_(std::move(sensor)), encoder_(kind.table.closes, kind.sensor->outputs) {}
+
+  [[nodiscard]] std::int64_t due_us() const override { return sensor_->due_us(); }
+  void transmit(Transmission& out) override;
+  [[nodiscard]] bool listens() const override { return sensor_->is_guided(); }
+  void hear(const Frame& frame) override;
+
+ private:
+  std::unique_ptr<sensors::Sensor> sensor_;
+  SampleEncoder encoder_;
+  std::int64_t valid_us_ = 0;  // of the latest sample
+  AnswerOfLosRate answer_;
+};
+
+}  // namespace canhil::nodes

@@ -1,0 +1,45 @@
+#include "bench/sensors/fins.hpp"
+
+#include <array>
+
+#include "bench/sensors/sampler.hpp"
+
+namespace canhil::sensors {
+namespace {
+
+constexpr std::array<std::string_view, 3> values{"elevator", "aileron", "rudder"};
+
+NodeSettings read(const NodeTable& table, Section& section) {
+  FinsSettings node;
+  node.schedule = read_glide_schedule(section);
+  node.stamp_error_us =
+      section.time_us({"time_stamp_error_ms", "Error of the time of validity that the frames carry."},
+                      Limits::between(-200, 200), 0);
+  node.loss = read_sample_loss(section);
+  return {table, node};
+}
+
+class Fins final : public Sampler<FinsSettings> {
+ public:
+  Fins(const NodeSettings& node, const Run& run) : Sampler(node, run), losses_(run.stream("fins.loss")) {}
+
+ private:
+  bool take(std::int64_t t_us, Sample& sample) override {
+    const world::glide::Fins& at = run_.glide->at(t_us).fins;
+    sample.stamp_us = t_us + config_.stamp_error_us;
+    sample.values = {at.x(), at.y(), at.z()};
+    return !is_lost(config_.loss, t_us, losses_);
+  }
+
+  world::Stream losses_;
+};
+
+}  // namespace
+
+constinit const Kind fins{.key = "fins",
+                          .samples = scenario::TruthOf::glide,
+                          .read = read,
+                          .make = make<Fins>,
+                          .outputs = {.values = values}};
+
+}  // namespace canhil::sensors

@@ -1,0 +1,87 @@
+// A sensor and the properties of a kind of sensor. Each kind defines them in its own file; all other code
+// iterates over the registry or over the nodes of a scenario.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "bench/scenario/scenario.hpp"
+#include "bench/scenario/section.hpp"
+#include "bench/sensors/sample.hpp"
+#include "bench/world/engagement/engagement.hpp"
+#include "bench/world/flight_record.hpp"
+#include "bench/world/glide/glide.hpp"
+#include "bench/world/stream.hpp"
+
+namespace canhil::nodes {
+class NodeFaults;
+}
+
+namespace canhil::sensors {
+
+using scenario::Limits;
+using scenario::NodeSettings;
+using scenario::NodeTable;
+using scenario::Section;
+
+/// The inputs of the sensors in a run. Every object to which this struct refers must outlive the sensors.
+struct Run {
+  const scenario::Scenario& scenario;
+  std::uint64_t index = 0;
+  const world::FlightRecord& flight;              ///< from the start to the end of the run
+  const world::GlideRecord* glide = nullptr;      ///< null: the scenario has no [glide]
+  world::EngagementRecord* engagement = nullptr;  ///< null: no [engagement]; filled during the flight
+  nodes::NodeFaults* faults = nullptr;            ///< null: no faults
+
+  /// A stream of random numbers. The name must never change: the results depend on it.
+  [[nodiscard]] world::Stream stream(std::string_view name) const { return {scenario.seed, index, name}; }
+};
+
+/// The target's estimate of the LOS rate, as the guidance of a missile uses it.
+struct Guidance {
+  std::int64_t cause_us = 0;             ///< time of validity of the sample that the target answered
+  world::Planes<double> los_rate{};      ///< [rad/s]
+  world::Planes<double> acceleration{};  ///< of the flight target [m/s^2]
+};
+
+/// A sensor of a node. All times are in the bench's time base [us].
+class Sensor {
+ public:
+  Sensor() = default;
+  Sensor(const Sensor&) = delete;
+  Sensor& operator=(const Sensor&) = delete;
+  virtual ~Sensor() = default;
+
+  /// Time at which the next sample is sent; never_us after the last one.
+  [[nodiscard]] virtual std::int64_t due_us() const = 0;
+  /// Measures the due sample and advances to the next.
+  virtual Sample measure() = 0;
+
+  /// Whether the target's answers guide the vehicle of this sensor.
+  [[nodiscard]] virtual bool is_guided() const { return false; }
+  virtual void guide(const Guidance& /*answer*/) {}
+};
+
+/// Makes a sensor of type `Made`.
+template <class Made>
+std::unique_ptr<Sensor> make(const NodeSettings& node, const Run& run) {
+  return std::make_unique<Made>(node, run);
+}
+
+struct Kind {
+  std::string_view key;  ///< key of the sensor's table: "gps"
+  scenario::TruthOf samples = scenario::TruthOf::navigation;
+  /// Reads the table; unknown keys are detected afterwards.
+  NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
+  std::unique_ptr<Sensor> (*make)(const NodeSettings& node, const Run& run) = nullptr;
+  Outputs outputs;
+  std::optional<scenario::Aid> aid{};
+  std::span<const scenario::Assumed> assumed{};       ///< see scenario::NodeTable
+  std::span<const scenario::Increment> increments{};  ///< see scenario::NodeTable
+  bool at_every_epoch = false;  ///< the sensor's period defines the epochs of the flight record
+};
+
+}  // namespace canhil::sensors
