@@ -33,9 +33,13 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
 
 Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario) {
   if (flown.ending.kind != Ending::Kind::completed) return flown;
-  for (const checks::CheckResult& check : checks::of_every_run(scenario, flown.seen)) {
-    // A flight whose stimuli the bench clipped is impossible, whatever the target answered.
-    flown.ending.kind = flown.seen.clipped.empty() ? Ending::Kind::wrong_answers : Ending::Kind::not_flown;
+  const std::vector<checks::CheckResult> found = checks::of_every_run(scenario, flown.seen);
+  if (found.empty()) return flown;
+  // A flight whose stimuli the bench clipped is impossible, whatever the target answered.
+  const bool fails = flown.seen.clipped.empty() &&
+                     checks::outcome_of(found, &checks::CheckResult::outcome) == checks::Outcome::fail;
+  flown.ending.kind = fails ? Ending::Kind::wrong_answers : Ending::Kind::not_flown;
+  for (const checks::CheckResult& check : found) {
     flown.ending.detail +=
         fmt::format("{}{}: {}", flown.ending.detail.empty() ? "" : "; ", check.kind, check.measured);
   }

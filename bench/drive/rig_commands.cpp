@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/drive/child_process.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "dbc/text/escape.hpp"
 
 namespace canhil::drive {
@@ -47,6 +48,11 @@ void RigCommands::finish() {
   if (!std::exchange(begun_, false) || after_.empty()) return;
   if (const auto done = run_command("after", after_, never); !done)
     fmt::print(stderr, "hil-bench: {}\n", one_line(done.error().message));
+}
+
+RigCommands rig_commands_of(const scenario::Scenario& scenario) {
+  const scenario::OwnStart start = scenario.targets.front().own_start.value_or(scenario::OwnStart{});
+  return {start.before, start.after};
 }
 
 }  // namespace canhil::drive

@@ -6,6 +6,10 @@
 
 #include "dbc/wire/result.hpp"
 
+namespace canhil::scenario {
+struct Scenario;
+}
+
 namespace canhil::drive {
 
 /// Runs `after` whenever `before` was begun, however the run ends. An empty command does nothing.
@@ -27,5 +31,8 @@ class RigCommands {
   std::string before_, after_;
   bool begun_ = false;
 };
+
+/// The commands of the scenario's first target.
+RigCommands rig_commands_of(const scenario::Scenario& scenario);
 
 }  // namespace canhil::drive

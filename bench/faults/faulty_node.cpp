@@ -1,6 +1,7 @@
 #include "bench/faults/faulty_node.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "bench/faults/frame_edit.hpp"
 #include "dbc/wire/e2e.hpp"
@@ -22,6 +23,7 @@ void FaultyNode::sample(nodes::Transmission& out) {
   node_->transmit(out);
   std::vector<Frame> frames(out.frames().begin(), out.frames().end());
   apply(frames, t_us);
+  out.clipped().add(std::exchange(clipped_, {}));
   out.clear();
   for (const Frame& frame : frames) out.put(frame);
 }

@@ -37,6 +37,8 @@ class FaultyNode : public nodes::Node {
   [[nodiscard]] const MessageInfo* message_of(const Frame& frame) const;
   [[nodiscard]] std::int64_t node_due_us() const { return node_->due_us(); }
   Tally& tally() { return tally_; }
+  /// The values beyond the range of their signals, during apply().
+  nodes::Clipped& clipped() { return clipped_; }
 
   const scenario::NodeTable& table_;
   const std::int64_t period_us_, end_us_;
@@ -44,6 +46,7 @@ class FaultyNode : public nodes::Node {
  private:
   std::unique_ptr<nodes::Node> node_;
   Tally& tally_;
+  nodes::Clipped clipped_;
 };
 
 /// Adjusts counters after samples that the node did not send, so that these samples leave no gap in the

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/faults/read.hpp"
+#include "bench/nodes/clipped.hpp"
 #include "dbc/wire/frame.hpp"
 
 namespace canhil::faults {
@@ -25,12 +26,13 @@ class MeasuredValue {
   [[nodiscard]] Frame* in(std::vector<Frame>& frames) const;
   [[nodiscard]] double get(const Frame& frame, double interval_s) const;
   /// Writes the value. If the value is an increment, the rounding remainder of the previous increment is
-  /// added first: value' = value + remainder.
-  void put(Frame& frame, double value, double interval_s);
+  /// added first: value' = value + remainder. `clipped` notes a value beyond the range of the signal.
+  void put(Frame& frame, double value, double interval_s, nodes::Clipped& clipped);
   /// Writes the value without adding a remainder.
   void put_exactly(Frame& frame, double value, double interval_s) const;
 
  private:
+  void note(nodes::Clipped& clipped, double wanted) const;
   Measured of_;
   double remainder_ = 0;  // rounding remainder of the last increment, in the signal's unit
 };

@@ -138,7 +138,7 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
     delays.add(
         name, delay ? std::optional(delay->delay_s) : std::nullopt,
         delay ? fmt::format("{} {:.1f} +- {:.1f} ms", name, delay->delay_s * 1e3, delay->half_width_s * 1e3)
-              : fmt::format("{} not measured", name));
+              : fmt::format("{} not measured ({})", name, delay.error().message));
   });
   return {std::move(end), std::move(delays)};
 }

@@ -28,8 +28,8 @@ class WithSwapped final : public FaultyNode {
     if (one == nullptr || other == nullptr || !occasions_.next(t_us)) return;
     const double interval_s = interval_of(frames, period_us_);
     const double value = one_.get(*one, interval_s);
-    one_.put(*one, other_.get(*other, interval_s), interval_s);
-    other_.put(*other, value, interval_s);
+    one_.put(*one, other_.get(*other, interval_s), interval_s, clipped());
+    other_.put(*other, value, interval_s, clipped());
     ++tally().count;
     ++tally().changed;
   }

@@ -46,7 +46,7 @@ class WithValues final : public FaultyNode {
       if (exactly_)
         own.value.put_exactly(*frame, value, interval_s);
       else
-        own.value.put(*frame, value, interval_s);
+        own.value.put(*frame, value, interval_s, clipped());
       ++tally().count;
       ++tally().changed;
       if (is_time(own.value.of().signal->name)) ++tally().changed_times;

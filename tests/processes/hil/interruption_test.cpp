@@ -31,11 +31,19 @@ Ended interrupted(const std::string& signal, const std::string& arguments, doubl
 }
 Ended interrupted(const std::string& signal, const std::string& arguments) {
   Ended ended;
-  for (const double time_s : {1.0, 3.0, 9.0}) {  // on a slow host, the signal must come later
+  for (double time_s = 1; time_s < 100; time_s *= 2) {  // on a slow host, the signal must come later
     ended = interrupted(signal, arguments, time_s);
     if (ended.code < 128) break;
   }
   return ended;
+}
+
+// Sends the signal when the file has a first line.
+Ended interrupted_after(const std::string& file, const std::string& signal, const std::string& arguments) {
+  return shell(
+      fmt::format("{} {} & bench=$!; while kill -0 $bench && ! [ -s {} ]; do sleep 0.05; done; sleep 0.3; "
+                  "kill -s {} $bench; wait $bench",
+                  HIL_BENCH, arguments, file, signal));
 }
 
 class Signal : public testing::TestWithParam<const char*> {};
@@ -115,7 +123,7 @@ TEST_F(Commands, AfterRunsWheneverBeforeRan) {
   EXPECT_EQ(read(was_), once) << "if the target ends";
   EXPECT_EQ(hil_bench(fmt::format("run {} {}", with("false"), ecu_)).code, 2);
   EXPECT_EQ(read(was_), once) << "if before fails";
-  EXPECT_EQ(interrupted("TERM", fmt::format("run {} {}", with("true"), ecu_)).code, 3);
+  EXPECT_EQ(interrupted_after(was_, "TERM", fmt::format("run {} {}", with("true"), ecu_)).code, 3);
   EXPECT_EQ(read(was_), once) << "if the run is interrupted";
 }
 
@@ -132,12 +140,31 @@ TEST_F(Commands, AfterRunsAlsoInACampaign) {
 TEST_F(Commands, BeforeIsInterruptedWithTheProcessesThatItStarted) {
   const std::string id = folder_ + "/id", through = folder_ + "/through";
   const std::string flight = with(fmt::format("sleep 20 & echo $! >{}; wait; touch {}", id, through));
-  const Ended ended = interrupted("TERM", fmt::format("run {} {}", flight, ecu_));
+  const Ended ended = interrupted_after(id, "TERM", fmt::format("run {} {}", flight, ecu_));
   EXPECT_EQ(ended.code, 3) << ended.err;
   EXPECT_THAT(ended.err, HasSubstr("interrupted while 'target.before' ran"));
   EXPECT_FALSE(fs::exists(through));
   EXPECT_NE(shell(fmt::format("kill -0 $(cat {})", id)).code, 0) << "the command's child is still there";
   EXPECT_EQ(read(was_), "before\nafter\n");
+}
+
+TEST_F(Commands, AreRefusedOnRequest) {
+  const std::string flight = with("true"), campaign = folder_ + "/campaign.toml",
+                    suites = folder_ + "/suites";
+  std::ofstream(campaign) << "title = \"own ECU\"\nruns = 1\nseed = 5\n[[variant]]\nname = \"one\"\n"
+                             "scenario = \"flight.toml\"\n";
+  fs::create_directories(suites + "/own");
+  std::ofstream(suites + "/own/suite.toml")
+      << "title = \"own ECU\"\nestimator = \"several\"\n[[requirement]]\nid = \"SE-A1\"\nfamily = "
+         "\"algorithms\"\ntext = \"It flies.\"\n[[flight]]\nname = \"own\"\nscenario = "
+         "\"../../flight.toml\"\nrequirement = \"SE-A1\"\n";
+  for (const std::string& command :
+       {fmt::format("run {} --lockstep {}", flight, ecu_),
+        fmt::format("campaign {} --threads 1 --out {} {}", campaign, folder_, ecu_),
+        fmt::format("accept --suites {} --estimator several", suites)}) {
+    expect_one_line(hil_bench(command + " --no-commands"), "key 'target.before': is a shell command ('");
+    EXPECT_FALSE(fs::exists(was_)) << command;
+  }
 }
 
 // For example a simulator that `before` starts and `after` ends.

@@ -376,6 +376,29 @@ TEST_F(Altered, AStimulusThatIsClippedNeverPasses) {
   EXPECT_THAT(measured(read_json(report), "error attitude.roll"), testing::StartsWith("not measured: "));
 }
 
+// Without a truth, the checks that need it are not measured; the timing and the counts still are.
+TEST_F(Altered, WithoutATruthErrorsAreNotMeasured) {
+  const std::string imu = scratch("imu.csv"), report = scratch("unknown.json");
+  std::ofstream samples(imu);
+  samples << "t_s,rate_x_radps,rate_y_radps,rate_z_radps,specific_force_x_mps2,specific_force_y_mps2,"
+             "specific_force_z_mps2\n";
+  for (int i = 0; i <= 1200; ++i) samples << fmt::format("{:.2f},0.1,0,0,0,0,-9.8\n", 0.01 * i);
+  samples.close();
+  const std::string own = read(folder + "/own_ecu.toml");
+  const std::size_t truth = own.find("[truth]"), check = own.find("[[check]]");
+  const std::string instead = fmt::format(
+      "[truth]\ntrajectory = \"unknown\"\nlatitude_deg = 37.0\nlongitude_deg = 127.0\nheight_m = 100.0\n"
+      "heading_deg = 30.0\n\n[slave_imu]\nrecorded = \"{}\"\n\n",
+      imu);
+  const Ended ended = run_edited({{"own_ecu.toml", own.substr(truth, check - truth), instead}}, python,
+                                 "--lockstep --json " + report);
+  EXPECT_EQ(ended.code, 3) << ended.err << ended.out;
+  for (const char* error : {"error attitude.roll", "error attitude.pitch", "delay attitude.roll"})
+    EXPECT_EQ(measured(read_json(report), error), "not measured: no truth: trajectory is \"unknown\"");
+  EXPECT_THAT(measured(read_json(report), "answers"), testing::StartsWith("pass: "));
+  EXPECT_THAT(ended.out, testing::Not(testing::ContainsRegex("nan|max 0\\.000")));
+}
+
 TEST_F(Altered, FaultsAffectWhatIsPlayed) {
   for (const char* message : {"IMU_TX1", "IMU_TX3"}) {
     const Ended ended = run_with(
