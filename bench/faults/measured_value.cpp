@@ -5,7 +5,7 @@
 
 #include "bench/faults/frame_edit.hpp"
 #include "bench/nodes/increment_rounding.hpp"
-#include "bench/observe/values.hpp"
+#include "dbc/wire/turns.hpp"
 
 namespace canhil::faults {
 
@@ -32,21 +32,13 @@ double MeasuredValue::get(const Frame& frame, double interval_s) const {
   return of_.rate ? value / interval_s : value;
 }
 
-// Angles are wrapped before they are packed. The limit of a frame that is not rounded is that of the signal
-// into which the mapping packs the value.
-void MeasuredValue::note(nodes::Clipped& clipped, double wanted) const {
-  const SignalInfo& signal = *of_.signal;
-  const double rounding = wire::lsb(signal) / 2;
-  if (observe::turns(signal) || (wanted >= signal.minimum - rounding && wanted <= signal.maximum + rounding))
-    return;
-  clipped.add(of_.message->name, signal.name, wanted, {signal.minimum, signal.maximum, signal.unit});
-}
-
 void MeasuredValue::put(Frame& frame, double value, double interval_s, nodes::Clipped& clipped) {
   const SignalInfo& signal = *of_.signal;
   const double wanted = value * (of_.rate ? interval_s : 1) / of_.factor;
   const double step = frame.unrounded ? 0 : wire::lsb(signal);
-  if (!frame.unrounded) note(clipped, wanted);
+  // Angles are wrapped when they are packed. A frame that is not rounded is not sent: a mapping packs its
+  // values.
+  if (!frame.unrounded && !wire::turns(signal)) clipped.check(*of_.message, signal, wanted);
   set(frame, signal.name,
       signal.carries_remainder ? nodes::round_increment(wanted, step, signal, remainder_) : wanted);
 }

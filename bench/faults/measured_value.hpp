@@ -32,7 +32,6 @@ class MeasuredValue {
   void put_exactly(Frame& frame, double value, double interval_s) const;
 
  private:
-  void note(nodes::Clipped& clipped, double wanted) const;
   Measured of_;
   double remainder_ = 0;  // rounding remainder of the last increment, in the signal's unit
 };

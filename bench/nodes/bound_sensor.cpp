@@ -36,7 +36,7 @@ double carried(const SignalInfo& signal, Slot& slot, const Sample& sample, Trans
   const double value = sample.values[slot.index] / slot.factor;
   if (slot.turns) return std::remainder(value, 360);
   if (!signal.carries_remainder) return value;
-  out.note(Message::info, signal, value);
+  out.clipped().check(Message::info, signal, value);
   return round_increment(value, out.rounding() == Rounding::none ? 0 : wire::lsb(signal), signal,
                          slot.remainder);
 }

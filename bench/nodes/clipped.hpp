@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "dbc/wire/message_info.hpp"
+
 namespace canhil::nodes {
 
 /// A value beyond the range of its signal is sent as the nearest limit, so the target gets another value than
@@ -20,6 +22,13 @@ class Clipped {
   /// A value was clipped; it is in the unit of the range.
   void add(std::string_view message, std::string_view signal, double value, const Range& range);
   void add(const Clipped& others);
+  /// A value, in the unit of the signal, is to be sent; adds it if the signal clips it. A value within half a
+  /// step of the range is rounded to the limit.
+  void check(const MessageInfo& message, const SignalInfo& signal, double value) {
+    const double rounding = wire::lsb(signal) / 2;
+    if (value >= signal.minimum - rounding && value <= signal.maximum + rounding) return;
+    add(message.name, signal.name, value, {signal.minimum, signal.maximum, signal.unit});
+  }
 
   [[nodiscard]] bool empty() const { return signals_.empty(); }
   /// A line for each signal: its range, the value farthest beyond, and how often.

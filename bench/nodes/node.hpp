@@ -26,15 +26,9 @@ class Transmission : public Outbox<8> {
         valid = valid && member != messages::Validity::invalid;
     });
     Message::visit(message, [&](const SignalInfo& signal, const auto& member) {
-      if (valid) note(Message::info, signal, static_cast<double>(member));
+      if (valid) clipped_.check(Message::info, signal, static_cast<double>(member));
     });
     Outbox<8>::send(message);
-  }
-  /// A value is to be sent, in the unit of the signal; remembers whether the signal clips it.
-  void note(const MessageInfo& message, const SignalInfo& signal, double value) {
-    const double rounding = wire::lsb(signal) / 2;
-    if (value >= signal.minimum - rounding && value <= signal.maximum + rounding) return;
-    clipped_.add(message.name, signal.name, value, {signal.minimum, signal.maximum, signal.unit});
   }
   /// The values that were clipped since the construction.
   [[nodiscard]] const Clipped& clipped() const { return clipped_; }
