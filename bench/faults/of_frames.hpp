@@ -20,9 +20,9 @@ class OfFrames : public Injector {
   struct Own {
     const MessageInfo* message = nullptr;
     Occasions occasions;
-    std::optional<std::uint8_t> counter{};  // for kinds that remember a counter
-    std::optional<Frame> held{};            // for kinds that hold a frame back
-    bool before = false;                    // the previous frame of the message was affected
+    std::optional<std::uint64_t> counter{};  // for kinds that remember a counter
+    std::optional<Frame> held{};             // for kinds that hold a frame back
+    bool before = false;                     // the previous frame of the message was affected
   };
   /// Appends to `left` the frames that are sent in place of an affected frame.
   virtual void put(Own& own, const Frame& frame, std::int64_t t_us, std::vector<Frame>& left) = 0;

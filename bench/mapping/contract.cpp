@@ -22,6 +22,15 @@ Result<std::string> read_from_disk(const std::string& file) {
   return read_text_file(file, "a file of a mapping", most_bytes);
 }
 
+const protection::Protection* Mapping::protection_of(std::size_t message) const {
+  for (const Play& play : plays) {
+    for (const PlayedMessage& one : play.messages) {
+      if (one.of.index == message) return one.of.protection ? &*one.of.protection : nullptr;
+    }
+  }
+  return nullptr;
+}
+
 const quantities::Layout* find_layout(std::string_view columns) {
   struct Own {
     std::vector<const quantities::Quantity*> reported;

@@ -13,12 +13,26 @@ std::optional<Passing::Whole> Passing::take(const Frame& frame) {
     const auto found = std::ranges::find(sent.frames, frame);
     if (found == sent.frames.end()) continue;
     Passed& passed = passed_[play];
-    if (passed.valid_us != sent.valid_us) passed = {.valid_us = sent.valid_us, .frames = {}};
+    if (passed.valid_us != sent.valid_us) {
+      auto& in_part = in_part_[play];
+      if (passed.frames.size() % sent.frames.size() != 0) in_part.push_back(std::move(passed));
+      if (in_part.size() > Conversation::remembered) in_part.pop_front();
+      passed = {.valid_us = sent.valid_us, .frames = {}};
+    }
     const bool another = passed.frames.insert(static_cast<std::size_t>(found - sent.frames.begin())).second;
     if (another && passed.frames.size() == sent.frames.size()) return Whole{.play = play, .sent = &sent};
     return std::nullopt;
   }
   return std::nullopt;
+}
+
+bool Passing::brought_in_part(std::size_t play, std::int64_t valid_us, std::size_t message) const {
+  const auto brought = [&](const Passed& one) {
+    return one.valid_us == valid_us && one.frames.contains(message);
+  };
+  const bool of_newest = brought(passed_[play]) &&
+                         passed_[play].frames.size() < conversation_.mapping.plays[play].messages.size();
+  return of_newest || std::ranges::any_of(in_part_[play], brought);
 }
 
 namespace {

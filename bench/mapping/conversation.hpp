@@ -41,7 +41,7 @@ struct Conversation {
 class Passing {
  public:
   explicit Passing(const Conversation& conversation)
-      : conversation_(conversation), passed_(conversation.sent.size()) {}
+      : conversation_(conversation), passed_(conversation.sent.size()), in_part_(conversation.sent.size()) {}
 
   struct Whole {
     std::size_t play = 0;
@@ -49,6 +49,9 @@ class Passing {
   };
   /// The play that this frame completes; none: the frame completes no play.
   std::optional<Whole> take(const Frame& frame);
+  /// Whether this message of a transmission reached the bus, but the transmission as a whole did not. A
+  /// target may answer it, for example with the samples of a redundant sensor.
+  [[nodiscard]] bool brought_in_part(std::size_t play, std::int64_t valid_us, std::size_t message) const;
 
  private:
   struct Passed {
@@ -57,6 +60,8 @@ class Passing {
   };
   const Conversation& conversation_;
   std::vector<Passed> passed_;  // the newest transmission of each play
+  std::vector<std::deque<Passed>>
+      in_part_;  // for each play: earlier transmissions of which a frame is missing
 };
 
 /// The value that an answer echoes, and the value that a stimulus carries in the signal which is echoed. Both

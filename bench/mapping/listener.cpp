@@ -121,7 +121,11 @@ void Listener::hear(const Hear& hear, const Received& received) {
   // An echo that matches no play counts as an answer without a cause. Without an echo, an answer to a play
   // that was answered before shows that the order of the answers does not reveal their causes.
   Paired otherwise{.answer = received, .certain = hear.echo.has_value()};
-  if (const Sent* latest = cause_of(conversation_, hear, frame)) otherwise.cause_us = latest->valid_us;
+  if (const Sent* latest = cause_of(conversation_, hear, frame)) {
+    otherwise.cause_us = latest->valid_us;
+    otherwise.owed =
+        !hear.echo || !passing_.brought_in_part(*hear.answers, latest->valid_us, hear.echo->message);
+  }
   pairing_of(hear).pairing.answered(received, echoed_by(hear, frame), otherwise, settler(hear));
 }
 
@@ -138,7 +142,9 @@ Pairing::Give Listener::settler(const Hear& hear) {
 void Listener::settle(const Hear& hear, const Paired& paired) {
   const std::size_t index = hear.of.index;
   stopwatch_.arrived(index, paired.answer);
-  if (paired.certain) {
+  if (!paired.owed) {
+    // The answer has no latency, because its stimulus was never complete.
+  } else if (paired.certain) {
     stopwatch_.answered({&index, 1}, conversation_.mapping.groups[*hear.answers],
                         paired.cause_us.value_or(-1));
   } else {

@@ -62,8 +62,8 @@ struct PlayedMessage {
 struct Play {
   std::string name;  ///< name of the play's last message
   std::vector<PlayedMessage> messages;
-  std::string_view node;        ///< the node whose samples trigger the play
-  std::int64_t period_us = 0;   ///< a multiple of the node's period
+  std::string_view node;        ///< the node whose samples trigger the play; empty: sent at its own times
+  std::int64_t period_us = 0;   ///< a multiple of the node's period, if there is a node
   std::int64_t latency_us = 0;  ///< added to the node's latency
 };
 
@@ -92,6 +92,8 @@ struct Hear {
 };
 
 struct Mapping final : scenario::Foreign {
+  [[nodiscard]] const protection::Protection* protection_of(std::size_t message) const override;
+
   dbc::Database database;
   std::vector<Play> plays;
   std::vector<Hear> hears;

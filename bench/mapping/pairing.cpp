@@ -75,6 +75,7 @@ void Pairing::give_first(const Give& give) {
     const Stimulus& latest = stimulus(one.highest);
     paired.cause_us = latest.valid_us;
     paired.certain = one.lowest == one.highest;
+    paired.owed = true;
     if (const auto before = last_before(one.highest, one.echoed, any_time); before && !paired.certain)
       paired.apart_us = latest.valid_us - stimulus(*before).valid_us;
   }

@@ -86,7 +86,31 @@ Player::Player(Conversation& conversation, const nodes::Run& run)
 std::int64_t Player::due_us() const {
   std::int64_t due_us = due_.empty() ? nodes::never_us : due_.front().sent.due_us;
   for (const Played& played : nodes_) due_us = std::min(due_us, played.node->due_us());
+  for (std::size_t i = 0; i < samples_.size(); ++i) due_us = std::min(due_us, next_without_node_us(i));
   return due_us;
+}
+
+// The time of the next transmission of a play that no node triggers, for example of a message that only says
+// that its sender is there.
+std::int64_t Player::next_without_node_us(std::size_t play) const {
+  const Play& one = conversation_.mapping.plays[play];
+  if (!one.node.empty()) return nodes::never_us;
+  const std::int64_t due_us = (samples_[play] + 1) * one.period_us + one.latency_us;
+  return due_us > end_us_ ? nodes::never_us : due_us;
+}
+
+void Player::send_without_node(std::int64_t now_us) {
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (next_without_node_us(i) != now_us) continue;
+    ++samples_[i];
+    insert({.play = i, .sent = put_together(i, now_us - conversation_.mapping.plays[i].latency_us, now_us)});
+  }
+}
+
+void Player::insert(Due due) {
+  const auto after =
+      std::ranges::upper_bound(due_, due.sent.due_us, {}, [](const Due& one) { return one.sent.due_us; });
+  due_.insert(after, std::move(due));
 }
 
 // Take samples first, because a play may be due at the same time as its sample.
@@ -95,6 +119,7 @@ void Player::transmit(nodes::Transmission& out) {
   for (Played& played : nodes_) {
     if (played.node->due_us() == now_us) sample(played);
   }
+  send_without_node(now_us);
   out.clipped().add(std::exchange(clipped_, {}));
   if (due_.empty() || due_.front().sent.due_us > now_us) return;
   Due due = std::move(due_.front());
@@ -123,9 +148,7 @@ void Player::sample(Played& played) {
     if (++samples_[i] % (play.period_us / played.period_us) != 0) continue;
     const std::int64_t sent_us = due_us + play.latency_us;
     if (sent_us > end_us_) continue;  // an answer would come after the end of the run
-    const auto after =
-        std::ranges::upper_bound(due_, sent_us, {}, [](const Due& due) { return due.sent.due_us; });
-    due_.insert(after, {.play = i, .sent = put_together(i, played, sent_us), .lost = played.lost});
+    insert({.play = i, .sent = put_together(i, played.valid_us, sent_us), .lost = played.lost});
   }
 }
 
@@ -170,16 +193,15 @@ double Player::value_of(std::size_t play, const Source& source, std::int64_t val
   return 0;
 }
 
-Sent Player::put_together(std::size_t index, const Played& played, std::int64_t due_us) {
-  Sent sent{.valid_us = played.valid_us, .due_us = due_us, .frames = {}};
+Sent Player::put_together(std::size_t index, std::int64_t valid_us, std::int64_t due_us) {
+  Sent sent{.valid_us = valid_us, .due_us = due_us, .frames = {}};
   for (const PlayedMessage& one : conversation_.mapping.plays[index].messages) {
     const dbc::Message& message = *one.of.message;
     std::vector<double> values(one.of.plan.signals(), 0.0);
     for (const Source& source : one.sources) {
       const bool constant = source.stimulus == nullptr && !source.time;
       double& value = values[one.of.number(*source.signal)];
-      value =
-          constant ? source.value : held(source, value_of(index, source, played.valid_us) * source.factor);
+      value = constant ? source.value : held(source, value_of(index, source, valid_us) * source.factor);
       if (dbc::holds(*source.signal, value)) continue;
       const auto [lowest, highest] = physical_range(*source.signal).value_or(std::pair(0.0, 0.0));
       clipped_.add(message.name, source.signal->name, value, {lowest, highest, source.signal->unit});

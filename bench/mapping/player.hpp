@@ -48,7 +48,10 @@ class Player final : public nodes::Node {
 
   void sample(Played& played);
   void take(const Played& played, const Frame& frame);
-  Sent put_together(std::size_t index, const Played& played, std::int64_t due_us);
+  void send_without_node(std::int64_t now_us);
+  [[nodiscard]] std::int64_t next_without_node_us(std::size_t play) const;
+  void insert(Due due);
+  Sent put_together(std::size_t index, std::int64_t valid_us, std::int64_t due_us);
   double value_of(std::size_t play, const Source& source, std::int64_t valid_us);
 
   Conversation& conversation_;

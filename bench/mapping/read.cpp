@@ -102,7 +102,8 @@ class Reader {
       const auto [of, one] = signal_of(section, key, key);
       const std::string unit = section.text(key);
       if (!unit.empty() && !quantities::wire_unit(unit))
-        section.reject(key, fmt::format("'{}' is not a known unit", unit), "one of: " + quantities::wire_units());
+        section.reject(key, fmt::format("'{}' is not a known unit", unit),
+                       "one of: " + quantities::wire_units());
       if (one != nullptr) units_[one] = unit;
     }
     section.finish();
@@ -187,8 +188,6 @@ class Reader {
     }
     signals.finish();
     if (invalid) invalid->finish();
-    if (play.node.empty() && !section.error())
-      section.reject("signals", "play no quantity", "at least one signal that is a quantity of a node");
     section.finish();
     mapping_->plays.push_back(std::move(play));
   }

@@ -12,6 +12,10 @@ namespace canhil::estimators {
 struct Estimator;
 }
 
+namespace canhil::protection {
+class Protection;
+}
+
 namespace canhil::scenario {
 
 struct Foreign {
@@ -19,6 +23,9 @@ struct Foreign {
   Foreign(const Foreign&) = delete;
   Foreign& operator=(const Foreign&) = delete;
   virtual ~Foreign() = default;
+
+  /// The protection of a message that the bench sends; null: it has none. `message`: index in `messages`.
+  [[nodiscard]] virtual const protection::Protection* protection_of(std::size_t message) const = 0;
 
   /// The messages of bench and target; the target's messages have the same sender as TargetHeartbeat.
   std::vector<MessageInfo> messages;

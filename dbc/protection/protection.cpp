@@ -101,6 +101,10 @@ void Protection::protect(std::span<std::uint8_t> data, std::uint64_t counter) co
   if (settings_.checksum) write(settings_.checksum->place, checksum(data, this->counter(data)), data);
 }
 
+void Protection::spoil_checksum(std::span<std::uint8_t> data) const {
+  for (std::size_t i = 0; i < data.size(); ++i) data[i] ^= own_bits_[i];
+}
+
 bool Protection::checksum_right(std::span<const std::uint8_t> data) const {
   if (data.size() != subject_.size) return false;
   for (const Constant& constant : settings_.constants)

@@ -29,6 +29,9 @@ class Protection {
   /// the place are written. If the message has no counter, `counter` is ignored.
   void protect(std::span<std::uint8_t> data, std::uint64_t counter) const;
 
+  /// Inverts all bits of the checksum, for fault injection. Does nothing if the message has no checksum.
+  void spoil_checksum(std::span<std::uint8_t> data) const;
+
   /// True if the size, the constants and the checksum of a message are right. `data` may have any length.
   [[nodiscard]] bool checksum_right(std::span<const std::uint8_t> data) const;
 

@@ -2,47 +2,101 @@
 
 #include <fmt/format.h>
 
-#include "bench/faults/frame_edit.hpp"
-#include "dbc/wire/e2e.hpp"
+#include <algorithm>
+
+#include "bench/scenario/foreign.hpp"
+#include "dbc/protection/profiles.hpp"
+#include "dbc/protection/protection.hpp"
 
 namespace canhil::faults {
 namespace {
 
-// Requires messages with canhil's own protection: in other messages, the positions of counter and CRC are
-// unknown.
+using protection::Protection;
+
+// The protection of canhil's own messages, as dbc/wire/e2e.hpp writes it; null: the message has none.
+std::shared_ptr<const Protection> own_protection(const MessageInfo& message) {
+  if (message.e2e_data_id == 0) return nullptr;
+  protection::ProfileChoice choice;
+  choice.data_id = message.e2e_data_id;
+  const auto settings = protection::profile("autosar-e2e-11a", choice, message.size);
+  return std::make_shared<const Protection>(
+      Protection::make(settings.value(), {.id = message.id, .size = message.size}).value());
+}
+
+std::shared_ptr<const Protection> protection_of(const MessageInfo& message,
+                                                const scenario::FaultContext& context) {
+  const auto& foreign = context.contract.foreign;
+  if (foreign == nullptr) return own_protection(message);
+  const auto index = static_cast<std::size_t>(&message - foreign->messages.data());
+  return {foreign, foreign->protection_of(index)};
+}
+
+// Requires messages with a protection, because otherwise the places of counter and checksum are unknown.
 template <class Kind>
-Kind read_protected(scenario::Section& section, const scenario::FaultContext& context) {
+Kind read_protected(scenario::Section& section, const scenario::FaultContext& context, bool counter) {
   Kind kind;
   kind.of = read_messages(section, context);
   for (const MessageInfo* message : kind.of.all) {
-    if (message->e2e_data_id == 0)
+    auto own = protection_of(*message, context);
+    if (own == nullptr)
       section.reject("messages", fmt::format("{} has no protection that the bench can spoil", message->name),
                      "kind = \"damaged\"");
+    else if (counter ? !own->has_counter() : !own->settings().checksum.has_value())
+      section.reject("messages", fmt::format("{} has no {}", message->name, counter ? "counter" : "checksum"),
+                     "messages that have one");
+    kind.protection[message] = std::move(own);
   }
   kind.when = read_when(section, context, Repeats::each);
   return kind;
 }
 
-class StuckCounters final : public OfFrames {
+// The frames have another counter or another checksum.
+class Spoilt : public OfFrames {
  public:
-  using OfFrames::OfFrames;
+  Spoilt(const ProtectedFrames& kind, const InRun& run)
+      : OfFrames(kind.of, kind.when, run), protection_(kind.protection) {}
+
+ protected:
+  virtual void spoil(Own& own, const Protection& protection, std::span<std::uint8_t> data) = 0;
 
  private:
   void put(Own& own, const Frame& frame, std::int64_t /*t_us*/, std::vector<Frame>& left) override {
-    if (!own.counter) own.counter = e2e::counter(frame.payload());
-    set_counter(left.emplace_back(frame), *own.message, *own.counter);
+    Frame& spoilt = left.emplace_back(frame);
+    spoil(own, *protection_.at(own.message), {spoilt.data.data(), spoilt.size});
+  }
+  std::map<const MessageInfo*, std::shared_ptr<const Protection>> protection_;
+};
+
+class WrongCrcs final : public Spoilt {
+ public:
+  using Spoilt::Spoilt;
+
+ private:
+  void spoil(Own& /*own*/, const Protection& protection, std::span<std::uint8_t> data) override {
+    protection.spoil_checksum(data);
   }
 };
 
-class AheadCounters final : public OfFrames {
+class StuckCounters final : public Spoilt {
  public:
-  AheadCounters(const CounterJump& kind, const InRun& run)
-      : OfFrames(kind.of, kind.when, run), by_(kind.by) {}
+  using Spoilt::Spoilt;
 
  private:
-  void put(Own& own, const Frame& frame, std::int64_t /*t_us*/, std::vector<Frame>& left) override {
-    const std::int64_t counter = (e2e::counter(frame.payload()) + by_) % e2e::counter_period;
-    set_counter(left.emplace_back(frame), *own.message, static_cast<std::uint8_t>(counter));
+  void spoil(Own& own, const Protection& protection, std::span<std::uint8_t> data) override {
+    if (!own.counter) own.counter = protection.counter(data);
+    protection.protect(data, *own.counter);
+  }
+};
+
+class AheadCounters final : public Spoilt {
+ public:
+  AheadCounters(const CounterJump& kind, const InRun& run) : Spoilt(kind, run), by_(kind.by) {}
+
+ private:
+  void spoil(Own& /*own*/, const Protection& protection, std::span<std::uint8_t> data) override {
+    std::uint64_t counter = protection.counter(data);
+    for (std::int64_t i = 0; i < by_; ++i) counter = protection.next(counter);
+    protection.protect(data, counter);
   }
   std::int64_t by_;
 };
@@ -50,32 +104,35 @@ class AheadCounters final : public OfFrames {
 }  // namespace
 
 WrongCrc WrongCrc::read(scenario::Section& section, const scenario::FaultContext& context) {
-  return read_protected<WrongCrc>(section, context);
+  return read_protected<WrongCrc>(section, context, false);
 }
 
 std::unique_ptr<Injector> WrongCrc::injector(const InRun& run) const {
-  return change_frames(of, when, run,
-                       [](const MessageInfo& /*message*/, const Frame& frame, std::vector<Frame>& left) {
-                         left.emplace_back(frame).data[0] ^= 0xFFU;
-                       });
+  return std::make_unique<WrongCrcs>(*this, run);
 }
 
 CounterStuck CounterStuck::read(scenario::Section& section, const scenario::FaultContext& context) {
-  return read_protected<CounterStuck>(section, context);
+  return read_protected<CounterStuck>(section, context, true);
 }
 
 std::unique_ptr<Injector> CounterStuck::injector(const InRun& run) const {
-  return std::make_unique<StuckCounters>(of, when, run);
+  return std::make_unique<StuckCounters>(*this, run);
 }
 
 CounterJump CounterJump::read(scenario::Section& section, const scenario::FaultContext& context) {
-  auto kind = read_protected<CounterJump>(section, context);
-  kind.by = section.integer(
-      {"by", "Number that is added to the counter. At most 14, because the counter repeats after 15 frames."},
-      1);
-  if (kind.by >= e2e::counter_period)
-    section.reject("by", fmt::format("{} is a whole turn of the counter or more", kind.by),
-                   fmt::format("1 to {}", e2e::counter_period - 1));
+  auto kind = read_protected<CounterJump>(section, context, true);
+  kind.by =
+      section.integer({"by",
+                       "Number of steps that the counter is ahead. It is less than the number of values "
+                       "of the counter (15 in canhil's own messages)."},
+                      1);
+  for (const auto& [message, protection] : kind.protection) {
+    if (protection == nullptr || !protection->has_counter()) continue;
+    const auto period = static_cast<std::int64_t>(protection->period());
+    if (kind.by >= period)
+      section.reject("by", fmt::format("{} is a whole turn of the counter or more", kind.by),
+                     fmt::format("1 to {}", period - 1));
+  }
   return kind;
 }
 

@@ -376,6 +376,65 @@ TEST_F(Altered, AStimulusThatIsClippedNeverPasses) {
   EXPECT_THAT(measured(read_json(report), "error attitude.roll"), testing::StartsWith("not measured: "));
 }
 
+// The counters and checksums of the DBC are spoilt as those of canhil's own messages are.
+TEST_F(Altered, FaultsSpoilTheProtectionOfTheDbc) {
+  const auto answers = [&](const std::string& fault, const char* target = "none") {
+    const std::string report = scratch("spoilt.json");
+    const Ended ended = run_edited({{"own_ecu.toml", "[[check]]", "[[fault]]\n" + fault + "\n[[check]]"}},
+                                   in_python(target), "--lockstep --json " + report);
+    EXPECT_NE(ended.code, 2) << ended.err;
+    return figure(read_json(report), "own_ecu", "answers", "ECU_Attitude");
+  };
+  EXPECT_EQ(answers("kind = \"wrong_crc\"\nmessages = [\"IMU_TX1\"]\nevery = 10"), 1080);
+  EXPECT_EQ(answers("kind = \"counter_jump\"\nmessages = [\"IMU_TX1\"]\nevery = 10"), 1080);
+  // The counter of every tenth frame comes round after eight such frames.
+  EXPECT_EQ(answers("kind = \"counter_stuck\"\nmessages = [\"IMU_TX1\"]\nevery = 10"), 1080 + 120 / 8);
+  EXPECT_EQ(answers("kind = \"counter_stuck\"\nmessages = [\"IMU_TX1\"]\nevery = 10", "redundant"), 1200)
+      << "its checksums are right";
+  const Edit no_counter{"own_ecu.mapping.toml", "counter = { signal = \"TX1_Counter\" }\n", ""},
+      no_checksum{"own_ecu.mapping.toml",
+                  "checksum = { signal = \"TX1_CRC\", model = \"CRC-8/SAE-J1850\" }\n", ""};
+  for (const auto& [kind, edit, because] :
+       {std::tuple("wrong_crc", no_checksum, "IMU_TX1 has no checksum, expected messages that have one"),
+        std::tuple("counter_stuck", no_counter, "IMU_TX1 has no counter, expected messages that have one")}) {
+    const std::string fault =
+        fmt::format("[[fault]]\nkind = \"{}\"\nmessages = [\"IMU_TX1\"]\n[[check]]", kind);
+    expect_one_line(run_edited({edit, {"own_ecu.toml", "[[check]]", fault}}, python, "--lockstep"), because);
+  }
+}
+
+// A target may answer a sample of which a frame was lost: for example, it takes the frame of a redundant
+// sensor.
+TEST_F(Altered, ASampleThatCameInPartMayBeAnswered) {
+  const std::string report = scratch("redundant.json");
+  const Ended ended = run_edited({{"own_ecu.toml", "[[check]]",
+                                   "[[fault]]\nkind = \"lost\"\nmessages = [\"IMU_TX1\"]\nevery = 50\n"
+                                   "from_s = 1\n[[check]]"}},
+                                 in_python("redundant"), "--lockstep --json " + report);
+  EXPECT_EQ(ended.code, 3) << ended.err << ended.out;
+  EXPECT_THAT(checks(read_json(report), "fail"), testing::IsEmpty()) << ended.out;
+  EXPECT_EQ(figure(read_json(report), "own_ecu", "answers", "ECU_Attitude"), 1200);
+}
+
+// A message without a quantity, for example of a network management, is sent at its own times.
+TEST_F(Altered, AMessageOfConstantsIsSent) {
+  const std::string log = scratch("constants.log");
+  const Ended ended = run_edited({{"own_ecu.dbc", "BO_ 512 ECU_Attitude",
+                                   "BO_ 1281 NM: 2 IMU\n SG_ Node : 0|8@1+ (1,0) [0|255] \"\" ECU\n SG_ Wake "
+                                   ": 8|8@1+ (1,0) [0|255] \"\" "
+                                   "ECU\n\nBO_ 512 ECU_Attitude"},
+                                  {"own_ecu.mapping.toml", "# The answer of the ECU.",
+                                   "[[play]]\nmessages = [\"NM\"]\nevery_ms = "
+                                   "200\n[play.signals]\n\"NM.Node\" = 17\n\"NM.Wake\" = 1\n"}},
+                                 python, "--lockstep --log " + log);
+  EXPECT_EQ(ended.code, 3) << ended.err << ended.out;
+  const std::string text = read(log);
+  int sent = 0;
+  for (std::size_t at = text.find("501#1101"); at != std::string::npos; at = text.find("501#1101", at + 1))
+    ++sent;
+  EXPECT_EQ(sent, 60);
+}
+
 // Without a truth, the checks that need it are not measured; the timing and the counts still are.
 TEST_F(Altered, WithoutATruthErrorsAreNotMeasured) {
   const std::string imu = scratch("imu.csv"), report = scratch("unknown.json");
