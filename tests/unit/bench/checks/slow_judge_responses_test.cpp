@@ -204,10 +204,10 @@ class SlowJudgeOfResponses : public SlowJudge {
                             .window = drawn.window,
                             .valid_from_us = drawn.valid_from_us,
                             .count = run.uniform() < 0.9 ? 1U : 0U};
-    // In half of the runs the signs begin after the fault.
+    // In half of the runs the marks begin with the first samples that the fault may affect.
     if (run.uniform() < 0.5) {
       for (auto& [t_ns, answer] : run.answers) {
-        if (answer.cause_us >= from_us || run.uniform() < 1e-3) continue;
+        if (answer.cause_us >= drawn.valid_from_us || run.uniform() < 1e-3) continue;
         answer.blind = answer.degraded = false;
         if (answer.outcome == messages::LosRateOutcome::coasting)
           answer.outcome = messages::LosRateOutcome::updated;
