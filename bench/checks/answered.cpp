@@ -93,7 +93,7 @@ Answered answered(const Observations& seen, std::string_view message, const scen
     found.came += one.came ? 1 : 0;
     if (before_us && one.valid_us - *before_us > interval_us) ++stretches;
     before_us = one.valid_us;
-    if (counted_us && one.valid_us - *counted_us < interval_us) {
+    if (interval_us > 0 && counted_us && one.valid_us - *counted_us < interval_us) {
       thinned = true;
       continue;
     }

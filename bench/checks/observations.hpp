@@ -83,14 +83,15 @@ struct Observations {
   std::optional<messages::TargetCounters> counters;  ///< the last counters that the target sent
   std::string target_version{};                      ///< "0.2", from the target's first heartbeat; empty: no
                                                      ///< heartbeat came
-  Complaints complaints;                  ///< errors that the target reported in addition to its answers
-  TargetReports reports;                  ///< what the target reported about its own state
-  std::vector<FaultRecord> faults{};      ///< the faults of the scenario
-  std::int64_t longest_input_gap_us = 0;  ///< see observe::ReceiverModel::longest_gap_us
-  ExpectedCounts expected_counts{};       ///< limits for `counters`
-  std::vector<wire::BitLength> length_by_second{};  ///< lengths of all frames on the bus; see
-                                                    ///< observe::LoadMeter
-  std::uint32_t target_frames_lost = 0;             ///< lost frames of the target, by their E2E counters
+  Complaints complaints;              ///< errors that the target reported in addition to its answers
+  TargetReports reports;              ///< what the target reported about its own state
+  std::vector<FaultRecord> faults{};  ///< the faults of the scenario
+  std::optional<std::int64_t> longest_input_gap_us{};  ///< see observe::ReceiverModel::longest_gap_us; none:
+                                                       ///< no model observed the run
+  ExpectedCounts expected_counts{};                    ///< limits for `counters`
+  std::vector<wire::BitLength> length_by_second{};     ///< lengths of all frames on the bus; see
+                                                       ///< observe::LoadMeter
+  std::uint32_t target_frames_lost = 0;                ///< lost frames of the target, by their E2E counters
   std::uint32_t target_bad_crc = 0;
   std::uint32_t receive_overflows = 0;  ///< frames that the bench's own port lost
   std::uint16_t queue_max_us = 0;       ///< largest queueing time in TargetTiming; saturates at 8191

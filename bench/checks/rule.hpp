@@ -49,6 +49,17 @@ struct Subject {
                        ///< estimator
 };
 
+/// The estimators of the subjects for which wanted(subject) holds, each once.
+template <class Wanted>
+std::vector<std::string> estimators_of(const std::vector<Subject>& subjects, Wanted wanted) {
+  std::vector<std::string> estimators;
+  for (const Subject& subject : subjects) {
+    if (wanted(subject) && std::ranges::find(estimators, subject.estimator) == estimators.end())
+      estimators.push_back(subject.estimator);
+  }
+  return estimators;
+}
+
 /// Part of a run, by time of validity or, if the flight goes to a target, by time to go.
 struct Stretch {
   scenario::Window window;
@@ -96,27 +107,16 @@ class RuleOf final : public Rule {
     return {};
   }
   [[nodiscard]] std::vector<std::string> held_against_truth() const override {
-    std::vector<std::string> estimators;
-    if constexpr (requires { kind_.held_against_truth(); }) {
-      estimators = kind_.held_against_truth();
-    } else {
-      for (const Subject& subject : subjects()) {
-        if (!subject.quantity->white) estimators.push_back(subject.estimator);
-      }
-    }
-    return estimators;
+    if constexpr (requires { kind_.held_against_truth(); })
+      return kind_.held_against_truth();
+    else
+      return estimators_of(subjects(), [](const Subject& subject) { return !subject.quantity->white; });
   }
   [[nodiscard]] std::vector<std::string> needs_answers_of() const override {
-    std::vector<std::string> estimators;
-    if constexpr (requires { kind_.needs_answers_of(); }) {
-      estimators = kind_.needs_answers_of();
-    } else {
-      for (const Subject& subject : subjects()) {
-        if (std::ranges::find(estimators, subject.estimator) == estimators.end())
-          estimators.push_back(subject.estimator);
-      }
-    }
-    return estimators;
+    if constexpr (requires { kind_.needs_answers_of(); })
+      return kind_.needs_answers_of();
+    else
+      return estimators_of(subjects(), [](const Subject&) { return true; });
   }
   [[nodiscard]] Stretch span() const override {
     if constexpr (requires { kind_.span(); }) return kind_.span();

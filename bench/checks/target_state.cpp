@@ -19,8 +19,10 @@ bool input_was_lost(const Observations& seen) {
   return any(seen.expected_counts.most) || (seen.counters && any(*seen.counters));
 }
 
+// If no model observed the run, a gap of any length is possible.
 bool input_was_silent(const Observations& seen) {
-  return seen.longest_input_gap_us > bridged_us || seen.timing.lateness.max_ns() > bridged_us * 1000;
+  const bool gap = !seen.longest_input_gap_us || *seen.longest_input_gap_us > bridged_us;
+  return gap || seen.timing.lateness.max_ns() > bridged_us * 1000;
 }
 
 bool is_explained(const Report& report, const Observations& seen, std::span<const std::int64_t> events_us) {

@@ -26,7 +26,10 @@ Result<std::unique_ptr<Port>> open_in_process(const BusName& bus, BusFormat form
 
 Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format) {
   const auto notes = std::make_shared<std::vector<std::string>>();
-  const auto with_notes = [&](std::unique_ptr<Port> port) { return OpenBuses{notes, std::move(port)}; };
+  const auto others = std::make_shared<std::optional<std::size_t>>();
+  const auto with_notes = [&](std::unique_ptr<Port> port) {
+    return OpenBuses{notes, std::move(port), others};
+  };
   if (bus.in_process) return open_in_process(bus, format).map(with_notes);
   std::vector<std::string> names{bus.text};  // no duplicates
   for (const auto& [node, own] : bus_of) {
@@ -37,6 +40,7 @@ Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat 
   options.foreign = true;
   options.node_name = "hil-bench";
   HubRules rules;
+  rules.on_nodes = [others](std::size_t nodes) { *others = nodes; };
   rules.on_turned_away = [notes](const std::string& line) { notes->push_back(line); };
   const auto route = [names, bus_of](const Frame& frame) -> std::size_t {
     const MessageInfo* info = messages::find_message(frame.id);

@@ -39,6 +39,8 @@ struct OpenBuses {
   std::shared_ptr<std::vector<std::string>>
       notes;                   ///< one line for each program that the bench, as host of a local bus, rejected
   std::unique_ptr<Port> port;  ///< combines all buses
+  /// The number of other nodes on the local bus that the bench hosts; none: the bench hosts no bus.
+  std::shared_ptr<const std::optional<std::size_t>> others;
 };
 
 /// Opens the buses. The port sends each frame on the bus of the frame's sender. The bench hosts a local bus

@@ -1,7 +1,9 @@
 // A mapped target has no handshake and runs independently of the bench. Before the run, the bench waits until
 // the settling time of the target is over and until a message of the target shows that the target is present.
 // A target that sends only answers is silent before the run; for such a target, the bench waits only for the
-// settling time.
+// settling time. If the bench hosts the bus, it also waits until the process that it started has joined the
+// bus. A process that has joined and is silent nevertheless may wait for its first sample: the run then
+// begins.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -156,12 +158,13 @@ class MappedDialect final : public Dialect {
     bool there = !speaks_first;  // a target that only answers is silent before the run
     const std::int64_t settled_ns = link.now_ns() + start_.settle_us * 1000;
     const std::int64_t limit_ns = std::max(settled_ns, link.now_ns() + find_limit_ns);
-    while (link.now_ns() < settled_ns || !there) {
+    while (link.now_ns() < settled_ns || !there || of_.presence() == Presence::absent) {
       if (link.drain() == LinkState::down)
         return failure(fmt::format("bus '{}': gone before the run", link.port().name()));
       if (const auto why = gone()) return failure(fmt::format("{} before the run", *why));
       there = there || watch.heard();
       const std::int64_t now_ns = link.now_ns();
+      if (now_ns >= limit_ns && of_.presence() == Presence::joined) break;
       if (now_ns >= limit_ns) return failure(complaint(link, strangers));
       link.wait_until(std::min(now_ns + poll_ns, limit_ns));
     }
@@ -172,6 +175,8 @@ class MappedDialect final : public Dialect {
 
  private:
   [[nodiscard]] std::string complaint(const Link& link, const Strangers& strangers) const {
+    if (of_.presence() == Presence::absent)
+      return fmt::format("target on '{}': its process has not joined the bus within 5 s", link.port().name());
     std::vector<std::string> names;
     for (const mapping::Hear& hear : conversation_.mapping.hears) {
       if (!hear.answers) names.push_back(hear.of.message->name);

@@ -60,6 +60,7 @@ class Session {
         options_(options),
         flight_(std::move(flight)),
         notes_(std::move(buses.notes)),
+        others_(std::move(buses.others)),
         port_(std::move(buses.port)),
         bus_(known_of(*port_, options.controller)),
         clock_(clock_of(bus_.time, options.lockstep)),
@@ -80,7 +81,8 @@ class Session {
                                  .virtual_time = clock_ == ClockKind::lockstep,
                                  .rounding = bus_.rounding,
                                  .format = options_.format,
-                                 .wire = bus_.wire});
+                                 .wire = bus_.wire,
+                                 .presence = [this] { return presence(); }});
     if (!dialect) return tl::unexpected(dialect.error());
     dialect_ = std::move(*dialect);
     const faults::Place where = place();
@@ -252,6 +254,11 @@ class Session {
     return load_.full_wire(ending_.t_us * 1000 + dialect_->silence_limit_ns(), bus_.wire.rates);
   }
 
+  [[nodiscard]] Presence presence() const {
+    if (!options_.target || !*others_) return Presence::unknown;
+    return **others_ == 0 ? Presence::absent : Presence::joined;
+  }
+
   // Ends the target's process. `ended_before`: how it ended before the bench stopped it; none: it did not.
   void end_target(const std::optional<std::string>& ended_before, std::vector<std::string>& notes) {
     if (!target_) return;
@@ -287,6 +294,7 @@ class Session {
   const Options& options_;
   Flight flight_;
   std::shared_ptr<std::vector<std::string>> notes_;
+  std::shared_ptr<const std::optional<std::size_t>> others_;  // see OpenBuses
   std::unique_ptr<Port> port_;
   Capabilities bus_;
   ClockKind clock_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "bench/estimators/registry.hpp"
@@ -122,9 +121,7 @@ void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t la
 
 checks::Observations Monitor::finish() {
   if (stopwatch_) stopwatch_->finish();
-  // Without a model of the receiver, a gap of any length is possible.
-  seen_.longest_input_gap_us =
-      model_ ? model_->longest_gap_us(now_us_) : std::numeric_limits<std::int64_t>::max();
+  if (model_) seen_.longest_input_gap_us = model_->longest_gap_us(now_us_);
   seen_.complaints.end(now_us_);
   seen_.reports.end(now_us_);
   return std::move(seen_);

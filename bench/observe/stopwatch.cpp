@@ -202,7 +202,7 @@ void Stopwatch::answered(std::size_t index, std::string_view group, Sent& sent, 
   last_[index] = {.arrival = arrival, .due_ns = sent.stimulus.due_ns};
   for (TimedWindow& window : record_.windows) {
     if (window.message != index || !checks::within(window.window, cause_us)) continue;
-    window.latency.add(latency_ns);
+    sent.latest[index] = latency_ns;
     add_arrival(window, arrival);
   }
   split(index, group, sent, wire_ns, latency_ns);
@@ -285,6 +285,7 @@ Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us,
 // Called so late that the echo of the oldest stimulus has either arrived or will never arrive.
 void Stopwatch::forget_oldest(std::string_view name, Group& group) {
   const Stimulus stimulus = group.sent.front().stimulus;
+  const auto latest = std::move(group.sent.front().latest);
   if (stimulus.owed_answer) {
     for (const std::size_t index : group.answered_by)
       record_.owed[index].push_back(
@@ -295,6 +296,9 @@ void Stopwatch::forget_oldest(std::string_view name, Group& group) {
   for (TimedWindow& window : record_.windows) {
     if (!answers(window.message, name)) continue;
     if (checks::within(window.window, stimulus.valid_us)) {
+      // A stimulus that was answered several times counts once, with the latency of its last answer.
+      if (const auto found = latest.find(window.message); found != latest.end())
+        window.latency.add(found->second);
       if (!window.first_stimulus_ns) window.first_stimulus_ns = stimulus.t_ns;
       window.lateness.add(stimulus.t_ns - stimulus.due_ns);
       if (group.before) add_deviation(window, *group.before, stimulus);

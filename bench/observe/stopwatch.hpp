@@ -67,6 +67,7 @@ class Stopwatch {
     bool answered = false;
     std::bitset<MessagePlaces::most> answered_by{};  // index of the last message of each answer
     std::int64_t latency_ns = 0;                     // latency of the latest answer so far
+    std::map<std::size_t, std::int64_t> latest{};    // the same for each message that has a window
     std::int64_t reply_wire_ns = 0;                  // sum over all answers so far
   };
   struct Group {

@@ -55,6 +55,8 @@ struct HubRules {
   std::size_t most_nodes = 64;  ///< at most a quarter of the process's limit of open files
   std::function<void(const std::string& line)>
       on_turned_away{};  ///< receives a line for each such node, at most 20
+  /// Receives the number of nodes that have joined: 0 when the bus begins, then after each change.
+  std::function<void(std::size_t nodes)> on_nodes{};
 };
 
 /// Hosts the bus `local:NAME`. If options.fd is true, the bus carries CAN FD. The hub works only inside

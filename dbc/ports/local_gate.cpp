@@ -93,6 +93,11 @@ void Gate::report_nonsense(const Peer& peer) {
                                     : "sent an invalid Hello (another version?) and was dropped");
 }
 
+void Gate::count(const std::vector<Peer>& peers) const {
+  if (rules_.on_nodes)
+    rules_.on_nodes(static_cast<std::size_t>(std::ranges::count(peers, true, &Peer::joined)));
+}
+
 void Gate::set_alarm(const std::vector<Peer>& peers) {
   std::int64_t at_ns = 0;
   for (const Peer& peer : peers) {

@@ -37,6 +37,8 @@ class Gate {
   void report_nonsense(const Peer& peer);
 
   /// Sets the alarm to the first time at which the limit of a node expires.
+  /// Calls HubRules::on_nodes.
+  void count(const std::vector<Peer>& peers) const;
   void set_alarm(const std::vector<Peer>& peers);
 
  private:

@@ -60,6 +60,7 @@ class Hub final : public LocalHub {
     if (wire_) watch(wire_->descriptor(), EPOLLIN);
     watch(gate_.alarm(), EPOLLIN);
     watch(gate_.listener(), EPOLLIN);
+    gate_.count(peers_);
   }
 
   SendOutcome send(const Frame& frame) override {
@@ -204,6 +205,7 @@ class Hub final : public LocalHub {
           break;
         case Reading::joined:
           gate_.set_alarm(peers_);
+          gate_.count(peers_);
           break;
         case Reading::frame:
           ++next_;
@@ -213,6 +215,7 @@ class Hub final : public LocalHub {
           [[fallthrough]];
         case Reading::gone:
           peers_.erase(peers_.begin() + static_cast<std::ptrdiff_t>(next_));
+          gate_.count(peers_);
           break;
       }
     }

@@ -58,11 +58,11 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     const world::Vector3 p = position_error(update, truth.flight);
     const double nis =
         used(update.outcome) ? infinite_if_nan(update.nis) : std::numeric_limits<double>::quiet_NaN();
-    const double trusted = update.degraded
-                               ? 0
-                               : std::max({infinite_if_nan(over_sigma(phi, update.attitude_sigma)),
-                                           infinite_if_nan(over_sigma(v, update.velocity_sigma)),
-                                           infinite_if_nan(over_sigma(p, update.position_sigma))});
+    const double trusted =
+        update.degraded
+            ? 0
+            : std::max({over_sigma(phi, update.attitude_sigma), over_sigma(v, update.velocity_sigma),
+                        over_sigma(p, update.position_sigma)});
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
                                                  phi.z(),

@@ -17,6 +17,7 @@
 #include "bench/estimators/marks.hpp"
 #include "bench/estimators/names.hpp"
 #include "bench/estimators/tracks.hpp"
+#include "bench/estimators/trust.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -71,8 +72,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     stretch.over_variances += pitch * pitch + yaw * yaw;
     ++stretch.rates;
     if (error.trusted)
-      stretch.trusted =
-          std::max({stretch.trusted, infinite_if_nan(std::abs(pitch)), infinite_if_nan(std::abs(yaw))});
+      stretch.trusted = std::max({stretch.trusted, over_sigma(error.rate.pitch, error.sigma.pitch),
+                                  over_sigma(error.rate.yaw, error.sigma.yaw)});
     else
       ++stretch.untrusted;
   }

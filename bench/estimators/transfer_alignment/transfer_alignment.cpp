@@ -53,7 +53,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  infinite_if_nan(normalised),
                                                  infinite_if_nan(update.nis),
                                                  update.attitude_sigma.z(),
-                                                 infinite_if_nan(trusted),
+                                                 trusted,
                                                  update.degraded ? 1.0 : 0.0};
     samples.add(update.cause_us, values);
   }

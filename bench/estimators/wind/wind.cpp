@@ -55,7 +55,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
         updated ? infinite_if_nan(answer.nis) : std::numeric_limits<double>::quiet_NaN(),
         infinite_if_nan(normalised[i].value),
         answer.along_track_sigma,
-        infinite_if_nan(trusted),
+        trusted,
         answer.degraded ? 1.0 : 0.0};
     samples.add(errors[i].t_us, values);
   }

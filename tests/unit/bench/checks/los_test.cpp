@@ -7,6 +7,7 @@
 #include "bench/estimators/los_rate/answers.hpp"
 #include "bench/estimators/los_rate/miss_distance.hpp"
 #include "bench/estimators/los_rate/quantities.hpp"
+#include "tests/unit/bench/checks/fly_past.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
 #include "tests/unit/bench/edited.hpp"
 
@@ -18,44 +19,36 @@ using namespace estimators;
 using messages::LosRateOutcome;
 using testing::HasSubstr;
 
-constexpr std::int64_t duration_us = 6'000'000;
-
-// A fly-past at 1000 m/s from 5 km, sampled at 100 Hz and answered without error; the tests change the run.
-class Engaged : public testing::Test {
+// Each sample of the fly-past is answered without error; the tests change the run.
+class Engaged : public FlyPast {
  protected:
   Engaged() {
-    for (std::int64_t t_us = 10'000; t_us < 5'000'000; t_us += 10'000) {
-      world::EngagementTruth epoch;
-      epoch.t_us = t_us;
-      epoch.range = 5000 - 1e-3 * static_cast<double>(t_us);
-      epoch.closing_speed = 1000;
-      epoch.velocity_n = {-1000, 0, 0};
-      epoch.los_rate = {.pitch = 0.01, .yaw = -0.02};
-      engagement_.epochs.push_back(epoch);
+    for (const world::EngagementTruth& epoch : flight_.epochs) {
       LosAnswer answer;
-      answer.cause_us = t_us;
+      answer.cause_us = epoch.t_us;
       answer.outcome = LosRateOutcome::updated;
       answer.rate = epoch.los_rate;
       answer.nis = 2;
       seen_.of<LosAnswers>().push_back(answer);
-      seen_.stimuli["Seeker"].add(t_us);
+      seen_.stimuli["Seeker"].add(epoch.t_us);
     }
-    engagement_.miss_n = world::Vector3(0, 0.3, 0.4);
-    engagement_.passage_us = 5'000'000;
   }
   template <class Rule>
   CheckResult judge(const Rule& rule) {
-    return judged(
-        rule, seen_,
-        {.flight = truth_, .duration_us = duration_us, .engagement = present_ ? &engagement_ : nullptr});
+    estimators::Truth known = truth();
+    if (!present_) known.engagement = nullptr;
+    return judged(rule, seen_, known);
   }
   LosAnswer& answer_at(double to_go) {
     return seen_.of<LosAnswers>()[static_cast<std::size_t>(std::lround((5 - to_go) * 100)) - 1];
   }
+  static Error error_rule(const quantities::Quantity& quantity, Error::Statistic statistic) {
+    Error rule = error_of("los_rate", quantity, {.from_us = 0, .to_us = duration_us}, 2e-3, statistic);
+    rule.stretch.to_go_s = {1, 2};
+    return rule;
+  }
 
   bool present_ = true;
-  world::EngagementRecord engagement_;
-  world::FlightRecord truth_{{.start = {}, .motion = world::Rest{}}, duration_us, 10'000};
   Observations seen_;
 };
 
@@ -64,12 +57,6 @@ using estimators::MissDistance;
 using quantities::los_rate_both;
 using quantities::los_rate_pitch;
 using quantities::los_rate_yaw;
-
-Error error_rule(const quantities::Quantity& quantity, Error::Statistic statistic) {
-  Error rule = error_of("los_rate", quantity, {.from_us = 0, .to_us = duration_us}, 2e-3, statistic);
-  rule.stretch.to_go_s = {1, 2};
-  return rule;
-}
 
 TEST_F(Engaged, LosRateErrorByPlaneAndStatistic) {
   answer_at(1.5).rate.yaw += 3e-3;
@@ -119,8 +106,16 @@ TEST_F(Engaged, MissingAnswersFail) {
   EXPECT_THAT(judge(rule).measured, HasSubstr("answers to 49 of 100 samples"));
   seen_.of<LosAnswers>() = {};
   EXPECT_THAT(judge(rule).measured, HasSubstr("no answers"));
-  engagement_.epochs = {};
+  flight_.epochs = {};
   EXPECT_THAT(judge(rule).measured, HasSubstr("no samples there"));
+}
+
+TEST_F(Engaged, EachSampleIsOwedAnAnswerInWhateverOrderTheSamplesWereSent) {
+  auto& owed = seen_.timing.owed[message_index<messages::LosRateTarget>()];
+  for (std::size_t i = 0; i < flight_.epochs.size(); ++i)
+    owed.push_back(
+        {.valid_us = flight_.epochs[std::min(i ^ 1U, flight_.epochs.size() - 1)].t_us, .came = i % 4 != 0});
+  EXPECT_EQ(judge(error_rule(los_rate_both, rms)).measured, "LosRateTarget: answers to 75 of 100 samples");
 }
 
 TEST_F(Engaged, AnswersThatAreNoEstimateTellNoRate) {
@@ -131,7 +126,7 @@ TEST_F(Engaged, AnswersThatAreNoEstimateTellNoRate) {
 TEST_F(Engaged, Miss) {
   EXPECT_EQ(judge(MissDistance{.below = 0.51}).outcome, Outcome::pass);
   EXPECT_EQ(judge(MissDistance{.below = 0.5}).outcome, Outcome::fail);
-  engagement_.miss_n.reset();
+  flight_.miss_n.reset();
   EXPECT_THAT(judge(MissDistance{.below = 1}).measured, HasSubstr("did not pass"));
   present_ = false;
   EXPECT_EQ(judge(MissDistance{.below = 1}).outcome, Outcome::fail);
