@@ -76,6 +76,9 @@ struct Estimator {
   /// its cause.
   std::string (*ambiguous)(const checks::Observations& seen, const quantities::Quantity& quantity) = nullptr;
   std::span<const std::string_view> closing;  ///< the last message of each answer group of the estimator
+  /// The messages of `closing` whose answers contain a quantity. Null: all answers contain it.
+  std::vector<std::string_view> (*closing_with)(const checks::Observations& seen,
+                                                const quantities::Quantity& quantity) = nullptr;
   /// The answer group for which the target keeps a minimum interval (output_interval_ms) if the stimuli come
   /// faster; empty: there is no such group.
   std::string_view of_own_interval{};

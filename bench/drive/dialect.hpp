@@ -23,9 +23,6 @@ namespace canhil::drive {
 /// How long the bench looks for a target on the bus: the target may still be starting.
 constexpr std::int64_t find_limit_ns = 5'000'000'000;
 
-/// Whether the process of the target that the bench started has joined the bus, if the bench can see this.
-enum class Presence : std::uint8_t { unknown, absent, joined };
-
 /// The properties of a run that are known before the run begins.
 struct Setting {
   const scenario::Scenario& scenario;
@@ -37,7 +34,9 @@ struct Setting {
   Rounding rounding = Rounding::as_on_the_bus;
   BusFormat format = BusFormat::classic;
   WireFacts wire{};
-  std::function<Presence()> presence = [] { return Presence::unknown; };
+  /// The number of other nodes on the bus; null or none: the bench did not start the target, or does not host
+  /// the bus.
+  std::shared_ptr<const std::optional<std::size_t>> others{};
 };
 
 class Dialect {

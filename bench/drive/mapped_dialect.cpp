@@ -158,13 +158,13 @@ class MappedDialect final : public Dialect {
     bool there = !speaks_first;  // a target that only answers is silent before the run
     const std::int64_t settled_ns = link.now_ns() + start_.settle_us * 1000;
     const std::int64_t limit_ns = std::max(settled_ns, link.now_ns() + find_limit_ns);
-    while (link.now_ns() < settled_ns || !there || of_.presence() == Presence::absent) {
+    while (link.now_ns() < settled_ns || !there || absent()) {
       if (link.drain() == LinkState::down)
         return failure(fmt::format("bus '{}': gone before the run", link.port().name()));
       if (const auto why = gone()) return failure(fmt::format("{} before the run", *why));
       there = there || watch.heard();
       const std::int64_t now_ns = link.now_ns();
-      if (now_ns >= limit_ns && of_.presence() == Presence::joined) break;
+      if (now_ns >= limit_ns && joined()) break;
       if (now_ns >= limit_ns) return failure(complaint(link, strangers));
       link.wait_until(std::min(now_ns + poll_ns, limit_ns));
     }
@@ -174,8 +174,10 @@ class MappedDialect final : public Dialect {
   [[nodiscard]] std::int64_t silence_limit_ns() const override { return start_.silence_us * 1000; }
 
  private:
+  [[nodiscard]] bool absent() const { return of_.others && *of_.others == std::size_t{0}; }
+  [[nodiscard]] bool joined() const { return of_.others && *of_.others && !absent(); }
   [[nodiscard]] std::string complaint(const Link& link, const Strangers& strangers) const {
-    if (of_.presence() == Presence::absent)
+    if (absent())
       return fmt::format("target on '{}': its process has not joined the bus within 5 s", link.port().name());
     std::vector<std::string> names;
     for (const mapping::Hear& hear : conversation_.mapping.hears) {

@@ -82,7 +82,7 @@ class Session {
                                  .rounding = bus_.rounding,
                                  .format = options_.format,
                                  .wire = bus_.wire,
-                                 .presence = [this] { return presence(); }});
+                                 .others = options_.target ? others_ : nullptr});
     if (!dialect) return tl::unexpected(dialect.error());
     dialect_ = std::move(*dialect);
     const faults::Place where = place();
@@ -254,11 +254,6 @@ class Session {
     return load_.full_wire(ending_.t_us * 1000 + dialect_->silence_limit_ns(), bus_.wire.rates);
   }
 
-  [[nodiscard]] Presence presence() const {
-    if (!options_.target || !*others_) return Presence::unknown;
-    return **others_ == 0 ? Presence::absent : Presence::joined;
-  }
-
   // Ends the target's process. `ended_before`: how it ended before the bench stopped it; none: it did not.
   void end_target(const std::optional<std::string>& ended_before, std::vector<std::string>& notes) {
     if (!target_) return;
@@ -323,10 +318,9 @@ class Session {
 Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                    std::uint64_t run_index, Options options, const std::atomic<bool>& stop) {
   auto flight = make_flight(scenario, truth, run_index);
-  if (!flight) {
+  if (!flight)
     return Collected{.ending = {.kind = Ending::Kind::not_flown, .t_us = 0, .detail = flight.error().message},
                      .seen = {}};
-  }
   options.run_index = run_index;
   options.format = format_of(scenario);
   options.for_verdict = false;
@@ -335,9 +329,8 @@ Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const wor
   if (auto ready = (*session)->configure(stop); !ready) return tl::unexpected(ready.error());
   (*session)->drive(stop, [](std::int64_t) {});
   Collected flown = (*session)->collect();
-  // The device in process answers what it is asked; but the bench may have clipped a stimulus.
-  if (!options.target && flown.seen.clipped.empty()) return flown;
-  return judged_as_a_run(std::move(flown), scenario);
+  const bool judged = options.target || !flown.seen.clipped.empty();  // the device in process is right
+  return judged ? judged_as_a_run(std::move(flown), scenario) : std::move(flown);
 }
 
 }  // namespace
@@ -364,7 +357,6 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
   session.drive(stop, progress);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
   Collected flown = session.collect();
-
   std::string timing_unfit = session.timing_unfit(flown.seen);
   const ClockKind clock = session.clock();
   checks::Verdict verdict = verdict_of(scenario, *truth, flown, timing_unfit, session.target_wait());

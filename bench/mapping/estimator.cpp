@@ -143,6 +143,18 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
   return {std::move(end), std::move(delays)};
 }
 
+std::vector<std::string_view> closing_with(const checks::Observations& seen,
+                                           const quantities::Quantity& quantity) {
+  std::vector<std::string_view> messages;
+  for (const Hear& hear : seen.of<Answers>().mapping->hears) {
+    const bool has_it = std::ranges::any_of(hear.reported_signals, [&](const ReportedSignal& one) {
+      return one.quantity->quantity == &quantity && !one.sigma;
+    });
+    if (hear.answers && has_it) messages.push_back(hear.of.message->name);
+  }
+  return messages;
+}
+
 std::string without_truth(const scenario::Scenario& scenario, const quantities::Quantity& quantity) {
   return why_no_truth(reference_of(quantity), scenario);
 }
@@ -165,6 +177,7 @@ estimators::Estimator estimator_of(const Mapping& mapping) {
           .why_no_truth = without_truth,
           .ambiguous = ambiguous,
           .closing = mapping.closing,
+          .closing_with = closing_with,
           .freshness = freshness_of};
 }
 

@@ -134,9 +134,24 @@ class Redundant(own_ecu.Ecu):
         return super().receive(identifier, data)
 
 
+def serve(ecu, bus, status):
+    """Answers samples; sends the status only if `status` is set, and only after the first sample."""
+    due = time.monotonic()
+    while (received := bus.receive()) is not None:
+        answer = ecu.receive(*received[:2])
+        if answer is not None:
+            bus.send(own_ecu.ATTITUDE, answer)
+        if status and time.monotonic() >= due:
+            due = time.monotonic() + own_ecu.STATUS_S
+            bus.send(own_ecu.STATUS, bytes([1, 65]))
+
+
 DEFECTS = {"none": own_ecu.Ecu, "wrong_sign": WrongSign, "stale": Stale, "wrong_checksum": WrongChecksum,
            "frozen_counter": FrozenCounter, "slow": Slow, "silent": Silent, "zero": Zero, "late_heading": LateHeading,
            "round_late": RoundLate, "sparse": Sparse, "redundant": Redundant}
 
 if __name__ == "__main__":
+    if sys.argv[1] in ("answers_only", "status_after_sample"):
+        serve(own_ecu.Ecu(), open_bus(sys.argv[sys.argv.index("--bus") + 1]), sys.argv[1] == "status_after_sample")
+        sys.exit()
     own_ecu.serve(DEFECTS[sys.argv[1]](), open_bus(sys.argv[sys.argv.index("--bus") + 1]))

@@ -520,6 +520,29 @@ TEST_F(Altered, VirtualTimeNeedsAnswersThatSayWhatTheyAnswer) {
   expect_refused("own_ecu.mapping.toml", "echo = {", "#", "virtual time would not know when to go on");
 }
 
+// The process joins the bus long after the settling time, and its only message is the answer to a sample.
+TEST_F(Altered, ATargetThatStartsSlowlyIsAwaited) {
+  const std::string slow = scratch("slow_ecu.sh"), report = scratch("slow_ecu.json");
+  std::ofstream(slow) << "#!/bin/sh\nsleep 1\nexec /usr/bin/python3 " SOURCE_DIR
+                         "/tests/processes/mapping/defective_ecu.py answers_only \"$@\"\n";
+  ASSERT_EQ(shell("chmod +x " + slow).code, 0);
+  const Edit short_wait{"own_ecu.toml", "settle_s = 0.3", "settle_s = 0.01"};
+  const std::string status = "[[hear]]\nmessage = \"ECU_Status\"\n";
+  const Edit answers_only{"own_ecu.mapping.toml", status, ""};
+  const std::string own = read(folder + "/own_ecu.toml");
+  const std::size_t of_status = own.find("[[check]]\nkind = \"output_period\""),
+                    next = own.find("[[check]]\nkind = \"protection\"");
+  const Edit checks_of_answers{"own_ecu.toml", own.substr(of_status, next - of_status), ""};
+  const Ended ended = run_edited({short_wait, answers_only, checks_of_answers}, "--target " + slow,
+                                 "--lockstep --json " + report);
+  EXPECT_EQ(ended.code, 3) << ended.err << ended.out;
+  EXPECT_THAT(checks(read_json(report), "fail"), testing::IsEmpty()) << ended.out;
+  // The status of this ECU comes only after the first sample: so it is silent until the run begins.
+  const Ended silent = run_edited({short_wait}, in_python("status_after_sample"), "--json " + report);
+  EXPECT_NE(silent.code, 2) << silent.err;
+  EXPECT_EQ(read_json(report)["ending"]["completed"], true) << silent.out;
+}
+
 TEST(OwnEcu, ThatIsNotThereIsNamed) {
   const Ended ended = hil_bench(fmt::format("run {} --target none --bus local:{}", own_ecu,
                                             fs::path(scratch("x")).parent_path().filename().string()));
