@@ -28,6 +28,7 @@ Endings endings_of(const Variant& variant, const Runs& runs) {
     if (run.ending.kind == drive::Ending::Kind::wrong_answers ||
         run.ending.kind == drive::Ending::Kind::wrong_end)
       ++endings.wrong;
+    if (run.ending.kind == drive::Ending::Kind::not_measured) ++endings.not_measured;
     if (run.ending.kind == drive::Ending::Kind::completed) {
       ++endings.completed;
       if (!finite(run.samples)) ++endings.not_finite;
@@ -71,6 +72,9 @@ std::string Evaluation::not_judged() const {
   // In comparisons, a variant without completed runs counts as the worst one, so the other variants may pass.
   // Therefore at least one metric with a limit must judge the variant that has no completed runs.
   for (const Endings& one : endings) {
+    if (one.not_measured > 0)
+      return fmt::format("variant '{}': {} of {} runs were not measured ({})", one.variant, one.not_measured,
+                         one.runs, one.first_fault);
     if (one.completed == 0 && !judged(&one.variant))
       return fmt::format(
           "variant '{}' was not judged: none of its runs was completed ({}), and it has no limit",

@@ -19,8 +19,9 @@ struct Endings {
   std::size_t completed = 0;
   std::size_t wrong =
       0;  ///< runs to their end that fail whatever the metrics say, for example by wrong causes
-  std::size_t not_finite = 0;  ///< completed runs with values that are not finite
-  std::string first_fault;     ///< for example "run 17: ..."; empty: all runs were completed
+  std::size_t not_measured = 0;  ///< runs to their end that the bench could not judge
+  std::size_t not_finite = 0;    ///< completed runs with values that are not finite
+  std::string first_fault;       ///< for example "run 17: ..."; empty: all runs were completed
 };
 
 struct Evaluation {

@@ -22,10 +22,13 @@ std::string_view label(const Answer& answer) {
 std::string_view verdict(const Evaluation& evaluation) { return checks::name(evaluation.outcome()); }
 
 ordered_json json_of(const Endings& endings) {
-  ordered_json json{
-      {"name", endings.variant},        {"runs", endings.runs},
-      {"completed", endings.completed}, {"ended_early", endings.runs - endings.completed - endings.wrong},
-      {"wrong_answers", endings.wrong}, {"not_finite", endings.not_finite}};
+  ordered_json json{{"name", endings.variant},
+                    {"runs", endings.runs},
+                    {"completed", endings.completed},
+                    {"ended_early", endings.runs - endings.completed - endings.wrong - endings.not_measured},
+                    {"wrong_answers", endings.wrong},
+                    {"not_measured", endings.not_measured},
+                    {"not_finite", endings.not_finite}};
   if (!endings.first_fault.empty()) json["first_fault"] = endings.first_fault;
   return json;
 }
@@ -70,6 +73,7 @@ std::string text(const Campaign& campaign, const Evaluation& evaluation) {
     page += fmt::format("  {:<{}}  {} of {} runs completed", endings.variant, width, endings.completed,
                         endings.runs);
     if (endings.wrong > 0) page += fmt::format(", {} with wrong answers", endings.wrong);
+    if (endings.not_measured > 0) page += fmt::format(", {} not measured", endings.not_measured);
     if (endings.not_finite > 0)
       page += fmt::format(", {} with values that are not finite", endings.not_finite);
     if (!endings.first_fault.empty()) page += fmt::format("; {}", one_line(endings.first_fault));

@@ -21,11 +21,13 @@ struct Ending {
     bus_down,
     interrupted,
     not_flown,
-    target_ended,  ///< the process of the target ended during the flight
-    wrong_end,     ///< the flight was completed, but the process of the target did not end as it should
-    wrong_answers  ///< only in a campaign: the flight was completed, but a check of every run failed
+    target_ended,   ///< the process of the target ended during the flight
+    wrong_end,      ///< the flight was completed, but the process of the target did not end as it should
+    wrong_answers,  ///< only in a campaign: the flight was completed, but a check of every run failed
+    not_measured    ///< only in a campaign: the flight was completed, but the bench could not judge it, for
+                    ///< example because it clipped a stimulus or because of a second target
   };
-  static constexpr Kind last_kind = Kind::wrong_answers;
+  static constexpr Kind last_kind = Kind::not_measured;
   Kind kind = Kind::completed;
   std::int64_t t_us = 0;  ///< bench time of the end, or the time since which the target was silent
   std::string detail;     ///< one line for people; empty when completed

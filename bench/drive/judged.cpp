@@ -38,7 +38,7 @@ Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario) {
   // A flight whose stimuli the bench clipped is impossible, whatever the target answered.
   const bool fails = flown.seen.clipped.empty() &&
                      checks::outcome_of(found, &checks::CheckResult::outcome) == checks::Outcome::fail;
-  flown.ending.kind = fails ? Ending::Kind::wrong_answers : Ending::Kind::not_flown;
+  flown.ending.kind = fails ? Ending::Kind::wrong_answers : Ending::Kind::not_measured;
   for (const checks::CheckResult& check : found) {
     flown.ending.detail +=
         fmt::format("{}{}: {}", flown.ending.detail.empty() ? "" : "; ", check.kind, check.measured);

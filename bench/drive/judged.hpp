@@ -12,7 +12,7 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
                                const scenario::Scenario& scenario);
 
 /// A completed run of a campaign, judged by the checks of every run. If one fails, the ending is
-/// `wrong_answers`. If one is not measured, or if the bench clipped a stimulus, the ending is `not_flown`.
+/// `wrong_answers`. If one is not measured, or if the bench clipped a stimulus, the ending is `not_measured`.
 /// The ending says why.
 Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario);
 

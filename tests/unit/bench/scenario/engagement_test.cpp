@@ -3,8 +3,8 @@
 
 #include "bench/checks/kinds/error.hpp"
 #include "bench/estimators/los_rate/miss_distance.hpp"
-#include "bench/sensors/seeker.hpp"
 #include "bench/quantities/quantity.hpp"
+#include "bench/sensors/seeker.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 

@@ -4,9 +4,9 @@
 #include "bench/checks/kinds/answers.hpp"
 #include "bench/checks/kinds/consistency.hpp"
 #include "bench/checks/kinds/error.hpp"
+#include "bench/quantities/quantity.hpp"
 #include "bench/sensors/fins.hpp"
 #include "bench/sensors/glider_nav.hpp"
-#include "bench/quantities/quantity.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 
