@@ -21,6 +21,13 @@
 namespace canhil::reference {
 namespace {
 
+// A target with a DBC of its own, of which nothing is known.
+struct AnyForeign final : scenario::Foreign {
+  [[nodiscard]] const protection::Protection* protection_of(std::size_t /*message*/) const override {
+    return nullptr;
+  }
+};
+
 using scenario::Section;
 
 constexpr std::int64_t longest_run_us = 86'400'000'000;
@@ -65,7 +72,7 @@ std::vector<AskedKey> keys_of_file(const scenario::DbcVocabulary& contract) {
 Part target_part(const scenario::DbcVocabulary& contract) {
   const auto keys = keys_of([&](Section& root) { scenario::read_targets(root, contract); });
   scenario::DbcVocabulary mapped = contract;
-  mapped.foreign = std::make_shared<const scenario::Foreign>();
+  mapped.foreign = std::make_shared<const AnyForeign>();
   const auto own = keys_of([&](Section& root) { scenario::read_targets(root, mapped); });
   Part part{
       .title = "The target",
@@ -193,7 +200,7 @@ Part faults_part(const scenario::DbcVocabulary& contract) {
 
 Part checks_part(const scenario::DbcVocabulary& contract) {
   scenario::DbcVocabulary mapped = contract;
-  mapped.foreign = std::make_shared<const scenario::Foreign>();
+  mapped.foreign = std::make_shared<const AnyForeign>();
   const std::vector<scenario::FaultWindow> faults{{.name = "NAME", .window = {.from_us = 0, .to_us = 1}}};
   const auto context_of = [&](const scenario::DbcVocabulary& by) {
     return scenario::CheckContext{
