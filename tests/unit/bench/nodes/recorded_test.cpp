@@ -27,10 +27,10 @@ constexpr std::int64_t second_us = 1'000'000;
 
 world::FlightRecord one_second() { return {{.start = {}, .motion = world::Rest{}}, second_us, 10'000}; }
 
-Result<RecordedSamples> samples_of(const Kind& kind, const std::string& csv, std::int64_t period_us = 10'000,
-                                   std::int64_t gap_us = 200'000) {
-  return read_table(csv, "x.csv", columns_of(kind.table)).and_then([&](const scenario::Table& rows) {
-    return read_samples(kind.table, rows, 0, gap_us, period_us, second_us);
+Result<RecordedSamples> samples_of(const sensors::Kind& sensor, const std::string& csv,
+                                   std::int64_t period_us = 10'000, std::int64_t gap_us = 200'000) {
+  return read_table(csv, "x.csv", columns_of(bound(sensor).table)).and_then([&](const scenario::Table& rows) {
+    return read_samples(bound(sensor).table, rows, 0, gap_us, period_us, second_us);
   });
 }
 
@@ -49,12 +49,13 @@ std::vector<Frame> sent(Node& node, std::vector<std::int64_t>* due = nullptr) {
   return frames;
 }
 
-std::vector<Frame> sent(const Kind& kind, RecordedSamples samples, std::vector<std::int64_t>* due = nullptr) {
+std::vector<Frame> sent(const sensors::Kind& sensor, RecordedSamples samples,
+                        std::vector<std::int64_t>* due = nullptr) {
   const world::FlightRecord flight = one_second();
   static const scenario::Scenario any;
   const RecordedSettings own{.recorded_from = "x.csv",
                              .samples = std::make_shared<const RecordedSamples>(std::move(samples))};
-  const auto node = make_samples({kind.table, own}, {.scenario = any, .flight = flight});
+  const auto node = make_samples({bound(sensor).table, own}, {.scenario = any, .flight = flight});
   return sent(*node, due);
 }
 
@@ -169,7 +170,7 @@ class Log {
   Result<LoggedGroup> read(std::int64_t end_us) const {
     const std::string path = test::own_folder() + "/recorded_nodes.log";
     std::ofstream(path) << text_;
-    return read_frames(slave_imu.table, path, end_us).map_error([&](const Error& error) {
+    return read_frames(bound(slave_imu).table, path, end_us).map_error([&](const Error& error) {
       return Error{error.message.substr(error.message.find("recorded_nodes"))};
     });
   }
