@@ -36,9 +36,10 @@ void MeasuredValue::put(Frame& frame, double value, double interval_s, nodes::Cl
   const SignalInfo& signal = *of_.signal;
   const double wanted = value * (of_.rate ? interval_s : 1) / of_.factor;
   const double step = frame.unrounded ? 0 : wire::lsb(signal);
-  // Angles are wrapped when they are packed. A frame that is not rounded is not sent: a mapping packs its
-  // values.
-  if (!frame.unrounded && !wire::turns(signal)) clipped.check(*of_.message, signal, wanted);
+  // Angles are wrapped when they are packed, and a wrong time is no measurement. A frame that is not rounded
+  // is not sent: a mapping packs its values.
+  if (!frame.unrounded && !wire::turns(signal) && !is_time(signal.name))
+    clipped.check(*of_.message, signal, wanted);
   set(frame, signal.name,
       signal.carries_remainder ? nodes::round_increment(wanted, step, signal, remainder_) : wanted);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <deque>
 
@@ -15,12 +16,17 @@ constexpr std::array<std::string_view, 9> values{
     "antenna_increment_roll", "antenna_increment_pitch", "antenna_increment_yaw", "error_pitch", "error_yaw",
     "missile_acceleration_y", "missile_acceleration_z",  "closing_speed",         "range"};
 constexpr std::array<std::string_view, 5> flags{"antenna", "error", "acceleration", "closing_speed", "range"};
+// The detector saturates at this error angle [rad], which is beyond the largest field of view (37 deg). Near
+// the flight target, noise may exceed it.
+constexpr double largest_error = 0.655;
 constexpr std::uint32_t error_flag = 1U << 1U, closing_speed_flag = 1U << 3U, range_flag = 1U << 4U;
 
 constexpr std::array<scenario::Increment, 3> increments{
     {{"antenna_increment_roll_rad", "antenna_rate_roll_radps", "seeker.antenna_rate.roll"},
      {"antenna_increment_pitch_rad", "antenna_rate_pitch_radps", "seeker.antenna_rate.pitch"},
      {"antenna_increment_yaw_rad", "antenna_rate_yaw_radps", "seeker.antenna_rate.yaw"}}};
+
+double detected(double error) { return std::clamp(error, -largest_error, largest_error); }
 
 // Reads two keys. `key` is the constant part of an error. `sigma_key` is the sigma of a further part, which
 // is drawn for each run; its name is that of `key` with _sigma before the unit.
@@ -186,7 +192,7 @@ Sample Seeker::sampled(const world::SeekerMeasurement& measured) {
           .stamp_us = measured.t_us,
           .interval_us = measured.interval_us,
           .values = {measured.antenna.x(), measured.antenna.y(), measured.antenna.z(),
-                     seen ? measured.error.pitch : 0, seen ? measured.error.yaw : 0,
+                     seen ? detected(measured.error.pitch) : 0, seen ? detected(measured.error.yaw) : 0,
                      measured.missile_acceleration.yaw, measured.missile_acceleration.pitch,
                      range_invalid ? 0 : measured.closing_speed, range_invalid ? 0 : measured.range},
           .invalid = (seen ? 0 : error_flag) | (range_invalid ? closing_speed_flag | range_flag : 0),

@@ -156,8 +156,7 @@ TEST_F(Commands, AreRefusedOnRequest) {
   fs::create_directories(suites + "/own");
   std::ofstream(suites + "/own/suite.toml")
       << "title = \"own ECU\"\nestimator = \"several\"\n[[requirement]]\nid = \"SE-A1\"\nfamily = "
-         "\"algorithms\"\ntext = \"It flies.\"\n[[flight]]\nname = \"own\"\nscenario = "
-         "\"../../flight.toml\"\nrequirement = \"SE-A1\"\n";
+         "\"errors\"\ntext = \"It flies.\"\n[[campaign]]\nfile = \"../../campaign.toml\"\n";
   for (const std::string& command :
        {fmt::format("run {} --lockstep {}", flight, ecu_),
         fmt::format("campaign {} --threads 1 --out {} {}", campaign, folder_, ecu_),
