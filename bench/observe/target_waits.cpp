@@ -5,76 +5,102 @@
 #include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <string_view>
 #include <utility>
 
 namespace canhil::observe {
 namespace {
 
-// The whole numbers in a file of the kernel. The file is read anew at each look, so streams would be too
-// slow.
-std::vector<std::int64_t> numbers_in(const char* path) {
-  std::vector<std::int64_t> numbers;
-  std::array<char, 4096> text{};
+// The files are read anew at each look, while the run goes on. Therefore this code does not allocate memory:
+// a page fault would delay the bench.
+using Buffer = std::array<char, 4096>;
+
+// The text of a file of the kernel, or the entries of a folder; empty: it cannot be read.
+std::string_view content_of(const char* path, Buffer& buffer, bool folder) {
   const int file = open(path, O_RDONLY | O_CLOEXEC);
-  if (file < 0) return numbers;
-  const ssize_t size = read(file, text.data(), text.size());
+  if (file < 0) return {};
+  const auto size = folder ? syscall(SYS_getdents64, file, buffer.data(), buffer.size())
+                           : read(file, buffer.data(), buffer.size());
   close(file);
-  const char* const end = text.data() + std::max<ssize_t>(size, 0);
-  for (const char* at = text.data(); at < end;) {
+  return {buffer.data(), static_cast<std::size_t>(std::max<long>(size, 0))};
+}
+
+// Calls take() for each whole number in a text.
+template <class Take>
+void each_number(std::string_view text, Take take) {
+  for (const char *at = text.data(), *const end = at + text.size(); at < end;) {
     std::int64_t number = 0;
     const auto [next, error] = std::from_chars(at, end, number);
-    if (error == std::errc{}) numbers.push_back(number);
+    if (error == std::errc{}) take(number);
     at = error == std::errc{} ? next : at + 1;
   }
-  return numbers;
+}
+
+// Calls take() with the id of each thread of a process. A process with more threads than a buffer has entries
+// (over a hundred) is looked at in part.
+template <class Take>
+void each_thread(pid_t process, Take take) {
+  std::array<char, 64> path{};
+  *fmt::format_to_n(path.data(), path.size() - 1, "/proc/{}/task", process).out = 0;
+  Buffer buffer{};
+  const std::string_view entries = content_of(path.data(), buffer, true);
+  for (std::size_t at = 0; at < entries.size();) {
+    dirent64 entry{};
+    std::memcpy(&entry, entries.data() + at,
+                std::min<std::size_t>(sizeof entry, entries.size() - at));  // entries have various lengths
+    if (const int thread = std::atoi(entry.d_name); thread > 0) take(static_cast<pid_t>(thread));
+    at += entry.d_reclen;
+  }
 }
 
 void add_threads_of(pid_t process, std::vector<ThreadTimes>& all) {
-  DIR* threads = opendir(fmt::format("/proc/{}/task", process).c_str());
-  if (threads == nullptr) return;
-  std::vector<pid_t> children;
-  while (const dirent* entry = readdir(threads)) {
-    const int thread = std::atoi(entry->d_name);
-    if (thread == 0) continue;  // . and ..
-    const auto path = [&](std::string_view name) {
-      return fmt::format("/proc/{}/task/{}/{}", process, thread, name);
+  each_thread(process, [&](pid_t thread) {
+    std::array<char, 64> path{};
+    Buffer buffer{};
+    const auto read_file = [&](std::string_view name) {
+      *fmt::format_to_n(path.data(), path.size() - 1, "/proc/{}/task/{}/{}", process, thread, name).out = 0;
+      return content_of(path.data(), buffer, false);
     };
-    if (const auto times = numbers_in(path("schedstat").c_str()); times.size() >= 2)
-      all.push_back({.thread = thread, .run_ns = times[0], .wait_ns = times[1]});
-    for (const std::int64_t child : numbers_in(path("children").c_str()))
-      children.push_back(static_cast<pid_t>(child));
-  }
-  closedir(threads);
-  for (const pid_t child : children) add_threads_of(child, all);
+    ThreadTimes times{.thread = thread};
+    int found = 0;
+    each_number(read_file("schedstat"), [&](std::int64_t number) {
+      if (found == 0) times.run_ns = number;
+      if (found == 1) times.wait_ns = number;
+      ++found;
+    });
+    if (found >= 2) all.push_back(times);
+    each_number(read_file("children"),
+                [&](std::int64_t child) { add_threads_of(static_cast<pid_t>(child), all); });
+  });
 }
 
 }  // namespace
 
-std::vector<ThreadTimes> thread_times(pid_t process) {
-  std::vector<ThreadTimes> all;
-  add_threads_of(process, all);
-  return all;
+void read_thread_times(pid_t process, std::vector<ThreadTimes>& times) {
+  times.clear();
+  add_threads_of(process, times);
 }
 
 std::int64_t waited_for_others_ns(std::span<const ThreadTimes> before, std::span<const ThreadTimes> now) {
-  std::vector<ThreadTimes> passed;
-  std::int64_t all_ran_ns = 0;
-  for (const ThreadTimes& one : now) {
+  const auto since_before = [&](const ThreadTimes& one) {
     const auto earlier = std::ranges::find(before, one.thread, &ThreadTimes::thread);
     const ThreadTimes from = earlier == before.end() ? ThreadTimes{} : *earlier;
-    passed.push_back({.run_ns = one.run_ns - from.run_ns, .wait_ns = one.wait_ns - from.wait_ns});
-    all_ran_ns += passed.back().run_ns;
+    return ThreadTimes{.run_ns = one.run_ns - from.run_ns, .wait_ns = one.wait_ns - from.wait_ns};
+  };
+  std::int64_t all_ran_ns = 0, longest_ns = 0;
+  for (const ThreadTimes& one : now) all_ran_ns += since_before(one).run_ns;
+  for (const ThreadTimes& one : now) {
+    const ThreadTimes passed = since_before(one);
+    longest_ns = std::max(longest_ns, passed.wait_ns - (all_ran_ns - passed.run_ns));
   }
-  std::int64_t longest_ns = 0;
-  for (const ThreadTimes& one : passed)
-    longest_ns = std::max(longest_ns, one.wait_ns - (all_ran_ns - one.run_ns));
   return longest_ns;
 }
 
@@ -89,18 +115,22 @@ void TargetWaits::look(const std::stop_token& stop) {
   const sched_param ordinary{};  // the priority is for the thread that sends
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
   auto then = steady_clock::now();
-  std::vector<ThreadTimes> before = thread_times(process_);
+  constexpr std::size_t usual_threads = 64;
+  std::vector<ThreadTimes> before, times;
+  before.reserve(usual_threads);
+  times.reserve(usual_threads);
+  read_thread_times(process_, before);
   while (!stop.stop_requested()) {
     std::this_thread::sleep_until(then + period);
     const auto now = steady_clock::now();
-    std::vector<ThreadTimes> times = thread_times(process_);
+    read_thread_times(process_, times);
     if (!times.empty() && !before.empty()) {
       const std::chrono::nanoseconds waited(waited_for_others_ns(before, times));
       const auto periods = std::max<std::chrono::nanoseconds>(now - then, waited) / period;
       waits_.add(waited.count(), static_cast<std::uint64_t>(std::max<std::int64_t>(periods, 1)));
     }
     then = now;
-    before = std::move(times);
+    before.swap(times);
   }
 }
 

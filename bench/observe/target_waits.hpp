@@ -22,9 +22,9 @@ struct ThreadTimes {
   std::int64_t wait_ns = 0;  ///< the thread was ready to run but had no CPU
 };
 
-/// The times of all threads of a process and of the processes that it started. Empty: the kernel does not
-/// report them, or the process has ended.
-std::vector<ThreadTimes> thread_times(pid_t process);
+/// Reads the times of all threads of a process and of the processes that it started. Empty: the kernel does
+/// not report them, or the process has ended.
+void read_thread_times(pid_t process, std::vector<ThreadTimes>& times);
 
 /// The longest wait of one thread from the times `before` to the times `now`, without the time in which the
 /// other threads ran. So a wait for another thread of the target does not count: it is the target's own
