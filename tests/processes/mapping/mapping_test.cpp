@@ -91,7 +91,10 @@ TEST_P(DefectiveEcu, IsCaughtByTheCheckThatItIsFor) {
   } else {  // the host delayed the bench, so the bench could not judge the latency of the slow ECU
     EXPECT_THAT(checks(seen, "not measured"), testing::Contains(HasSubstr(GetParam().caught_by)))
         << ended.out;
-    EXPECT_THAT(ended.out, HasSubstr("this host kept the bench itself")) << ended.out;
+    EXPECT_THAT(ended.out, testing::AnyOf(HasSubstr("this host kept the bench itself"),
+                                          HasSubstr("no CPU was free for the bench"),
+                                          HasSubstr("other programs kept the target waiting")))
+        << ended.out;
   }
 }
 
