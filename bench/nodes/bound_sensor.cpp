@@ -34,9 +34,9 @@ double carried(const SignalInfo& signal, Slot& slot, const Sample& sample, Trans
       break;
   }
   const double value = sample.values[slot.index] / slot.factor;
-  if (slot.turns) return std::remainder(value, 360);
+  if (slot.turns) return std::abs(value) <= 180 ? value : std::remainder(value, 360);
   if (!signal.carries_remainder) return value;
-  out.clipped().check(Message::info, signal, value);
+  if (value < signal.minimum || value > signal.maximum) out.clipped().check(Message::info, signal, value);
   return round_increment(value, out.rounding() == Rounding::none ? 0 : wire::lsb(signal), signal,
                          slot.remainder);
 }
