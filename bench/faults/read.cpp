@@ -53,8 +53,10 @@ std::vector<const MessageInfo*> messages_by_name(Section& section, const FaultCo
   std::vector<const MessageInfo*> all;
   std::vector<std::string> sent;
   for (const MessageInfo& message : messages_of(context)) {
-    if (context.contract.foreign != nullptr || is_sample_of_a_node(message, context))
-      sent.emplace_back(message.name);
+    const bool is_sent = context.contract.foreign != nullptr
+                             ? message.sender != messages::TargetHeartbeat::info.sender
+                             : is_sample_of_a_node(message, context);
+    if (is_sent) sent.emplace_back(message.name);
   }
   for (const std::string& name :
        section.some_of({"messages", "Names of the messages that the fault affects."}, sent))

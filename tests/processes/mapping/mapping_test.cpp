@@ -470,6 +470,9 @@ TEST_F(Altered, FaultsAffectWhatIsPlayed) {
     EXPECT_THAT(ended.out, HasSubstr("answers 1080  (expected answers >= 1190"))
         << "the ECU drops what is damaged";
   }
+  expect_refused("own_ecu.toml", "[[check]]",
+                 "[[fault]]\nkind = \"lost\"\nmessages = [\"ECU_Attitude\"]\n[[check]]",
+                 "'ECU_Attitude' is unknown, expected one of: IMU_TX1, IMU_TX2, IMU_TX3");
   expect_refused(
       "own_ecu.toml", "[[check]]",
       "[[fault]]\nkind = \"changed\"\nsignal = \"x\"\nvalue = 1\nmessages = [\"IMU_TX1\"]\n[[check]]",
