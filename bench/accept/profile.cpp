@@ -4,7 +4,6 @@
 
 #include "bench/observe/values.hpp"
 #include "dbc/wire/message.hpp"
-#include "dbc/wire/turns.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::accept {
@@ -18,10 +17,15 @@ bool of_the_program(const SignalInfo& signal) {
   return signal.name.starts_with("version_") || signal.name == "dbc_hash";
 }
 
+// A direction: from -180 to 180 deg, or from 0 to 360 deg.
+bool comes_round(const SignalInfo& signal) {
+  return signal.unit == "deg" && signal.maximum - signal.minimum == full_turn_deg;
+}
+
 }  // namespace
 
 double distance(const SignalInfo& signal, double a, double b) {
-  return wire::turns(signal) ? std::abs(std::remainder(a - b, full_turn_deg)) : std::abs(a - b);
+  return comes_round(signal) ? std::abs(std::remainder(a - b, full_turn_deg)) : std::abs(a - b);
 }
 
 double Series::mean(std::size_t signal) const {
@@ -29,7 +33,7 @@ double Series::mean(std::size_t signal) const {
   for (std::size_t i = 0; i < size(); ++i) {
     // Angles are unwrapped relative to the first angle, because headings near south jump between +-180 deg.
     const double first = value(0, signal), now = value(i, signal);
-    sum += wire::turns(*signals[signal]) ? first + std::remainder(now - first, full_turn_deg) : now;
+    sum += comes_round(*signals[signal]) ? first + std::remainder(now - first, full_turn_deg) : now;
   }
   return size() == 0 ? 0 : sum / static_cast<double>(size());
 }

@@ -61,8 +61,8 @@ Finding unless_target_waited(const Evidence& evidence, double quantile, double b
   finding.outcome = Outcome::not_measured;
   finding.measured = fmt::format(
       "{}; on this host other programs kept the target waiting for a CPU for {:.2f} ms ({}), more than {:g} "
-      "% of "
-      "the limit",
+      "% "
+      "of the limit",
       finding.measured, waited_s * 1e3, quantile_name(quantile), lateness_share * 100);
   return finding;
 }

@@ -15,7 +15,8 @@ std::optional<Passing::Whole> Passing::take(const Frame& frame) {
     Passed& passed = passed_[play];
     if (passed.valid_us != sent.valid_us) {
       auto& in_part = in_part_[play];
-      if (passed.frames.size() % sent.frames.size() != 0) in_part.push_back(std::move(passed));
+      const bool is_part = !passed.frames.empty() && passed.frames.size() < sent.frames.size();
+      if (is_part) in_part.push_back(std::move(passed));
       if (in_part.size() > Conversation::remembered) in_part.pop_front();
       passed = {.valid_us = sent.valid_us, .frames = {}};
     }

@@ -142,12 +142,11 @@ Pairing::Give Listener::settler(const Hear& hear) {
 void Listener::settle(const Hear& hear, const Paired& paired) {
   const std::size_t index = hear.of.index;
   stopwatch_.arrived(index, paired.answer);
-  if (!paired.owed) {
-    // The answer has no latency, because its stimulus was never complete.
-  } else if (paired.certain) {
+  // The answer to a stimulus that was never complete has no latency.
+  if (paired.owed && paired.certain) {
     stopwatch_.answered({&index, 1}, conversation_.mapping.groups[*hear.answers],
                         paired.cause_us.value_or(-1));
-  } else {
+  } else if (paired.owed) {
     OwnPairing& own = pairing_of(hear);
     if (own.uncertain++ == 0) own.apart_us = paired.apart_us;
     own.apart_us = std::min(own.apart_us, paired.apart_us);

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bench/accept/profile.hpp"
+#include "bench/observe/values.hpp"
 #include "dbc/wire/transmit.hpp"
 #include "tests/own_folder.hpp"
 
@@ -151,6 +153,16 @@ TEST(Difference, IsOfTwoFlightsThatAreToAgree) {
   EXPECT_THAT(difference(a.answers, b.answers, 1, 0), HasSubstr("AlignAttitude.heading_deg at t="));
   EXPECT_THAT(difference(a.answers, c.answers, 3, 0), HasSubstr("AlignAttitude.coasting"));
   EXPECT_THAT(difference(a.answers, Flown().answers, 3, 0), HasSubstr("100 answers in one, 0 in the other"));
+}
+
+// Headings run from -180 to 180 deg, the direction of the wind from 0 to 360 deg.
+TEST(Distance, OfDirectionsIsTheShorterWayRound) {
+  const auto between = [](const MessageInfo& message, std::string_view name, double a, double b) {
+    return distance(*observe::signal_of(message, name), a, b);
+  };
+  EXPECT_NEAR(between(AlignAttitude::info, "heading_deg", -179.5, 179.5), 1, 1e-9);
+  EXPECT_NEAR(between(messages::WindSpeed::info, "wind_from_deg", 0.5, 359.5), 1, 1e-9);
+  EXPECT_NEAR(between(messages::FinDeflections::info, "elevator_deg", -40, 40), 80, 1e-9);
 }
 
 }  // namespace
