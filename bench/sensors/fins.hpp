@@ -1,4 +1,4 @@
-// The fin actuators of the glider. Sends FinDeflections: the deflections and their time.
+// The fin actuators of the glider: the deflections.
 #pragma once
 
 #include "bench/scenario/schedule.hpp"
@@ -9,7 +9,7 @@ namespace canhil::sensors {
 /// The table [fins].
 struct FinsSettings {
   scenario::Schedule schedule{};
-  std::int64_t stamp_error_us = 0;  ///< a fault: the sent minus the correct time of validity
+  std::int64_t stamp_error_us = 0;  ///< a fault: the reported minus the correct time of validity
   SampleLoss loss{};
 };
 

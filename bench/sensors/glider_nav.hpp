@@ -1,4 +1,4 @@
-// The GPS/INS of the glider. Sends the group GliderNav: ground velocity, attitude, rates and height.
+// The GPS/INS of the glider: ground velocity, attitude, rates and height.
 #pragma once
 
 #include "bench/scenario/schedule.hpp"

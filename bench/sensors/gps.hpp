@@ -1,4 +1,4 @@
-// The vehicle's GPS receiver. Sends the group Gps; under water it reports no fix.
+// The vehicle's GPS receiver: positions; under water it reports no fix.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The carrier's INS. Sends the group MasterIns: the truth with the errors of a navigation system.
+// The carrier's INS: the truth with the errors of a navigation system.
 #pragma once
 
 #include "bench/scenario/schedule.hpp"

@@ -1,5 +1,5 @@
-// The missile's seeker and guidance computer; the guidance can use the target's answers. Sends the group
-// Seeker until the closest approach and records the flight.
+// The missile's seeker, until the closest approach, and the guidance computer, which can use the target's
+// answers. Records the flight.
 #pragma once
 
 #include <optional>

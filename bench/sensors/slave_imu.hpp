@@ -1,5 +1,5 @@
-// The IMU of the weapon to be aligned. Sends the group SlaveImu at every epoch of the flight record: exact
-// increments plus sensor errors, rounded to the resolution of the bus.
+// The IMU of the weapon to be aligned: at every epoch of the flight record, the exact increments plus the
+// errors of the sensor.
 #pragma once
 
 #include "bench/scenario/schedule.hpp"

@@ -1,5 +1,5 @@
-// Acoustic positioning from a moving reference ship. Sends the group Ssbl: the vehicle's position relative to
-// the ship, and the ship's reported position.
+// Acoustic positioning from a moving reference ship: the vehicle's position relative to the ship, and the
+// ship's reported position.
 #pragma once
 
 #include "bench/scenario/schedule.hpp"
