@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "bench/mapping/stimuli.hpp"
 #include "bench/observe/values.hpp"
+#include "bench/sensors/measurands.hpp"
 #include "bench/world/hash.hpp"
 #include "messages/canhil.hpp"
 
@@ -141,10 +141,10 @@ const SignalInfo* draw_signal(const Kind& kind, const MessageInfo& message, Draw
 // Draws two quantities of the same unit. Returns false if the node has no such pair.
 bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   std::vector<std::pair<std::string, std::string>> pairs;
-  for (const mapping::Stimulus& one : mapping::stimuli()) {
-    for (const mapping::Stimulus& other : mapping::stimuli()) {
-      if (one.node == node && other.node == node && one.si == other.si && one.over == other.over &&
-          one.name < other.name)
+  for (const sensors::Measurand& one : sensors::measurands()) {
+    for (const sensors::Measurand& other : sensors::measurands()) {
+      if (one.sensor->key == node && other.sensor == one.sensor && one.si == other.si &&
+          one.over == other.over && one.name < other.name)
         pairs.emplace_back(one.name, other.name);
     }
   }

@@ -40,11 +40,18 @@ InRun Faults::in_run(std::size_t index) {
           .tally = tallies_[index]};
 }
 
-std::unique_ptr<nodes::Node> Faults::with_faults(std::unique_ptr<nodes::Node> node,
-                                                 const scenario::NodeSettings& settings) {
-  for (std::size_t i = 0; i < tallies_.size(); ++i)
-    node = scenario_.faults[i].rule->with_fault(std::move(node), settings, in_run(i));
-  return node;
+bool Faults::act_on(const scenario::NodeSettings& node) const {
+  return std::ranges::any_of(scenario_.faults,
+                             [&](const scenario::Fault& fault) { return fault.rule->acts_on(node.table()); });
+}
+
+std::unique_ptr<sensors::Sensor> Faults::with_faults(std::unique_ptr<sensors::Sensor> sensor,
+                                                     const scenario::NodeSettings& node) {
+  for (std::size_t i = 0; i < tallies_.size(); ++i) {
+    const auto& rule = scenario_.faults[i].rule;
+    if (rule->acts_on(node.table())) sensor = rule->with_fault(std::move(sensor), node, in_run(i));
+  }
+  return sensor;
 }
 
 std::vector<FaultReport> Faults::reports() const {

@@ -26,14 +26,15 @@ struct FaultReport {
 /// fault does not work with them.
 Result<void> check(std::span<const scenario::Fault> faults, const Place& place);
 
-class Faults final : public nodes::NodeFaults {
+class Faults final : public sensors::SensorFaults {
  public:
   /// `scenario`, `messages` (all messages of the bus) and `hands` must outlive this object.
   Faults(const scenario::Scenario& scenario, std::uint64_t run_index, std::span<const MessageInfo> messages,
          Place place = {}, RigControl* hands = nullptr);
 
-  std::unique_ptr<nodes::Node> with_faults(std::unique_ptr<nodes::Node> node,
-                                           const scenario::NodeSettings& settings) override;
+  [[nodiscard]] bool act_on(const scenario::NodeSettings& node) const override;
+  std::unique_ptr<sensors::Sensor> with_faults(std::unique_ptr<sensors::Sensor> sensor,
+                                               const scenario::NodeSettings& node) override;
   /// The injectors of the faults that act between nodes and bus or on the target, in the order of the
   /// scenario.
   [[nodiscard]] std::span<const std::unique_ptr<Injector>> injectors() const { return injectors_; }

@@ -7,8 +7,9 @@
 #include <array>
 #include <utility>
 
-#include "bench/observe/values.hpp"
+#include "bench/nodes/registry.hpp"
 #include "bench/scenario/foreign.hpp"
+#include "dbc/wire/turns.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::faults {
@@ -41,12 +42,29 @@ bool on_the_bus(const FaultContext& context, std::string_view node) {
                              [&](const scenario::NodeSettings& one) { return one.table().key == node; });
 }
 
+auto node_of(const MessageInfo& message, const FaultContext& context) {
+  return std::ranges::find_if(context.nodes, [&](const scenario::NodeSettings& node) {
+    return !message.sample_group.empty() && node.table().closes.sample_group == message.sample_group &&
+           node.table().closes.sender == message.sender;
+  });
+}
+
 bool is_sample_of_a_node(const MessageInfo& message, const FaultContext& context) {
-  return !message.sample_group.empty() &&
-         std::ranges::any_of(context.nodes, [&](const scenario::NodeSettings& node) {
-           return node.table().closes.sample_group == message.sample_group &&
-                  node.table().closes.sender == message.sender;
-         });
+  return node_of(message, context) != context.nodes.end();
+}
+
+const nodes::Kind& kind_of(const MessageInfo& message, const FaultContext& context) {
+  return nodes::kind_of(node_of(message, context)->table());
+}
+
+// What a signal carries, in the unit of the signal.
+Measured measured(const nodes::SampleSignal& signal, const nodes::Kind& kind) {
+  return {.sensor = kind.sensor,
+          .role = signal.role,
+          .index = signal.index,
+          .factor = signal.factor,
+          .turns = wire::turns(signal.info),
+          .name = std::string(signal.message->name)};
 }
 
 std::vector<const MessageInfo*> messages_by_name(Section& section, const FaultContext& context) {
@@ -111,21 +129,23 @@ OfMessages read_messages(Section& section, const FaultContext& context) {
   return of;
 }
 
-Measured measured(const mapping::Stimulus& stimulus) {
-  return {.message = stimulus.message,
-          .signal = observe::signal_of(*stimulus.message, stimulus.signal),
-          .factor = stimulus.factor,
-          .rate = stimulus.over == mapping::Over::rate,
-          .si = stimulus.si};
+const sensors::Kind& sensor_of(const scenario::NodeTable& table) { return *nodes::kind_of(table).sensor; }
+
+Measured measured(const sensors::Measurand& measurand) {
+  return {.sensor = measurand.sensor,
+          .index = measurand.index,
+          .turns = measurand.output().turns,
+          .rate = measurand.over == sensors::Over::rate,
+          .name = std::string(nodes::carrier(measurand).message->name)};
 }
 
-const mapping::Stimulus* read_quantity(Section& section, const FaultContext& context,
-                                       const scenario::Key& key) {
+const sensors::Measurand* read_quantity(Section& section, const FaultContext& context,
+                                        const scenario::Key& key) {
   std::vector<std::string> names;
-  for (const mapping::Stimulus& one : mapping::stimuli()) {
-    if (on_the_bus(context, one.node)) names.push_back(one.name);
+  for (const sensors::Measurand& one : sensors::measurands()) {
+    if (on_the_bus(context, one.sensor->key)) names.push_back(one.name);
   }
-  return mapping::find_stimulus(section.one_of(key, names));
+  return sensors::find_measurand(section.one_of(key, names));
 }
 
 OfValues read_values(Section& section, const FaultContext& context) {
@@ -133,14 +153,15 @@ OfValues read_values(Section& section, const FaultContext& context) {
   if (section.has("quantity")) {
     for (const std::string_view key : {"messages", "signal"})
       section.refuse(key, "is given beside quantity", "one of the two");
-    const mapping::Stimulus* stimulus =
+    const sensors::Measurand* measurand =
         read_quantity(section, context,
                       {"quantity",
                        "Measured quantity that the fault changes (faults.md). In place of this key, "
                        "`messages` and `signal` may be given."});
-    if (stimulus == nullptr) return of;
-    of.all.push_back(measured(*stimulus));
-    of.text = stimulus->name;
+    if (measurand == nullptr) return of;
+    of.all.push_back(measured(*measurand));
+    of.si = measurand->si;
+    of.text = measurand->name;
     return of;
   }
   section.optional("quantity");
@@ -158,18 +179,22 @@ OfValues read_values(Section& section, const FaultContext& context) {
                      "another kind, or a quantity");
       continue;
     }
-    const SignalInfo* signal = observe::signal_of(*message, name);
-    if (signal == nullptr)
+    const nodes::SampleSignal* signal = nodes::carried(kind_of(*message, context), *message, name);
+    if (signal == nullptr) {
       section.reject("signal", fmt::format("{} has no signal '{}'", message->name, name), "one that it has");
-    else
-      of.all.push_back({.message = message, .signal = signal});
+      continue;
+    }
+    of.all.push_back(measured(*signal, kind_of(*message, context)));
+    of.ranges.push_back({.signal = fmt::format("{} of {}", name, message->name),
+                         .lowest = signal->info.minimum,
+                         .highest = signal->info.maximum});
   }
   return of;
 }
 
 double read_size(Section& section, std::string_view stem, std::string_view meaning, const OfValues& of,
                  scenario::Limits limits) {
-  const std::string_view si = of.all.empty() ? "" : of.all.front().si;
+  const std::string_view si = of.si;
   const std::vector<std::string> keys = keys_of(stem, si);
   std::string given;
   for (const std::string& key : keys) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/mapping/stimuli.hpp"
+#include "bench/faults/measured.hpp"
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/faults.hpp"
 #include "bench/scenario/node.hpp"
@@ -28,26 +28,16 @@ OfMessages read_messages(scenario::Section& section, const scenario::FaultContex
 /// error.
 const scenario::NodeTable* read_node(scenario::Section& section, const scenario::FaultContext& context);
 
-/// A measured value of a node.
-struct Measured {
-  const MessageInfo* message = nullptr;
-  const SignalInfo* signal = nullptr;
-  double factor = 1;      ///< converts the signal's unit to the value's unit
-  bool rate = false;      ///< the value is the signal divided by the interval of its sample
-  std::string_view si{};  ///< unit of the value; empty: the unit of the signal
-};
-struct OfValues {
-  std::vector<Measured> all{};
-  std::string text{};
-};
 /// Reads the key `quantity`, or the keys `messages` and `signal`.
 OfValues read_values(scenario::Section& section, const scenario::FaultContext& context);
 /// Reads a key whose value is the name of a quantity. Null: the quantity is unknown, and the section has an
 /// error.
-const mapping::Stimulus* read_quantity(scenario::Section& section, const scenario::FaultContext& context,
-                                       const scenario::Key& key);
-/// The signal of canhil's DBC that carries a stimulus.
-Measured measured(const mapping::Stimulus& stimulus);
+const sensors::Measurand* read_quantity(scenario::Section& section, const scenario::FaultContext& context,
+                                        const scenario::Key& key);
+/// A quantity, in SI.
+Measured measured(const sensors::Measurand& measurand);
+/// A node by its table.
+const sensors::Kind& sensor_of(const scenario::NodeTable& table);
 
 /// Reads the size of a fault, in the unit of the values. For a quantity, the key is `stem` with the suffix of
 /// a unit. For a signal, the key is `stem` alone, and the size is in the unit of the signal. `meaning`: text

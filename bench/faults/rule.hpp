@@ -5,8 +5,9 @@
 //   static Kind read(scenario::Section&, const scenario::FaultContext&)
 //   std::string subject() const                  what the fault affects, to distinguish faults of one kind
 // for faults of a sensor or a node
-//   std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node>, const scenario::NodeSettings&,
-//   const InRun&) const                          the wrapped node, or the same node if it is not affected
+//   bool acts_on(const scenario::NodeTable&) const                 whether it affects this sensor
+//   std::unique_ptr<sensors::Sensor> with_fault(std::unique_ptr<sensors::Sensor>,
+//   const scenario::NodeSettings&, const InRun&) const             the wrapped sensor
 // for faults of the bus or the target
 //   std::unique_ptr<Injector> injector(const InRun&) const
 // and, if the kind does not work in every run,
@@ -22,8 +23,8 @@
 #include "bench/faults/injector.hpp"
 #include "bench/faults/place.hpp"
 #include "bench/faults/when.hpp"
-#include "bench/nodes/kind.hpp"
 #include "bench/scenario/faults.hpp"
+#include "bench/sensors/kind.hpp"
 
 namespace canhil::faults {
 
@@ -43,11 +44,14 @@ class Rule {
 
   [[nodiscard]] virtual Stage stage() const = 0;
   [[nodiscard]] virtual std::string cannot(const Place& place) const = 0;
-  /// The injector of the fault; null if the fault acts within the nodes.
+  /// The injector of the fault; null if the fault acts on samples.
   [[nodiscard]] virtual std::unique_ptr<Injector> injector(const InRun& run) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
-                                                                const scenario::NodeSettings& settings,
-                                                                const InRun& run) const = 0;
+  /// Whether the fault acts on the samples of this sensor.
+  [[nodiscard]] virtual bool acts_on(const scenario::NodeTable& sensor) const = 0;
+  /// Wraps a sensor on which the fault acts.
+  [[nodiscard]] virtual std::unique_ptr<sensors::Sensor> with_fault(std::unique_ptr<sensors::Sensor> sensor,
+                                                                    const scenario::NodeSettings& settings,
+                                                                    const InRun& run) const = 0;
 };
 
 template <class Kind>
@@ -63,12 +67,16 @@ class RuleOf final : public Rule {
     if constexpr (requires { kind_.injector(run); }) return kind_.injector(run);
     return nullptr;
   }
-  [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
-                                                        const scenario::NodeSettings& settings,
-                                                        const InRun& run) const override {
-    if constexpr (requires { kind_.with_fault(std::move(node), settings, run); })
-      return kind_.with_fault(std::move(node), settings, run);
-    return node;
+  [[nodiscard]] bool acts_on(const scenario::NodeTable& sensor) const override {
+    if constexpr (requires { kind_.acts_on(sensor); }) return kind_.acts_on(sensor);
+    return false;
+  }
+  [[nodiscard]] std::unique_ptr<sensors::Sensor> with_fault(std::unique_ptr<sensors::Sensor> sensor,
+                                                            const scenario::NodeSettings& settings,
+                                                            const InRun& run) const override {
+    if constexpr (requires { kind_.with_fault(std::move(sensor), settings, run); })
+      return kind_.with_fault(std::move(sensor), settings, run);
+    return sensor;
   }
 
  private:

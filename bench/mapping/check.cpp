@@ -7,7 +7,7 @@
 #include <set>
 
 #include "bench/mapping/range.hpp"
-#include "bench/observe/values.hpp"
+#include "bench/nodes/registry.hpp"
 #include "dbc/parser/database.hpp"
 
 namespace canhil::mapping {
@@ -64,7 +64,7 @@ class Remarks {
       if (!one.of.protection)
         add(Grade::note, "unprotected", one.of.message->name, "has neither counter nor checksum here");
       for (const Source& source : one.sources) {
-        if (source.stimulus != nullptr) on(one.of, source, play);
+        if (source.measurand != nullptr) on(one.of, source, play);
       }
     }
     const dbc::Message& last = *play.messages.back().of.message;
@@ -77,14 +77,14 @@ class Remarks {
 
   void on(const Mapped& of, const Source& source, const Play& play) {
     const dbc::Signal& signal = *source.signal;
-    const SignalInfo* own = observe::signal_of(*source.stimulus->message, source.stimulus->signal);
+    const nodes::SampleSignal& own = nodes::carrier(*source.measurand);
     // Converts from the unit of the node to the unit of the signal. A rate is an increment divided by its
     // interval; the shortest interval is the period of the play.
-    const double interval_s =
-        source.stimulus->over == Over::rate ? 1e-6 * static_cast<double>(play.period_us) : 1;
-    const double factor = std::abs(source.factor * source.stimulus->factor) / interval_s;
+    const bool rate = source.measurand->over == sensors::Over::rate;
+    const double interval_s = rate ? 1e-6 * static_cast<double>(play.period_us) : 1;
+    const double factor = std::abs(source.factor * own.factor) / interval_s;
     if (signal.is_float()) return;
-    const double step = std::abs(signal.scale), sigma = own->sensor_sigma * factor;
+    const double step = std::abs(signal.scale), sigma = own.info.sensor_sigma * factor;
     if (sigma > 0 && step / std::sqrt(12.0) > most_of_sensor_noise * sigma)
       add(Grade::warning, "coarse", name(of, signal),
           fmt::format("its step of {:g} {} adds {:.2g} of rounding noise to the sensor's noise of {:.2g}",
@@ -93,11 +93,11 @@ class Remarks {
     if (!range) return;
     const auto [low, high] = *range;
     // An angle is sent as the equal angle that the signal can hold.
-    const double turn = 360 * std::abs(source.factor * source.stimulus->factor);
-    if (source.stimulus->turns && high - low >= turn - std::abs(signal.scale)) return;
+    const double turn = 360 * std::abs(source.factor * own.factor);
+    if (source.measurand->output().turns && high - low >= turn - std::abs(signal.scale)) return;
     const double least = std::min(std::abs(low), std::abs(high));
-    const double most = std::max(std::abs(own->minimum), std::abs(own->maximum)) * factor;
-    if (std::max(std::abs(low), std::abs(high)) < most || (own->minimum < 0 && low >= 0) || least < most)
+    const double most = std::max(std::abs(own.info.minimum), std::abs(own.info.maximum)) * factor;
+    if (std::max(std::abs(low), std::abs(high)) < most || (own.info.minimum < 0 && low >= 0) || least < most)
       add(Grade::note, "saturates", name(of, signal),
           fmt::format("holds {:g} to {:g} {}; the node may send {:g} to either side", low, high, signal.unit,
                       most));

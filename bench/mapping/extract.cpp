@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/nodes/registry.hpp"
 #include "dbc/logs/log.hpp"
 
 namespace canhil::mapping {
@@ -52,10 +53,10 @@ class Group {
     to.csv += fmt::format("{}.{:06}", t_ns / 1'000'000'000, t_ns / 1000 % 1'000'000);
     for (std::size_t i = 0; i < play_.messages.size(); ++i) {
       for (const Source& source : play_.messages[i].sources) {
-        if (source.stimulus == nullptr) continue;
+        if (source.measurand == nullptr) continue;
         const double si = values_[i][play_.messages[i].of.number(*source.signal)] / source.factor;
-        const bool rate = source.stimulus->over == Over::rate;
-        to.csv += fmt::format(",{:.12g}", rate ? si : si / source.stimulus->factor);
+        const bool rate = source.measurand->over == sensors::Over::rate;
+        to.csv += fmt::format(",{:.12g}", rate ? si : si / nodes::carrier(*source.measurand).factor);
       }
     }
     to.csv += '\n';
@@ -79,7 +80,10 @@ Result<Extracted> extract(const Mapping& mapping, std::string_view name, const s
   Extracted extracted{.csv = "t_s"};
   for (const PlayedMessage& message : play->messages) {
     for (const Source& source : message.sources) {
-      if (source.stimulus != nullptr) extracted.csv += fmt::format(",{}", source.stimulus->column);
+      if (source.measurand == nullptr) continue;
+      const sensors::Measurand& of = *source.measurand;
+      const bool rate = of.over == sensors::Over::rate;
+      extracted.csv += fmt::format(",{}", rate ? of.output().rate_column : nodes::carrier(of).info.name);
     }
   }
   extracted.csv += '\n';

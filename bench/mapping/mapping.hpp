@@ -17,9 +17,9 @@
 
 #include "bench/checks/estimator.hpp"
 #include "bench/mapping/reference_quantities.hpp"
-#include "bench/mapping/stimuli.hpp"
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/foreign.hpp"
+#include "bench/sensors/measurands.hpp"
 #include "dbc/parser/database.hpp"
 #include "dbc/parser/plan.hpp"
 #include "dbc/protection/protection.hpp"
@@ -46,11 +46,11 @@ struct Mapped {
 /// The source of a signal that the bench sends.
 struct Source {
   const dbc::Signal* signal = nullptr;
-  const Stimulus* stimulus = nullptr;      ///< null: a constant, or the time
-  bool time = false;                       ///< the time of validity, from the start of the run
-  double value = 0;                        ///< a constant, in the signal's unit
-  double factor = 1;                       ///< from SI to the signal's unit
-  std::optional<std::uint64_t> invalid{};  ///< raw value to send when the node's value is invalid
+  const sensors::Measurand* measurand = nullptr;  ///< null: a constant, or the time
+  bool time = false;                              ///< the time of validity, from the start of the run
+  double value = 0;                               ///< a constant, in the signal's unit
+  double factor = 1;                              ///< from SI to the signal's unit
+  std::optional<std::uint64_t> invalid{};         ///< raw value to send when the sensor's value is invalid
 };
 
 struct PlayedMessage {
@@ -62,9 +62,9 @@ struct PlayedMessage {
 struct Play {
   std::string name;  ///< name of the play's last message
   std::vector<PlayedMessage> messages;
-  std::string_view node;        ///< the node whose samples trigger the play; empty: sent at its own times
-  std::int64_t period_us = 0;   ///< a multiple of the node's period, if there is a node
-  std::int64_t latency_us = 0;  ///< added to the node's latency
+  const sensors::Kind* sensor = nullptr;  ///< its samples trigger the play; null: sent at its own times
+  std::int64_t period_us = 0;             ///< a multiple of the sensor's period, if there is a sensor
+  std::int64_t latency_us = 0;            ///< added to the sensor's latency
 };
 
 /// A signal that carries a quantity of the target.

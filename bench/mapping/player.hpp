@@ -1,4 +1,4 @@
-// Sends the samples of a scenario's nodes as the messages of a mapping.
+// Sends the samples of a scenario's sensors as the messages of a mapping.
 #pragma once
 
 #include <deque>
@@ -26,18 +26,16 @@ class Player final : public nodes::Node {
   void transmit(nodes::Transmission& out) override;
 
  private:
-  // A node whose samples are played.
+  // A sensor whose samples are played.
   struct Played {
-    std::unique_ptr<nodes::Node> node;
-    const scenario::NodeTable* table = nullptr;
-    std::int64_t period_us = 0, latency_us = 0;
-    std::int64_t valid_us = 0;  // of the newest sample
-    bool lost = false;          // the newest sample was not sent
+    std::unique_ptr<sensors::Sensor> sensor;
+    const sensors::Kind* kind = nullptr;
+    std::int64_t period_us = 0;
   };
-  // Accumulates a quantity of a node between transmissions of a play.
+  // Accumulates a quantity of a sensor between transmissions of a play.
   struct Value {
     double newest = 0, sum = 0;  // newest value; sum since the play was last sent
-    bool valid = true;           // newest validity flag of its message, or of its sample group
+    bool valid = true;           // whether the newest sample says so
     double over_us = 0;          // sum of the samples' intervals since the play was last sent
   };
   struct Due {
@@ -47,20 +45,21 @@ class Player final : public nodes::Node {
   };
 
   void sample(Played& played);
-  void take(const Played& played, const Frame& frame);
-  void send_without_node(std::int64_t now_us);
-  [[nodiscard]] std::int64_t next_without_node_us(std::size_t play) const;
+  void take(const sensors::Kind& kind, const sensors::Sample& sample);
+  void restart(const Play& play);
+  void send_without_sensor(std::int64_t now_us);
+  [[nodiscard]] std::int64_t next_without_sensor_us(std::size_t play) const;
   void insert(Due due);
-  Sent put_together(std::size_t index, std::int64_t valid_us, std::int64_t due_us);
-  double value_of(std::size_t play, const Source& source, std::int64_t valid_us);
+  Sent put_together(std::size_t index, const sensors::Sample& sample, std::int64_t due_us);
+  double value_of(std::size_t play, const Source& source, std::int64_t stamp_us);
 
   Conversation& conversation_;
   std::int64_t end_us_;  // of the run
-  std::vector<Played> nodes_;
-  std::vector<std::map<const Stimulus*, Value>> values_;  // for each play
-  std::vector<std::int64_t> samples_;                     // for each play: number of samples, sent or lost
-  std::deque<Due> due_;                                   // ascending by time
-  nodes::Clipped clipped_;                                // by the samples that are due
+  std::vector<Played> sensors_;
+  std::vector<std::map<const sensors::Measurand*, Value>> values_;  // for each play
+  std::vector<std::int64_t> samples_;  // for each play: number of samples, sent or lost
+  std::deque<Due> due_;                // ascending by time
+  nodes::Clipped clipped_;             // by the samples that are due
   std::map<std::string, protection::Sender> shared_;
   std::map<const dbc::Message*, protection::Sender> own_;
 };

@@ -221,17 +221,20 @@ class Reader {
           {.signal = one, .time = true, .factor = 1 / factor(section, key, *of, *one, "s", time_word)});
       return;
     }
-    const Stimulus* stimulus = find_stimulus(word);
-    if (stimulus == nullptr) {
-      section.reject(key, fmt::format("'{}' is not a quantity that a node measures", word),
-                     fmt::format("one of: time, {}", fmt::join(names_of(stimuli(), &Stimulus::name), ", ")));
+    const sensors::Measurand* measurand = sensors::find_measurand(word);
+    if (measurand == nullptr) {
+      section.reject(
+          key, fmt::format("'{}' is not a quantity that a node measures", word),
+          fmt::format("one of: time, {}",
+                      fmt::join(names_of(sensors::measurands(), &sensors::Measurand::name), ", ")));
       return;
     }
-    if (play.node.empty())
-      play.node = stimulus->node;  // node of the first quantity: its samples trigger the play
-    own->sources.push_back({.signal = one,
-                            .stimulus = stimulus,
-                            .factor = sign / factor(section, key, *of, *one, stimulus->si, stimulus->name)});
+    if (play.sensor == nullptr)
+      play.sensor = measurand->sensor;  // of the first quantity: its samples trigger the play
+    own->sources.push_back(
+        {.signal = one,
+         .measurand = measurand,
+         .factor = sign / factor(section, key, *of, *one, measurand->si, measurand->name)});
   }
 
   static void expect_bits(Section& section, const std::string& key, const dbc::Signal& signal,

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "bench/nodes/increment_rounding.hpp"
-#include "bench/quantities/wire_unit.hpp"
 #include "dbc/wire/time_base.hpp"
 #include "dbc/wire/turns.hpp"
 
 namespace canhil::nodes {
 namespace {
 
+using sensors::Role;
 using sensors::Sample;
 using Slot = SampleEncoder::Slot;
 
@@ -21,13 +21,18 @@ double stamp(const Sample& sample) {
                                                               : wrap_us(sample.stamp_us));
 }
 
+double step_of(const SignalInfo& signal, const Transmission& out) {
+  return out.rounding() == Rounding::none ? 0 : wire::lsb(signal);
+}
+
 template <class Message, class Member>
 double carried(const SignalInfo& signal, Slot& slot, const Sample& sample, Transmission& out) {
   switch (slot.role) {
     case Role::time_of_validity:
       return stamp<Member>(sample);
     case Role::interval:
-      return static_cast<double>(sample.interval_us);
+      // A wrong interval, by a fault, is no measurement: it is not noted as clipped.
+      return round_increment(sample.interval_us, step_of(signal, out), signal, slot.remainder);
     case Role::validity:
       return (sample.invalid >> slot.index & 1U) != 0 ? 0 : 1;
     case Role::value:
@@ -37,12 +42,12 @@ double carried(const SignalInfo& signal, Slot& slot, const Sample& sample, Trans
   if (slot.turns) return std::abs(value) <= 180 ? value : std::remainder(value, 360);
   if (!signal.carries_remainder) return value;
   if (value < signal.minimum || value > signal.maximum) out.clipped().check(Message::info, signal, value);
-  return round_increment(value, out.rounding() == Rounding::none ? 0 : wire::lsb(signal), signal,
-                         slot.remainder);
+  return round_increment(value, step_of(signal, out), signal, slot.remainder);
 }
 
 template <class Message>
 Slot* encode_message(Slot* slot, const Sample& sample, Transmission& out) {
+  if (sample.restarted) out.restart<Message>();
   Message message{};
   Message::visit(message, [&](const SignalInfo& signal, auto& member) {
     using Member = std::remove_cvref_t<decltype(member)>;
@@ -56,36 +61,20 @@ Slot* encode_message(Slot* slot, const Sample& sample, Transmission& out) {
   return slot;
 }
 
-// The index of the name in `names` that stands before the last underscore of `signal`, or that is `signal`.
-std::optional<std::size_t> place(std::span<const std::string_view> names, std::string_view signal) {
-  for (const std::string_view name : {signal.substr(0, signal.rfind('_')), signal}) {
-    const auto found = std::ranges::find(names, name);
-    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 SampleEncoder::SampleEncoder(const MessageInfo& closes, const sensors::Outputs& outputs) {
-  for (const GroupSignal& signal : signals_of(closes)) {
-    Slot slot{.role = signal.role, .turns = wire::turns(signal.info)};
-    if (signal.role == Role::value || signal.role == Role::validity)
-      slot.index =
-          place(signal.role == Role::value ? outputs.values : outputs.flags, signal.info.name).value();
-    if (const auto unit = quantities::wire_unit(signal.info.unit)) slot.factor = unit->factor;
-    slots_.push_back(slot);
-  }
+  for (const SampleSignal& signal : signals_of(closes, outputs))
+    slots_.push_back({.role = signal.role,
+                      .index = signal.index,
+                      .factor = signal.factor,
+                      .turns = wire::turns(signal.info)});
   each_message(closes, [&]<class Message>() { messages_.push_back(encode_message<Message>); });
 }
 
 void SampleEncoder::encode(const Sample& sample, Transmission& out) {
   Slot* slot = slots_.data();
   for (const Encode encode : messages_) slot = encode(slot, sample, out);
-}
-
-std::unique_ptr<Node> Kind::make(const NodeSettings& node, const Run& run) const {
-  return std::make_unique<BoundSensor>(sensor->make(node, run), *this);
 }
 
 void BoundSensor::transmit(Transmission& out) {

@@ -6,15 +6,14 @@
 #include <vector>
 
 #include "bench/nodes/kind.hpp"
-#include "bench/nodes/recorded_group.hpp"
+#include "bench/nodes/sample_signals.hpp"
 #include "dbc/wire/sample_group.hpp"
 
 namespace canhil::nodes {
 
-/// Packs samples into the messages of a group. Each signal carries the value or flag of its name: the name of
-/// the signal without its unit ("velocity_north_mps"), or without "_validity". Values are converted from SI
-/// to the unit of the signal. Angles are wrapped to the range of the signal. The rounding remainder of an
-/// increment is added to the next sample.
+/// Packs samples into the messages of a group, each value in the unit of its signal. Angles are wrapped to
+/// the range of the signal. The rounding remainder of an increment and of its interval is added to the next
+/// sample.
 class SampleEncoder {
  public:
   SampleEncoder(const MessageInfo& closes, const sensors::Outputs& outputs);
@@ -22,18 +21,16 @@ class SampleEncoder {
 
   /// What a signal carries.
   struct Slot {
-    Role role = Role::value;
+    sensors::Role role = sensors::Role::value;
     std::size_t index = 0;  ///< of the value or flag in the sample
     double factor = 1;      ///< from the unit of the signal to SI
     bool turns = false;
     double remainder = 0;  ///< of the last increment, in the unit of the signal
   };
-  /// For each signal of the group, message by message.
-  [[nodiscard]] const std::vector<Slot>& slots() const { return slots_; }
 
  private:
   using Encode = Slot* (*)(Slot* slot, const sensors::Sample& sample, Transmission& out);
-  std::vector<Slot> slots_;
+  std::vector<Slot> slots_;  // for each signal of the group, message by message
   std::vector<Encode> messages_;
 };
 

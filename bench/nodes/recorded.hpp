@@ -59,8 +59,11 @@ struct LoggedGroup {
 /// Error: one line about the file.
 Result<LoggedGroup> read_frames(const NodeTable& table, const std::string& log, std::int64_t end_us);
 
-/// Makes the node that sends recorded samples.
-std::unique_ptr<Node> make_samples(const NodeSettings& node, const Run& run);
+/// Makes a sensor of recorded samples. In a log, a sample is a complete group of whole frames; a sample that
+/// its counters lack is lost.
+std::unique_ptr<sensors::Sensor> make_recorded(const NodeSettings& node, const Run& run);
+std::unique_ptr<sensors::Sensor> make_logged(const NodeSettings& node, const Run& run);
+/// Makes the node that sends the frames of a log unchanged.
 std::unique_ptr<Node> make_frames(const std::vector<const RecordedFrames*>& of_one_log, const Run& run);
 
 }  // namespace canhil::nodes

@@ -6,7 +6,8 @@
 
 #include "bench/nodes/is_whole.hpp"
 #include "bench/nodes/recorded.hpp"
-#include "bench/nodes/recorded_group.hpp"
+#include "bench/nodes/registry.hpp"
+#include "bench/nodes/sample_decoder.hpp"
 #include "bench/scenario/table.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/time_base.hpp"
@@ -37,17 +38,15 @@ std::int64_t due_us(const TimeMark& before, const TimeMark& after, std::int64_t 
 /// Reads a log frame by frame.
 class Reading {
  public:
-  Reading(const NodeTable& table, std::string log) : closes_(table.closes), log_(std::move(log)) {
-    each_message(closes_, [&]<class Message>() { ids_.push_back(Message::info.id); });
-  }
+  Reading(const NodeTable& table, std::string log)
+      : closes_(table.closes), log_(std::move(log)), samples_(kind_of(table)) {}
 
   Result<void> take(const LogEntry& entry) {
     const std::size_t index = index_++;
     if (is_whole<Sync>(entry.frame)) return synchronise(entry);
-    if (entry.frame.extended || entry.frame.error || std::ranges::find(ids_, entry.frame.id) == ids_.end())
-      return {};
+    if (!samples_.has(entry.frame)) return {};
     group_.frames.frames.push_back({.due_us = entry.t_ns, .index = index, .frame = entry.frame});
-    if (is_closing_whole(entry.frame)) valid_us_.push_back(valid_us(entry.frame));
+    if (const auto sample = samples_.take(entry.frame)) valid_us_.push_back(sample->valid_us);
     return {};
   }
 
@@ -82,37 +81,9 @@ class Reading {
     return {};
   }
 
-  [[nodiscard]] bool is_closing_whole(const Frame& frame) const {
-    bool whole = false;
-    each_message(closes_, [&]<class Message>() {
-      whole = whole || (Message::info.id == closes_.id && is_whole<Message>(frame));
-    });
-    return whole;
-  }
-
-  /// The full time of validity. The frame carries this time modulo a period; the previous time of validity
-  /// determines the number of whole periods.
-  std::int64_t valid_us(const Frame& frame) {
-    std::int64_t t_us = 0;
-    each_message(closes_, [&]<class Message>() {
-      if (Message::info.id != closes_.id) return;
-      const auto message = from_frame<Message>(frame);
-      Message::visit(message, [&](const SignalInfo& signal, const auto& member) {
-        using Member = std::remove_cvref_t<decltype(member)>;
-        if (role_of(signal) != Role::time_of_validity) return;
-        constexpr std::int64_t period_us =
-            std::is_floating_point_v<Member> ? short_period_us : std::int64_t{1} << 32U;
-        const std::int64_t before_us = valid_us_.empty() ? 0 : valid_us_.back();
-        const std::int64_t on_us = (static_cast<std::int64_t>(member) - before_us) % period_us;
-        t_us = before_us + (on_us < 0 ? on_us + period_us : on_us);
-      });
-    });
-    return t_us;
-  }
-
   const MessageInfo& closes_;
   std::string log_;
-  std::vector<std::uint32_t> ids_;
+  SampleDecoder samples_;
   LoggedGroup group_;
   std::vector<std::int64_t> valid_us_;  // of complete samples
   std::size_t index_ = 0;
@@ -143,7 +114,38 @@ class Frames final : public Node {
   std::size_t next_ = 0;
 };
 
+/// The samples that the frames of a log carry.
+class Logged final : public sensors::Sensor {
+ public:
+  Logged(const NodeSettings& node, const Run& run) {
+    SampleDecoder decoder(kind_of(node.table()));
+    for (const RecordedFrames::At& at : node.own<RecordedSettings>()->frames->frames) {
+      if (at.due_us > run.flight.end_us()) break;
+      const auto sample = decoder.take(at.frame);
+      if (!sample) continue;
+      for (int lost = 0; lost < decoder.lost(); ++lost) {
+        samples_.emplace_back(at.due_us, *sample);
+        samples_.back().second.fate = sensors::Sample::Fate::lost;
+      }
+      samples_.emplace_back(at.due_us, *sample);
+    }
+  }
+
+  [[nodiscard]] std::int64_t due_us() const override {
+    return next_ == samples_.size() ? never_us : samples_[next_].first;
+  }
+  sensors::Sample measure() override { return samples_[next_++].second; }
+
+ private:
+  std::vector<std::pair<std::int64_t, sensors::Sample>> samples_;  // with the times at which they were sent
+  std::size_t next_ = 0;
+};
+
 }  // namespace
+
+std::unique_ptr<sensors::Sensor> make_logged(const NodeSettings& node, const Run& run) {
+  return std::make_unique<Logged>(node, run);
+}
 
 Result<LoggedGroup> read_frames(const NodeTable& table, const std::string& log, std::int64_t end_us) {
   auto opened = LogReader::open(log);

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "bench/nodes/bound_sensor.hpp"
 #include "bench/nodes/recorded.hpp"
-#include "bench/nodes/recorded_group.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/scenario/table.hpp"
 #include "dbc/wire/turns.hpp"
@@ -16,6 +14,7 @@ namespace canhil::nodes {
 namespace {
 
 using scenario::Table;
+using sensors::Role;
 
 constexpr std::size_t time_column = 0;
 
@@ -23,34 +22,36 @@ double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
 
 /// The source of a signal's value.
 struct Source {
-  SignalInfo signal;
-  Role role = Role::value;
+  const SampleSignal* signal = nullptr;
   std::optional<std::size_t> column{};  ///< index in the table's names; none: constant
   std::optional<std::size_t> rate{};    ///< index of a rate, which is multiplied by the interval
   double constant = 0;
 };
 
-const scenario::Increment* increment_of(const NodeTable& table, const SignalInfo& signal) {
-  const auto found = std::ranges::find(table.increments, signal.name, &scenario::Increment::signal);
-  return found == table.increments.end() ? nullptr : &*found;
+bool is_measured(const SampleSignal& signal) {
+  return signal.role == Role::validity || signal.role == Role::value;
 }
 
-std::optional<double> assumed(const NodeTable& table, const GroupSignal& signal) {
+const sensors::Output* output_of(const Kind& kind, const SampleSignal& signal) {
+  return signal.role == Role::value ? &kind.sensor->outputs.values[signal.index] : nullptr;
+}
+
+std::optional<double> assumed(const SampleSignal& signal, const sensors::Output* output) {
   if (signal.role == Role::validity) return static_cast<double>(messages::Validity::valid);
-  const auto found = std::ranges::find(table.assumed, signal.info.name, &scenario::Assumed::signal);
-  return found == table.assumed.end() ? std::nullopt : std::optional(found->value);
+  return output->assumed;
 }
 
-Result<std::vector<Source>> sources_of(const NodeTable& table, const Table& rows) {
+Result<std::vector<Source>> sources_of(const Kind& kind, const Table& rows) {
   if (!rows.has(time_column)) return tl::unexpected(rows.missing(time_column));
   std::vector<Source> sources;
   std::size_t column = time_column + 1;
-  for (const GroupSignal& signal : signals_of(table.closes)) {
-    Source source{.signal = signal.info, .role = signal.role};
-    if (signal.role == Role::validity || signal.role == Role::value) {
-      const scenario::Increment* increment = increment_of(table, signal.info);
+  for (const SampleSignal& signal : kind.signals) {
+    Source source{.signal = &signal};
+    if (is_measured(signal)) {
+      const sensors::Output* output = output_of(kind, signal);
+      const bool adds_up = output != nullptr && !output->rate.empty();
       const std::size_t own = column++;
-      const std::optional<std::size_t> rate = increment == nullptr ? std::nullopt : std::optional(column++);
+      const std::optional<std::size_t> rate = adds_up ? std::optional(column++) : std::nullopt;
       const bool has_rate = rate && rows.has(*rate);
       if (has_rate && rows.has(own))
         return failure(fmt::format("{}:1: column '{}': is given beside '{}', expected one of the two",
@@ -59,11 +60,11 @@ Result<std::vector<Source>> sources_of(const NodeTable& table, const Table& rows
         source.column = own;
       } else if (has_rate) {
         source.rate = rate;
-      } else if (const auto value = assumed(table, signal)) {
+      } else if (const auto value = assumed(signal, output)) {
         source.constant = *value;
       } else {
         Error error = rows.missing(own);
-        if (increment != nullptr) error.message += fmt::format(", or '{}', its rate", increment->rate);
+        if (adds_up) error.message += fmt::format(", or '{}', its rate", output->rate_column);
         return tl::unexpected(std::move(error));
       }
     }
@@ -100,7 +101,7 @@ Result<double> value_of(const Source& source, const Table& table, std::size_t ro
   if (!source.column && !source.rate) return source.constant;
   const std::size_t index = source.column ? *source.column : *source.rate;
   double value = table.value(row, index) * (source.rate ? interval : 1);
-  const SignalInfo& signal = source.signal;
+  const SignalInfo& signal = source.signal->info;
   if (wire::turns(signal)) value = std::remainder(value, 360);
   if (value < signal.minimum || value > signal.maximum)
     return tl::unexpected(
@@ -147,49 +148,52 @@ class Samples final : public sensors::Sensor {
 
 std::vector<std::string> columns_of(const NodeTable& table) {
   std::vector<std::string> names{"t_s"};
-  for (const GroupSignal& signal : signals_of(table.closes)) {
-    if (signal.role != Role::validity && signal.role != Role::value) continue;
+  const Kind& kind = kind_of(table);
+  for (const SampleSignal& signal : kind.signals) {
+    if (!is_measured(signal)) continue;
     names.emplace_back(signal.info.name);
-    if (const auto* increment = increment_of(table, signal.info)) names.emplace_back(increment->rate);
+    const sensors::Output* output = output_of(kind, signal);
+    if (output != nullptr && !output->rate.empty()) names.emplace_back(output->rate_column);
   }
   return names;
 }
 
 Result<RecordedSamples> read_samples(const NodeTable& table, const Table& rows, std::int64_t from_us,
                                      std::int64_t gap_us, std::int64_t period_us, std::int64_t end_us) {
-  const auto sources = sources_of(table, rows);
+  const auto sources = sources_of(kind_of(table), rows);
   if (!sources) return tl::unexpected(sources.error());
   const auto t_us = scenario::times_of(rows, time_column, from_us);
   if (!t_us) return tl::unexpected(t_us.error());
   const auto part = within_run(rows, *t_us, gap_us, end_us);
   if (!part) return tl::unexpected(part.error());
-  const auto interval = std::ranges::find(*sources, Role::interval, &Source::role);
-  const double step_us = interval == sources->end() ? 1 : wire::lsb(interval->signal);
-  const SampleEncoder encoder(table.closes, kind_of(table).sensor->outputs);
+  const auto interval =
+      std::ranges::find(*sources, Role::interval, [](const Source& source) { return source.signal->role; });
+  const bool has_interval = interval != sources->end();
+  const double step_us = has_interval ? wire::lsb(interval->signal->info) : 1;
   RecordedSamples samples;
   for (std::size_t row = part->first; row < part->last; ++row) {
     sensors::Sample& sample = samples.emplace_back();
     sample.valid_us = sample.stamp_us = (*t_us)[row];
-    sample.interval_us = interval_of(*t_us, row, period_us, step_us);
-    const auto interval_us = static_cast<double>(sample.interval_us);
-    if (interval != sources->end() && interval_us > interval->signal.maximum)
+    sample.interval_us = static_cast<double>(interval_of(*t_us, row, period_us, step_us));
+    if (has_interval && sample.interval_us > interval->signal->info.maximum)
       return tl::unexpected(rows.about(
           row, time_column,
           fmt::format("{:g} us since the row before do not fit into signal {}, expected at most {:g}",
-                      interval_us, interval->signal.name, interval->signal.maximum)));
-    for (std::size_t i = 0; i < sources->size(); ++i) {
-      const auto value = value_of((*sources)[i], rows, row, 1e-6 * interval_us);
+                      sample.interval_us, interval->signal->info.name, interval->signal->info.maximum)));
+    for (const Source& source : *sources) {
+      const auto value = value_of(source, rows, row, 1e-6 * sample.interval_us);
       if (!value) return tl::unexpected(value.error());
-      const SampleEncoder::Slot& slot = encoder.slots()[i];
-      if (slot.role == Role::value) sample.values[slot.index] = *value * slot.factor;
-      if (slot.role == Role::validity && *value == 0) sample.invalid |= 1U << slot.index;
+      const SampleSignal& signal = *source.signal;
+      if (signal.role == Role::value) sample.values[signal.index] = *value * signal.factor;
+      if (signal.role == Role::validity && *value == 0) sample.invalid |= 1U << signal.index;
     }
   }
   return samples;
 }
 
-std::unique_ptr<Node> make_samples(const NodeSettings& node, const Run& run) {
-  return std::make_unique<BoundSensor>(std::make_unique<Samples>(node, run), kind_of(node.table()));
+std::unique_ptr<sensors::Sensor> make_recorded(const NodeSettings& node, const Run& run) {
+  if (node.own<RecordedSettings>()->frames) return make_logged(node, run);
+  return std::make_unique<Samples>(node, run);
 }
 
 }  // namespace canhil::nodes

@@ -1,59 +1,72 @@
-// One line for each node.
+// Binds the sensors to the messages of canhil.dbc.
 #include "bench/nodes/registry.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 
+#include "bench/nodes/bound_sensor.hpp"
 #include "bench/nodes/fits.hpp"
-#include "bench/sensors/fins.hpp"
-#include "bench/sensors/glider_nav.hpp"
-#include "bench/sensors/gps.hpp"
-#include "bench/sensors/master_ins.hpp"
+#include "bench/sensors/registry.hpp"
 #include "bench/sensors/seeker.hpp"
 #include "bench/sensors/slave_imu.hpp"
-#include "bench/sensors/ssbl.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::nodes {
 namespace {
 
-// A sensor and the last message of its sample group.
-Kind bind(const sensors::Kind& sensor, const MessageInfo& closes, decltype(Kind::fits) fits = nullptr) {
-  return {.table = {.key = sensor.key,
-                    .closes = closes,
-                    .samples = sensor.samples,
-                    .read = sensor.read,
-                    .aid = sensor.aid,
-                    .assumed = sensor.assumed,
-                    .increments = sensor.increments},
-          .sensor = &sensor,
-          .fits = fits};
+// "MasterIns" -> "master_ins": the table key of a sender.
+std::string key_of(std::string_view sender) {
+  std::string key;
+  for (const char c : sender) {
+    if (std::isupper(static_cast<unsigned char>(c)) != 0 && !key.empty()) key += '_';
+    key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return key;
+}
+
+// The DBC binds a sensor to the messages of the sender with its name; the one with the highest id closes the
+// sample group. Null: the DBC has no such sender.
+const MessageInfo* closing_message(std::string_view key) {
+  const MessageInfo* closes = nullptr;
+  for (const MessageInfo& message : messages::all_messages) {
+    if (key_of(message.sender) == key && (closes == nullptr || message.id > closes->id)) closes = &message;
+  }
+  return closes;
+}
+
+decltype(Kind::fits) fits_of(std::string_view key) {
+  return key == sensors::slave_imu.key ? slave_imu_fits : key == sensors::seeker.key ? seeker_fits : nullptr;
 }
 
 const auto& kinds() {
-  using namespace messages;
-  static const std::array registered{
-      bind(sensors::master_ins, MasterInsVelocityD::info),             // of the carrier
-      bind(sensors::slave_imu, SlaveImuStatus::info, slave_imu_fits),  // of the weapon, or of the vehicle
-      bind(sensors::ssbl, SsblRelativeD::info),                        // of a ship
-      bind(sensors::gps, GpsTime::info),                               // of the vehicle
-      bind(sensors::seeker, SeekerRange::info, seeker_fits),           // of a missile
-      bind(sensors::glider_nav, GliderNavVelocityD::info),             // the GPS/INS of the glider
-      bind(sensors::fins, FinDeflections::info),                       // of the glider
-  };
-  return registered;
+  static const auto bound = [] {
+    std::vector<Kind> kinds;
+    for (const sensors::Kind* sensor : sensors::all()) {
+      const MessageInfo* closes = closing_message(sensor->key);
+      if (closes == nullptr) continue;
+      kinds.push_back({.table = {.key = sensor->key,
+                                 .closes = *closes,
+                                 .samples = sensor->samples,
+                                 .read = sensor->read,
+                                 .aid = sensor->aid},
+                       .sensor = sensor,
+                       .signals = signals_of(*closes, sensor->outputs),
+                       .fits = fits_of(sensor->key)});
+    }
+    return kinds;
+  }();
+  return bound;
 }
 
 }  // namespace
 
 std::span<const Kind* const> all() {
   static const auto pointers = [] {
-    std::array<const Kind*, std::tuple_size_v<std::remove_cvref_t<decltype(kinds())>>> all{};
-    std::ranges::transform(kinds(), all.begin(), [](const Kind& kind) { return &kind; });
+    std::vector<const Kind*> all;
+    for (const Kind& kind : kinds()) all.push_back(&kind);
     return all;
   }();
   return pointers;
@@ -71,12 +84,27 @@ std::vector<const scenario::NodeTable*> tables() {
   return tables;
 }
 
-std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run& run) {
-  const auto* recorded = node.own<RecordedSettings>();
-  auto made = recorded == nullptr ? kind.make(node, run)
-              : recorded->samples ? make_samples(node, run)
-                                  : make_frames({recorded->frames.get()}, run);
-  return run.faults == nullptr ? std::move(made) : run.faults->with_faults(std::move(made), node);
+const SampleSignal& carrier(const sensors::Measurand& measurand) {
+  const auto& signals = bound(*measurand.sensor).signals;
+  return *std::ranges::find_if(signals, [&](const SampleSignal& signal) {
+    return signal.role == sensors::Role::value && signal.index == measurand.index;
+  });
+}
+
+const SampleSignal* carried(const Kind& kind, const MessageInfo& message, std::string_view signal) {
+  const auto found = std::ranges::find_if(kind.signals, [&](const SampleSignal& one) {
+    return one.message->id == message.id && one.info.name == signal;
+  });
+  return found == kind.signals.end() ? nullptr : &*found;
+}
+
+std::unique_ptr<sensors::Sensor> make_sensor(const NodeSettings& node, const Run& run) {
+  auto sensor = node.is_recorded() ? make_recorded(node, run) : kind_of(node.table()).sensor->make(node, run);
+  return run.faults == nullptr ? std::move(sensor) : run.faults->with_faults(std::move(sensor), node);
+}
+
+std::unique_ptr<Node> make(const NodeSettings& node, const Run& run) {
+  return std::make_unique<BoundSensor>(make_sensor(node, run), kind_of(node.table()));
 }
 
 // The nodes are first ordered by the truth that they sample (TruthOf), then by bus priority (the lower id
@@ -86,24 +114,19 @@ std::vector<std::unique_ptr<Node>> make(const Run& run) {
   std::ranges::sort(kinds, {},
                     [](const Kind* kind) { return std::pair(kind->table.samples, kind->table.closes.id); });
   std::vector<std::unique_ptr<Node>> nodes;
-  std::map<std::string, std::vector<const NodeSettings*>> logs;
+  std::map<std::string, std::vector<const RecordedFrames*>> logs;  // those of one log share one Node
   for (const Kind* kind : kinds) {
     const auto* node = run.scenario.node(kind->table.key);
     if (node == nullptr) continue;
+    const bool faulty = run.faults != nullptr && run.faults->act_on(*node);
     const auto* recorded = node->own<RecordedSettings>();
-    if (recorded != nullptr && recorded->frames)  // the nodes of one log share one Node
-      logs[recorded->recorded_from].push_back(node);
+    // Frames of a log are sent unchanged, unless a fault acts on their samples.
+    if (recorded != nullptr && recorded->frames && !faulty)
+      logs[recorded->recorded_from].push_back(recorded->frames.get());
     else
-      nodes.push_back(make(*kind, *node, run));
+      nodes.push_back(make(*node, run));
   }
-  for (const auto& [log, of_it] : logs) {
-    std::vector<const RecordedFrames*> frames;
-    for (const NodeSettings* node : of_it) frames.push_back(node->own<RecordedSettings>()->frames.get());
-    auto made = make_frames(frames, run);
-    for (const NodeSettings* node : of_it)
-      if (run.faults != nullptr) made = run.faults->with_faults(std::move(made), *node);
-    nodes.push_back(std::move(made));
-  }
+  for (const auto& [log, frames] : logs) nodes.push_back(make_frames(frames, run));
   return nodes;
 }
 

@@ -6,6 +6,8 @@
 
 #include "bench/nodes/kind.hpp"
 #include "bench/nodes/recorded.hpp"
+#include "bench/nodes/sample_signals.hpp"
+#include "bench/sensors/measurands.hpp"
 
 namespace canhil::nodes {
 
@@ -20,8 +22,16 @@ const Kind& kind_of(const NodeTable& table);
 /// The tables of all kinds, for scenario::DbcVocabulary.
 std::vector<const scenario::NodeTable*> tables();
 
-/// One node alone, emulated or recorded.
-std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run& run);
+/// The signal of canhil.dbc that carries a measurand.
+const SampleSignal& carrier(const sensors::Measurand& measurand);
+/// What a signal of a sensor's message carries; null: the message has no such signal.
+const SampleSignal* carried(const Kind& kind, const MessageInfo& message, std::string_view signal);
+
+/// The sensor of one node, emulated or recorded, with its faults.
+std::unique_ptr<sensors::Sensor> make_sensor(const NodeSettings& node, const Run& run);
+
+/// One node alone: its sensor, and the messages of canhil.dbc that carry the samples.
+std::unique_ptr<Node> make(const NodeSettings& node, const Run& run);
 
 /// The nodes of a run in order of precedence.
 std::vector<std::unique_ptr<Node>> make(const Run& run);

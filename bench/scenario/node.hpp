@@ -30,20 +30,6 @@ struct Aid {
   double (*lost)(const NodeSettings& node) = nullptr;
 };
 
-/// A signal that a recording may lack, and the value that is sent instead.
-struct Assumed {
-  std::string_view signal;
-  double value = 0;
-};
-
-/// An increment ("delta_theta_x_rad"), which can be summed over several samples. A recording may contain a
-/// rate ("rate_x_radps") instead of the increment, and a mapping may use that rate ("imu.rate.x").
-struct Increment {
-  std::string_view signal;
-  std::string_view rate;
-  std::string_view quantity;
-};
-
 /// Facts about a kind of node for scenarios.
 struct NodeTable {
   std::string_view key;       ///< key of the node's table: "gps"
@@ -53,9 +39,6 @@ struct NodeTable {
   /// Reads the table; unknown keys are detected afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
   std::optional<Aid> aid{};
-  // Signals that a recording may lack or may contain in another form, by their names in the DBC.
-  std::span<const Assumed> assumed{};
-  std::span<const Increment> increments{};
 };
 
 /// The settings of a node on the bus. Immutable; copies of a scenario share the same settings.

@@ -7,7 +7,7 @@
 namespace canhil::sensors {
 namespace {
 
-constexpr std::array<std::string_view, 3> values{"elevator", "aileron", "rudder"};
+constexpr std::array<Output, 3> values{{{"elevator", "rad"}, {"aileron", "rad"}, {"rudder", "rad"}}};
 
 NodeSettings read(const NodeTable& table, Section& section) {
   FinsSettings node;

@@ -10,9 +10,16 @@ namespace {
 
 using world::Vector3;
 
-constexpr std::array<std::string_view, 10> values{"velocity_north", "velocity_east", "height", "roll",
-                                                  "pitch",          "heading",       "rate_x", "rate_y",
-                                                  "rate_z",         "velocity_down"};
+constexpr std::array<Output, 10> values{{{"velocity_north", "m/s"},
+                                         {"velocity_east", "m/s"},
+                                         {"height", "m"},
+                                         {"roll", "rad", true},
+                                         {"pitch", "rad", true},
+                                         {"heading", "rad", true},
+                                         {"rate_x", "rad/s"},
+                                         {"rate_y", "rad/s"},
+                                         {"rate_z", "rad/s"},
+                                         {"velocity_down", "m/s"}}};
 constexpr std::array<std::string_view, 1> flags{"navigation"};
 
 NodeSettings read(const NodeTable& table, Section& section) {

@@ -11,11 +11,13 @@ namespace {
 using world::Vector3;
 
 constexpr double satellites = 9;  // the error model has no satellites
-constexpr std::array<std::string_view, 6> values{"latitude",   "height",           "longitude",
-                                                 "satellites", "horizontal_sigma", "vertical_sigma"};
+constexpr std::array<Output, 6> values{{{"latitude", "rad"},
+                                        {"height", "m"},
+                                        {"longitude", "rad", true},
+                                        {.name = "satellites", .assumed = satellites},
+                                        {"horizontal_sigma", "m"},
+                                        {"vertical_sigma", "m"}}};
 constexpr std::array<std::string_view, 1> flags{"position"};
-constexpr std::array<scenario::Assumed, 1> assumed{{{"satellites", satellites}}};
-
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   GpsSettings node;
@@ -71,7 +73,6 @@ constinit const Kind gps{.key = "gps",
                          .read = read,
                          .make = make<Gps>,
                          .outputs = {.values = values, .flags = flags},
-                         .aid = scenario::Aid{.aiding = 1, .lost = lost_fixes<GpsSettings>},
-                         .assumed = assumed};
+                         .aid = scenario::Aid{.aiding = 1, .lost = lost_fixes<GpsSettings>}};
 
 }  // namespace canhil::sensors

@@ -16,16 +16,14 @@
 #include "bench/world/glide/glide.hpp"
 #include "bench/world/stream.hpp"
 
-namespace canhil::nodes {
-class NodeFaults;
-}
-
 namespace canhil::sensors {
 
 using scenario::Limits;
 using scenario::NodeSettings;
 using scenario::NodeTable;
 using scenario::Section;
+
+class SensorFaults;
 
 /// The inputs of the sensors in a run. Every object to which this struct refers must outlive the sensors.
 struct Run {
@@ -34,7 +32,7 @@ struct Run {
   const world::FlightRecord& flight;              ///< from the start to the end of the run
   const world::GlideRecord* glide = nullptr;      ///< null: the scenario has no [glide]
   world::EngagementRecord* engagement = nullptr;  ///< null: no [engagement]; filled during the flight
-  nodes::NodeFaults* faults = nullptr;            ///< null: no faults
+  SensorFaults* faults = nullptr;                 ///< null: no faults
 
   /// A stream of random numbers. The name must never change: the results depend on it.
   [[nodiscard]] world::Stream stream(std::string_view name) const { return {scenario.seed, index, name}; }
@@ -65,6 +63,19 @@ class Sensor {
   virtual void guide(const Guidance& /*answer*/) {}
 };
 
+/// The faults of a run that act on samples.
+class SensorFaults {
+ public:
+  SensorFaults() = default;
+  SensorFaults(const SensorFaults&) = delete;
+  SensorFaults& operator=(const SensorFaults&) = delete;
+  virtual ~SensorFaults() = default;
+  /// Whether some fault acts on this sensor.
+  [[nodiscard]] virtual bool act_on(const NodeSettings& node) const = 0;
+  /// Wraps a sensor in its faults.
+  virtual std::unique_ptr<Sensor> with_faults(std::unique_ptr<Sensor> sensor, const NodeSettings& node) = 0;
+};
+
 /// Makes a sensor of type `Made`.
 template <class Made>
 std::unique_ptr<Sensor> make(const NodeSettings& node, const Run& run) {
@@ -79,8 +90,6 @@ struct Kind {
   std::unique_ptr<Sensor> (*make)(const NodeSettings& node, const Run& run) = nullptr;
   Outputs outputs;
   std::optional<scenario::Aid> aid{};
-  std::span<const scenario::Assumed> assumed{};       ///< see scenario::NodeTable
-  std::span<const scenario::Increment> increments{};  ///< see scenario::NodeTable
   bool at_every_epoch = false;  ///< the sensor's period defines the epochs of the flight record
 };
 

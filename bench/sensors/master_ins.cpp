@@ -7,9 +7,15 @@
 namespace canhil::sensors {
 namespace {
 
-constexpr std::array<std::string_view, 9> values{"velocity_north", "velocity_east", "roll",
-                                                 "pitch",          "heading",       "latitude",
-                                                 "height",         "longitude",     "velocity_down"};
+constexpr std::array<Output, 9> values{{{"velocity_north", "m/s"},
+                                        {"velocity_east", "m/s"},
+                                        {"roll", "rad", true},
+                                        {"pitch", "rad", true},
+                                        {"heading", "rad", true},
+                                        {"latitude", "rad"},
+                                        {"height", "m"},
+                                        {"longitude", "rad", true},
+                                        {"velocity_down", "m/s"}}};
 constexpr std::array<std::string_view, 1> flags{"velocity"};
 
 NodeSettings read(const NodeTable& table, Section& section) {

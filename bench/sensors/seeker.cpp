@@ -12,19 +12,34 @@
 namespace canhil::sensors {
 namespace {
 
-constexpr std::array<std::string_view, 9> values{
-    "antenna_increment_roll", "antenna_increment_pitch", "antenna_increment_yaw", "error_pitch", "error_yaw",
-    "missile_acceleration_y", "missile_acceleration_z",  "closing_speed",         "range"};
+constexpr std::uint32_t antenna_flag = 1U << 0U, error_flag = 1U << 1U, acceleration_flag = 1U << 2U,
+                        closing_speed_flag = 1U << 3U, range_flag = 1U << 4U;
+constexpr std::array<Output, 9> values{
+    {{.name = "antenna_increment_roll",
+      .si = "rad",
+      .flags = antenna_flag,
+      .rate = "seeker.antenna_rate.roll",
+      .rate_column = "antenna_rate_roll_radps"},
+     {.name = "antenna_increment_pitch",
+      .si = "rad",
+      .flags = antenna_flag,
+      .rate = "seeker.antenna_rate.pitch",
+      .rate_column = "antenna_rate_pitch_radps"},
+     {.name = "antenna_increment_yaw",
+      .si = "rad",
+      .flags = antenna_flag,
+      .rate = "seeker.antenna_rate.yaw",
+      .rate_column = "antenna_rate_yaw_radps"},
+     {.name = "error_pitch", .si = "rad", .flags = error_flag},
+     {.name = "error_yaw", .si = "rad", .flags = error_flag},
+     {.name = "missile_acceleration_y", .si = "m/s^2", .flags = acceleration_flag},
+     {.name = "missile_acceleration_z", .si = "m/s^2", .flags = acceleration_flag},
+     {.name = "closing_speed", .si = "m/s", .flags = closing_speed_flag},
+     {.name = "range", .si = "m", .flags = range_flag}}};
 constexpr std::array<std::string_view, 5> flags{"antenna", "error", "acceleration", "closing_speed", "range"};
 // The detector saturates at this error angle [rad], which is beyond the largest field of view (37 deg). Near
 // the flight target, noise may exceed it.
 constexpr double largest_error = 0.655;
-constexpr std::uint32_t error_flag = 1U << 1U, closing_speed_flag = 1U << 3U, range_flag = 1U << 4U;
-
-constexpr std::array<scenario::Increment, 3> increments{
-    {{"antenna_increment_roll_rad", "antenna_rate_roll_radps", "seeker.antenna_rate.roll"},
-     {"antenna_increment_pitch_rad", "antenna_rate_pitch_radps", "seeker.antenna_rate.pitch"},
-     {"antenna_increment_yaw_rad", "antenna_rate_yaw_radps", "seeker.antenna_rate.yaw"}}};
 
 double detected(double error) { return std::clamp(error, -largest_error, largest_error); }
 
@@ -190,7 +205,7 @@ Sample Seeker::sampled(const world::SeekerMeasurement& measured) {
   const bool seen = measured.in_view && !invalid && !black;
   return {.valid_us = measured.t_us,
           .stamp_us = measured.t_us,
-          .interval_us = measured.interval_us,
+          .interval_us = static_cast<double>(measured.interval_us),
           .values = {measured.antenna.x(), measured.antenna.y(), measured.antenna.z(),
                      seen ? detected(measured.error.pitch) : 0, seen ? detected(measured.error.yaw) : 0,
                      measured.missile_acceleration.yaw, measured.missile_acceleration.pitch,
@@ -237,7 +252,6 @@ constinit const Kind seeker{.key = "seeker",
                             .samples = scenario::TruthOf::engagement,
                             .read = read,
                             .make = make<Seeker>,
-                            .outputs = {.values = values, .flags = flags},
-                            .increments = increments};
+                            .outputs = {.values = values, .flags = flags}};
 
 }  // namespace canhil::sensors

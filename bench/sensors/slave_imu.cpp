@@ -8,18 +8,40 @@ namespace canhil::sensors {
 namespace {
 
 constexpr double temperature_degc = 25;  // the error model has no temperature
-constexpr std::array<std::string_view, 7> values{
-    "delta_theta_x", "delta_theta_y", "delta_theta_z", "delta_v_x", "delta_v_y", "delta_v_z", "temperature"};
+constexpr std::uint32_t gyro_flag = 1U << 0U, accel_flag = 1U << 1U;
+constexpr std::array<Output, 7> values{
+    {{.name = "delta_theta_x",
+      .si = "rad",
+      .flags = gyro_flag,
+      .rate = "imu.rate.x",
+      .rate_column = "rate_x_radps"},
+     {.name = "delta_theta_y",
+      .si = "rad",
+      .flags = gyro_flag,
+      .rate = "imu.rate.y",
+      .rate_column = "rate_y_radps"},
+     {.name = "delta_theta_z",
+      .si = "rad",
+      .flags = gyro_flag,
+      .rate = "imu.rate.z",
+      .rate_column = "rate_z_radps"},
+     {.name = "delta_v_x",
+      .si = "m/s",
+      .flags = accel_flag,
+      .rate = "imu.specific_force.x",
+      .rate_column = "specific_force_x_mps2"},
+     {.name = "delta_v_y",
+      .si = "m/s",
+      .flags = accel_flag,
+      .rate = "imu.specific_force.y",
+      .rate_column = "specific_force_y_mps2"},
+     {.name = "delta_v_z",
+      .si = "m/s",
+      .flags = accel_flag,
+      .rate = "imu.specific_force.z",
+      .rate_column = "specific_force_z_mps2"},
+     {.name = "temperature", .flags = gyro_flag | accel_flag, .assumed = temperature_degc}}};
 constexpr std::array<std::string_view, 2> flags{"gyro", "accel"};
-constexpr std::array<scenario::Assumed, 1> assumed{{{"temperature_degc", temperature_degc}}};
-constexpr std::array<scenario::Increment, 6> increments{
-    {{"delta_theta_x_rad", "rate_x_radps", "imu.rate.x"},
-     {"delta_theta_y_rad", "rate_y_radps", "imu.rate.y"},
-     {"delta_theta_z_rad", "rate_z_radps", "imu.rate.z"},
-     {"delta_v_x_mps", "specific_force_x_mps2", "imu.specific_force.x"},
-     {"delta_v_y_mps", "specific_force_y_mps2", "imu.specific_force.y"},
-     {"delta_v_z_mps", "specific_force_z_mps2", "imu.specific_force.z"}}};
-
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   SlaveImuSettings node;
@@ -73,7 +95,7 @@ class SlaveImu final : public Sampler<SlaveImuSettings> {
   bool take(std::int64_t /*t_us*/, Sample& sample) override {
     const world::ImuIncrement measured = imu_.measure(run_.flight.increments()[next_++]);
     sample.stamp_us = measured.t_us;
-    sample.interval_us = measured.interval_us;
+    sample.interval_us = static_cast<double>(measured.interval_us);
     const world::Vector3 &theta = measured.delta_theta, &v = measured.delta_v;
     sample.values = {theta.x(), theta.y(), theta.z(), v.x(), v.y(), v.z(), temperature_degc};
     return losses_.uniform() >= config_.loss_probability;
@@ -91,8 +113,6 @@ constinit const Kind slave_imu{.key = "slave_imu",
                                .read = read,
                                .make = make<SlaveImu>,
                                .outputs = {.values = values, .flags = flags},
-                               .assumed = assumed,
-                               .increments = increments,
                                .at_every_epoch = true};
 
 }  // namespace canhil::sensors

@@ -9,8 +9,13 @@ namespace {
 
 using world::Vector3;
 
-constexpr std::array<std::string_view, 7> values{"relative_north", "relative_east",  "latitude",     "height",
-                                                 "longitude",      "relative_sigma", "relative_down"};
+constexpr std::array<Output, 7> values{{{"relative_north", "m"},
+                                        {"relative_east", "m"},
+                                        {"latitude", "rad"},
+                                        {"height", "m"},
+                                        {"longitude", "rad", true},
+                                        {"relative_sigma", "m"},
+                                        {"relative_down", "m"}}};
 constexpr std::array<std::string_view, 1> flags{"position"};
 
 NodeSettings read(const NodeTable& table, Section& section) {

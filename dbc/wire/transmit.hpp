@@ -36,6 +36,11 @@ class TransmitCounters {
     next = e2e::next(now);
     return now;
   }
+  /// Sets the counter of a message to 0.
+  template <class Message>
+  void restart() {
+    next_[message_index<Message>()] = 0;
+  }
   /// Sets all counters to 0.
   void reset() { next_.fill(0); }
 
@@ -65,6 +70,11 @@ class Outbox {
   [[nodiscard]] Rounding rounding() const { return rounding_; }
   /// Empties the buffer; the counters keep their values.
   void clear() { size_ = 0; }
+  /// Sets the counter of a message to 0.
+  template <class Message>
+  void restart() {
+    counters_.restart<Message>();
+  }
   /// Sets all counters to 0.
   void reset_counters() { counters_.reset(); }
 

@@ -38,8 +38,8 @@ FROM_PAGES = {name: block(page, f"`{name}`").encode() + b"\n" for page, name in 
 LINES = [
     ("bench/estimators/registry.cpp", '#include "messages/canhil.hpp"', f'#include "{HERE}/baro_inertial.hpp"'),
     ("bench/estimators/registry.cpp", "    &los_rate,", "    &baro_inertial,"),
-    ("bench/nodes/registry.cpp", '#include "bench/sensors/master_ins.hpp"', '#include "bench/sensors/barometer.hpp"'),
-    ("bench/nodes/registry.cpp", "      bind(sensors::fins, FinDeflections::info),                       // of the glider", block("adding-a-sensor", "## 3. The registry")),
+    ("bench/sensors/registry.cpp", '#include "bench/sensors/registry.hpp"', '#include "bench/sensors/barometer.hpp"'),
+    ("bench/sensors/registry.cpp", "    &fins,        // of the glider", block("adding-a-sensor", "## 3. The registry")),
     ("bench/checks/kinds.cpp", '#include "bench/checks/kinds/sigma_grows.hpp"', '#include "bench/checks/kinds/spread.hpp"'),
     ("bench/checks/kinds.cpp", "constexpr std::array of_any_estimator{", block("adding-a-check", "## 2. The registry")),
     ("target/device/adapters.hpp", "std::unique_ptr<Adapter> make_wind_adapter();",

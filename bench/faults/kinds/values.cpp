@@ -5,77 +5,71 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/faults/faulty_node.hpp"
-#include "bench/faults/frame_edit.hpp"
-#include "bench/faults/measured_value.hpp"
+#include "bench/faults/faulty_sensor.hpp"
 
 namespace canhil::faults {
 namespace {
 
-class WithValues final : public FaultyNode {
+class WithValues final : public FaultySensor {
  public:
-  WithValues(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run,
-             const OfValues& of, const When& when, Becomes becomes, bool exactly)
-      : FaultyNode(std::move(node), settings, run),
+  WithValues(std::unique_ptr<sensors::Sensor> sensor, const scenario::NodeSettings& settings,
+             const InRun& run, const OfValues& of, const When& when, Becomes becomes)
+      : FaultySensor(std::move(sensor), run),
         when_(when),
         becomes_(std::move(becomes)),
-        exactly_(exactly) {
-    for (const Measured& one : of.all)
-      own_.push_back({.value = MeasuredValue(one),
-                      .occasions = Occasions(when, run.stream(one.message->name)),
-                      .noise = run.stream(std::string(one.message->name) + ".noise")});
+        period_us_(settings.period_us()) {
+    for (const Measured& one : of.all) {
+      if (one.sensor->key == settings.table().key)
+        own_.push_back({.value = one,
+                        .occasions = Occasions(when, run.stream(one.name)),
+                        .noise = run.stream(one.name + ".noise")});
+    }
   }
 
  private:
   struct Own {
-    MeasuredValue value;
+    Measured value;
     Occasions occasions;
     world::Stream noise;
     std::optional<double> held{};
   };
 
-  void apply(std::vector<Frame>& frames, std::int64_t t_us) override {
+  void change(sensors::Sample& sample, std::int64_t t_us) override {
     for (Own& own : own_) {
-      Frame* frame = own.value.in(frames);
-      if (frame == nullptr) continue;
       if (!when_.holds(t_us)) own.held.reset();
       if (!own.occasions.next(t_us)) continue;
-      const double interval_s = interval_of(frames, period_us_);
-      const double value = becomes_(own.value.get(*frame, interval_s),
-                                    {.since_us = t_us - when_.from_us, .held = own.held, .noise = own.noise});
-      if (exactly_)
-        own.value.put_exactly(*frame, value, interval_s);
-      else
-        own.value.put(*frame, value, interval_s, clipped());
+      own.value.put(sample, period_us_,
+                    becomes_(own.value.get(sample, period_us_),
+                             {.since_us = t_us - when_.from_us, .held = own.held, .noise = own.noise}));
       ++tally().count;
       ++tally().changed;
-      if (is_time(own.value.of().signal->name)) ++tally().changed_times;
+      if (own.value.is_time()) ++tally().changed_times;
     }
   }
 
   When when_;
   Becomes becomes_;
-  bool exactly_;
+  std::int64_t period_us_;
   std::vector<Own> own_;
 };
 
 }  // namespace
 
-std::unique_ptr<nodes::Node> with_values(std::unique_ptr<nodes::Node> node,
-                                         const scenario::NodeSettings& settings, const InRun& run,
-                                         const OfValues& of, const When& when, Becomes becomes,
-                                         bool exactly) {
-  const bool has_one =
-      std::ranges::any_of(of.all, [&](const Measured& one) { return sends(settings.table(), *one.message); });
-  if (!has_one) return node;
-  return std::make_unique<WithValues>(std::move(node), settings, run, of, when, std::move(becomes), exactly);
+bool act_on(const OfValues& of, const scenario::NodeTable& sensor) {
+  return std::ranges::any_of(of.all, [&](const Measured& one) { return one.sensor->key == sensor.key; });
+}
+
+std::unique_ptr<sensors::Sensor> with_values(std::unique_ptr<sensors::Sensor> sensor,
+                                             const scenario::NodeSettings& settings, const InRun& run,
+                                             const OfValues& of, const When& when, Becomes becomes) {
+  return std::make_unique<WithValues>(std::move(sensor), settings, run, of, when, std::move(becomes));
 }
 
 void Changed::check(scenario::Section& section) const {
-  for (const Measured& one : of.all) {
-    if (!one.si.empty() || (size >= one.signal->minimum && size <= one.signal->maximum)) continue;
-    section.reject("value", fmt::format("{} of {} is {:g}", one.signal->name, one.message->name, size),
-                   fmt::format("{:g} to {:g}", one.signal->minimum, one.signal->maximum));
+  for (const auto& [signal, lowest, highest] : of.ranges) {
+    if (size < lowest || size > highest)
+      section.reject("value", fmt::format("{} is {:g}", signal, size),
+                     fmt::format("{:g} to {:g}", lowest, highest));
   }
 }
 

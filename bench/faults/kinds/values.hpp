@@ -18,19 +18,17 @@ struct Sampled {
 };
 using Becomes = std::function<double(double value, const Sampled& sample)>;
 
-/// Wraps the node in a fault that changes the values named by `of`. Returns the node itself if it sends none
-/// of these values. If `exactly` is true, the rounding remainder of an increment is not added to the next
-/// increment.
-std::unique_ptr<nodes::Node> with_values(std::unique_ptr<nodes::Node> node,
-                                         const scenario::NodeSettings& settings, const InRun& run,
-                                         const OfValues& of, const When& when, Becomes becomes,
-                                         bool exactly = false);
+/// Whether some of these values are measured by this sensor.
+bool act_on(const OfValues& of, const scenario::NodeTable& sensor);
+/// Wraps a sensor in a fault that changes the values named by `of`.
+std::unique_ptr<sensors::Sensor> with_values(std::unique_ptr<sensors::Sensor> sensor,
+                                             const scenario::NodeSettings& settings, const InRun& run,
+                                             const OfValues& of, const When& when, Becomes becomes);
 
 /// The part that all kinds in this file share. The function `becomes` of a kind computes the faulty value.
 template <class Kind>
 struct EachValue {
   static constexpr Stage stage = Stage::sensor;
-  static constexpr bool exactly = false;
   OfValues of{};
   When when{};
   double size = 0;
@@ -44,13 +42,13 @@ struct EachValue {
     return kind;
   }
   [[nodiscard]] std::string subject() const { return of.text; }
-  [[nodiscard]] std::unique_ptr<nodes::Node> with_fault(std::unique_ptr<nodes::Node> node,
-                                                        const scenario::NodeSettings& settings,
-                                                        const InRun& run) const {
+  [[nodiscard]] bool acts_on(const scenario::NodeTable& sensor) const { return act_on(of, sensor); }
+  [[nodiscard]] std::unique_ptr<sensors::Sensor> with_fault(std::unique_ptr<sensors::Sensor> sensor,
+                                                            const scenario::NodeSettings& settings,
+                                                            const InRun& run) const {
     return with_values(
-        std::move(node), settings, run, of, when,
-        [size = size](double value, const Sampled& sample) { return Kind::becomes(value, size, sample); },
-        Kind::exactly);
+        std::move(sensor), settings, run, of, when,
+        [size = size](double value, const Sampled& sample) { return Kind::becomes(value, size, sample); });
   }
 };
 
@@ -60,7 +58,6 @@ struct Changed : EachValue<Changed> {
   static constexpr std::string_view meaning =
       "The sensor's value is replaced by `value_UNIT`. A flag is replaced by 0 or 1.";
   static constexpr scenario::Limits limits{};
-  static constexpr bool exactly = true;
   void check(scenario::Section& section) const;
   static double becomes(double /*value*/, double size, const Sampled& /*sample*/) { return size; }
 };

@@ -65,11 +65,12 @@ TEST(Doctor, ReportsTheRateOfASimulatedWire) {
 // The doctor looks for heartbeats for a second. A slow host may not yet have started the target by then.
 TEST(Doctor, FindsATargetOnTheBus) {
   const std::string hub =
-      bus() == "local:" ? fmt::format("{} bus {} >{} &", HIL_BENCH, some_bus(), scratch("bus.out")) : "";
+      bus() == "local:" ? fmt::format("{} bus {} >{} & hub=$!", HIL_BENCH, some_bus(), scratch("bus.out"))
+                        : "hub=";
   const std::string report = scratch("with_target.json");
-  shell(fmt::format(R"({hub} sleep 0.3; {target} --bus {bus} &
+  shell(fmt::format(R"({hub}; sleep 0.3; {target} --bus {bus} & target=$!
 for try in 1 2 3 4 5; do {bench} doctor --bus {bus} --seconds 1 --json {report}; grep -q 'idle, DBC hash' {report} && break; done
-kill $(jobs -p))",
+kill $target $hub; wait)",
                     fmt::arg("hub", hub), fmt::arg("target", HIL_TARGET), fmt::arg("bus", some_bus()),
                     fmt::arg("bench", HIL_BENCH), fmt::arg("report", report)));
   const nlohmann::json page = read_json(report);

@@ -109,8 +109,12 @@ TEST(ReadFaults, WhatCannotWorkSomewhereSaysWhy) {
   EXPECT_THAT(why(fault("flood", "load_percent = 10"), local), HasSubstr("does not know the bit rate"));
   EXPECT_THAT(why(fault("too_long", "messages = [\"SlaveImuDeltaV\"]"), local),
               HasSubstr("has no longer frame for the 8 bytes of SlaveImuDeltaV"));
-  EXPECT_THAT(why(fault("late", "node = \"slave_imu\"\nby_ms = 1"), mapped),
-              HasSubstr("has no effect on a mapping"));
+  for (const char* of_a_sensor :
+       {"late\"\nby_ms = 1", "slow\"\nlonger_percent = 10", "clock_step\"\nby_ms = 1"})
+    EXPECT_EQ(
+        why(std::string("[[fault]]\nname = \"f\"\nnode = \"slave_imu\"\nkind = \"") + of_a_sensor + "\n",
+            mapped),
+        "");
   EXPECT_THAT(why(fault("restarted", "from_s = 1"), mapped), HasSubstr("has no handshake in a mapping"));
 }
 

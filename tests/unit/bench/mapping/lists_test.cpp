@@ -9,7 +9,7 @@
 
 #include "bench/mapping/mapping.hpp"
 #include "bench/mapping/reference_quantities.hpp"
-#include "bench/mapping/stimuli.hpp"
+#include "bench/sensors/measurands.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -26,10 +26,11 @@ std::string played() {
   std::map<std::string_view, std::string> by_node;
   std::string all = "| node | quantities |\n|---|---|\n";
   std::string_view before;
-  for (const Stimulus& one : stimuli()) {
-    all += one.node == before ? ", " : fmt::format("{}| `[{}]` | ", before.empty() ? "" : " |\n", one.node);
+  for (const sensors::Measurand& one : sensors::measurands()) {
+    const std::string_view key = one.sensor->key;
+    all += key == before ? ", " : fmt::format("{}| `[{}]` | ", before.empty() ? "" : " |\n", key);
     all += fmt::format("`{}`{}", one.name, unit(one.si));
-    before = one.node;
+    before = key;
   }
   return all + " |\n";
 }
@@ -53,7 +54,8 @@ TEST(MappingPage, ListsWhatCanBePlayedAndReported) {
 
 TEST(Lists, NameEachQuantityOnce) {
   std::set<std::string> names;
-  for (const Stimulus& one : stimuli()) EXPECT_TRUE(names.insert(one.name).second) << one.name;
+  for (const sensors::Measurand& one : sensors::measurands())
+    EXPECT_TRUE(names.insert(one.name).second) << one.name;
   for (const ReferenceQuantity& one : reference_quantities())
     EXPECT_EQ(find_reference_quantity(one.quantity->name), &one);
 }

@@ -12,6 +12,7 @@
 
 #include "bench/drive/contract.hpp"
 #include "bench/drive/flight.hpp"
+#include "bench/faults/in_run.hpp"
 #include "bench/world/attitude.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/parser/codec.hpp"
@@ -108,7 +109,8 @@ struct Flown {
       : mapping(dynamic_cast<const Mapping&>(*scenario.foreign)),
         truth(*drive::make_truth(scenario)),
         conversation(mapping) {
-    Player player(conversation, {.scenario = scenario, .index = 0, .flight = truth});
+    faults::Faults faults(scenario, 0, mapping.messages);
+    Player player(conversation, {.scenario = scenario, .index = 0, .flight = truth, .faults = &faults});
     while (player.due_us() != nodes::never_us) {
       const std::int64_t due_us = player.due_us();
       nodes::Transmission out;
@@ -230,6 +232,62 @@ TEST(Player, ALostSampleUsesItsCounterUp) {
     const std::int64_t sample = (flown.due[k] - 3'000) / 20'000 - 1;
     EXPECT_EQ(flown.value(2 * k + 1, "Count"), static_cast<double>(sample));
   }
+}
+
+Result<scenario::Scenario> with_fault(const std::string& kind, const std::string& more) {
+  return read(fmt::format("[[fault]]\nkind = \"{}\"\nnode = \"slave_imu\"\n{}", kind, more));
+}
+
+// A fault of a sensor acts on samples, so it is the same for every DBC.
+TEST(Player, PlaysALateSampleLaterWithItsOwnTime) {
+  const auto scenario = with_fault("late", "by_ms = 7\nfrom_s = 0.5\nto_s = 0.5");
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  ASSERT_EQ(flown.due.size(), 49U);
+  for (std::size_t k = 0; k < flown.due.size(); ++k) {
+    EXPECT_EQ(flown.due[k], 20'000 * static_cast<std::int64_t>(k + 1) + (k == 24 ? 10'000 : 3'000)) << k;
+    EXPECT_EQ(flown.value(2 * k + 1, "Time"), 20.0 * static_cast<double>(k + 1)) << k;
+    EXPECT_EQ(flown.value(2 * k + 1, "Count"), static_cast<double>(k)) << k;
+  }
+}
+
+TEST(Player, PlaysASlowSensorWithAllItsIncrements) {
+  const auto turned = [](const Flown& flown) {
+    double sum = 0;
+    for (std::size_t k = 0; k < flown.due.size(); ++k) sum += flown.value(2 * k, "AngleZ");
+    return sum;
+  };
+  const auto right = read(), slow = with_fault("slow", "longer_percent = 100\nfrom_s = 0.485");
+  ASSERT_TRUE(right && slow) << slow.error().message;
+  const Flown before(*right), after(*slow);
+  EXPECT_EQ(before.due.size(), 49U);
+  EXPECT_EQ(after.due.size(), 24U + 13U) << "every 40 ms from 490 ms on";
+  const double last = 36.0 * 0.99, end = after.value(2 * 36, "AngleZ");
+  EXPECT_NEAR(turned(after), last, 0.1) << "36 deg/s to 990 ms";
+  EXPECT_NEAR(end, 36.0 * 0.04, 0.01);
+}
+
+TEST(Player, CountsOnAfterASilenceAndFromZeroAfterARestart) {
+  for (const char* kind : {"silent\"\nto_s = 0.6\n#", "restart\"\nsilent_s = 0.1\n#"}) {
+    const auto scenario =
+        read(fmt::format("[[fault]]\nfrom_s = 0.5\nnode = \"slave_imu\"\nkind = \"{}", kind));
+    ASSERT_TRUE(scenario) << scenario.error().message;
+    const Flown flown(*scenario);
+    const bool restarts = std::string(kind).starts_with("restart");
+    for (std::size_t k = 0; k < flown.due.size(); ++k) {
+      EXPECT_FALSE(flown.due[k] > 503'000 && flown.due[k] < 603'000) << flown.due[k];
+      EXPECT_EQ(flown.value(2 * k + 1, "Count"), static_cast<double>(restarts && k >= 24 ? k - 24 : k)) << k;
+    }
+    EXPECT_GT(flown.due.size(), 40U);
+  }
+}
+
+TEST(Player, PlaysTheTimeThatTheSensorReports) {
+  const auto scenario = with_fault("clock_step", "by_ms = 5\nfrom_s = 0.5");
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  for (std::size_t k = 0; k < flown.due.size(); ++k)
+    EXPECT_EQ(flown.value(2 * k + 1, "Time"), 20.0 * static_cast<double>(k + 1) + (k < 24 ? 0 : 5)) << k;
 }
 
 TEST(J1939, GroupsAreKnownWithoutPrioritySourceAndDestination) {

@@ -11,8 +11,8 @@ template <class Settings>
 std::unique_ptr<Node> made(const sensors::Kind& sensor, const Settings& settings,
                            const world::FlightRecord& flight, const world::GlideRecord* glide = nullptr) {
   static const scenario::Scenario any;  // sensors keep a reference to their scenario
-  const Kind& kind = bound(sensor);
-  return kind.make({kind.table, settings}, {.scenario = any, .index = 0, .flight = flight, .glide = glide});
+  return make({bound(sensor).table, settings},
+              {.scenario = any, .index = 0, .flight = flight, .glide = glide});
 }
 
 }  // namespace canhil::nodes

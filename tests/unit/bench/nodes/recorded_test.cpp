@@ -55,7 +55,7 @@ std::vector<Frame> sent(const sensors::Kind& sensor, RecordedSamples samples,
   static const scenario::Scenario any;
   const RecordedSettings own{.recorded_from = "x.csv",
                              .samples = std::make_shared<const RecordedSamples>(std::move(samples))};
-  const auto node = make_samples({bound(sensor).table, own}, {.scenario = any, .flight = flight});
+  const auto node = make({bound(sensor).table, own}, {.scenario = any, .flight = flight});
   return sent(*node, due);
 }
 
@@ -148,10 +148,12 @@ TEST(Recorded, EveryKindOfNodeHasColumns) {
     const auto columns = columns_of(kind->table);
     EXPECT_EQ(columns.front(), "t_s");
     EXPECT_GT(columns.size(), 3U) << kind->table.key;
-    for (const scenario::Increment& increment : kind->table.increments)
-      EXPECT_EQ(std::ranges::count(columns, increment.signal), 1) << increment.signal;
-    for (const scenario::Assumed& one : kind->table.assumed)
-      EXPECT_EQ(std::ranges::count(columns, one.signal), 1) << one.signal;
+    for (const SampleSignal& signal : kind->signals) {
+      const bool measured = signal.role == sensors::Role::value || signal.role == sensors::Role::validity;
+      EXPECT_EQ(std::ranges::count(columns, signal.info.name), measured ? 1 : 0) << signal.info.name;
+    }
+    for (const sensors::Output& output : kind->sensor->outputs.values)
+      EXPECT_EQ(std::ranges::count(columns, output.rate_column), output.rate.empty() ? 0 : 1) << output.name;
   }
 }
 
@@ -204,6 +206,44 @@ TEST(RecordedLog, FramesAreSentAsTheyWereBetweenTheSameSyncs) {
     EXPECT_LE(due[i], static_cast<std::int64_t>(i / 3 + 1) * 10'000);
   }
   EXPECT_EQ(e2e::counter(frames[0].payload()), 5) << "not a counter of this run";
+}
+
+// A fault of a sensor acts on samples, so the frames of a log become samples again. Packed once more, they
+// are the frames of the log; what the log lacks is a gap in the counters.
+TEST(RecordedLog, ItsFramesBecomeSamplesAgain) {
+  const world::FlightRecord flight = one_second();
+  SlaveImuSettings settings;
+  settings.errors.gyro.noise.setConstant(1e-3);
+  settings.errors.gyro.bias.value.setConstant(1e-3);
+  const auto frames = sent(*made(slave_imu, settings, flight));
+  ASSERT_EQ(frames.size(), 300U);
+  Log log;
+  log.sync(0);
+  std::vector<Frame> kept;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::size_t sample = i / 3;
+    const bool lost = sample == 50 || i == 3 * std::size_t{70} + 1;
+    if (!lost) log.add(frames[i]);
+    if (sample != 50 && sample != 70) kept.push_back(frames[i]);
+    if (i % 3 == 2) log.sync(static_cast<std::int64_t>(sample + 1) * 10'000);
+  }
+  const auto group = log.read(second_us);
+  ASSERT_TRUE(group) << group.error().message;
+  const RecordedSettings own{.recorded_from = "x.log",
+                             .frames = std::make_shared<const RecordedFrames>(group->frames)};
+  static const scenario::Scenario any;
+  const NodeSettings node{bound(slave_imu).table, own};
+  const auto sensor = make_logged(node, {.scenario = any, .flight = flight});
+  for (int k = 1; k <= 100; ++k) {
+    const std::int64_t due_us = sensor->due_us();
+    const sensors::Sample sample = sensor->measure();
+    const bool lost = k == 51 || k == 71;
+    EXPECT_EQ(sample.fate == sensors::Sample::Fate::lost, lost) << k;
+    EXPECT_EQ(sample.valid_us, (lost ? k + 1 : k) * 10'000) << k;
+    EXPECT_TRUE(due_us > sample.valid_us - 10'000 && due_us <= sample.valid_us) << due_us;
+  }
+  EXPECT_EQ(sensor->due_us(), never_us);
+  EXPECT_EQ(sent(*make(node, {.scenario = any, .flight = flight})), kept);
 }
 
 TEST(RecordedLog, OfNoRunIsRefused) {

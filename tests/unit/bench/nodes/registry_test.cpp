@@ -7,6 +7,9 @@
 #include <cctype>
 #include <set>
 
+#include "bench/quantities/wire_unit.hpp"
+#include "bench/sensors/registry.hpp"
+#include "dbc/wire/turns.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::nodes {
@@ -44,6 +47,34 @@ TEST(Registry, WhatClosesAGroupIsTheLastOfItAndHasACycle) {
       }
     }
   }
+}
+
+// What a sensor says of its values agrees with the signals that carry them.
+TEST(Registry, EachValueAndFlagOfASensorHasASignal) {
+  for (const Kind* kind : all()) {
+    std::multiset<std::size_t> values, flags;
+    for (const SampleSignal& signal : kind->signals) {
+      if (signal.role == sensors::Role::validity) flags.insert(signal.index);
+      if (signal.role != sensors::Role::value) continue;
+      values.insert(signal.index);
+      const sensors::Output& output = kind->sensor->outputs.values[signal.index];
+      EXPECT_EQ(output.turns, wire::turns(signal.info)) << output.name;
+      EXPECT_EQ(!output.rate.empty(), signal.info.carries_remainder) << output.name;
+      const auto unit = quantities::wire_unit(signal.info.unit);
+      if (!output.si.empty()) {
+        EXPECT_EQ(output.si, unit.value().si) << output.name;
+      }
+    }
+    const sensors::Outputs& outputs = kind->sensor->outputs;
+    for (std::size_t i = 0; i < outputs.values.size(); ++i) EXPECT_EQ(values.count(i), 1U);
+    for (std::size_t i = 0; i < outputs.flags.size(); ++i) EXPECT_EQ(flags.count(i), 1U);
+    EXPECT_LE(outputs.values.size(), sensors::Sample::most_values);
+  }
+}
+
+TEST(Registry, BindsEachSensor) {
+  ASSERT_EQ(all().size(), sensors::all().size());
+  for (const sensors::Kind* sensor : sensors::all()) EXPECT_EQ(bound(*sensor).sensor, sensor);
 }
 
 // The truth has a single sampling interval, so only one kind of node can be sampled at every epoch.

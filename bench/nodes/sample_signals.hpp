@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "bench/scenario/node.hpp"
+#include "bench/sensors/sample.hpp"
 #include "dbc/wire/message_info.hpp"
 #include "messages/canhil.hpp"
 
@@ -24,30 +24,17 @@ void each_message(const MessageInfo& closes, Visit visit) {
   }(std::type_identity<messages::AllMessages>{});
 }
 
-/// The meaning of a signal in its group.
-enum class Role : std::uint8_t { time_of_validity, interval, validity, value };
-
-struct GroupSignal {
+/// A signal of a sample group, and what it carries.
+struct SampleSignal {
+  const MessageInfo* message = nullptr;
   SignalInfo info;
-  Role role = Role::value;
+  sensors::Role role = sensors::Role::value;
+  std::size_t index = 0;  ///< of the value or flag in the sample
+  double factor = 1;      ///< from the unit of the signal to SI
 };
 
-inline Role role_of(const SignalInfo& signal) {
-  if (signal.name == "time_of_validity_us") return Role::time_of_validity;
-  if (signal.name == "interval_us") return Role::interval;
-  return signal.name.ends_with("_validity") ? Role::validity : Role::value;
-}
-
-/// All signals of the group, message by message.
-inline std::vector<GroupSignal> signals_of(const MessageInfo& closes) {
-  std::vector<GroupSignal> all;
-  each_message(closes, [&]<class Message>() {
-    const Message message{};
-    Message::visit(message, [&](const SignalInfo& signal, const auto& /*member*/) {
-      all.push_back({.info = signal, .role = role_of(signal)});
-    });
-  });
-  return all;
-}
+/// All signals of the group, message by message. Each signal carries the value or flag of its name: the name
+/// of the signal without its unit ("velocity_north_mps"), or without "_validity".
+std::vector<SampleSignal> signals_of(const MessageInfo& closes, const sensors::Outputs& outputs);
 
 }  // namespace canhil::nodes

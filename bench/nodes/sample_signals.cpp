@@ -1,0 +1,47 @@
+#include "bench/nodes/sample_signals.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "bench/quantities/wire_unit.hpp"
+
+namespace canhil::nodes {
+namespace {
+
+using sensors::Role;
+
+Role role_of(const SignalInfo& signal) {
+  if (signal.name == "time_of_validity_us") return Role::time_of_validity;
+  if (signal.name == "interval_us") return Role::interval;
+  return signal.name.ends_with("_validity") ? Role::validity : Role::value;
+}
+
+// The index of the name in `names` that stands before the last underscore of `signal`, or that is `signal`.
+template <class Names, class Name>
+std::optional<std::size_t> place(const Names& names, std::string_view signal, Name name_of) {
+  for (const std::string_view name : {signal.substr(0, signal.rfind('_')), signal}) {
+    const auto found = std::ranges::find(names, name, name_of);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<SampleSignal> signals_of(const MessageInfo& closes, const sensors::Outputs& outputs) {
+  std::vector<SampleSignal> all;
+  each_message(closes, [&]<class Message>() {
+    const Message message{};
+    Message::visit(message, [&](const SignalInfo& signal, const auto& /*member*/) {
+      SampleSignal one{.message = &Message::info, .info = signal, .role = role_of(signal)};
+      if (one.role == Role::value)
+        one.index = place(outputs.values, signal.name, &sensors::Output::name).value();
+      if (one.role == Role::validity) one.index = place(outputs.flags, signal.name, std::identity{}).value();
+      if (const auto unit = quantities::wire_unit(signal.unit)) one.factor = unit->factor;
+      all.push_back(one);
+    });
+  });
+  return all;
+}
+
+}  // namespace canhil::nodes
