@@ -47,7 +47,8 @@ class MappedWatch final : public observe::TargetWatch {
     for (const mapping::Hear& hear : conversation_.mapping.hears) {
       if (hear.of.index != index) continue;
       heard_ = true;
-      if (received.frame.size != hear.of.message->size || !hear.echo || *hear.answers != awaited_play_)
+      if (received.frame.size != hear.of.message->size || !hear.is_owed() || !hear.echo ||
+          *hear.answers != awaited_play_)
         continue;
       const mapping::Sent* cause = mapping::cause_of(conversation_, hear, received.frame);
       if (cause != nullptr && cause->valid_us == awaited_us_) waits_for_.erase(index);
@@ -61,7 +62,7 @@ class MappedWatch final : public observe::TargetWatch {
     if (!whole) return false;
     waits_for_.clear();
     for (const mapping::Hear& hear : conversation_.mapping.hears) {
-      if (hear.echo && *hear.answers == whole->play) waits_for_.insert(hear.of.index);
+      if (hear.is_owed() && hear.echo && *hear.answers == whole->play) waits_for_.insert(hear.of.index);
     }
     awaited_play_ = whole->play;
     awaited_us_ = whole->sent->valid_us;

@@ -15,8 +15,7 @@ namespace canhil::mapping {
 /// One value of a quantity, in SI.
 struct TimedValue {
   std::int64_t t_us = 0;  ///< time of validity of the cause, or the arrival time if there is no cause
-  double value = 0;
-  std::optional<double> sigma{};
+  double value = 0;       ///< NaN: the target sent the value that means "none"
 };
 
 /// The reported values of each quantity.
@@ -26,6 +25,7 @@ struct Answers {
 
   const Mapping* mapping = nullptr;
   std::map<const quantities::Quantity*, Values> values;
+  std::map<const ReportedSignal*, Values> sigmas;  ///< and correlations, by their signals
   /// The times of the values' causes, or the arrival times if there is no cause, by message name.
   std::map<std::string_view, Times> messages;
 };

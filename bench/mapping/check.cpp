@@ -113,11 +113,11 @@ class Remarks {
     }
     if (!hear.of.protection)
       add(Grade::note, "unprotected", hear.of.message->name, "is not checked: neither counter nor checksum");
-    if (hear.answers && !hear.echo)
+    if (hear.is_owed() && !hear.echo)
       add(Grade::note, "no-echo", hear.of.message->name,
           "does not name its cause: the latest stimulus before it is taken, and virtual time cannot wait for "
           "it");
-    if (!hear.answers && hear.of.message->cycle_time_us == 0)
+    if (!hear.answers && mapping_.messages[hear.of.index].cycle_time_us == 0)
       add(Grade::warning, "no-cycle-time", hear.of.message->name,
           "answers nothing and has no cycle time in the DBC: its period cannot be judged");
   }
@@ -154,7 +154,8 @@ double load_of(const Mapping& mapping, const wire::BitRates& rates) {
     for (const PlayedMessage& one : play.messages) add(one.of, play.period_us);
   }
   for (const Hear& hear : mapping.hears)
-    add(hear.of, hear.answers ? mapping.plays[*hear.answers].period_us : hear.of.message->cycle_time_us);
+    add(hear.of, hear.is_owed() ? mapping.plays[*hear.answers].period_us
+                                : mapping.messages[hear.of.index].cycle_time_us);
   return load;
 }
 

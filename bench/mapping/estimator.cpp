@@ -2,15 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numbers>
 #include <vector>
 
 #include "bench/checks/delay.hpp"
 #include "bench/estimators/tracks.hpp"
-#include "bench/mapping/answers.hpp"
-#include "bench/quantities/unwrapped.hpp"
+#include "bench/mapping/points.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -23,53 +19,45 @@ const ReferenceQuantity& reference_of(const quantities::Quantity& quantity) {
   return *find_reference_quantity(quantity.name);
 }
 
-double difference(const ReferenceQuantity& of, double a, double b) {
-  return of.turns ? std::remainder(a - b, 2 * std::numbers::pi) : a - b;
-}
-
-Spool<TrackPoint> errors_of(const ReferenceQuantity& of, const Spool<TimedValue>& all, const Truth& truth) {
-  Spool<TrackPoint> errors;
-  double last_truth = 0;
-  for (const TimedValue& one : all) {
-    const auto at = of.truth(truth, one.t_us);
-    if (!at || one.t_us > truth.duration_us) continue;
-    const double error = difference(of, one.value, *at);
-    // The truth is unwrapped where it passes half a turn, the estimate to within half a turn of the truth.
-    last_truth = of.turns ? quantities::unwrapped(*at, last_truth) : *at;
-    errors.push_back({.t_us = one.t_us,
-                      .value = error,
-                      .sigma = one.sigma,
-                      .estimate = last_truth + error,
-                      .truth = last_truth});
-  }
-  return errors;
-}
-
-const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity) {
-  return *std::ranges::find_if(mapping.hears, [&](const Hear& hear) {
-    return std::ranges::any_of(hear.reported_signals, [&](const ReportedSignal& telling) {
-      return !telling.sigma && telling.quantity->quantity == quantity;
-    });
-  });
+// The quantities that the target reports and from which a quantity comes: itself, or what it is derived from.
+std::vector<const quantities::Quantity*> sources_of(const quantities::Quantity& quantity) {
+  const ReferenceQuantity& of = reference_of(quantity);
+  if (of.of.empty()) return {&quantity};
+  return {of.of.begin(), of.of.end()};
 }
 
 // Why the causes of the answers with a quantity are not certain; empty: they are.
 std::string ambiguous(const checks::Observations& seen, const quantities::Quantity& quantity) {
   const Mapping* mapping = seen.of<Answers>().mapping;
-  return mapping == nullptr ? "" : seen.timing.answers[hear_of(*mapping, &quantity).of.index].ambiguous;
+  if (mapping == nullptr) return "";
+  for (const quantities::Quantity* source : sources_of(quantity)) {
+    std::string why = seen.timing.answers[hear_of(*mapping, source).of.index].ambiguous;
+    if (!why.empty()) return why;
+  }
+  return "";
+}
+
+Track::Kind kind_of(const quantities::Quantity& quantity) {
+  if (quantity.degrees_of_freedom > 0) return Track::Kind::statistic;
+  return quantity.white ? Track::Kind::innovation : Track::Kind::error;
 }
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const quantities::TrackSink& give) {
   const Answers& answers = seen.of<Answers>();
-  for (const auto& [quantity, all] : answers.values) {
+  if (answers.mapping == nullptr) return;
+  for (const quantities::Quantity* quantity : answers.mapping->quantities) {
     const ReferenceQuantity& of = reference_of(*quantity);
-    const std::string_view message = hear_of(*answers.mapping, quantity).of.message->name;
+    const std::string_view message = hear_of(*answers.mapping, sources_of(*quantity).back()).of.message->name;
     const estimators::Answering answering{.longest_wait_us = estimators::longest_wait_us(seen, message),
                                           .answers_end_us = truth.duration_us};
     Track track = answering.track(*quantity, std::string(quantity->meaning));
-    track.estimate_title = std::string(quantity->name);
-    track.estimate_unit = quantity->unit;
-    track.points = errors_of(of, all, truth);
+    track.kind = kind_of(*quantity);
+    track.only_if_judged = !of.of.empty();
+    track.points = points_of(of, seen, truth);
+    if (track.kind == Track::Kind::error && of.of.empty()) {
+      track.estimate_title = std::string(quantity->name);
+      track.estimate_unit = quantity->unit;
+    }
     if (!track.points.empty()) give(std::move(track));
   }
 }
@@ -86,9 +74,7 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
   if (unclear) return {};
   std::map<std::int64_t, std::map<std::size_t, double>> by_time;  // by quantity
   for (std::size_t i = 0; i < mapping.quantities.size(); ++i) {
-    const auto values = answers.values.find(mapping.quantities[i]);
-    if (values == answers.values.end()) continue;
-    for (const TrackPoint& one : errors_of(reference_of(*mapping.quantities[i]), values->second, truth))
+    for (const TrackPoint& one : points_of(reference_of(*mapping.quantities[i]), seen, truth))
       by_time[one.t_us][i] = one.value;
   }
   quantities::Samples samples(*mapping.layout);
@@ -127,13 +113,19 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
       delays{.name = "delay", .what = "delay against the truth"};
   tracks_of(seen, truth, [&](const Track& track) {
     const quantities::Quantity& quantity = *track.quantity;
+    const ReferenceQuantity& of = reference_of(quantity);
+    if (track.kind != Track::Kind::error || of.of.size() > 1) return;
     const std::string name(quantity.name);
     const double last = track.points.back().value;
-    if (ambiguous(seen, quantity).empty())
+    // A position is shown in metres, which are derived from its coordinates.
+    const bool is_derived = !of.of.empty();
+    const bool shown = is_derived == is_on_the_ground(is_derived ? reference_of(*of.of.front()) : of);
+    const bool certain = ambiguous(seen, quantity).empty();
+    if (shown && certain)
       end.add(name, last,
               fmt::format("{} {:+.3f} {}", name, last / quantity.unit.factor, quantity.unit.name));
-    else
-      end.add(name, std::nullopt, fmt::format("{} not measured", name));
+    if (shown && !certain) end.add(name, std::nullopt, fmt::format("{} not measured", name));
+    if (!of.of.empty()) return;
     const auto delay = checks::delay_of(track, {.from_us = 0, .to_us = truth.duration_us});
     delays.add(
         name, delay ? std::optional(delay->delay_s) : std::nullopt,
@@ -146,11 +138,10 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
 std::vector<std::string_view> closing_with(const checks::Observations& seen,
                                            const quantities::Quantity& quantity) {
   std::vector<std::string_view> messages;
-  for (const Hear& hear : seen.of<Answers>().mapping->hears) {
-    const bool has_it = std::ranges::any_of(hear.reported_signals, [&](const ReportedSignal& one) {
-      return one.quantity->quantity == &quantity && !one.sigma;
-    });
-    if (hear.answers && has_it) messages.push_back(hear.of.message->name);
+  for (const quantities::Quantity* source : sources_of(quantity)) {
+    const Hear& hear = hear_of(*seen.of<Answers>().mapping, source);
+    const std::string_view name = hear.of.message->name;
+    if (hear.is_owed() && std::ranges::find(messages, name) == messages.end()) messages.push_back(name);
   }
   return messages;
 }

@@ -24,11 +24,11 @@ class Group {
       const Mapped& of = play_.messages[i].of;
       const Frame& frame = entry.frame;
       if (frame.error || frame.id != of.message->id || frame.extended != of.message->extended) continue;
-      here_[i] = is_right(of, receivers_[i], frame);
-      if (here_[i]) {
-        values_[i].resize(of.plan.signals());
-        static_cast<void>(of.plan.decode(frame.payload(), values_[i]));
-      }
+      values_[i].resize(of.plan.signals());
+      const bool right = is_right(of, receivers_[i], frame);
+      if (right) static_cast<void>(of.plan.decode(frame.payload(), values_[i]));
+      if (right && !has_page(play_.messages[i], values_[i])) return;  // of another play
+      here_[i] = right;
       if (i + 1 == play_.messages.size()) close(entry.t_ns, to);
       return;
     }
@@ -40,6 +40,13 @@ class Group {
     if (!of.protection) return true;
     const auto check = receiver.check(*of.protection, frame.payload());
     return check == protection::Check::ok || check == protection::Check::some_lost;
+  }
+
+  // Whether a frame has the page that the play sends.
+  static bool has_page(const PlayedMessage& played, const std::vector<double>& values) {
+    return std::ranges::all_of(played.sources, [&](const Source& source) {
+      return !source.signal->multiplexor || values[played.of.number(*source.signal)] == source.value;
+    });
   }
 
   void close(std::int64_t t_ns, Extracted& to) {

@@ -29,8 +29,6 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
       pairings_(conversation.mapping.hears.size()),
       virtual_time_(virtual_time) {
   const Mapping& mapping = conversation.mapping;
-  for (std::size_t i = 0; i < mapping.plays.size(); ++i)
-    play_closed_by_[mapping.plays[i].messages.back().of.index] = i;
   for (std::size_t i = 0; i < mapping.hears.size(); ++i) {
     const Mapped& of = mapping.hears[i].of;
     hear_of_[of.index] = i;
@@ -40,13 +38,18 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
   }
 }
 
-// The transmission of a play that a frame completes. Null: the frame is damaged, so the target need not
-// answer the play.
-const Sent* Listener::closed_by(std::size_t play, const Frame& frame) const {
-  const auto& sent = conversation_.sent[play];
-  const auto found =
-      std::find_if(sent.rbegin(), sent.rend(), [&](const Sent& one) { return one.frames.back() == frame; });
-  return found == sent.rend() ? nullptr : &*found;
+// The transmission of a play that a frame completes; none: the frame is damaged, so the target need not
+// answer the play. Several plays may end with pages of one message.
+std::optional<Passing::Whole> Listener::closed_by(std::size_t message, const Frame& frame) const {
+  const auto& plays = conversation_.mapping.plays;
+  for (std::size_t i = 0; i < plays.size(); ++i) {
+    if (plays[i].messages.back().of.index != message) continue;
+    const auto& sent = conversation_.sent[i];
+    const auto found =
+        std::find_if(sent.rbegin(), sent.rend(), [&](const Sent& one) { return one.frames.back() == frame; });
+    if (found != sent.rend()) return Passing::Whole{.play = i, .sent = &*found};
+  }
+  return std::nullopt;
 }
 
 void Listener::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
@@ -63,7 +66,7 @@ void Listener::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t l
   stopwatch_.stimulus(group, {.valid_us = valid_us, .t_ns = t_ns, .due_ns = due_ns_});
   for (std::size_t i = 0; i < pairings_.size(); ++i) {
     const Hear& hear = conversation_.mapping.hears[i];
-    if (hear.answers == whole->play)
+    if (hear.is_owed() && hear.answers == whole->play)
       pairings_[i].pairing.sent(carried_by(hear, *whole->sent), valid_us, t_ns, settler(hear));
   }
 }
@@ -72,11 +75,10 @@ void Listener::received(const Received& received) {
   const std::size_t index = places_(received.frame);
   if (index == MessagePlaces::nowhere) return;
   if (received.own) {
-    const auto play = play_closed_by_.find(index);
-    const Sent* sent = play == play_closed_by_.end() ? nullptr : closed_by(play->second, received.frame);
-    if (sent != nullptr) seen_.transmit_stamps_echoed = true;
-    return stopwatch_.echoed(received, sent == nullptr ? "" : conversation_.mapping.groups[play->second],
-                             sent == nullptr ? 0 : sent->valid_us);
+    const auto whole = closed_by(index, received.frame);
+    if (whole) seen_.transmit_stamps_echoed = true;
+    return stopwatch_.echoed(received, whole ? conversation_.mapping.groups[whole->play] : "",
+                             whole ? whole->sent->valid_us : 0);
   }
   if (const auto found = hear_of_.find(index); found != hear_of_.end())
     hear(conversation_.mapping.hears[found->second], received);
@@ -113,9 +115,11 @@ void Listener::hear(const Hear& hear, const Received& received) {
   ++sighting.right;
   ++seen_.answers[index];
   // Before the first play there is nothing to answer.
-  if (!hear.answers || conversation_.sent[*hear.answers].empty()) {
+  if (!hear.is_owed() || conversation_.sent[*hear.answers].empty()) {
     stopwatch_.arrived(index, received);
     if (!hear.answers && sent_any_) record(hear, frame, bench_us(received.t_ns));
+    const Sent* cause = hear.task_us > 0 ? cause_of(conversation_, hear, frame) : nullptr;
+    if (cause != nullptr) record(hear, frame, cause->valid_us);
     return;
   }
   // An echo that matches no play counts as an answer without a cause. Without an echo, an answer to a play
@@ -159,21 +163,16 @@ void Listener::record(const Hear& hear, const Frame& frame, std::int64_t t_us) {
   answers.messages[hear.of.message->name].push_back(t_us);
   values_.resize(hear.of.plan.signals());
   static_cast<void>(hear.of.plan.decode(frame.payload(), values_));  // the sizes match
-  const auto value_of = [&](const ReportedSignal& telling) -> std::optional<double> {
+  for (const ReportedSignal& telling : hear.reported_signals) {
     const std::size_t number = hear.of.number(*telling.signal);
+    if (!hear.of.plan.is_present(number, frame.payload())) continue;
     const bool invalid =
         telling.invalid && dbc::raw_bits(*telling.signal, frame.payload()) == *telling.invalid;
-    if (invalid || !hear.of.plan.is_present(number, frame.payload())) return std::nullopt;
-    return values_[number] * telling.factor;  // NaN is recorded too; it makes checks fail
-  };
-  for (const ReportedSignal& telling : hear.reported_signals) {
-    const auto value = value_of(telling);
-    if (telling.sigma || !value) continue;
-    TimedValue reported{.t_us = t_us, .value = *value};
-    for (const ReportedSignal& other : hear.reported_signals) {
-      if (other.sigma && other.quantity == telling.quantity) reported.sigma = value_of(other);
-    }
-    answers.values[telling.quantity->quantity].push_back(reported);
+    const double value = values_[number] * telling.factor;  // NaN is recorded too; it makes checks fail
+    if (telling.what != ReportedSignal::What::value)
+      answers.sigmas[&telling].push_back({.t_us = t_us, .value = invalid ? std::nan("") : value});
+    else if (!invalid)
+      answers.values[telling.quantity->quantity].push_back({.t_us = t_us, .value = value});
   }
 }
 

@@ -39,17 +39,17 @@ class Listener final : public observe::Watcher {
   OwnPairing& pairing_of(const Hear& hear);
   Pairing::Give settler(const Hear& hear);
   [[nodiscard]] std::int64_t bench_us(std::int64_t t_ns) const;
-  [[nodiscard]] const Sent* closed_by(std::size_t play, const Frame& frame) const;
+  [[nodiscard]] std::optional<Passing::Whole> closed_by(std::size_t message, const Frame& frame) const;
 
   const Conversation& conversation_;
   checks::Observations seen_;
   observe::Stopwatch stopwatch_;
   Places places_;
   Passing passing_;
-  std::map<std::size_t, std::size_t> play_closed_by_, hear_of_;  // from the index of a message
-  std::vector<double> values_;                                   // signal values of one message
-  std::vector<protection::Receiver> receivers_;                  // for each hear
-  std::vector<OwnPairing> pairings_;                             // for each hear
+  std::map<std::size_t, std::size_t> hear_of_;   // from the index of a message
+  std::vector<double> values_;                   // signal values of one message
+  std::vector<protection::Receiver> receivers_;  // for each hear
+  std::vector<OwnPairing> pairings_;             // for each hear
   bool virtual_time_ = false, sent_any_ = false;
   std::int64_t due_us_ = 0, due_ns_ = 0;  // deadline of the last play: by time base, by clock of stamps
 };

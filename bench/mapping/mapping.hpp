@@ -67,13 +67,16 @@ struct Play {
   std::int64_t latency_us = 0;            ///< added to the sensor's latency
 };
 
-/// A signal that carries a quantity of the target.
+/// A signal that carries a quantity of the target, its sigma, or the correlation of its error with another.
 struct ReportedSignal {
+  enum class What : std::uint8_t { value, sigma, correlation };
   const dbc::Signal* signal = nullptr;
   const ReferenceQuantity* quantity = nullptr;
-  bool sigma = false;                      ///< the signal carries the quantity's sigma, not its value
-  double factor = 1;                       ///< from the signal's unit to SI
-  std::optional<std::uint64_t> invalid{};  ///< raw value that means "invalid"
+  What what = What::value;
+  const ReferenceQuantity* other = nullptr;  ///< of a correlation
+  bool in_metres = false;                    ///< the sigma of a latitude or longitude is in metres
+  double factor = 1;                         ///< from the signal's unit to SI
+  std::optional<std::uint64_t> invalid{};    ///< raw value that means "invalid"
 };
 
 /// An echo: the target copies the value of a signal of its cause (`original`) into a signal of its answer
@@ -89,6 +92,12 @@ struct Hear {
   std::vector<ReportedSignal> reported_signals;
   std::optional<std::size_t> answers{};  ///< index of the answered play; none: sent independently of plays
   std::optional<Echo> echo{};            ///< none: the cause is the latest stimulus before the message
+  /// The period of the target's own task that sends the message: it answers the latest stimulus, not each. 0:
+  /// the target must answer each stimulus.
+  std::int64_t task_us = 0;
+
+  /// Whether each stimulus of the play `answers` must have an answer.
+  [[nodiscard]] bool is_owed() const { return answers && task_us == 0; }
 };
 
 struct Mapping final : scenario::Foreign {

@@ -28,4 +28,38 @@ inline constexpr Quantity position_longitude{
 inline constexpr Quantity position_height{
     .name = "position.height", .meaning = "error of the height above the ellipsoid", .unit = metres};
 
+/// The normalised error squared e^T P^-1 e, where P has the sigmas and correlations that the target reports.
+inline constexpr Quantity velocity_nees{
+    .name = "velocity.nees",
+    .meaning = "normalised error squared of the velocity, with sigmas and correlations as reported",
+    .unit = plain,
+    .degrees_of_freedom = 3,
+    .nan_allowed = true};
+inline constexpr Quantity position_nees{
+    .name = "position.nees",
+    .meaning = "normalised error squared of the position, with sigmas and correlations as reported",
+    .unit = plain,
+    .degrees_of_freedom = 3,
+    .nan_allowed = true};
+inline constexpr Quantity position_horizontal_nees{
+    .name = "position.horizontal.nees",
+    .meaning =
+        "normalised error squared of the horizontal position, with sigmas and correlations as reported",
+    .unit = plain,
+    .degrees_of_freedom = 2,
+    .nan_allowed = true};
+/// The normalised innovation squared, with the sigmas and correlations that the target reports.
+inline constexpr Quantity velocity_nis{.name = "innovation.velocity.nis",
+                                       .meaning = "normalised innovation squared of a velocity",
+                                       .unit = plain,
+                                       .degrees_of_freedom = 3,
+                                       .white = true,
+                                       .nan_allowed = true};
+inline constexpr Quantity position_nis{.name = "innovation.position.nis",
+                                       .meaning = "normalised innovation squared of a position",
+                                       .unit = plain,
+                                       .degrees_of_freedom = 3,
+                                       .white = true,
+                                       .nan_allowed = true};
+
 }  // namespace canhil::quantities

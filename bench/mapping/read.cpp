@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "bench/mapping/mapping.hpp"
+#include "bench/mapping/put_together.hpp"
 #include "bench/mapping/read_protection.hpp"
 #include "bench/quantities/wire_unit.hpp"
 #include "bench/scenario/section.hpp"
@@ -59,7 +60,7 @@ class Reader {
     for (Section& section : root_.tables("hear")) read_hear(section);
     root_.finish();
     if (const auto error = root_.error()) return tl::unexpected(*error);
-    if (const auto wrong = put_together()) return failure(*wrong);
+    if (const auto wrong = put_together(*mapping_)) return failure(*wrong);
     return mapping_;
   }
 
@@ -109,6 +110,13 @@ class Reader {
     section.finish();
   }
 
+  // The SI unit of a signal's unit; empty: none, or unknown.
+  [[nodiscard]] std::string_view unit_of(const dbc::Signal& one) const {
+    const auto given = units_.find(&one);
+    const auto unit = quantities::wire_unit(given == units_.end() ? one.unit : given->second);
+    return unit ? unit->si : "";
+  }
+
   // The factor from the signal's unit to SI; `si`: the SI unit of the quantity.
   double factor(Section& section, std::string_view key, const dbc::Message& of, const dbc::Signal& one,
                 std::string_view si, std::string_view quantity) {
@@ -141,8 +149,11 @@ class Reader {
 
   Mapped mapped(Section& section, std::string_view key, const dbc::Message& message, bool of_target) {
     auto& all = mapping_->messages;
-    if (std::ranges::find(all, message.name, &MessageInfo::name) != all.end())
-      section.reject(key, fmt::format("{} is already used", message.name), "each message once");
+    const auto used = std::ranges::find(all, message.name, &MessageInfo::name);
+    const bool has_pages = std::ranges::any_of(message.signals, &dbc::Signal::multiplexor);
+    if (used != all.end() && (of_target || !has_pages || used->sender != messages::Sync::info.sender))
+      section.reject(key, fmt::format("{} is already used", message.name),
+                     "each message once, or each page of a multiplexed message that the bench sends");
     MessageInfo info{
         .name = message.name,
         .id = message.id,
@@ -151,9 +162,9 @@ class Reader {
         .size = static_cast<std::uint8_t>(message.size),
         .cycle_time_us = message.cycle_time_us,
         .sender = of_target ? messages::TargetHeartbeat::info.sender : messages::Sync::info.sender};
-    all.push_back(info);
     Mapped mapped(message);
-    mapped.index = all.size() - 1;
+    mapped.index = static_cast<std::size_t>(used - all.begin());
+    if (used == all.end()) all.push_back(info);
     if (const auto own = protections_.find(&message); own != protections_.end())
       mapped.protection = own->second;
     return mapped;
@@ -188,6 +199,8 @@ class Reader {
     }
     signals.finish();
     if (invalid) invalid->finish();
+    if (std::ranges::find(mapping_->plays, play.name, &Play::name) != mapping_->plays.end())
+      play.name += " " + page_of(play.messages.back());
     section.finish();
     mapping_->plays.push_back(std::move(play));
   }
@@ -272,6 +285,7 @@ class Reader {
         hear.answers = static_cast<std::size_t>(play - mapping_->plays.begin());
     }
     section.optional("answers");
+    if (hear.answers) hear.task_us = section.optional_time_us("task_ms", Limits::above(0)).value_or(0);
     if (auto echo = section.optional_table("echo")) {
       if (!hear.answers)
         echo->reject("signal", "repeats nothing", "answers beside it");
@@ -303,79 +317,54 @@ class Reader {
                  .original = original};
   }
 
+  // The quantity with this name that the target may report. Null: there is none, and the section has an
+  // error.
+  static const ReferenceQuantity* reported(Section& section, const std::string& key, std::string_view word) {
+    const ReferenceQuantity* quantity = find_reference_quantity(word);
+    if (quantity != nullptr && quantity->of.empty()) return quantity;
+    std::vector<std::string_view> names;
+    for (const ReferenceQuantity& one : reference_quantities()) {
+      if (one.of.empty()) names.push_back(one.quantity->name);
+    }
+    section.reject(key, fmt::format("'{}' is not a quantity with a truth", word),
+                   fmt::format("one of: {}; or one with '.sigma'; or 'correlation(ONE, OTHER)'",
+                               fmt::join(names, ", ")));
+    return nullptr;
+  }
+
   void read_telling(Section& section, const std::string& key, std::optional<Section>& invalid, Hear& hear) {
-    constexpr std::string_view sigma = ".sigma";
+    using What = ReportedSignal::What;
+    constexpr std::string_view sigma = ".sigma", correlation = "correlation(";
     const dbc::Signal* one = signal(section, key, hear.of.message, key);
     std::string word = section.text(key);
     if (one == nullptr || word.empty()) return;
     ReportedSignal telling{.signal = one};
     const double sign = word.starts_with('-') ? -1 : 1;
     if (sign < 0) word.erase(0, 1);
-    telling.sigma = word.ends_with(sigma);
-    if (telling.sigma) word.erase(word.size() - sigma.size());
-    telling.quantity = find_reference_quantity(word);
-    if (telling.quantity == nullptr) {
-      section.reject(
-          key, fmt::format("'{}' is not a quantity with a truth", word),
-          fmt::format("one of: {}, or one with '.sigma'",
-                      fmt::join(names_of(reference_quantities(),
-                                         [](const ReferenceQuantity& t) { return t.quantity->name; }),
-                                ", ")));
-      return;
+    if (word.ends_with(sigma)) {
+      telling.what = What::sigma;
+      word.erase(word.size() - sigma.size());
     }
-    telling.factor = sign * factor(section, key, *hear.of.message, *one, telling.quantity->si, word);
+    const std::size_t comma = word.find(", ");
+    if (word.starts_with(correlation) && word.ends_with(')') && comma != std::string::npos) {
+      telling.what = What::correlation;
+      const std::size_t other = comma + 2;
+      telling.other = reported(section, key, word.substr(other, word.size() - 1 - other));
+      word = word.substr(correlation.size(), comma - correlation.size());
+    }
+    telling.quantity = reported(section, key, word);
+    if (section.error()) return;
+    std::string_view si = telling.what == What::correlation ? "" : telling.quantity->si;
+    if (telling.what == What::sigma && is_on_the_ground(*telling.quantity) && unit_of(*one) == "m") {
+      telling.in_metres = true;
+      si = "m";
+    }
+    telling.factor = sign * factor(section, key, *hear.of.message, *one, si, word);
     if (invalid && invalid->has(key)) {
       telling.invalid = static_cast<std::uint64_t>(invalid->integer(key, 0));
       expect_bits(*invalid, key, *one, *telling.invalid);
     }
     hear.reported_signals.push_back(telling);
-  }
-
-  // Derives all other members of the mapping from what was read. If the mapping is invalid, returns the
-  // reason.
-  std::optional<std::string> put_together() {
-    Mapping& mapping = *mapping_;
-    const auto wrong = [&](const std::string& what) { return fmt::format("{}: {}", mapping.file, what); };
-    if (mapping.messages.size() > MessagePlaces::most)
-      return wrong(
-          fmt::format("{} messages, expected {} at the most", mapping.messages.size(), MessagePlaces::most));
-    for (const MessageInfo& info : mapping.messages) {
-      if (info.fd != mapping.messages.front().fd)
-        return wrong(fmt::format("{} and {} have different formats, expected all CAN FD or all classic",
-                                 mapping.messages.front().name, info.name));
-    }
-    for (const Play& play : mapping.plays) {
-      const std::string_view group = mapping.groups.emplace_back(play.name);
-      for (const PlayedMessage& one : play.messages) mapping.messages[one.of.index].sample_group = group;
-    }
-    for (const Hear& hear : mapping.hears) {
-      MessageInfo& info = mapping.messages[hear.of.index];
-      info.sample_group = hear.of.message->name;
-      mapping.answers_by_name = mapping.answers_by_name || hear.echo;
-      if (hear.answers) info.answers = {&mapping.groups[*hear.answers], 1};
-      mapping.heard.push_back(hear.of.message->name);
-      if (hear.answers) mapping.closing.push_back(hear.of.message->name);
-      for (const ReportedSignal& telling : hear.reported_signals) {
-        const auto same = [&](const ReportedSignal& other) {
-          return !other.sigma && other.quantity == telling.quantity;
-        };
-        if (telling.sigma && std::ranges::none_of(hear.reported_signals, same))
-          return wrong(
-              fmt::format("{} carries the sigma of {} without its value, expected both in one message",
-                          hear.of.message->name, telling.quantity->quantity->name));
-        if (!telling.sigma &&
-            std::ranges::find(mapping.quantities, telling.quantity->quantity) != mapping.quantities.end())
-          return wrong(fmt::format("{} is reported twice, expected once", telling.quantity->quantity->name));
-        if (!telling.sigma) mapping.quantities.push_back(telling.quantity->quantity);
-      }
-    }
-    std::string columns;
-    for (const quantities::Quantity* one : mapping.quantities)
-      columns += (columns.empty() ? "" : " ") + std::string(one->name);
-    mapping.layout = find_layout(columns);
-    mapping.own.emplace(estimator_of(mapping));
-    mapping.estimator = &*mapping.own;
-    return std::nullopt;
   }
 
   std::shared_ptr<Mapping> mapping_;

@@ -1,4 +1,5 @@
-// The quantities that a mapped target may report, and their truth.
+// The quantities that a mapped target may report, with their truth, and those that the bench derives from
+// them.
 #pragma once
 
 #include <cstdint>
@@ -7,25 +8,33 @@
 #include <string_view>
 
 #include "bench/checks/estimator.hpp"
+#include "bench/mapping/derived.hpp"
 #include "bench/scenario/node.hpp"
 
 namespace canhil::mapping {
 
 struct ReferenceQuantity {
   const quantities::Quantity* quantity = nullptr;
-  std::string_view si;  ///< SI unit
-  bool turns = false;   ///< an angle: values that differ by a full turn are equal
+  std::string_view si{};  ///< SI unit
+  bool turns = false;     ///< an angle: values that differ by a full turn are equal
   /// The truths that contain the quantity. The first of them that the scenario has is used.
   std::span<const scenario::TruthOf> from{};
   /// The truth at a time [us] of the run, in SI; none: there is no truth.
   std::optional<double> (*truth)(const estimators::Truth& truth, std::int64_t t_us) = nullptr;
+
+  /// The quantities from which the bench derives this one; empty: the target reports it itself.
+  std::span<const quantities::Quantity* const> of{};
+  Derive derive = nullptr;
+  bool of_sigmas = false;  ///< derived only if the target reports the sigmas of all quantities in `of`
 };
 
-/// All quantities that a mapped target may report.
+/// All quantities that a mapped target may report, followed by those that are derived from them.
 std::span<const ReferenceQuantity> reference_quantities();
 /// Why a scenario has no truth of the quantity; empty: it has one.
 std::string why_no_truth(const ReferenceQuantity& quantity, const scenario::Scenario& scenario);
-/// The quantity of this name; null if a mapped target may not report it.
+/// Whether the quantity is a latitude or a longitude.
+bool is_on_the_ground(const ReferenceQuantity& quantity);
+/// The quantity of this name; null: a mapped target can have no such quantity.
 const ReferenceQuantity* find_reference_quantity(std::string_view quantity);
 
 }  // namespace canhil::mapping

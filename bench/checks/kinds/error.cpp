@@ -86,7 +86,7 @@ Finding Error::judge(const Evidence& evidence) const {
   const auto count = static_cast<double>(part.size() * tracks.size());
   const std::array<double, 4> values{worst, std::sqrt(squares / count), sum / count, last};
   const double value = values[static_cast<std::size_t>(statistic)];
-  const int digits = digits_of(unit);
+  const int digits = digits_of(unit, below);
   std::string measured = fmt::format("{} {:.{}f}", statistic == Statistic::rms ? "RMS" : name(statistic),
                                      value / unit.factor, digits);
   if (statistic == Statistic::mean) measured += fmt::format(", max {:.{}f}", worst / unit.factor, digits);

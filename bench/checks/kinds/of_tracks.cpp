@@ -125,7 +125,12 @@ std::vector<const Quantity*> parts_of(const Quantity& quantity) {
   return {quantity.parts.begin(), quantity.parts.end()};
 }
 
-int digits_of(const quantities::Unit& unit) { return unit.name == "m" ? 2 : unit.name == "m/s" ? 4 : 3; }
+int digits_of(const quantities::Unit& unit, double limit) {
+  const int usual = unit.name == "m" ? 2 : unit.name == "m/s" ? 4 : 3;
+  constexpr int most = 12;
+  if (!(limit > 0)) return usual;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(limit / unit.factor))), usual, most);
+}
 
 std::string to_text(const Stretch& stretch) {
   if (!stretch.to_go_s) return seconds(stretch.window);

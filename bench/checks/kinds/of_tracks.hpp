@@ -41,8 +41,9 @@ std::pair<std::pair<double, double>, quantities::Unit> read_range(scenario::Sect
 /// The parts of a quantity. If the quantity has no parts, returns the quantity itself.
 std::vector<const quantities::Quantity*> parts_of(const quantities::Quantity& quantity);
 
-/// The number of decimals that are shown for a value in this unit.
-int digits_of(const quantities::Unit& unit);
+/// The number of decimals that are shown for a value in this unit. A value of the size of `limit`, in SI, has
+/// at least two digits.
+int digits_of(const quantities::Unit& unit, double limit);
 
 /// "from 1 to 2 s", "from 3 to 2 s to go".
 std::string to_text(const Stretch& stretch);

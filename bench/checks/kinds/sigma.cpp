@@ -50,7 +50,7 @@ Finding Sigma::judge(const Evidence& evidence) const {
     return {Outcome::fail, fmt::format("{} of {} answers have no sigma", without, part.size()), expected};
   if (auto why = not_finite.to_text(part.size(), "sigmas"); !why.empty())
     return {Outcome::fail, std::move(why), expected};
-  const int digits = digits_of(unit);
+  const int digits = digits_of(unit, low);
   return {pass_if(least >= low && most <= high),
           fmt::format("{:.{}f} to {:.{}f} {} of {}", least / unit.factor, digits, most / unit.factor, digits,
                       unit.name, part.size()),

@@ -59,7 +59,7 @@ Finding SigmaGrows::judge(const Evidence& evidence) const {
   if (auto why = not_finite.to_text(sigmas, "sigmas"); !why.empty())
     return {Outcome::fail, std::move(why), expected};
   const quantities::Unit& unit = judged.quantity->unit;
-  const int digits = digits_of(unit);
+  const int digits = digits_of(unit, *first);
   return {pass_if(*last > by * *first),
           fmt::format("{:.{}f} to {:.{}f} {}", *first / unit.factor, digits, *last / unit.factor, digits,
                       unit.name),

@@ -6,18 +6,21 @@
 namespace canhil::quantities {
 
 /// The position error at the time of validity of a fix, NED.
-inline constexpr Quantity position_north{.name = "position.north",
-                                         .meaning = "error of the position north, at the time of a fix",
-                                         .unit = metres,
-                                         .once = "p_north"};
-inline constexpr Quantity position_east{.name = "position.east",
-                                        .meaning = "error of the position east, at the time of a fix",
-                                        .unit = metres,
-                                        .once = "p_east"};
-inline constexpr Quantity position_down{.name = "position.down",
-                                        .meaning = "error of the position down, at the time of a fix",
-                                        .unit = metres,
-                                        .once = "p_down"};
+inline constexpr Quantity position_north{
+    .name = "position.north",
+    .meaning = "error of the position north; in in-flight alignment at a fix",
+    .unit = metres,
+    .once = "p_north"};
+inline constexpr Quantity position_east{
+    .name = "position.east",
+    .meaning = "error of the position east; in in-flight alignment at a fix",
+    .unit = metres,
+    .once = "p_east"};
+inline constexpr Quantity position_down{
+    .name = "position.down",
+    .meaning = "error of the position down; in in-flight alignment at a fix",
+    .unit = metres,
+    .once = "p_down"};
 inline constexpr Quantity velocity_down_sigma{
     .name = "velocity.down.sigma",
     .meaning = "sigma of the velocity down as the target reports it",

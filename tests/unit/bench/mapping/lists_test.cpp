@@ -38,6 +38,7 @@ std::string played() {
 std::string reported() {
   std::string all = "| quantity | what it is | unit |\n|---|---|---|\n";
   for (const ReferenceQuantity& one : reference_quantities()) {
+    if (!one.of.empty()) continue;
     std::string meaning(one.quantity->meaning);
     meaning = meaning.substr(0, meaning.find(';'));  // the rest concerns campaigns
     if (meaning.starts_with("error of ")) meaning.erase(0, 9);
@@ -46,10 +47,26 @@ std::string reported() {
   return all;
 }
 
+std::string derived() {
+  std::string all = "| quantity | what it is | derived from |\n|---|---|---|\n";
+  for (const ReferenceQuantity& one : reference_quantities()) {
+    if (one.of.empty()) continue;
+    std::string parts;
+    for (const quantities::Quantity* part : one.of)
+      parts += fmt::format("{}`{}`", parts.empty() ? "" : ", ", part->name);
+    const std::string_view meaning = one.quantity->meaning;
+    all += fmt::format("| `{}` | {} | {}{} |\n", one.quantity->name, meaning.substr(0, meaning.find(';')),
+                       parts, one.of_sigmas ? " and their sigmas" : "");
+  }
+  return all;
+}
+
 TEST(MappingPage, ListsWhatCanBePlayedAndReported) {
   EXPECT_NE(page().find("<!-- played -->\n" + played() + "<!-- /played -->"), std::string::npos) << played();
   EXPECT_NE(page().find("<!-- reported -->\n" + reported() + "<!-- /reported -->"), std::string::npos)
       << reported();
+  EXPECT_NE(page().find("<!-- derived -->\n" + derived() + "<!-- /derived -->"), std::string::npos)
+      << derived();
 }
 
 TEST(Lists, NameEachQuantityOnce) {

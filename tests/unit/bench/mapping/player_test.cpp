@@ -13,6 +13,7 @@
 #include "bench/drive/contract.hpp"
 #include "bench/drive/flight.hpp"
 #include "bench/faults/in_run.hpp"
+#include "bench/mapping/listener.hpp"
 #include "bench/world/attitude.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/parser/codec.hpp"
@@ -31,12 +32,18 @@ BO_ 2147484000 Turned: 8 IMU
  SG_ AngleZ : 7|32@0- (1,0) [0|0] "deg" ECU
  SG_ Millis : 39|8@0+ (1,0) [0|0] "ms" ECU
  SG_ Course : 47|8@0+ (1.5,0) [0|0] "deg" ECU
+BO_ 103 Paged: 8 IMU
+ SG_ Page M : 0|8@1+ (1,0) [0|3] "" ECU
+ SG_ Gyro m0 : 8|32@1- (1,0) [0|0] "rad/s" ECU
+ SG_ Accel m1 : 8|32@1- (1,0) [0|0] "m/s2" ECU
 BO_ 101 Answer: 8 ECU
  SG_ Roll : 0|16@1- (0.01,0) [0|0] "" IMU
  SG_ Repeated : 16|4@1+ (1,0) [0|0] "" IMU
 BO_ 2566844672 Speed: 8 ECU
  SG_ Roll : 0|16@1- (0.01,0) [0|0] "deg" IMU
 SIG_VALTYPE_ 100 RateZ : 1;
+SIG_VALTYPE_ 103 Gyro : 1;
+SIG_VALTYPE_ 103 Accel : 1;
 SIG_VALTYPE_ 2147484000 AngleZ : 1;
 )";
 
@@ -290,6 +297,69 @@ TEST(Player, PlaysTheTimeThatTheSensorReports) {
     EXPECT_EQ(flown.value(2 * k + 1, "Time"), 20.0 * static_cast<double>(k + 1) + (k < 24 ? 0 : 5)) << k;
 }
 
+// A mapping with two plays for the pages of one message.
+std::string with_pages(int second) {
+  return mapping_with("[[hear]]", fmt::format(R"([[play]]
+messages = ["Paged"]
+every_ms = 10
+signals = {{ "Paged.Page" = 0, "Paged.Gyro" = "imu.rate.z" }}
+[[play]]
+messages = ["Paged"]
+every_ms = 20
+signals = {{ "Paged.Page" = {}, "Paged.Accel" = "-imu.specific_force.z" }}
+[[hear]])",
+                                              second));
+}
+
+TEST(Player, PlaysEachPageOfAMessage) {
+  const auto scenario = read("", with_pages(1));
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  std::array<int, 2> sent{};
+  for (std::size_t k = 0; k < flown.frames.size(); ++k) {
+    if (flown.frames[k].id != 103) continue;
+    const bool second = flown.value(k, "Page") == 1;
+    ++sent.at(second ? 1 : 0);
+    EXPECT_NEAR(flown.value(k, second ? "Accel" : "Gyro"), second ? 9.78 : 2 * std::numbers::pi / 10, 0.01);
+  }
+  EXPECT_THAT(sent, testing::ElementsAre(100, 50));
+  EXPECT_EQ(flown.mapping.plays[1].name, "Paged");
+  EXPECT_EQ(flown.mapping.plays[2].name, "Paged Page=1");
+  const auto twice = read("", with_pages(0));
+  ASSERT_FALSE(twice);
+  EXPECT_EQ(twice.error().message,
+            "ecu.mapping.toml: Paged has Page=0 in two plays, expected each page once");
+}
+
+// A target whose own task answers every second sample: no sample is owed an answer, and the latest one is the
+// cause.
+TEST(Listener, ATaskOfItsOwnAnswersTheLatestSample) {
+  for (const bool has_task : {false, true}) {
+    const auto scenario =
+        read("", mapping_with("answers = \"Rates\"\necho = { signal = \"Repeated\", of = \"Rates.Count\" }",
+                              has_task ? "answers = \"Rates\"\ntask_ms = 40" : "answers = \"Rates\""));
+    ASSERT_TRUE(scenario) << scenario.error().message;
+    Conversation all(dynamic_cast<const Mapping&>(*scenario->foreign)), said(all.mapping);
+    Flown flown(*scenario);
+    Listener listener(said, {}, {}, true);
+    std::int64_t t_ns = 0;
+    int k = 0;
+    for (const Sent& sent : flown.conversation.sent[0]) {
+      said.add(0, sent);
+      for (const Frame& frame : sent.frames) listener.transmitted(frame, t_ns += 1'000'000, 0);
+      if (++k % 2 == 0) listener.received({.frame = {.id = 101, .size = 8}, .t_ns = t_ns += 1'000'000});
+    }
+    const checks::Observations seen = listener.finish();
+    EXPECT_EQ(seen.timing.answers[all.mapping.hears[0].of.index].ambiguous.empty(), has_task);
+    if (!has_task) continue;
+    const auto& values = seen.of<Answers>().values.begin()->second;
+    ASSERT_EQ(values.size(), 24U);
+    std::int64_t valid_us = 0;
+    for (const TimedValue& one : values) EXPECT_EQ(one.t_us, valid_us += 40'000);
+    EXPECT_EQ(all.mapping.messages[all.mapping.hears[0].of.index].cycle_time_us, 40'000);
+  }
+}
+
 TEST(J1939, GroupsAreKnownWithoutPrioritySourceAndDestination) {
   EXPECT_EQ(j1939_group(0x18FEF100), 0xFEF1U) << "a broadcast";
   EXPECT_EQ(j1939_group(0x0CFEF1FF), 0xFEF1U);
@@ -343,7 +413,7 @@ TEST(Mapping, SaysWhatIsWrongInOneLine) {
             "ecu.mapping.toml:5: key 'play[1].every_ms': is missing, expected a number above 0");
   EXPECT_EQ(refused("message = \"Answer\"", "message = \"Rates\""),
             "ecu.mapping.toml:15: key 'hear[1].message': Rates is already used, expected each message "
-            "once");
+            "once, or each page of a multiplexed message that the bench sends");
 }
 
 }  // namespace

@@ -1,0 +1,157 @@
+#include "bench/mapping/points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "bench/estimators/tracks.hpp"
+#include "bench/quantities/unwrapped.hpp"
+
+namespace canhil::mapping {
+namespace {
+
+using estimators::Truth;
+using quantities::TrackPoint;
+using What = ReportedSignal::What;
+
+double difference(const ReferenceQuantity& of, double a, double b) {
+  return of.turns ? std::remainder(a - b, 2 * std::numbers::pi) : a - b;
+}
+
+// Reads a series in order of time: the latest item at or before a time that never decreases.
+template <class Series>
+class Latest {
+ public:
+  Latest(const Series& series, double longest_us)
+      : next_(series.begin()), end_(series.end()), longest_us_(longest_us) {}
+
+  /// Null: there is none, or the series has been silent since.
+  const typename Series::value_type* at(std::int64_t t_us) {
+    for (; next_ != end_ && (*next_).t_us <= t_us; ++next_) latest_ = *next_;
+    const bool there = latest_ && static_cast<double>(t_us - latest_->t_us) <= longest_us_;
+    return there ? &*latest_ : nullptr;
+  }
+
+ private:
+  typename Series::const_iterator next_, end_;
+  std::optional<typename Series::value_type> latest_;
+  double longest_us_;
+};
+
+// A signal of sigmas or correlations; null: the target has none. A correlation has no order.
+struct Told {
+  const ReportedSignal* signal = nullptr;
+  const Hear* in = nullptr;
+};
+Told told(const Mapping& mapping, What what, const quantities::Quantity* of,
+          const quantities::Quantity* other = nullptr) {
+  for (const Hear& hear : mapping.hears) {
+    for (const ReportedSignal& one : hear.reported_signals) {
+      if (one.what != what) continue;
+      const auto *a = one.quantity->quantity, *b = one.other == nullptr ? nullptr : one.other->quantity;
+      if ((a == of && b == other) || (a == other && b == of)) return {&one, &hear};
+    }
+  }
+  return {};
+}
+
+// The values of a signal of sigmas or correlations over a run.
+class Values {
+ public:
+  Values(const Told& told, const checks::Observations& seen) {
+    const auto& all = seen.of<Answers>().sigmas;
+    const auto found = told.signal == nullptr ? all.end() : all.find(told.signal);
+    if (found != all.end())
+      latest_.emplace(found->second, estimators::longest_wait_us(seen, told.in->of.message->name));
+  }
+  std::optional<double> at(std::int64_t t_us) {
+    const TimedValue* one = latest_ ? latest_->at(t_us) : nullptr;
+    return one == nullptr || std::isnan(one->value) ? std::nullopt : std::optional(one->value);
+  }
+
+ private:
+  std::optional<Latest<Answers::Values>> latest_;
+};
+
+Spool<TrackPoint> reported(const ReferenceQuantity& of, const checks::Observations& seen,
+                           const Truth& truth) {
+  Spool<TrackPoint> points;
+  const Answers& answers = seen.of<Answers>();
+  const auto values = answers.values.find(of.quantity);
+  if (values == answers.values.end()) return points;
+  const Told sigma = told(*answers.mapping, What::sigma, of.quantity);
+  Values sigmas(sigma, seen);
+  double last_truth = 0;
+  for (const TimedValue& one : values->second) {
+    const auto at = of.truth(truth, one.t_us);
+    if (!at || one.t_us > truth.duration_us) continue;
+    const double error = difference(of, one.value, *at);
+    // The truth is unwrapped where it passes half a turn, the estimate to within half a turn of the truth.
+    last_truth = of.turns ? quantities::unwrapped(*at, last_truth) : *at;
+    TrackPoint point{.t_us = one.t_us,
+                     .value = error,
+                     .sigma = sigmas.at(one.t_us),
+                     .estimate = last_truth + error,
+                     .truth = last_truth};
+    if (point.sigma && sigma.signal->in_metres)
+      *point.sigma /=
+          of.turns ? metres_of_longitude(truth.flight, one.t_us) : metres_of_latitude(truth.flight, one.t_us);
+    points.push_back(point);
+  }
+  return points;
+}
+
+Spool<TrackPoint> derived(const ReferenceQuantity& of, const checks::Observations& seen, const Truth& truth) {
+  Spool<TrackPoint> points;
+  const Mapping& mapping = *seen.of<Answers>().mapping;
+  std::vector<Spool<TrackPoint>> series;
+  for (const quantities::Quantity* part : of.of)
+    series.push_back(points_of(*find_reference_quantity(part->name), seen, truth));
+  const std::size_t n = series.size();
+  std::vector<Latest<Spool<TrackPoint>>> latest;
+  std::vector<Values> correlations;  // of part i with part j at i * n + j
+  for (std::size_t i = 0; i < n; ++i) {
+    latest.emplace_back(series[i],
+                        estimators::longest_wait_us(seen, hear_of(mapping, of.of[i]).of.message->name));
+    for (std::size_t j = 0; j < n; ++j)
+      correlations.emplace_back(i == j ? Told{} : told(mapping, What::correlation, of.of[i], of.of[j]), seen);
+  }
+  std::vector<TrackPoint> parts(n);
+  for (const TrackPoint& last : series.back()) {
+    bool whole = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      const TrackPoint* part = latest[i].at(last.t_us);
+      if (part == nullptr)
+        whole = false;
+      else
+        parts[i] = *part;
+    }
+    if (!whole) continue;
+    const auto correlation = [&](std::size_t i, std::size_t j) {
+      return correlations[i * n + j].at(last.t_us).value_or(0);
+    };
+    auto point = of.derive({.parts = parts, .correlation = correlation, .flight = truth.flight});
+    if (!point) continue;
+    point->t_us = last.t_us;
+    points.push_back(*point);
+  }
+  return points;
+}
+
+}  // namespace
+
+Spool<TrackPoint> points_of(const ReferenceQuantity& of, const checks::Observations& seen,
+                            const Truth& truth) {
+  return of.of.empty() ? reported(of, seen, truth) : derived(of, seen, truth);
+}
+
+const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity) {
+  return *std::ranges::find_if(mapping.hears, [&](const Hear& hear) {
+    return std::ranges::any_of(hear.reported_signals, [&](const ReportedSignal& one) {
+      return one.what == What::value && one.quantity->quantity == quantity;
+    });
+  });
+}
+
+}  // namespace canhil::mapping

@@ -1,0 +1,18 @@
+// The errors of a mapped target's quantities over a run.
+#pragma once
+
+#include "bench/mapping/answers.hpp"
+
+namespace canhil::mapping {
+
+/// The points of a quantity, reported or derived, in order of time; none where there is no truth. A sigma or
+/// a correlation may come in another message than the value: the latest one at or before the value is used,
+/// unless its message has been silent since. A derived quantity has a point for each value of the last of its
+/// parts, with the latest values of the others.
+Spool<quantities::TrackPoint> points_of(const ReferenceQuantity& of, const checks::Observations& seen,
+                                        const estimators::Truth& truth);
+
+/// The message that carries a reported quantity.
+const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity);
+
+}  // namespace canhil::mapping

@@ -1,0 +1,112 @@
+#include "bench/mapping/put_together.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace canhil::mapping {
+namespace {
+
+// Adds the quantities that the bench derives from those which the target reports.
+void add_derived(Mapping& mapping) {
+  const auto is_told = [&](const quantities::Quantity* of, ReportedSignal::What what) {
+    return std::ranges::any_of(mapping.hears, [&](const Hear& hear) {
+      return std::ranges::any_of(hear.reported_signals, [&](const ReportedSignal& one) {
+        return one.quantity->quantity == of && one.what == what;
+      });
+    });
+  };
+  for (const ReferenceQuantity& one : reference_quantities()) {
+    const auto has_all = [&](ReportedSignal::What what) {
+      return std::ranges::all_of(one.of, [&](const auto* part) { return is_told(part, what); });
+    };
+    if (!one.of.empty() && has_all(ReportedSignal::What::value) &&
+        (!one.of_sigmas || has_all(ReportedSignal::What::sigma)))
+      mapping.quantities.push_back(one.quantity);
+  }
+}
+
+// The message of a play that carries a page which an earlier message carries too; null: there is none.
+const PlayedMessage* repeated_page(const Mapping& mapping) {
+  std::set<std::pair<std::size_t, std::string>> pages;
+  for (const Play& play : mapping.plays) {
+    for (const PlayedMessage& one : play.messages) {
+      if (!pages.emplace(one.of.index, page_of(one)).second) return &one;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string page_of(const PlayedMessage& message) {
+  std::string page;
+  for (const dbc::Signal& signal : message.of.message->signals) {
+    if (!signal.multiplexor) continue;
+    const auto source = std::ranges::find(message.sources, &signal, &Source::signal);
+    page += fmt::format("{}{}={:g}", page.empty() ? "" : " ", signal.name,
+                        source == message.sources.end() ? 0 : source->value);
+  }
+  return page;
+}
+
+std::optional<std::string> put_together(Mapping& mapping) {
+  const auto wrong = [&](const std::string& what) { return fmt::format("{}: {}", mapping.file, what); };
+  if (mapping.messages.size() > MessagePlaces::most)
+    return wrong(
+        fmt::format("{} messages, expected {} at the most", mapping.messages.size(), MessagePlaces::most));
+  for (const MessageInfo& info : mapping.messages) {
+    if (info.fd != mapping.messages.front().fd)
+      return wrong(fmt::format("{} and {} have different formats, expected all CAN FD or all classic",
+                               mapping.messages.front().name, info.name));
+  }
+  if (const PlayedMessage* twice = repeated_page(mapping))
+    return wrong(fmt::format("{} has {} in two plays, expected each page once", twice->of.message->name,
+                             page_of(*twice)));
+  for (const Play& play : mapping.plays) {
+    const std::string_view group = mapping.groups.emplace_back(play.name);
+    for (const PlayedMessage& one : play.messages) {
+      MessageInfo& info = mapping.messages[one.of.index];
+      if (info.sample_group.empty())
+        info.sample_group = group;  // else the message is a page of several plays
+    }
+  }
+  for (const Hear& hear : mapping.hears) {
+    MessageInfo& info = mapping.messages[hear.of.index];
+    info.sample_group = hear.of.message->name;
+    mapping.answers_by_name = mapping.answers_by_name || (hear.is_owed() && hear.echo);
+    if (hear.is_owed()) info.answers = {&mapping.groups[*hear.answers], 1};
+    if (hear.task_us > 0) info.cycle_time_us = hear.task_us;
+    mapping.heard.push_back(hear.of.message->name);
+    if (hear.is_owed()) mapping.closing.push_back(hear.of.message->name);
+    for (const ReportedSignal& telling : hear.reported_signals) {
+      if (telling.what != ReportedSignal::What::value) continue;
+      if (std::ranges::find(mapping.quantities, telling.quantity->quantity) != mapping.quantities.end())
+        return wrong(fmt::format("{} is reported twice, expected once", telling.quantity->quantity->name));
+      mapping.quantities.push_back(telling.quantity->quantity);
+    }
+  }
+  for (const Hear& hear : mapping.hears) {
+    for (const ReportedSignal& telling : hear.reported_signals) {
+      for (const ReferenceQuantity* of : {telling.quantity, telling.other}) {
+        if (of == nullptr || std::ranges::find(mapping.quantities, of->quantity) != mapping.quantities.end())
+          continue;
+        return wrong(
+            fmt::format("{}.{} carries a sigma or correlation of {} without its value, expected both",
+                        hear.of.message->name, telling.signal->name, of->quantity->name));
+      }
+    }
+  }
+  add_derived(mapping);
+  std::string columns;
+  for (const quantities::Quantity* one : mapping.quantities)
+    columns += (columns.empty() ? "" : " ") + std::string(one->name);
+  mapping.layout = find_layout(columns);
+  mapping.own.emplace(estimator_of(mapping));
+  mapping.estimator = &*mapping.own;
+  return std::nullopt;
+}
+
+}  // namespace canhil::mapping
