@@ -5,13 +5,13 @@
 
 #include "bench/faults/kinds/controller.hpp"
 #include "bench/faults/kinds/frames.hpp"
-#include "bench/faults/kinds/nodes.hpp"
 #include "bench/faults/kinds/order.hpp"
 #include "bench/faults/kinds/others.hpp"
 #include "bench/faults/kinds/protection.hpp"
-#include "bench/faults/kinds/samples.hpp"
 #include "bench/faults/kinds/target.hpp"
-#include "bench/faults/kinds/values.hpp"
+#include "bench/faults/sensors/nodes.hpp"
+#include "bench/faults/sensors/samples.hpp"
+#include "bench/faults/sensors/values.hpp"
 
 namespace canhil::faults {
 namespace {

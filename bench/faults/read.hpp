@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/faults/measured.hpp"
+#include "bench/faults/sensors/measured.hpp"
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/faults.hpp"
 #include "bench/scenario/node.hpp"

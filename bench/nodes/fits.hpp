@@ -10,4 +10,9 @@ Result<void> slave_imu_fits(const NodeSettings& node, const scenario::Scenario& 
 Result<void> seeker_fits(const NodeSettings& node, const scenario::Scenario& scenario,
                          const world::FlightRecord& flight);
 
+/// The check of the sensor with this key; null: it needs none.
+constexpr decltype(Kind::fits) fits_of(std::string_view key) {
+  return key == "slave_imu" ? slave_imu_fits : key == "seeker" ? seeker_fits : nullptr;
+}
+
 }  // namespace canhil::nodes

@@ -10,8 +10,6 @@
 #include "bench/nodes/bound_sensor.hpp"
 #include "bench/nodes/fits.hpp"
 #include "bench/sensors/registry.hpp"
-#include "bench/sensors/seeker.hpp"
-#include "bench/sensors/slave_imu.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::nodes {
@@ -35,10 +33,6 @@ const MessageInfo* closing_message(std::string_view key) {
     if (key_of(message.sender) == key && (closes == nullptr || message.id > closes->id)) closes = &message;
   }
   return closes;
-}
-
-decltype(Kind::fits) fits_of(std::string_view key) {
-  return key == sensors::slave_imu.key ? slave_imu_fits : key == sensors::seeker.key ? seeker_fits : nullptr;
 }
 
 const auto& kinds() {

@@ -97,9 +97,9 @@ class Checker(unittest.TestCase):
 
     def test_a_sensor_is_known_to_the_registry_alone(self):
         gps = {"bench/sensors/gps.hpp": "struct GpsSettings {};\nextern const struct Kind gps;\n", "bench/sensors/gps.cpp": '#include "bench/sensors/gps.hpp"\n',
-               "bench/nodes/registry.cpp": '#include "bench/sensors/gps.hpp"\n'}
+               "bench/sensors/registry.cpp": '#include "bench/sensors/gps.hpp"\n'}
         self.assertEqual(breaches_of({**gps, "bench/nodes/gps.cpp": '#include "bench/sensors/gps.hpp"\n'}), [])
-        for name in ("bench/drive/flight.cpp", "bench/report/summary.cpp", "bench/sensors/ssbl.cpp", "bench/nodes/recorded.cpp"):
+        for name in ("bench/drive/flight.cpp", "bench/report/summary.cpp", "bench/sensors/ssbl.cpp", "bench/nodes/registry.cpp"):
             with self.subTest(name):
                 self.expect(f"{name}:1: includes bench/sensors/gps.hpp", {**gps, name: '#include "bench/sensors/gps.hpp"\n'})
         self.expect("bench/scenario/x.cpp:2: names GpsSettings", {**gps, "bench/scenario/x.cpp": "// GpsSettings\nGpsSettings all;\n"})
@@ -108,6 +108,7 @@ class Checker(unittest.TestCase):
         for other in ("dbc/wire/frame.hpp", "bench/nodes/node.hpp"):
             with self.subTest(other):
                 self.expect_include("bench/sensors/gps.cpp", other)
+                self.expect_include("bench/faults/sensors/values.cpp", other)
 
     def test_dbc_knows_neither_side(self):
         for other in ("target/device/device.hpp", "bench/world/truth.hpp", "tests/unit/made.hpp"):

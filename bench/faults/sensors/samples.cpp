@@ -1,8 +1,8 @@
-#include "bench/faults/kinds/samples.hpp"
+#include "bench/faults/sensors/samples.hpp"
 
 #include <fmt/format.h>
 
-#include "bench/faults/faulty_sensor.hpp"
+#include "bench/faults/sensors/faulty_sensor.hpp"
 
 namespace canhil::faults {
 namespace {

@@ -1,11 +1,11 @@
-#include "bench/faults/kinds/values.hpp"
+#include "bench/faults/sensors/values.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "bench/faults/faulty_sensor.hpp"
+#include "bench/faults/sensors/faulty_sensor.hpp"
 
 namespace canhil::faults {
 namespace {

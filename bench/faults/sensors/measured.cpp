@@ -1,4 +1,4 @@
-#include "bench/faults/measured.hpp"
+#include "bench/faults/sensors/measured.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "bench/faults/kinds/nodes.hpp"
+#include "bench/faults/sensors/nodes.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "bench/faults/faulty_sensor.hpp"
+#include "bench/faults/sensors/faulty_sensor.hpp"
 #include "bench/scenario/rule.hpp"
 
 namespace canhil::faults {
