@@ -36,6 +36,7 @@ scenario::DbcVocabulary make_contract() {
   contract.nodes = nodes::tables();
   contract.fault_kinds = faults::kinds();
   contract.read_recorded = nodes::read_recorded;
+  contract.named = nodes::named;
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {
     contract.messages.emplace_back(info.name);

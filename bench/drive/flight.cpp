@@ -62,13 +62,34 @@ Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, std::
   return own;
 }
 
-/// The period of the node that samples at every epoch. If this node is not on the bus, the result is its
+bool defines_epochs(const scenario::NodeSettings& node) { return node.table().sensor->at_every_epoch; }
+
+/// The shortest period of the nodes that sample at every epoch. If there is no such node, the result is its
 /// cycle time in the DBC.
 std::int64_t epoch_interval_us(const scenario::Scenario& scenario) {
+  std::optional<std::int64_t> shortest_us;
+  for (const scenario::NodeSettings& node : scenario.nodes) {
+    if (defines_epochs(node))
+      shortest_us = std::min(shortest_us.value_or(node.period_us()), node.period_us());
+  }
+  if (shortest_us) return *shortest_us;
   const nodes::Kind& kind = **std::ranges::find_if(
       nodes::all(), [](const nodes::Kind* one) { return one->sensor->at_every_epoch; });
-  const scenario::NodeSettings* node = scenario.node(kind.table.key);
-  return node == nullptr ? kind.table.closes.cycle_time_us : node->period_us();
+  return kind.table.closes.cycle_time_us;
+}
+
+/// A slower IMU adds whole epochs up.
+Result<void> check_epochs(const scenario::Scenario& scenario) {
+  const std::int64_t interval_us = epoch_interval_us(scenario);
+  for (const scenario::NodeSettings& node : scenario.nodes) {
+    if (defines_epochs(node) && !node.is_recorded() && node.period_us() % interval_us != 0)
+      return failure(
+          fmt::format("key '{}.period_ms': {:g} is not a multiple of the {:g} ms of the fastest IMU, "
+                      "expected a whole multiple",
+                      node.table().key, 1e-3 * static_cast<double>(node.period_us()),
+                      1e-3 * static_cast<double>(interval_us)));
+  }
+  return {};
 }
 
 /// The motion between recorded samples is unknown, so an IMU must not sample much faster than the recording.
@@ -96,10 +117,12 @@ estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth&
 }
 
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
+  if (auto whole = check_epochs(scenario); !whole) return tl::unexpected(whole.error());
   if (auto dense = check_density(scenario); !dense) return tl::unexpected(dense.error());
   world::FlightRecord truth(scenario.truth, scenario.duration_us, epoch_interval_us(scenario));
   if (world::Stoppable::stopped()) return failure("interrupted");
   for (const nodes::Kind* kind : nodes::all()) {
+    if (scenario.foreign != nullptr) break;  // the ranges of canhil's signals do not matter
     const scenario::NodeSettings* node = scenario.node(kind->table.key);
     if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
     if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());

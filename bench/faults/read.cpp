@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 #include "bench/nodes/registry.hpp"
@@ -35,11 +36,6 @@ std::vector<std::string> keys_of(std::string_view stem, std::string_view si) {
     if (!ending.empty()) keys.push_back(fmt::format("{}_{}", stem, ending));
   }
   return keys;
-}
-
-bool on_the_bus(const FaultContext& context, std::string_view node) {
-  return std::ranges::any_of(context.nodes,
-                             [&](const scenario::NodeSettings& one) { return one.table().key == node; });
 }
 
 auto node_of(const MessageInfo& message, const FaultContext& context) {
@@ -129,7 +125,7 @@ OfMessages read_messages(Section& section, const FaultContext& context) {
   return of;
 }
 
-const sensors::Kind& sensor_of(const scenario::NodeTable& table) { return *nodes::kind_of(table).sensor; }
+const sensors::Kind& sensor_of(const scenario::NodeTable& table) { return *table.sensor; }
 
 Measured measured(const sensors::Measurand& measurand) {
   return {.sensor = measurand.sensor,
@@ -142,10 +138,15 @@ Measured measured(const sensors::Measurand& measurand) {
 const sensors::Measurand* read_quantity(Section& section, const FaultContext& context,
                                         const scenario::Key& key) {
   std::vector<std::string> names;
-  for (const sensors::Measurand& one : sensors::measurands()) {
-    if (on_the_bus(context, one.sensor->key)) names.push_back(one.name);
+  std::map<std::string_view, const sensors::Measurand*> known;
+  for (const scenario::NodeSettings& node : context.nodes) {
+    for (const sensors::Measurand& one : sensors::measurands_of(sensor_of(node.table()))) {
+      names.push_back(one.name);
+      known[one.name] = &one;
+    }
   }
-  return sensors::find_measurand(section.one_of(key, names));
+  const auto found = known.find(section.one_of(key, names));
+  return found == known.end() ? nullptr : found->second;
 }
 
 OfValues read_values(Section& section, const FaultContext& context) {

@@ -104,6 +104,7 @@ struct Mapping final : scenario::Foreign {
   [[nodiscard]] const protection::Protection* protection_of(std::size_t message) const override;
 
   dbc::Database database;
+  std::vector<const sensors::Kind*> sensors;  ///< those with names of their own
   std::vector<Play> plays;
   std::vector<Hear> hears;
   std::string name;  ///< name of the target, used as the name of its estimator

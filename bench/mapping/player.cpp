@@ -23,6 +23,16 @@ bool plays(const Play& play, const sensors::Kind* sensor) {
   });
 }
 
+// The sensors that a mapping plays, in the order of precedence.
+std::vector<const sensors::Kind*> played_by(const Mapping& mapping) {
+  std::vector<const sensors::Kind*> all(sensors::all().begin(), sensors::all().end());
+  all.insert(all.end(), mapping.sensors.begin(), mapping.sensors.end());
+  std::erase_if(all, [&](const sensors::Kind* kind) {
+    return std::ranges::none_of(mapping.plays, [&](const Play& play) { return plays(play, kind); });
+  });
+  return all;
+}
+
 // The value that the signal gets: an angle that it cannot hold is sent as the equal angle that it can hold.
 double held(const Source& source, double value) {
   if (source.measurand == nullptr || !source.measurand->output().turns) return value;
@@ -38,13 +48,16 @@ double ms(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-3; }
 }  // namespace
 
 Result<void> Player::check(const Mapping& mapping, const scenario::Scenario& scenario) {
-  for (const sensors::Kind* kind : sensors::all()) {
+  for (const sensors::Kind* kind : played_by(mapping)) {
     const scenario::NodeSettings* node = scenario.node(kind->key);
     for (const Play& play : mapping.plays) {
       if (!plays(play, kind)) continue;
       if (node == nullptr)
-        return failure(
-            fmt::format("key '{}': is missing, and {} plays it, expected a table", kind->key, play.name));
+        return failure(fmt::format("key '{}': is missing, and {} plays it, expected {}", kind->key, play.name,
+                                   kind->of == nullptr ? "a table" : "a [[sensor]] with this name"));
+      if (node->table().sensor != kind)
+        return failure(fmt::format("key 'sensor': '{}' has another kind than in {}, expected '{}'", kind->key,
+                                   mapping.file, kind->of->key));
       if (play.sensor == kind && play.period_us % node->period_us() != 0)
         return failure(
             fmt::format("key '{}.period_ms': {:g} does not divide the {:g} ms of {}, expected a "
@@ -60,11 +73,8 @@ Player::Player(Conversation& conversation, const nodes::Run& run)
       end_us_(run.flight.end_us()),
       values_(conversation.mapping.plays.size()),
       samples_(conversation.mapping.plays.size(), 0) {
-  for (const sensors::Kind* kind : sensors::all()) {
+  for (const sensors::Kind* kind : played_by(conversation.mapping)) {
     const scenario::NodeSettings* node = run.scenario.node(kind->key);
-    const auto& all = conversation.mapping.plays;
-    if (node == nullptr || std::ranges::none_of(all, [&](const Play& play) { return plays(play, kind); }))
-      continue;
     sensors_.push_back(
         {.sensor = nodes::make_sensor(*node, run), .kind = kind, .period_us = node->period_us()});
   }
@@ -108,11 +118,18 @@ void Player::insert(Due due) {
   due_.insert(after, std::move(due));
 }
 
-// Take samples first, because a play may be due at the same time as its sample.
+// All samples of this time are taken first, because a play may carry values of several sensors.
 void Player::transmit(nodes::Transmission& out) {
   const std::int64_t now_us = due_us();
+  std::vector<Triggered> triggered;
   for (Played& played : sensors_) {
-    if (played.sensor->due_us() == now_us) sample(played);
+    if (played.sensor->due_us() == now_us) sample(played, triggered);
+  }
+  for (const auto& [play, sample] : triggered) {
+    const std::int64_t sent_us = now_us + conversation_.mapping.plays[play].latency_us;
+    insert({.play = play,
+            .sent = put_together(play, sample, sent_us),
+            .lost = sample.fate == sensors::Sample::Fate::lost});
   }
   send_without_sensor(now_us);
   out.clipped().add(std::exchange(clipped_, {}));
@@ -124,7 +141,7 @@ void Player::transmit(nodes::Transmission& out) {
   conversation_.add(due.play, std::move(due.sent));
 }
 
-void Player::sample(Played& played) {
+void Player::sample(Played& played, std::vector<Triggered>& triggered) {
   using Fate = sensors::Sample::Fate;
   const std::int64_t due_us = played.sensor->due_us();
   const sensors::Sample sample = played.sensor->measure();
@@ -135,9 +152,8 @@ void Player::sample(Played& played) {
     if (play.sensor != played.kind) continue;
     if (sample.restarted) restart(play);
     if (++samples_[i] % (play.period_us / played.period_us) != 0) continue;
-    const std::int64_t sent_us = due_us + play.latency_us;
-    if (sent_us > end_us_) continue;  // an answer would come after the end of the run
-    insert({.play = i, .sent = put_together(i, sample, sent_us), .lost = sample.fate == Fate::lost});
+    // An answer to what is sent after the end of the run would not be observed.
+    if (due_us + play.latency_us <= end_us_) triggered.push_back({i, sample});
   }
 }
 
@@ -164,14 +180,15 @@ void Player::restart(const Play& play) {
 
 double Player::value_of(std::size_t play, const Source& source, std::int64_t stamp_us) {
   if (source.time) return 1e-6 * static_cast<double>(stamp_us);
-  const Value& value = values_[play][source.measurand];
+  Value& value = values_[play][source.measurand];
   switch (source.measurand->over) {
     case sensors::Over::newest:
       return value.newest;
     case sensors::Over::sum:
       return value.sum;
     case sensors::Over::rate:
-      return value.over_us == 0 ? 0 : value.sum / (1e-6 * value.over_us);
+      if (value.over_us > 0) value.rate = value.sum / (1e-6 * value.over_us);
+      return value.rate;
   }
   return 0;
 }
@@ -211,7 +228,8 @@ Sent Player::put_together(std::size_t index, const sensors::Sample& sample, std:
     }
     sent.frames.push_back(frame);
   }
-  for (auto& [measurand, value] : values_[index]) value = {.newest = value.newest};
+  for (auto& [measurand, value] : values_[index])
+    value = {.newest = value.newest, .rate = value.rate, .valid = value.valid};
   return sent;
 }
 

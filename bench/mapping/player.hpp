@@ -35,6 +35,7 @@ class Player final : public nodes::Node {
   // Accumulates a quantity of a sensor between transmissions of a play.
   struct Value {
     double newest = 0, sum = 0;  // newest value; sum since the play was last sent
+    double rate = 0;             // as last sent
     bool valid = true;           // whether the newest sample says so
     double over_us = 0;          // sum of the samples' intervals since the play was last sent
   };
@@ -44,7 +45,13 @@ class Player final : public nodes::Node {
     bool lost = false;
   };
 
-  void sample(Played& played);
+  // A play that a sample triggers.
+  struct Triggered {
+    std::size_t play = 0;
+    sensors::Sample sample;
+  };
+
+  void sample(Played& played, std::vector<Triggered>& triggered);
   void take(const sensors::Kind& kind, const sensors::Sample& sample);
   void restart(const Play& play);
   void send_without_sensor(std::int64_t now_us);

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "bench/mapping/mapping.hpp"
+#include "bench/mapping/playable.hpp"
 #include "bench/mapping/put_together.hpp"
 #include "bench/mapping/read_protection.hpp"
 #include "bench/quantities/wire_unit.hpp"
@@ -55,6 +56,8 @@ class Reader {
     mapping_->hash = world::fnv1a_64(fmt::format("{:x} {:x}", mapping_->hash, mapping_->database.hash));
     mapping_->name = root_.text("name", fs::path(mapping_->file).stem().stem().string());
     if (auto units = root_.optional_table("units")) read_units(*units);
+    playable_ = Playable(root_.optional_table("sensors"));
+    mapping_->sensors = playable_.named();
     for (Section& section : tables("protection")) read_protection(section);
     for (Section& section : tables("play")) read_play(section);
     for (Section& section : root_.tables("hear")) read_hear(section);
@@ -234,12 +237,10 @@ class Reader {
           {.signal = one, .time = true, .factor = 1 / factor(section, key, *of, *one, "s", time_word)});
       return;
     }
-    const sensors::Measurand* measurand = sensors::find_measurand(word);
+    const sensors::Measurand* measurand = playable_.find(word);
     if (measurand == nullptr) {
-      section.reject(
-          key, fmt::format("'{}' is not a quantity that a node measures", word),
-          fmt::format("one of: time, {}",
-                      fmt::join(names_of(sensors::measurands(), &sensors::Measurand::name), ", ")));
+      section.reject(key, fmt::format("'{}' is not a quantity that a node measures", word),
+                     fmt::format("one of: time, {}", fmt::join(playable_.names(), ", ")));
       return;
     }
     if (play.sensor == nullptr)
@@ -371,6 +372,7 @@ class Reader {
   Section root_;
   const ReadText& read_text_;
   std::map<const dbc::Signal*, std::string> units_;
+  Playable playable_;
   std::map<const dbc::Message*, protection::Protection> protections_;
 };
 

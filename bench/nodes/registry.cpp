@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <deque>
 #include <map>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -43,6 +45,7 @@ const auto& kinds() {
       if (closes == nullptr) continue;
       kinds.push_back({.table = {.key = sensor->key,
                                  .closes = *closes,
+                                 .sensor = sensor,
                                  .samples = sensor->samples,
                                  .read = sensor->read,
                                  .aid = sensor->aid},
@@ -66,10 +69,23 @@ std::span<const Kind* const> all() {
   return pointers;
 }
 
-const Kind& bound(const sensors::Kind& sensor) { return **std::ranges::find(all(), &sensor, &Kind::sensor); }
+const Kind& bound(const sensors::Kind& sensor) {
+  if (sensor.of == nullptr) return **std::ranges::find(all(), &sensor, &Kind::sensor);
+  static std::mutex mutex;
+  static std::deque<Kind> named;
+  const std::lock_guard lock(mutex);
+  const auto found = std::ranges::find(named, &sensor, &Kind::sensor);
+  if (found != named.end()) return *found;
+  Kind& own = named.emplace_back(bound(*sensor.of));
+  own.table.key = sensor.key;
+  own.table.sensor = own.sensor = &sensor;
+  return own;
+}
 
-const Kind& kind_of(const NodeTable& table) {
-  return **std::ranges::find(all(), table.key, [](const Kind* kind) { return kind->table.key; });
+const Kind& kind_of(const NodeTable& table) { return bound(*table.sensor); }
+
+const NodeTable& named(const NodeTable& kind, std::string_view name) {
+  return bound(sensors::named(*kind.sensor, name)).table;
 }
 
 std::vector<const scenario::NodeTable*> tables() {
@@ -93,7 +109,10 @@ const SampleSignal* carried(const Kind& kind, const MessageInfo& message, std::s
 }
 
 std::unique_ptr<sensors::Sensor> make_sensor(const NodeSettings& node, const Run& run) {
-  auto sensor = node.is_recorded() ? make_recorded(node, run) : kind_of(node.table()).sensor->make(node, run);
+  const sensors::Kind& kind = *node.table().sensor;
+  Run own = run;
+  if (kind.of != nullptr) own.sensor = kind.key;
+  auto sensor = node.is_recorded() ? make_recorded(node, own) : kind.make(node, own);
   return run.faults == nullptr ? std::move(sensor) : run.faults->with_faults(std::move(sensor), node);
 }
 

@@ -14,10 +14,12 @@ namespace canhil::nodes {
 /// All kinds, in the order in which tables are read and reported.
 std::span<const Kind* const> all();
 
-/// The kind that binds this sensor.
+/// The kind that binds this sensor. A named sensor (sensors::named) is bound like its kind.
 const Kind& bound(const sensors::Kind& sensor);
 /// The kind that has this table.
 const Kind& kind_of(const NodeTable& table);
+/// The table of a sensor with a name of its own. `kind`: the table of its kind.
+const NodeTable& named(const NodeTable& kind, std::string_view name);
 
 /// The tables of all kinds, for scenario::DbcVocabulary.
 std::vector<const scenario::NodeTable*> tables();

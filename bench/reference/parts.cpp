@@ -16,6 +16,7 @@
 #include "bench/scenario/node.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/scenario/section.hpp"
+#include "bench/scenario/sensor_name.hpp"
 #include "bench/scenario/truth.hpp"
 
 namespace canhil::reference {
@@ -162,6 +163,13 @@ Part nodes_part(const scenario::DbcVocabulary& contract) {
              std::ignore = contract.read_recorded(*contract.nodes.front(), section, longest_run_us);
            },
            "recorded = \"samples.csv\"\n")});
+  part.tables.push_back(
+      {.name = "[[sensor]]",
+       .about =
+           "Any number of further sensors, for a target with a mapping that plays them (mapping.md). The "
+           "other keys are those of the table of its kind.",
+       .keys = keys_of(
+           [&](Section& section) { std::ignore = scenario::read_sensor_name(section, contract, {}); })});
   return part;
 }
 

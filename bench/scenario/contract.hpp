@@ -43,6 +43,8 @@ struct DbcVocabulary {
   std::shared_ptr<const Foreign> foreign{};  ///< null: the target uses canhil's own DBC
   /// Reads the table of any node if the table has the key `recorded`; null: recordings are not allowed.
   NodeSettings (*read_recorded)(const NodeTable& table, Section& section, std::int64_t duration_us) = nullptr;
+  /// The table of a sensor with a name of its own; `kind`: the table of its kind.
+  const NodeTable& (*named)(const NodeTable& kind, std::string_view name) = nullptr;
 };
 
 /// The facts of an estimator; an unknown estimator is assumed to navigate.

@@ -13,6 +13,10 @@
 #include "bench/scenario/schedule.hpp"
 #include "dbc/wire/message_info.hpp"
 
+namespace canhil::sensors {
+struct Kind;
+}
+
 namespace canhil::scenario {
 
 class NodeSettings;
@@ -35,6 +39,7 @@ struct NodeTable {
   std::string_view key;       ///< key of the node's table: "gps"
   const MessageInfo& closes;  ///< the last message of the node's sample group; its cycle time is the default
                               ///< period
+  const sensors::Kind* sensor = nullptr;  ///< what measures its samples
   TruthOf samples;
   /// Reads the table; unknown keys are detected afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;

@@ -7,6 +7,7 @@
 #include "bench/scenario/engagement.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/section.hpp"
+#include "bench/scenario/sensor_name.hpp"
 #include "bench/scenario/truth.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/files/text_file.hpp"
@@ -34,6 +35,19 @@ bool any_runs(const Scenario& scenario, const DbcVocabulary& contract, Holds hol
   });
 }
 
+/// Reads the table of a node. Returns false if the node measures a truth that the scenario does not know.
+bool read_node(Section& section, const NodeTable& node, Scenario& scenario, const DbcVocabulary& contract) {
+  const bool recorded = contract.read_recorded != nullptr && section.has("recorded");
+  scenario.nodes.push_back(recorded ? contract.read_recorded(node, section, scenario.duration_us)
+                                    : node.read(node, section));
+  // Error models and faults apply to simulated measurements, not to recorded ones.
+  section.finish(recorded ? "has no effect beside 'recorded'" : "is unknown");
+  return recorded || node.samples != TruthOf::navigation || scenario.truth_is_known();
+}
+
+constexpr std::string_view no_truth = "has no truth to measure, as trajectory is \"unknown\"";
+constexpr std::string_view what_was_measured = "'recorded', and what was measured";
+
 /// Reads the nodes that sample a truth.
 void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract, TruthOf truth) {
   const bool per_run_truth =
@@ -44,15 +58,23 @@ void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract
                           return std::ranges::find(facts.nodes, node->key) != facts.nodes.end();
                         });
     std::optional<Section> section = needed ? root.table(node->key) : root.optional_table(node->key);
-    if (!section) continue;
-    const bool recorded = contract.read_recorded != nullptr && section->has("recorded");
-    scenario.nodes.push_back(recorded ? contract.read_recorded(*node, *section, scenario.duration_us)
-                                      : node->read(*node, *section));
-    if (!recorded && truth == TruthOf::navigation && !scenario.truth_is_known())
-      root.reject(node->key, "has no truth to measure, as trajectory is \"unknown\"",
-                  "'recorded', and what was measured");
-    // Error models and faults apply to simulated measurements, not to recorded ones.
-    section->finish(recorded ? "has no effect beside 'recorded'" : "is unknown");
+    if (section && !read_node(*section, *node, scenario, contract))
+      root.reject(node->key, no_truth, what_was_measured);
+  }
+}
+
+/// Reads the sensors that have names of their own.
+void read_sensors(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
+  if (contract.foreign == nullptr)
+    root.refuse("sensor", "is given, but canhil's DBC carries one sensor of each kind",
+                "the tables of its nodes, or a target with a mapping");
+  if (!root.has("sensor")) return root.optional("sensor");
+  for (Section& section : root.tables("sensor")) {
+    const NodeTable* node = read_sensor_name(section, contract, scenario.nodes);
+    if (node == nullptr) continue;
+    if (node->samples == TruthOf::glide && !scenario.glide)
+      section.reject("kind", "has nothing to measure", "a table [glide] beside it");
+    if (!read_node(section, *node, scenario, contract)) section.reject("kind", no_truth, what_was_measured);
   }
 }
 
@@ -250,6 +272,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   read_nodes(root, scenario, contract, TruthOf::navigation);
   if (contract.foreign == nullptr) expect_aid(root, scenario, contract);
   read_nodes(root, scenario, contract, TruthOf::engagement);
+  read_sensors(root, scenario, contract);
   for (const NodeSettings& node : scenario.nodes) {
     if (node.table().samples == TruthOf::engagement && !scenario.engagement)
       root.reject("engagement", "is missing", fmt::format("a table beside [{}]", node.table().key));

@@ -33,9 +33,13 @@ struct Run {
   const world::GlideRecord* glide = nullptr;      ///< null: the scenario has no [glide]
   world::EngagementRecord* engagement = nullptr;  ///< null: no [engagement]; filled during the flight
   SensorFaults* faults = nullptr;                 ///< null: no faults
+  std::string_view sensor{};                      ///< name of a named sensor, which has streams of its own
 
   /// A stream of random numbers. The name must never change: the results depend on it.
-  [[nodiscard]] world::Stream stream(std::string_view name) const { return {scenario.seed, index, name}; }
+  [[nodiscard]] world::Stream stream(std::string_view name) const {
+    if (sensor.empty()) return {scenario.seed, index, name};
+    return {scenario.seed, index, std::string(sensor) + ": " + std::string(name)};
+  }
 };
 
 /// The target's estimate of the LOS rate, as the guidance of a missile uses it.
@@ -91,6 +95,7 @@ struct Kind {
   Outputs outputs;
   std::optional<scenario::Aid> aid{};
   bool at_every_epoch = false;  ///< the sensor's period defines the epochs of the flight record
+  const Kind* of = nullptr;     ///< the kind of a named sensor, whose name is `key`; null: no name of its own
 };
 
 }  // namespace canhil::sensors

@@ -1,6 +1,7 @@
 #include "bench/sensors/measurands.hpp"
 
-#include <algorithm>
+#include <map>
+#include <mutex>
 #include <vector>
 
 #include "bench/sensors/registry.hpp"
@@ -8,39 +9,53 @@
 namespace canhil::sensors {
 namespace {
 
-std::vector<Measurand> all_measurands() {
+// The name of a rate: "imu.rate.z", or with the name of a named sensor.
+std::string rate_of(const Kind& sensor, const Output& output) {
+  if (sensor.of == nullptr) return std::string(output.rate);
+  return std::string(sensor.key) + std::string(output.rate.substr(output.rate.find('.')));
+}
+
+std::vector<Measurand> all_of(const Kind& sensor) {
   std::vector<Measurand> measurands;
-  for (const Kind* kind : all()) {
-    for (std::size_t i = 0; i < kind->outputs.values.size(); ++i) {
-      const Output& output = kind->outputs.values[i];
-      if (output.si.empty()) continue;
-      const bool adds_up = !output.rate.empty();
-      measurands.push_back({.name = std::string(kind->key) + "." + std::string(output.name),
-                            .si = output.si,
-                            .sensor = kind,
-                            .index = i,
-                            .over = adds_up ? Over::sum : Over::newest});
-      if (!adds_up) continue;
-      measurands.push_back({.name = std::string(output.rate),
-                            .si = output.si == "rad" ? "rad/s" : "m/s^2",
-                            .sensor = kind,
-                            .index = i,
-                            .over = Over::rate});
-    }
+  for (std::size_t i = 0; i < sensor.outputs.values.size(); ++i) {
+    const Output& output = sensor.outputs.values[i];
+    if (output.si.empty()) continue;
+    const bool adds_up = !output.rate.empty();
+    measurands.push_back({.name = std::string(sensor.key) + "." + std::string(output.name),
+                          .si = output.si,
+                          .sensor = &sensor,
+                          .index = i,
+                          .over = adds_up ? Over::sum : Over::newest});
+    if (!adds_up) continue;
+    measurands.push_back({.name = rate_of(sensor, output),
+                          .si = output.si == "rad" ? "rad/s" : "m/s^2",
+                          .sensor = &sensor,
+                          .index = i,
+                          .over = Over::rate});
   }
   return measurands;
 }
 
 }  // namespace
 
-std::span<const Measurand> measurands() {
-  static const std::vector<Measurand> all = all_measurands();
-  return all;
+std::span<const Measurand> measurands_of(const Kind& sensor) {
+  static std::mutex mutex;
+  static std::map<const Kind*, std::vector<Measurand>> known;
+  const std::lock_guard lock(mutex);
+  const auto found = known.find(&sensor);
+  return found != known.end() ? found->second : known.emplace(&sensor, all_of(sensor)).first->second;
 }
 
-const Measurand* find_measurand(std::string_view name) {
-  const auto found = std::ranges::find(measurands(), name, &Measurand::name);
-  return found == measurands().end() ? nullptr : &*found;
+std::span<const Measurand> measurands() {
+  static const std::vector<Measurand> all = [] {
+    std::vector<Measurand> measurands;
+    for (const Kind* kind : sensors::all()) {
+      const auto own = measurands_of(*kind);
+      measurands.insert(measurands.end(), own.begin(), own.end());
+    }
+    return measurands;
+  }();
+  return all;
 }
 
 }  // namespace canhil::sensors

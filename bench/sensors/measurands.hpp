@@ -30,9 +30,9 @@ struct Measurand {
   [[nodiscard]] const Output& output() const { return sensor->outputs.values[index]; }
 };
 
-/// All measurands, in the order of the sensors.
+/// The measurands of one sensor. Those of a named sensor begin with its name ("imu_b.rate.z").
+std::span<const Measurand> measurands_of(const Kind& sensor);
+/// The measurands of all kinds, in the order of the sensors.
 std::span<const Measurand> measurands();
-/// The measurand of this name; null if there is none.
-const Measurand* find_measurand(std::string_view name);
 
 }  // namespace canhil::sensors

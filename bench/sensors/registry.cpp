@@ -2,6 +2,9 @@
 #include "bench/sensors/registry.hpp"
 
 #include <array>
+#include <deque>
+#include <mutex>
+#include <string>
 
 #include "bench/sensors/fins.hpp"
 #include "bench/sensors/glider_nav.hpp"
@@ -27,5 +30,22 @@ constexpr std::array registered{
 }  // namespace
 
 std::span<const Kind* const> all() { return registered; }
+
+const Kind& named(const Kind& kind, std::string_view name) {
+  struct Named {
+    std::string name;
+    Kind kind;
+  };
+  static std::mutex mutex;
+  static std::deque<Named> known;
+  const std::lock_guard lock(mutex);
+  for (const Named& one : known) {
+    if (one.kind.of == &kind && one.name == name) return one.kind;
+  }
+  Named& own = known.emplace_back(Named{.name = std::string(name), .kind = kind});
+  own.kind.key = own.name;
+  own.kind.of = &kind;
+  return own.kind;
+}
 
 }  // namespace canhil::sensors

@@ -88,12 +88,21 @@ class SlaveImu final : public Sampler<SlaveImuSettings> {
  public:
   SlaveImu(const NodeSettings& node, const Run& run)
       : Sampler(node, run),
+        epochs_(node.period_us() / run.flight.interval_us()),
         imu_(config_.errors, run.stream("slave_imu")),
         losses_(run.stream("slave_imu.loss")) {}
 
  private:
   bool take(std::int64_t /*t_us*/, Sample& sample) override {
-    const world::ImuIncrement measured = imu_.measure(run_.flight.increments()[next_++]);
+    world::ImuIncrement exact = run_.flight.increments()[next_++];
+    for (std::int64_t more = 1; more < epochs_; ++more) {
+      const world::ImuIncrement& then = run_.flight.increments()[next_++];
+      exact.t_us = then.t_us;
+      exact.interval_us += then.interval_us;
+      exact.delta_theta += then.delta_theta;
+      exact.delta_v += then.delta_v;
+    }
+    const world::ImuIncrement measured = imu_.measure(exact);
     sample.stamp_us = measured.t_us;
     sample.interval_us = static_cast<double>(measured.interval_us);
     const world::Vector3 &theta = measured.delta_theta, &v = measured.delta_v;
@@ -101,6 +110,7 @@ class SlaveImu final : public Sampler<SlaveImuSettings> {
     return losses_.uniform() >= config_.loss_probability;
   }
 
+  std::int64_t epochs_;  // of the flight record in a sample; more than 1 beside a faster IMU
   world::ErroneousImu imu_;
   world::Stream losses_;  // a separate stream: losses do not change measurements
   std::size_t next_ = 0;

@@ -297,6 +297,54 @@ TEST(Player, PlaysTheTimeThatTheSensorReports) {
     EXPECT_EQ(flown.value(2 * k + 1, "Time"), 20.0 * static_cast<double>(k + 1) + (k < 24 ? 0 : 5)) << k;
 }
 
+// Two IMUs in one play: each has its own errors, the samples of one time are sent together, and a fault acts
+// on one of them.
+TEST(Player, PlaysASecondSensorOfAKind) {
+  const std::string mapping = mapping_with("[units]", "[sensors]\nimu_b = \"slave_imu\"\n[units]");
+  const std::string with_b = [&] {
+    std::string text = mapping;
+    const std::string mode = "\"Rates.Mode\" = 7";
+    return text.replace(text.find(mode), mode.size(), "\"Turned.Course\" = \"imu_b.delta_theta_z\"");
+  }();
+  const auto flown_with = [&](const std::string& more, const std::string& keys) {
+    return read(fmt::format("[[sensor]]\nname = \"imu_b\"\nkind = \"slave_imu\"\n{}\n{}", keys, more),
+                with_b);
+  };
+  const auto scenario = flown_with("", "period_ms = 20\ngyro_bias_degph = [0, 0, 1.8e6]");
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  ASSERT_EQ(flown.due.size(), 49U);
+  for (std::size_t k = 0; k < flown.due.size(); ++k) {
+    EXPECT_NEAR(flown.value(2 * k, "AngleZ"), 36 * 0.02, 1e-3) << k;
+    EXPECT_NEAR(flown.value(2 * k, "Course"), std::round((36 + 500) * 0.02 / 1.5) * 1.5, 1e-9) << k;
+  }
+  const auto faulty = flown_with(
+      "[[fault]]\nkind = \"changed\"\nquantity = \"imu_b.rate.z\"\nvalue_degps = 150", "period_ms = 20");
+  ASSERT_TRUE(faulty) << faulty.error().message;
+  const Flown spoilt(*faulty);
+  EXPECT_NEAR(spoilt.value(0, "AngleZ"), 36 * 0.02, 1e-3);
+  EXPECT_NEAR(spoilt.value(0, "Course"), 3, 1e-9);
+
+  const auto refused = [](const Result<scenario::Scenario>& of) {
+    return of ? "nothing" : of.error().message;
+  };
+  EXPECT_THAT(refused(read("[[sensor]]\nname = \"gps\"\nkind = \"slave_imu\"")),
+              testing::HasSubstr("key 'sensor[1].name': 'gps' is a kind"));
+  EXPECT_THAT(
+      refused(read("[[sensor]]\nname = \"a\"\nkind = \"gps\"\n[[sensor]]\nname = \"a\"\nkind = \"gps\"")),
+      testing::HasSubstr("key 'sensor[2].name': 'a' is the name of another sensor"));
+  EXPECT_THAT(refused(read("", mapping_with("[units]", "[sensors]\ngps = \"gps\"\n[units]"))),
+              testing::HasSubstr("key 'sensors.gps': is a kind"));
+  const auto wrong = read("[[sensor]]\nname = \"imu_b\"\nkind = \"gps\"", with_b);
+  ASSERT_TRUE(wrong);
+  EXPECT_THAT(Player::check(dynamic_cast<const Mapping&>(*wrong->foreign), *wrong).error().message,
+              testing::HasSubstr("'imu_b' has another kind"));
+  const auto uneven = flown_with("", "period_ms = 15");
+  ASSERT_TRUE(uneven);
+  EXPECT_THAT(drive::make_truth(*uneven).error().message,
+              testing::HasSubstr("'imu_b.period_ms': 15 is not a multiple of the 10 ms of the fastest IMU"));
+}
+
 // A mapping with two plays for the pages of one message.
 std::string with_pages(int second) {
   return mapping_with("[[hear]]", fmt::format(R"([[play]]
