@@ -229,8 +229,10 @@ Error with_controller(Error error, const std::string& bus) {
 Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& scenario) {
   for (const std::string& text : arguments.bus_of) {
     const std::string name = node_and_bus(text)->first;
-    if (std::ranges::any_of(scenario.nodes,
-                            [&](const auto& node) { return node.table().closes.sender == name; }))
+    if (std::ranges::any_of(scenario.nodes, [&](const auto& node) {
+          const MessageInfo* closes = node.table().closes;
+          return closes != nullptr && closes->sender == name;
+        }))
       continue;
     return failure(
         fmt::format("--bus-of '{}': {} has no such node, expected one that it has", text, scenario.file));

@@ -40,8 +40,9 @@ std::vector<std::string> keys_of(std::string_view stem, std::string_view si) {
 
 auto node_of(const MessageInfo& message, const FaultContext& context) {
   return std::ranges::find_if(context.nodes, [&](const scenario::NodeSettings& node) {
-    return !message.sample_group.empty() && node.table().closes.sample_group == message.sample_group &&
-           node.table().closes.sender == message.sender;
+    const MessageInfo* closes = node.table().closes;
+    return !message.sample_group.empty() && closes != nullptr &&
+           closes->sample_group == message.sample_group && closes->sender == message.sender;
   });
 }
 
@@ -118,7 +119,8 @@ OfMessages read_messages(Section& section, const FaultContext& context) {
   if (context.contract.foreign != nullptr)
     section.reject("node", "sends no messages of its own where a mapping plays it", "messages in its place");
   for (const MessageInfo& message : messages_of(context)) {
-    if (message.sender == node->closes.sender && message.sample_group == node->closes.sample_group)
+    if (node->closes != nullptr && message.sender == node->closes->sender &&
+        message.sample_group == node->closes->sample_group)
       of.all.push_back(&message);
   }
   of.text = node->key;
@@ -127,12 +129,22 @@ OfMessages read_messages(Section& section, const FaultContext& context) {
 
 const sensors::Kind& sensor_of(const scenario::NodeTable& table) { return *table.sensor; }
 
+namespace {
+
+// The name of the random numbers: that of the message, as results have always depended on it.
+std::string stream_of(const sensors::Measurand& measurand) {
+  const MessageInfo* message = nodes::carrier(measurand).message;
+  return message == nullptr ? measurand.name : std::string(message->name);
+}
+
+}  // namespace
+
 Measured measured(const sensors::Measurand& measurand) {
   return {.sensor = measurand.sensor,
           .index = measurand.index,
           .turns = measurand.output().turns,
           .rate = measurand.over == sensors::Over::rate,
-          .name = std::string(nodes::carrier(measurand).message->name)};
+          .name = stream_of(measurand)};
 }
 
 const sensors::Measurand* read_quantity(Section& section, const FaultContext& context,

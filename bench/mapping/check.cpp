@@ -90,7 +90,7 @@ class Remarks {
           fmt::format("its step of {:g} {} adds {:.2g} of rounding noise to the sensor's noise of {:.2g}",
                       step, signal.unit, step / std::sqrt(12.0), sigma));
     const auto range = physical_range(signal);
-    if (!range) return;
+    if (!range || !std::isfinite(own.info.maximum)) return;
     const auto [low, high] = *range;
     // An angle is sent as the equal angle that the signal can hold.
     const double turn = 360 * std::abs(source.factor * own.factor);

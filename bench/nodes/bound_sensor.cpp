@@ -63,8 +63,8 @@ Slot* encode_message(Slot* slot, const Sample& sample, Transmission& out) {
 
 }  // namespace
 
-SampleEncoder::SampleEncoder(const MessageInfo& closes, const sensors::Outputs& outputs) {
-  for (const SampleSignal& signal : signals_of(closes, outputs))
+SampleEncoder::SampleEncoder(const MessageInfo& closes, const std::vector<SampleSignal>& signals) {
+  for (const SampleSignal& signal : signals)
     slots_.push_back({.role = signal.role,
                       .index = signal.index,
                       .factor = signal.factor,

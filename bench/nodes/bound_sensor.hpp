@@ -16,7 +16,7 @@ namespace canhil::nodes {
 /// sample.
 class SampleEncoder {
  public:
-  SampleEncoder(const MessageInfo& closes, const sensors::Outputs& outputs);
+  SampleEncoder(const MessageInfo& closes, const std::vector<SampleSignal>& signals);
   void encode(const sensors::Sample& sample, Transmission& out);
 
   /// What a signal carries.
@@ -47,7 +47,7 @@ class AnswerOfLosRate {
 class BoundSensor final : public Node {
  public:
   BoundSensor(std::unique_ptr<sensors::Sensor> sensor, const Kind& kind)
-      : sensor_(std::move(sensor)), encoder_(kind.table.closes, kind.sensor->outputs) {}
+      : sensor_(std::move(sensor)), encoder_(*kind.table.closes, kind.signals) {}
 
   [[nodiscard]] std::int64_t due_us() const override { return sensor_->due_us(); }
   void transmit(Transmission& out) override;

@@ -82,16 +82,16 @@ NodeSettings read_recorded(const NodeTable& table, Section& section, std::int64_
                                          "File with the samples that the node sends in place of simulated "
                                          "ones: FILE.csv or FILE.log (recorded-data.md)."});
   own.recorded_from = section.beside(name);
-  const std::int64_t period_us = own.schedule.period_us.value_or(table.closes.cycle_time_us);
+  const std::int64_t period_us = own.schedule.period_us.value_or(table.period_us);
   const std::string kind = std::filesystem::path(name).extension().string();
   Result<void> read;
   if (kind == ".csv") {
     read = read_csv(own, table, section, duration_us, period_us);
-  } else if (kind == ".log") {
+  } else if (kind == ".log" && table.closes != nullptr) {
     read = read_log(own, table, section, duration_us, period_us);
   } else {
     section.reject("recorded", fmt::format("'{}' is not of a known kind", name),
-                   "FILE.csv, or FILE.log of candump or --log");
+                   table.closes != nullptr ? "FILE.csv, or FILE.log of candump or --log" : "FILE.csv");
   }
   if (!read) section.reject("recorded", read.error());
   return {table, std::move(own)};

@@ -39,7 +39,7 @@ std::int64_t due_us(const TimeMark& before, const TimeMark& after, std::int64_t 
 class Reading {
  public:
   Reading(const NodeTable& table, std::string log)
-      : closes_(table.closes), log_(std::move(log)), samples_(kind_of(table)) {}
+      : closes_(*table.closes), log_(std::move(log)), samples_(kind_of(table)) {}
 
   Result<void> take(const LogEntry& entry) {
     const std::size_t index = index_++;

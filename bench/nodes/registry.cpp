@@ -37,21 +37,23 @@ const MessageInfo* closing_message(std::string_view key) {
   return closes;
 }
 
-const auto& kinds() {
+const std::vector<Kind>& kinds() {
   static const auto bound = [] {
     std::vector<Kind> kinds;
     for (const sensors::Kind* sensor : sensors::all()) {
       const MessageInfo* closes = closing_message(sensor->key);
-      if (closes == nullptr) continue;
-      kinds.push_back({.table = {.key = sensor->key,
-                                 .closes = *closes,
-                                 .sensor = sensor,
-                                 .samples = sensor->samples,
-                                 .read = sensor->read,
-                                 .aid = sensor->aid},
-                       .sensor = sensor,
-                       .signals = signals_of(*closes, sensor->outputs),
-                       .fits = fits_of(sensor->key)});
+      const bool is_sent = closes != nullptr;
+      kinds.push_back(
+          {.table = {.key = sensor->key,
+                     .closes = closes,
+                     .period_us = is_sent ? closes->cycle_time_us : sensor->period_us,
+                     .sensor = sensor,
+                     .samples = sensor->samples,
+                     .read = sensor->read,
+                     .aid = sensor->aid},
+           .sensor = sensor,
+           .signals = is_sent ? signals_of(*closes, sensor->outputs) : signals_in_si(sensor->outputs),
+           .fits = fits_of(sensor->key)});
     }
     return kinds;
   }();
@@ -63,14 +65,16 @@ const auto& kinds() {
 std::span<const Kind* const> all() {
   static const auto pointers = [] {
     std::vector<const Kind*> all;
-    for (const Kind& kind : kinds()) all.push_back(&kind);
+    for (const Kind& kind : kinds()) {
+      if (kind.table.closes != nullptr) all.push_back(&kind);
+    }
     return all;
   }();
   return pointers;
 }
 
 const Kind& bound(const sensors::Kind& sensor) {
-  if (sensor.of == nullptr) return **std::ranges::find(all(), &sensor, &Kind::sensor);
+  if (sensor.of == nullptr) return *std::ranges::find(kinds(), &sensor, &Kind::sensor);
   static std::mutex mutex;
   static std::deque<Kind> named;
   const std::lock_guard lock(mutex);
@@ -90,7 +94,7 @@ const NodeTable& named(const NodeTable& kind, std::string_view name) {
 
 std::vector<const scenario::NodeTable*> tables() {
   std::vector<const scenario::NodeTable*> tables;
-  for (const Kind* kind : all()) tables.push_back(&kind->table);
+  for (const Kind& kind : kinds()) tables.push_back(&kind.table);
   return tables;
 }
 
@@ -125,7 +129,7 @@ std::unique_ptr<Node> make(const NodeSettings& node, const Run& run) {
 std::vector<std::unique_ptr<Node>> make(const Run& run) {
   std::vector<const Kind*> kinds(all().begin(), all().end());
   std::ranges::sort(kinds, {},
-                    [](const Kind* kind) { return std::pair(kind->table.samples, kind->table.closes.id); });
+                    [](const Kind* kind) { return std::pair(kind->table.samples, kind->table.closes->id); });
   std::vector<std::unique_ptr<Node>> nodes;
   std::map<std::string, std::vector<const RecordedFrames*>> logs;  // those of one log share one Node
   for (const Kind* kind : kinds) {

@@ -11,7 +11,7 @@
 
 namespace canhil::nodes {
 
-/// All kinds, in the order in which tables are read and reported.
+/// The kinds that canhil.dbc carries, in the order in which tables are read and reported.
 std::span<const Kind* const> all();
 
 /// The kind that binds this sensor. A named sensor (sensors::named) is bound like its kind.
@@ -24,7 +24,7 @@ const NodeTable& named(const NodeTable& kind, std::string_view name);
 /// The tables of all kinds, for scenario::DbcVocabulary.
 std::vector<const scenario::NodeTable*> tables();
 
-/// The signal of canhil.dbc that carries a measurand.
+/// The signal of canhil.dbc that carries a measurand, or signals_in_si().
 const SampleSignal& carrier(const sensors::Measurand& measurand);
 /// What a signal of a sensor's message carries; null: the message has no such signal.
 const SampleSignal* carried(const Kind& kind, const MessageInfo& message, std::string_view signal);

@@ -49,7 +49,7 @@ bool decode_message(const Frame& frame, const SampleSignal* signal, std::int64_t
 
 SampleDecoder::SampleDecoder(const Kind& kind) {
   const SampleSignal* signal = kind.signals.data();
-  each_message(kind.table.closes, [&]<class Message>() {
+  each_message(*kind.table.closes, [&]<class Message>() {
     parts_.push_back({.id = Message::info.id, .decode = decode_message<Message>, .signals = signal});
     while (signal != kind.signals.data() + kind.signals.size() && signal->message == &Message::info) ++signal;
   });

@@ -1,7 +1,13 @@
 #include "bench/nodes/sample_signals.hpp"
 
 #include <algorithm>
+#include <array>
+#include <deque>
+#include <limits>
+#include <mutex>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "bench/quantities/wire_unit.hpp"
 
@@ -41,6 +47,34 @@ std::vector<SampleSignal> signals_of(const MessageInfo& closes, const sensors::O
       all.push_back(one);
     });
   });
+  return all;
+}
+
+std::vector<SampleSignal> signals_in_si(const sensors::Outputs& outputs) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 5> endings{
+      {{"rad/s", "_radps"}, {"rad", "_rad"}, {"m/s^2", "_mps2"}, {"m/s", "_mps"}, {"m", "_m"}}};
+  static std::mutex mutex;
+  static std::deque<std::string> names;  // SignalInfo keeps no text of its own
+  const std::lock_guard lock(mutex);
+  std::vector<SampleSignal> all;
+  const auto add = [&](std::string name, std::string_view unit, Role role, std::size_t index) {
+    constexpr double any = std::numeric_limits<double>::infinity();
+    all.push_back({.info = {.name = names.emplace_back(std::move(name)),
+                            .unit = unit,
+                            .minimum = -any,
+                            .maximum = any,
+                            .is_float = true},
+                   .role = role,
+                   .index = index});
+  };
+  for (std::size_t i = 0; i < outputs.values.size(); ++i) {
+    const sensors::Output& output = outputs.values[i];
+    const auto ending = std::ranges::find(endings, output.si, [](const auto& one) { return one.first; });
+    add(std::string(output.name) + std::string(ending == endings.end() ? "" : ending->second), output.si,
+        Role::value, i);
+  }
+  for (std::size_t i = 0; i < outputs.flags.size(); ++i)
+    add(std::string(outputs.flags[i]) + "_validity", "", Role::validity, i);
   return all;
 }
 

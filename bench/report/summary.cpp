@@ -102,7 +102,7 @@ std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   for (const bool at_every_epoch :
        {true, false}) {  // the first pass is for the node whose period is the interval of the truth
     for (const nodes::Kind* kind : nodes::all()) {
-      const MessageInfo& closes = kind->table.closes;
+      const MessageInfo& closes = *kind->table.closes;
       const scenario::NodeSettings* node = scenario.node(kind->table.key);
       if (kind->sensor->at_every_epoch != at_every_epoch || node == nullptr) continue;
       if (node->period_us() == closes.cycle_time_us) continue;

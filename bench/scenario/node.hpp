@@ -36,11 +36,12 @@ struct Aid {
 
 /// Facts about a kind of node for scenarios.
 struct NodeTable {
-  std::string_view key;       ///< key of the node's table: "gps"
-  const MessageInfo& closes;  ///< the last message of the node's sample group; its cycle time is the default
-                              ///< period
+  std::string_view key;  ///< key of the node's table: "gps"
+  /// The message of canhil.dbc that closes the node's sample group; null: canhil.dbc carries no such samples.
+  const MessageInfo* closes = nullptr;
+  std::int64_t period_us = 0;             ///< unless the table has the key `period_ms`
   const sensors::Kind* sensor = nullptr;  ///< what measures its samples
-  TruthOf samples;
+  TruthOf samples = TruthOf::navigation;
   /// Reads the table; unknown keys are detected afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
   std::optional<Aid> aid{};
@@ -64,9 +65,7 @@ class NodeSettings {
   /// node.
   [[nodiscard]] bool is_recorded() const { return is_recorded_; }
   [[nodiscard]] std::int64_t latency_us() const { return schedule_->latency_us; }
-  [[nodiscard]] std::int64_t period_us() const {
-    return schedule_->period_us.value_or(table_->closes.cycle_time_us);
-  }
+  [[nodiscard]] std::int64_t period_us() const { return schedule_->period_us.value_or(table_->period_us); }
 
   /// The settings, if their type is `Own`; null: the settings have another type.
   template <class Own>

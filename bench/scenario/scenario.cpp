@@ -54,6 +54,12 @@ void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract
       (truth == TruthOf::glide && scenario.glide) || (truth == TruthOf::engagement && scenario.engagement);
   for (const NodeTable* node : contract.nodes) {
     if (node->samples != truth) continue;
+    if (contract.foreign == nullptr && node->closes == nullptr) {
+      if (root.has(node->key))
+        root.reject(node->key, "is given, but canhil's DBC has no message for its samples",
+                    "a target with a mapping");
+      continue;
+    }
     const bool needed = per_run_truth || any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
                           return std::ranges::find(facts.nodes, node->key) != facts.nodes.end();
                         });
@@ -65,9 +71,12 @@ void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract
 
 /// Reads the sensors that have names of their own.
 void read_sensors(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
-  if (contract.foreign == nullptr)
-    root.refuse("sensor", "is given, but canhil's DBC carries one sensor of each kind",
-                "the tables of its nodes, or a target with a mapping");
+  if (contract.foreign == nullptr) {
+    if (root.has("sensor"))
+      root.reject("sensor", "is given, but canhil's DBC carries one sensor of each kind",
+                  "the tables of its nodes, or a target with a mapping");
+    return;
+  }
   if (!root.has("sensor")) return root.optional("sensor");
   for (Section& section : root.tables("sensor")) {
     const NodeTable* node = read_sensor_name(section, contract, scenario.nodes);

@@ -93,6 +93,7 @@ struct Kind {
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
   std::unique_ptr<Sensor> (*make)(const NodeSettings& node, const Run& run) = nullptr;
   Outputs outputs;
+  std::int64_t period_us = 0;  ///< usual period, if canhil.dbc has no message of the sensor
   std::optional<scenario::Aid> aid{};
   bool at_every_epoch = false;  ///< the sensor's period defines the epochs of the flight record
   const Kind* of = nullptr;     ///< the kind of a named sensor, whose name is `key`; null: no name of its own

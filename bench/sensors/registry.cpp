@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include "bench/sensors/dvl.hpp"
 #include "bench/sensors/fins.hpp"
 #include "bench/sensors/glider_nav.hpp"
 #include "bench/sensors/gps.hpp"
@@ -13,6 +14,7 @@
 #include "bench/sensors/seeker.hpp"
 #include "bench/sensors/slave_imu.hpp"
 #include "bench/sensors/ssbl.hpp"
+#include "bench/sensors/wheels.hpp"
 
 namespace canhil::sensors {
 namespace {
@@ -25,6 +27,8 @@ constexpr std::array registered{
     &seeker,      // of a missile
     &glider_nav,  // the GPS/INS of the glider
     &fins,        // of the glider
+    &dvl,         // of an underwater vehicle
+    &wheels,      // of a car
 };
 
 }  // namespace

@@ -28,6 +28,17 @@ class Stream {
   boost::random::normal_distribution<double> normal_;
 };
 
+/// A constant drawn for each run: value + sigma * N(0, 1).
+struct RandomValue {
+  double value = 0;
+  double sigma = 0;
+};
+
+/// Draws the value. Takes one number from the stream, whatever sigma is.
+inline double draw(const RandomValue& value, Stream& stream) {
+  return value.value + value.sigma * stream.normal();
+}
+
 /// A constant that is drawn for each run: value + sigma * N(0, 1). Each axis has its own random number. If
 /// sigma is 0, the constant is exactly `value`.
 struct RandomConstant {

@@ -6,10 +6,6 @@
 namespace canhil::world {
 namespace {
 
-double draw(const RandomValue& constant, Stream& stream) {
-  return constant.value + constant.sigma * stream.normal();
-}
-
 Vector3 draw3(const RandomValue& constant, Stream& stream) {
   return Vector3::Constant(constant.value) + constant.sigma * stream.normal3();
 }

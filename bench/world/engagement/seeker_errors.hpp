@@ -3,14 +3,9 @@
 #pragma once
 
 #include "bench/world/engagement/engagement.hpp"
+#include "bench/world/stream.hpp"
 
 namespace canhil::world {
-
-/// A constant drawn for each run: value + sigma * N(0, 1).
-struct RandomValue {
-  double value = 0;
-  double sigma = 0;
-};
 
 /// Each noise is given as the 1-sigma of a sample. All noises are white except the glint. The correlation of
 /// the glint is exp(-t / tau).

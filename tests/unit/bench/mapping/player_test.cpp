@@ -345,6 +345,27 @@ TEST(Player, PlaysASecondSensorOfAKind) {
               testing::HasSubstr("'imu_b.period_ms': 15 is not a multiple of the 10 ms of the fastest IMU"));
 }
 
+// Sensors that canhil.dbc does not carry: the speeds of a car's wheels in a turn of 36 deg/s to the right.
+TEST(Player, PlaysASensorWithoutAMessageInCanhilsDbc) {
+  std::string mapping = mapping_with("\"Rates.Mode\" = 7", "\"Turned.Course\" = \"dvl.velocity_x\"");
+  const std::string units = "[units]\n", angle = "\"slave_imu.delta_theta_z\"";
+  mapping.replace(mapping.find(units), units.size(),
+                  units + "\"Turned.AngleZ\" = \"m/s\"\n\"Turned.Course\" = \"m/s\"\n");
+  mapping.replace(mapping.find(angle), angle.size(), "\"wheels.front_left\"");
+  const auto scenario = read(
+      "[wheels]\nperiod_ms = 20\ntrack_m = 2\nscale_factor_ppm = 1e5\n"
+      "[dvl]\nbias_mps = [1, 0, 0]\nperiod_ms = 20",
+      mapping);
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  ASSERT_EQ(flown.due.size(), 49U);
+  const double turn = 2 * std::numbers::pi / 10;
+  for (std::size_t k = 0; k < flown.due.size(); ++k) {
+    EXPECT_NEAR(flown.value(2 * k, "AngleZ"), 1.1 * (5 + turn), 1e-3) << "the left wheel is outside";
+    EXPECT_NEAR(flown.value(2 * k, "Course"), 6, 1e-9);
+  }
+}
+
 // A mapping with two plays for the pages of one message.
 std::string with_pages(int second) {
   return mapping_with("[[hear]]", fmt::format(R"([[play]]

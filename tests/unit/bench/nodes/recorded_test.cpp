@@ -7,8 +7,10 @@
 #include <fstream>
 
 #include "bench/nodes/registry.hpp"
+#include "bench/sensors/dvl.hpp"
 #include "bench/sensors/gps.hpp"
 #include "bench/sensors/slave_imu.hpp"
+#include "bench/sensors/wheels.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "dbc/logs/candump.hpp"
 #include "messages/canhil.hpp"
@@ -155,6 +157,21 @@ TEST(Recorded, EveryKindOfNodeHasColumns) {
     for (const sensors::Output& output : kind->sensor->outputs.values)
       EXPECT_EQ(std::ranges::count(columns, output.rate_column), output.rate.empty() ? 0 : 1) << output.name;
   }
+}
+
+// A sensor that canhil.dbc does not carry has columns in SI.
+TEST(Recorded, ASensorWithoutAMessageHasColumnsToo) {
+  EXPECT_THAT(
+      columns_of(bound(wheels).table),
+      testing::ElementsAre("t_s", "front_left_mps", "front_right_mps", "rear_left_mps", "rear_right_mps"));
+  EXPECT_THAT(columns_of(bound(dvl).table), testing::Contains("velocity_validity"));
+  std::string csv = "t_s,rear_right_mps,rear_left_mps,front_right_mps,front_left_mps\n";
+  for (int k = 1; k <= 100; ++k) csv += fmt::format("{},4,3,2,{}\n", 0.01 * k, k);
+  const auto samples = samples_of(wheels, csv);
+  ASSERT_TRUE(samples) << samples.error().message;
+  ASSERT_EQ(samples->size(), 100U);
+  EXPECT_EQ(samples->at(9).valid_us, 100'000);
+  EXPECT_THAT(std::span(samples->at(9).values).first(4), testing::ElementsAre(10, 2, 3, 4));
 }
 
 class Log {

@@ -128,7 +128,7 @@ TEST(Reports, NameAPeriodThatIsNotTheDbcs) {
   EXPECT_THAT(text(scenario, run_of()), Not(HasSubstr("DBC:")));
   const scenario::Schedule often{.period_us = 20'000, .latency_us = 0};
   const scenario::Schedule as_in_the_dbc{
-      .period_us = nodes::bound(sensors::seeker).table.closes.cycle_time_us, .latency_us = 0};
+      .period_us = nodes::bound(sensors::seeker).table.closes->cycle_time_us, .latency_us = 0};
   scenario.nodes.emplace_back(nodes::bound(sensors::fins).table, sensors::FinsSettings{.schedule = often});
   scenario.nodes.emplace_back(nodes::bound(sensors::glider_nav).table, sensors::GliderNavSettings{});
   scenario.nodes.emplace_back(nodes::bound(sensors::master_ins).table,

@@ -27,7 +27,8 @@ std::string keys_of_a_file() {
   const auto nodes_of = [](TruthOf samples) {
     std::string keys;
     for (const NodeTable* table : nodes::tables()) {
-      if (table->samples == samples) keys += std::string(table->key) + ", ";
+      const bool is_carried = table->closes != nullptr;  // others are for targets with a mapping
+      if (is_carried && table->samples == samples) keys += std::string(table->key) + ", ";
     }
     return keys;
   };

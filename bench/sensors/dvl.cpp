@@ -1,0 +1,73 @@
+#include "bench/sensors/dvl.hpp"
+
+#include <array>
+
+#include "bench/sensors/sampler.hpp"
+
+namespace canhil::sensors {
+namespace {
+
+using world::Vector3;
+
+constexpr std::array<Output, 3> values{{{"velocity_x", "m/s"}, {"velocity_y", "m/s"}, {"velocity_z", "m/s"}}};
+constexpr std::array<std::string_view, 1> flags{"velocity"};
+constexpr std::int64_t usual_period_us = 200'000;
+
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  DvlSettings node;
+  node.schedule = read_schedule(section);
+  node.scale_factor = {
+      .value = section.number({"scale_factor_ppm", "Constant scale factor error of all axes."}, {}, 0),
+      .sigma = section.number(
+          {"scale_factor_sigma_ppm", "1-sigma of a further scale factor error, drawn for each run."}, sigma,
+          0)};
+  node.bias = {
+      .value = section.three({"bias_mps", "Constant error of the velocity, body axes [x, y, z]."}),
+      .sigma = section.three(
+          {"bias_sigma_mps", "1-sigma of a further constant error, drawn for each run, body axes."}, sigma)};
+  node.noise = section.three({"noise_mps", "White noise of the velocity, 1-sigma of a sample."}, sigma);
+  node.invalid_probability = section.number(
+      {"invalid_percent", "Share of the samples without bottom lock. They are marked as invalid."},
+      Limits::between(0, 100), 0);
+  node.loss = read_sample_loss(section);
+  return {table, node};
+}
+
+class Dvl final : public Sampler<DvlSettings> {
+ public:
+  Dvl(const NodeSettings& node, const Run& run)
+      : Sampler(node, run),
+        stream_(run.stream("dvl")),
+        losses_(run.stream("dvl.loss")),
+        scale_(1 + draw(config_.scale_factor, stream_)),
+        bias_(draw(config_.bias, stream_)) {}
+
+ private:
+  bool take(std::int64_t t_us, Sample& sample) override {
+    const world::Truth truth = run_.flight.at(t_us);
+    Vector3 velocity = scale_ * (truth.C_bn.transpose() * truth.v_eb_n) + bias_ +
+                       config_.noise.cwiseProduct(stream_.normal3());
+    const bool invalid = losses_.uniform() < config_.invalid_probability;
+    if (invalid) velocity.setZero();
+    sample.values = {velocity.x(), velocity.y(), velocity.z()};
+    sample.invalid = invalid ? 1 : 0;
+    return !is_lost(config_.loss, t_us, losses_);
+  }
+
+  world::Stream stream_;
+  world::Stream losses_;  // a separate stream: losses do not change measurements
+  double scale_;
+  Vector3 bias_;
+};
+
+}  // namespace
+
+constinit const Kind dvl{.key = "dvl",
+                         .samples = scenario::TruthOf::navigation,
+                         .read = read,
+                         .make = make<Dvl>,
+                         .outputs = {.values = values, .flags = flags},
+                         .period_us = usual_period_us};
+
+}  // namespace canhil::sensors

@@ -1,0 +1,67 @@
+#include "bench/sensors/wheels.hpp"
+
+#include <array>
+
+#include "bench/sensors/sampler.hpp"
+
+namespace canhil::sensors {
+namespace {
+
+constexpr std::array<Output, 4> values{
+    {{"front_left", "m/s"}, {"front_right", "m/s"}, {"rear_left", "m/s"}, {"rear_right", "m/s"}}};
+constexpr std::int64_t usual_period_us = 20'000;
+
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  WheelsSettings node;
+  node.schedule = read_schedule(section);
+  node.track = section.number({"track_m", "Distance of the left from the right wheels."},
+                              Limits::above(0, 10), node.track);
+  node.scale_factor = {
+      .value = section.number({"scale_factor_ppm", "Constant error of the radius of all wheels."}, {}, 0),
+      .sigma = section.number(
+          {"scale_factor_sigma_ppm", "1-sigma of a further error of the radius, drawn for each run."}, sigma,
+          0)};
+  node.noise = section.number({"noise_mps", "White noise of each speed, 1-sigma of a sample."}, sigma, 0);
+  node.loss = read_sample_loss(section);
+  return {table, node};
+}
+
+// A wheel rolls without slip along the body's x axis. At the distance y to the right of the middle it has the
+// speed v_x - omega_z y (the velocity of a point of a rigid body). The steering angle of the front wheels is
+// neglected.
+class Wheels final : public Sampler<WheelsSettings> {
+ public:
+  Wheels(const NodeSettings& node, const Run& run)
+      : Sampler(node, run),
+        stream_(run.stream("wheels")),
+        losses_(run.stream("wheels.loss")),
+        scale_(1 + draw(config_.scale_factor, stream_)) {}
+
+ private:
+  bool take(std::int64_t t_us, Sample& sample) override {
+    const world::Truth truth = run_.flight.at(t_us);
+    const double forward = (truth.C_bn.transpose() * truth.v_eb_n).x();
+    const double turn = truth.omega_ib_b.z() * config_.track / 2;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const bool is_left = i % 2 == 0;
+      sample.values[i] = scale_ * (forward + (is_left ? turn : -turn)) + config_.noise * stream_.normal();
+    }
+    return !is_lost(config_.loss, t_us, losses_);
+  }
+
+  world::Stream stream_;
+  world::Stream losses_;  // a separate stream: losses do not change measurements
+  double scale_;
+};
+
+}  // namespace
+
+constinit const Kind wheels{.key = "wheels",
+                            .samples = scenario::TruthOf::navigation,
+                            .read = read,
+                            .make = make<Wheels>,
+                            .outputs = {.values = values},
+                            .period_us = usual_period_us};
+
+}  // namespace canhil::sensors
