@@ -1,6 +1,7 @@
 #include "bench/sensors/wheels.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "bench/sensors/sampler.hpp"
 
@@ -23,6 +24,9 @@ NodeSettings read(const NodeTable& table, Section& section) {
           {"scale_factor_sigma_ppm", "1-sigma of a further error of the radius, drawn for each run."}, sigma,
           0)};
   node.noise = section.number({"noise_mps", "White noise of each speed, 1-sigma of a sample."}, sigma, 0);
+  node.with_sign = section.flag({"with_sign",
+                                 "`true`: a wheel that turns backwards has a negative speed. `false`: the sensor "
+                                 "counts pulses and tells the magnitude only."});
   node.loss = read_sample_loss(section);
   return {table, node};
 }
@@ -45,7 +49,8 @@ class Wheels final : public Sampler<WheelsSettings> {
     const double turn = truth.omega_ib_b.z() * config_.track / 2;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const bool is_left = i % 2 == 0;
-      sample.values[i] = scale_ * (forward + (is_left ? turn : -turn)) + config_.noise * stream_.normal();
+      const double speed = scale_ * (forward + (is_left ? turn : -turn)) + config_.noise * stream_.normal();
+      sample.values[i] = config_.with_sign ? speed : std::abs(speed);
     }
     return !is_lost(config_.loss, t_us, losses_);
   }

@@ -13,6 +13,7 @@ struct WheelsSettings {
   double track = 1.5;                 ///< distance of the left from the right wheels [m]
   world::RandomValue scale_factor{};  ///< of all wheels: the radius is wrong
   double noise = 0;                   ///< 1-sigma of a sample [m/s]
+  bool with_sign = false;             ///< a wheel that turns backwards has a negative speed
   SampleLoss loss{};
 };
 
