@@ -24,9 +24,10 @@ NodeSettings read(const NodeTable& table, Section& section) {
           {"scale_factor_sigma_ppm", "1-sigma of a further error of the radius, drawn for each run."}, sigma,
           0)};
   node.noise = section.number({"noise_mps", "White noise of each speed, 1-sigma of a sample."}, sigma, 0);
-  node.with_sign = section.flag({"with_sign",
-                                 "`true`: a wheel that turns backwards has a negative speed. `false`: the sensor "
-                                 "counts pulses and tells the magnitude only."});
+  node.with_sign =
+      section.flag({"with_sign",
+                    "`true`: a wheel that turns backwards has a negative speed. `false`: the sensor "
+                    "counts pulses and tells the magnitude only."});
   node.loss = read_sample_loss(section);
   return {table, node};
 }
