@@ -80,8 +80,8 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
     const scenario::NodeTable* node = read_node(section, context);
     if (node != nullptr) {
       kind.text = node->key;
-      kind.sensor = &sensor_of(*node);
-      kind.flags = (1U << kind.sensor->outputs.flags.size()) - 1;
+      kind.of = &sensor_of(*node);
+      kind.flags = (1U << kind.of->outputs.flags.size()) - 1;
     }
   } else {
     section.optional("node");
@@ -89,8 +89,8 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
         section, context, {key, "Measured quantity whose validity flags are set to invalid (faults.md)."});
     if (measurand != nullptr) {
       kind.text = measurand->name;
-      kind.sensor = measurand->sensor;
-      if (!kind.sensor->outputs.flags.empty()) kind.flags = measurand->output().flags;
+      kind.of = measurand->sensor;
+      if (!kind.of->outputs.flags.empty()) kind.flags = measurand->output().flags;
     }
   }
   if (kind.flags == 0) section.reject(key, "has no validity flag", "one that has");

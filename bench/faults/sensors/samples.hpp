@@ -27,13 +27,13 @@ struct Invalid {
   static constexpr std::string_view kind = "invalid";
   static constexpr std::string_view meaning = "The validity flags of the sample are set to invalid.";
   static constexpr Stage stage = Stage::sensor;
-  const sensors::Kind* sensor = nullptr;
+  const sensors::Kind* of = nullptr;
   std::uint32_t flags = 0;  ///< bit i: flag i is set to invalid
   std::string text{};
   When when{};
   static Invalid read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string subject() const { return text; }
-  [[nodiscard]] bool acts_on(const scenario::NodeTable& table) const { return sensor->key == table.key; }
+  [[nodiscard]] bool acts_on(const scenario::NodeTable& table) const { return of->key == table.key; }
   [[nodiscard]] std::unique_ptr<sensors::Sensor> with_fault(std::unique_ptr<sensors::Sensor> sensor,
                                                             const scenario::NodeSettings& settings,
                                                             const InRun& run) const;
