@@ -64,14 +64,18 @@ TEST(Doctor, ReportsTheRateOfASimulatedWire) {
 
 // The doctor looks for heartbeats for a second. A slow host may not yet have started the target by then.
 TEST(Doctor, FindsATargetOnTheBus) {
-  const std::string hub =
-      bus() == "local:" ? fmt::format("{} bus {} >{} & hub=$!", HIL_BENCH, some_bus(), scratch("bus.out"))
-                        : "hub=";
+  const bool is_local = bus() == "local:";
+  const std::string own_bus = is_local ? "local:doctor-target" : bus();
+  const std::string hub = is_local ? fmt::format(
+                                         "{0} bus {1} >{2} & hub=$!; for wait in $(seq 300); do grep -q "
+                                         "hosting {2} && break; sleep 0.1; done",
+                                         HIL_BENCH, own_bus, scratch("bus.out"))
+                                   : "hub=";
   const std::string report = scratch("with_target.json");
-  shell(fmt::format(R"({hub}; sleep 0.3; {target} --bus {bus} & target=$!
+  shell(fmt::format(R"({hub}; {target} --bus {bus} & target=$!
 for try in 1 2 3 4 5; do {bench} doctor --bus {bus} --seconds 1 --json {report}; grep -q 'idle, DBC hash' {report} && break; done
 kill $target $hub; wait)",
-                    fmt::arg("hub", hub), fmt::arg("target", HIL_TARGET), fmt::arg("bus", some_bus()),
+                    fmt::arg("hub", hub), fmt::arg("target", HIL_TARGET), fmt::arg("bus", own_bus),
                     fmt::arg("bench", HIL_BENCH), fmt::arg("report", report)));
   const nlohmann::json page = read_json(report);
   EXPECT_EQ(line_of(page, "target")["grade"], "good") << page;
