@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "bench/checks/delay.hpp"
@@ -63,8 +64,9 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const quant
 }
 
 // Takes a sample at each time at which a quantity was reported. Each sample contains the last error of every
-// quantity, because a target may report its quantities in turn. No sample is taken before every quantity has
-// an error, and none if causes of answers are not certain.
+// quantity, because a target may report its quantities in turn. A NEES or a NIS is of one time only:
+// elsewhere it is NaN. No sample is taken before every other quantity has an error, and none if causes of
+// answers are not certain.
 quantities::Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   const Answers& answers = seen.of<Answers>();
   if (answers.mapping == nullptr) return {};
@@ -80,6 +82,9 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
   quantities::Samples samples(*mapping.layout);
   std::vector<std::optional<double>> last(mapping.quantities.size());
   for (const auto& [t_us, values] : by_time) {
+    for (std::size_t i = 0; i < last.size(); ++i) {
+      if (mapping.quantities[i]->nan_allowed) last[i] = std::nan("");
+    }
     for (const auto& [index, value] : values) last[index] = value;
     if (std::ranges::any_of(last, [](const auto& value) { return !value; })) continue;
     std::vector<double> all;

@@ -10,13 +10,13 @@
 #include <fstream>
 #include <map>
 
-#include "bench/drive/contract.hpp"
 #include "bench/drive/flight.hpp"
 #include "bench/faults/in_run.hpp"
 #include "bench/mapping/listener.hpp"
 #include "bench/world/attitude.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/parser/codec.hpp"
+#include "tests/unit/bench/mapping/read_mapped.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -96,11 +96,7 @@ answers_at_least = 1
 }
 
 Result<scenario::Scenario> read(const std::string& imu = "", std::string mapping = mapping_text) {
-  const std::map<std::string, std::string> files{{"ecu.mapping.toml", std::move(mapping)},
-                                                 {"ecu.dbc", dbc_text}};
-  return drive::parse_scenario(
-      scenario_text(imu), "a.toml", {}, {},
-      [&](const std::string& file) -> Result<std::string> { return files.at(file); });
+  return read_mapped(scenario_text(imu), std::move(mapping), dbc_text);
 }
 
 std::string mapping_with(const std::string& text, const std::string& instead) {

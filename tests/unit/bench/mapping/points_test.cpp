@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 
-#include "bench/drive/contract.hpp"
 #include "bench/drive/flight.hpp"
 #include "bench/world/earth.hpp"
+#include "tests/unit/bench/mapping/read_mapped.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -88,11 +88,7 @@ answers_at_least = 1
 )";
 
 Result<scenario::Scenario> read(std::string mapping = mapping_text) {
-  const std::map<std::string, std::string> files{{"ecu.mapping.toml", std::move(mapping)},
-                                                 {"ecu.dbc", dbc_text}};
-  return drive::parse_scenario(
-      scenario_text, "a.toml", {}, {},
-      [&](const std::string& file) -> Result<std::string> { return files.at(file); });
+  return read_mapped(scenario_text, std::move(mapping), dbc_text);
 }
 
 // The answers of a target whose errors are north, east and up [m].
@@ -127,6 +123,9 @@ class Told {
     return {all.begin(), all.end()};
   }
   [[nodiscard]] const world::FlightRecord& flight() const { return flight_; }
+  [[nodiscard]] quantities::Samples samples() const {
+    return mapping().own->samples(seen_, {.flight = flight_, .duration_us = flight_.end_us()});
+  }
 
  private:
   scenario::Scenario scenario_;
@@ -189,6 +188,25 @@ TEST(Derived, ANeesHasTheSigmasAndCorrelationsThatAreTold) {
   told.sigma("LatLon", 4'000'000, 1.2);
   told.place(4'000'000, 3, -4, 1.5);
   EXPECT_TRUE(std::isnan(told.points("position.horizontal.nees").at(2).value)) << "no covariance";
+}
+
+// A campaign has a sample for each time, also where there is no NEES because no sigma came.
+TEST(Derived, ACampaignHasSamplesWithoutANees) {
+  Told told;
+  for (const char* axis : {"north", "east", "down"})
+    told.value(std::string("innovation.velocity.") + axis, 1'000'000, 0.3);
+  told.place(1'000'000, 3, -4, 1.5);
+  for (const char* signal : {"LatSigma", "LonSigma", "HeightSigma"}) told.sigma(signal, 2'000'000, 1);
+  told.place(2'000'000, 3, -4, 1.5);
+  told.place(8'000'000, 3, -4, 1.5);
+  const quantities::Samples samples = told.samples();
+  ASSERT_EQ(samples.size(), 3U);
+  const quantities::Quantity& nees = *find_reference_quantity("position.nees")->quantity;
+  const quantities::Quantity& north = *find_reference_quantity("position.north")->quantity;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(std::isnan(samples.value(i, nees)), i != 1) << i;
+    EXPECT_NEAR(samples.value(i, north), 3, 1e-4);
+  }
 }
 
 TEST(Derived, ANisIsOfTheInnovations) {
