@@ -74,7 +74,7 @@ std::int64_t epoch_interval_us(const scenario::Scenario& scenario) {
   }
   if (shortest_us) return *shortest_us;
   const nodes::Kind& kind = **std::ranges::find_if(
-      nodes::all(), [](const nodes::Kind* one) { return one->sensor->at_every_epoch; });
+      nodes::all(), [](const nodes::Kind* one) { return one->table.sensor->at_every_epoch; });
   return kind.table.period_us;
 }
 

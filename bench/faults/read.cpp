@@ -56,7 +56,7 @@ const nodes::Kind& kind_of(const MessageInfo& message, const FaultContext& conte
 
 // What a signal carries, in the unit of the signal.
 Measured measured(const nodes::SampleSignal& signal, const nodes::Kind& kind) {
-  return {.sensor = kind.sensor,
+  return {.sensor = kind.table.sensor,
           .role = signal.role,
           .index = signal.index,
           .factor = signal.factor,

@@ -51,10 +51,11 @@ MaybePoint east_of_longitude(const Joint& longitude) {
 MaybePoint down_of_height(const Joint& height) { return scaled(height.parts.front(), -1, way(height).z()); }
 
 MaybePoint horizontal(const Joint& latitude_longitude) {
-  const auto& [flight, t_us] = std::pair<const world::FlightRecord&, std::int64_t>(
-      latitude_longitude.flight, latitude_longitude.parts.back().t_us);
-  const double north = latitude_longitude.parts[0].value * metres_of_latitude(flight, t_us);
-  const double east = latitude_longitude.parts[1].value * metres_of_longitude(flight, t_us);
+  const std::int64_t t_us = latitude_longitude.parts.back().t_us;
+  const double north =
+      latitude_longitude.parts[0].value * metres_of_latitude(latitude_longitude.flight, t_us);
+  const double east =
+      latitude_longitude.parts[1].value * metres_of_longitude(latitude_longitude.flight, t_us);
   return TrackPoint{.t_us = t_us, .value = std::hypot(north, east)};
 }
 

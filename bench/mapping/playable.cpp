@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bench/scenario/sensor_name.hpp"
 #include "bench/sensors/registry.hpp"
 
 namespace canhil::mapping {
@@ -11,8 +12,8 @@ Playable::Playable(std::optional<scenario::Section> section) {
   for (const sensors::Kind* kind : sensors::all()) kinds.emplace_back(kind->key);
   for (const std::string& name : section ? section->keys() : std::vector<std::string>{}) {
     const std::string kind = section->one_of(name, kinds);
-    if (std::ranges::find(kinds, name) != kinds.end())
-      section->reject(name, "is a kind", "a name of its own, such as imu_b");
+    if (const std::string why = scenario::why_no_name(name, kinds); !why.empty())
+      section->reject(name, why, scenario::own_name);
     const auto found = std::ranges::find(sensors::all(), kind, &sensors::Kind::key);
     if (found != sensors::all().end()) named_.push_back(&sensors::named(**found, name));
   }

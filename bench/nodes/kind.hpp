@@ -18,7 +18,6 @@ using sensors::Run;
 
 struct Kind {
   NodeTable table;
-  const sensors::Kind* sensor = nullptr;
   std::vector<SampleSignal> signals{};  ///< of the sample group
   /// Checks that the bus can carry every signal that the node sends in any run of a scenario; otherwise a
   /// signal could saturate or round to zero unnoticed. An error is one line of text. The pointer is null if

@@ -33,7 +33,7 @@ bool is_measured(const SampleSignal& signal) {
 }
 
 const sensors::Output* output_of(const Kind& kind, const SampleSignal& signal) {
-  return signal.role == Role::value ? &kind.sensor->outputs.values[signal.index] : nullptr;
+  return signal.role == Role::value ? &kind.table.sensor->outputs.values[signal.index] : nullptr;
 }
 
 std::optional<double> assumed(const SampleSignal& signal, const sensors::Output* output) {

@@ -37,6 +37,8 @@ const MessageInfo* closing_message(std::string_view key) {
   return closes;
 }
 
+const sensors::Kind* sensor_of(const Kind& kind) { return kind.table.sensor; }
+
 const std::vector<Kind>& kinds() {
   static const auto bound = [] {
     std::vector<Kind> kinds;
@@ -51,7 +53,6 @@ const std::vector<Kind>& kinds() {
                      .samples = sensor->samples,
                      .read = sensor->read,
                      .aid = sensor->aid},
-           .sensor = sensor,
            .signals = is_sent ? signals_of(*closes, sensor->outputs) : signals_in_si(sensor->outputs),
            .fits = fits_of(sensor->key)});
     }
@@ -74,15 +75,15 @@ std::span<const Kind* const> all() {
 }
 
 const Kind& bound(const sensors::Kind& sensor) {
-  if (sensor.of == nullptr) return *std::ranges::find(kinds(), &sensor, &Kind::sensor);
+  if (sensor.of == nullptr) return *std::ranges::find(kinds(), &sensor, sensor_of);
   static std::mutex mutex;
   static std::deque<Kind> named;
   const std::lock_guard lock(mutex);
-  const auto found = std::ranges::find(named, &sensor, &Kind::sensor);
+  const auto found = std::ranges::find(named, &sensor, sensor_of);
   if (found != named.end()) return *found;
   Kind& own = named.emplace_back(bound(*sensor.of));
   own.table.key = sensor.key;
-  own.table.sensor = own.sensor = &sensor;
+  own.table.sensor = &sensor;
   return own;
 }
 

@@ -37,9 +37,8 @@ struct SampleSignal {
 /// of the signal without its unit ("velocity_north_mps"), or without "_validity".
 std::vector<SampleSignal> signals_of(const MessageInfo& closes, const sensors::Outputs& outputs);
 
-/// The columns of a recording of a sensor that canhil.dbc does not carry: values in SI, with the unit in the
-/// name
-/// ("velocity_x_mps"). There is no message.
+/// The columns of a recording of a sensor that canhil.dbc does not carry. Values are in SI, with the unit in
+/// the name ("velocity_x_mps"). There is no message.
 std::vector<SampleSignal> signals_in_si(const sensors::Outputs& outputs);
 
 }  // namespace canhil::nodes

@@ -104,7 +104,7 @@ std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
     for (const nodes::Kind* kind : nodes::all()) {
       const MessageInfo& closes = *kind->table.closes;
       const scenario::NodeSettings* node = scenario.node(kind->table.key);
-      if (kind->sensor->at_every_epoch != at_every_epoch || node == nullptr) continue;
+      if (kind->table.sensor->at_every_epoch != at_every_epoch || node == nullptr) continue;
       if (node->period_us() == closes.cycle_time_us) continue;
       lines.push_back(fmt::format("{} every {:g} ms (DBC: {:g} ms)", closes.sample_group,
                                   static_cast<double>(node->period_us()) * 1e-3,

@@ -7,15 +7,14 @@
 #include "bench/scenario/section.hpp"
 
 namespace canhil::scenario {
-namespace {
 
-bool is_name(std::string_view name) {
-  return !name.empty() && std::ranges::all_of(name, [](char c) {
+std::string why_no_name(std::string_view name, std::span<const std::string> kinds) {
+  if (std::ranges::find(kinds, name) != kinds.end()) return "is a kind";
+  const bool is_name = !name.empty() && std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
   });
+  return is_name ? "" : "is no name";
 }
-
-}  // namespace
 
 const NodeTable* read_sensor_name(Section& section, const DbcVocabulary& contract,
                                   std::span<const NodeSettings> others) {
@@ -24,14 +23,11 @@ const NodeTable* read_sensor_name(Section& section, const DbcVocabulary& contrac
   const std::string name =
       section.text({"name", "Name of the sensor, by which the mapping and the faults know it."});
   const std::string kind = section.one_of({"kind", "What it is: the name of a node's table."}, kinds);
-  const auto refuse = [&](std::string_view why) {
-    section.reject("name", fmt::format("'{}' {}", name, why),
-                   "a name of its own of a-z, 0-9 and _, such as imu_b");
-  };
-  if (std::ranges::find(kinds, name) != kinds.end()) refuse("is a kind");
-  if (!is_name(name)) refuse("is no name");
-  if (std::ranges::any_of(others, [&](const NodeSettings& other) { return other.table().key == name; }))
-    refuse("is the name of another sensor");
+  std::string why = why_no_name(name, kinds);
+  if (std::ranges::any_of(others, [&](const NodeSettings& other) { return other.table().key == name; }) &&
+      why.empty())
+    why = "is the name of another sensor";
+  if (!why.empty()) section.reject("name", fmt::format("'{}' {}", name, why), own_name);
   if (section.error()) return nullptr;
   return &contract.named(**std::ranges::find(contract.nodes, kind, &NodeTable::key), name);
 }

@@ -18,6 +18,7 @@ constexpr std::array<Output, 6> values{{{"latitude", "rad"},
                                         {"horizontal_sigma", "m"},
                                         {"vertical_sigma", "m"}}};
 constexpr std::array<std::string_view, 1> flags{"position"};
+
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   GpsSettings node;

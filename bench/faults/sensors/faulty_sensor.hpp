@@ -25,7 +25,7 @@ class FaultySensor : public sensors::Sensor {
 
  protected:
   /// Changes a sample that is sent at `t_us`.
-  virtual void change(sensors::Sample& sample, std::int64_t t_us) = 0;
+  virtual void change(sensors::Sample& /*sample*/, std::int64_t /*t_us*/) {}
   sensors::Sensor& sensor() { return *sensor_; }
   [[nodiscard]] const sensors::Sensor& sensor() const { return *sensor_; }
   Tally& tally() { return tally_; }

@@ -1,7 +1,5 @@
 #include "bench/faults/sensors/nodes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -50,7 +48,6 @@ class SilentSensor final : public FaultySensor {
   }
 
  private:
-  void change(Sample& /*sample*/, std::int64_t /*t_us*/) override {}
   When when_;
   bool restarts_;  // true: the counters must still restart
 };

@@ -154,7 +154,7 @@ TEST(Recorded, EveryKindOfNodeHasColumns) {
       const bool measured = signal.role == sensors::Role::value || signal.role == sensors::Role::validity;
       EXPECT_EQ(std::ranges::count(columns, signal.info.name), measured ? 1 : 0) << signal.info.name;
     }
-    for (const sensors::Output& output : kind->sensor->outputs.values)
+    for (const sensors::Output& output : kind->table.sensor->outputs.values)
       EXPECT_EQ(std::ranges::count(columns, output.rate_column), output.rate.empty() ? 0 : 1) << output.name;
   }
 }

@@ -57,7 +57,7 @@ TEST(Registry, EachValueAndFlagOfASensorHasASignal) {
       if (signal.role == sensors::Role::validity) flags.insert(signal.index);
       if (signal.role != sensors::Role::value) continue;
       values.insert(signal.index);
-      const sensors::Output& output = kind->sensor->outputs.values[signal.index];
+      const sensors::Output& output = kind->table.sensor->outputs.values[signal.index];
       EXPECT_EQ(output.turns, wire::turns(signal.info)) << output.name;
       EXPECT_EQ(!output.rate.empty(), signal.info.carries_remainder) << output.name;
       const auto unit = quantities::wire_unit(signal.info.unit);
@@ -65,7 +65,7 @@ TEST(Registry, EachValueAndFlagOfASensorHasASignal) {
         EXPECT_EQ(output.si, unit.value().si) << output.name;
       }
     }
-    const sensors::Outputs& outputs = kind->sensor->outputs;
+    const sensors::Outputs& outputs = kind->table.sensor->outputs;
     for (std::size_t i = 0; i < outputs.values.size(); ++i) EXPECT_EQ(values.count(i), 1U);
     for (std::size_t i = 0; i < outputs.flags.size(); ++i) EXPECT_EQ(flags.count(i), 1U);
     EXPECT_LE(outputs.values.size(), sensors::Sample::most_values);
@@ -74,15 +74,16 @@ TEST(Registry, EachValueAndFlagOfASensorHasASignal) {
 
 TEST(Registry, BindsEachSensor) {
   for (const sensors::Kind* sensor : sensors::all()) {
-    EXPECT_EQ(bound(*sensor).sensor, sensor);
+    EXPECT_EQ(bound(*sensor).table.sensor, sensor);
     EXPECT_GT(bound(*sensor).table.period_us, 0) << sensor->key;
   }
 }
 
 // The truth has a single sampling interval, so only one kind of node can be sampled at every epoch.
 TEST(Registry, OneNodeSamplesEveryEpoch) {
-  EXPECT_EQ(std::ranges::count(all(), true, [](const Kind* kind) { return kind->sensor->at_every_epoch; }),
-            1);
+  EXPECT_EQ(
+      std::ranges::count(all(), true, [](const Kind* kind) { return kind->table.sensor->at_every_epoch; }),
+      1);
 }
 
 }  // namespace
