@@ -43,6 +43,20 @@ inline constexpr double lateness_share = 0.5;
 /// measured.
 Finding unless_target_waited(const Evidence& evidence, double quantile, double bar_s, Finding finding);
 
+/// The values of a check of a quantile of times.
+struct Times {
+  std::uint64_t count = 0;     ///< number of values that are due
+  std::uint64_t missing = 0;   ///< number of values that did not come; the host does not explain them
+  std::uint64_t outside = 0;   ///< number of values that came and are beyond the limit
+  const Histogram& bench_off;  ///< how far the bench itself was off, for each stimulus in the window
+  std::uint64_t per_wait = 1;  ///< number of values that one wait of the target for a CPU can spoil
+};
+/// Like unless_target_waited(), for the disturbances of the host together. Each kind alone may be too rare to
+/// matter at the quantile. If the values beyond the limit would be few enough without those that the host can
+/// have spoiled, a failure is not measured.
+Finding unless_host_disturbed(const Evidence& evidence, double quantile, double bar_s, const Times& times,
+                              Finding finding);
+
 /// "max", "99 % quantile".
 std::string quantile_name(double quantile);
 

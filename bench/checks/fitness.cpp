@@ -1,6 +1,9 @@
 // Whether the timing of a run can be judged at all.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "bench/checks/finding.hpp"
 #include "bench/checks/judge.hpp"
 
@@ -64,6 +67,25 @@ Finding unless_target_waited(const Evidence& evidence, double quantile, double b
       "% "
       "of the limit",
       finding.measured, waited_s * 1e3, quantile_name(quantile), lateness_share * 100);
+  return finding;
+}
+
+Finding unless_host_disturbed(const Evidence& evidence, double quantile, double bar_s, const Times& times,
+                              Finding finding) {
+  finding = unless_target_waited(evidence, quantile, bar_s, std::move(finding));
+  if (finding.outcome != Outcome::fail) return finding;
+  const double most_ns = lateness_share * bar_s * 1e9;
+  const std::uint64_t late = times.bench_off.count_above(most_ns);
+  const std::uint64_t waits = evidence.target_wait.count_above(most_ns);
+  const auto permitted = times.count - nearest_rank(quantile, times.count) - times.missing;
+  const std::uint64_t spoiled = late + times.per_wait * waits;
+  if (spoiled == 0 || times.outside > permitted + spoiled) return finding;
+  finding.outcome = Outcome::not_measured;
+  finding.measured += fmt::format(
+      "; {} of {} are beyond the limit, and this host can have caused {}: {} of the bench's stimuli were "
+      "off, "
+      "and other programs kept the target waiting for a CPU {} times, each by more than {:g} % of the limit",
+      times.outside, times.count, std::min(times.outside, spoiled), late, waits, lateness_share * 100);
   return finding;
 }
 

@@ -44,6 +44,14 @@ std::int64_t bucket_width_us(std::int64_t from_us) {
   return range == ranges.end() ? 0 : range->width_us;
 }
 
+std::uint64_t nearest_rank(double q, std::uint64_t count) {
+  return std::max<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count))), 1);
+}
+
+double bucket_middle_us(std::int64_t from_us) {
+  return static_cast<double>(from_us) + 0.5 * static_cast<double>(bucket_width_us(from_us));
+}
+
 void Histogram::add(std::int64_t t_ns, std::uint64_t times) {
   min_ns_ = count_ == 0 ? t_ns : std::min(min_ns_, t_ns);
   max_ns_ = count_ == 0 ? t_ns : std::max(max_ns_, t_ns);
@@ -55,16 +63,22 @@ void Histogram::add(std::int64_t t_ns, std::uint64_t times) {
 
 double Histogram::quantile_ns(double q) const {
   if (count_ == 0) return 0;
-  const auto rank =
-      std::max<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_))), 1);
+  const std::uint64_t rank = nearest_rank(q, count_);
   if (rank >= count_) return static_cast<double>(max_ns_);
   std::uint64_t passed = 0;
   std::size_t bucket = 0;
   while ((passed += counts_[bucket]) < rank) ++bucket;
-  const std::int64_t from_us = from_us_of(bucket);
-  const double middle_ns =
-      1e3 * (static_cast<double>(from_us) + 0.5 * static_cast<double>(bucket_width_us(from_us)));
-  return std::clamp(middle_ns, static_cast<double>(min_ns_), static_cast<double>(max_ns_));
+  return std::clamp(1e3 * bucket_middle_us(from_us_of(bucket)), static_cast<double>(min_ns_),
+                    static_cast<double>(max_ns_));
+}
+
+std::uint64_t Histogram::count_above(double t_ns) const {
+  std::uint64_t above = 0;
+  for (std::size_t bucket = counts_.size(); bucket > 0; --bucket) {
+    if (1e3 * bucket_middle_us(from_us_of(bucket - 1)) <= t_ns) break;
+    above += counts_[bucket - 1];
+  }
+  return above;
 }
 
 std::vector<Histogram::Bucket> Histogram::buckets() const {

@@ -31,6 +31,8 @@ class Histogram {
   /// maximum. So the error is at most half a microsecond if the result is below 10 ms. Returns 0 if the
   /// histogram is empty.
   [[nodiscard]] double quantile_ns(double q) const;
+  /// The number of durations above `t_ns`. Each counts as the middle of its bucket, as in quantile_ns().
+  [[nodiscard]] std::uint64_t count_above(double t_ns) const;
   /// In ascending order.
   [[nodiscard]] std::vector<Bucket> buckets() const;
 
@@ -43,6 +45,12 @@ class Histogram {
 
 /// The width [us] of the bucket that begins at `from_us`; 0 for the bucket of the durations above 10 s.
 std::int64_t bucket_width_us(std::int64_t from_us);
+/// The middle [us] of the bucket that begins at `from_us`.
+double bucket_middle_us(std::int64_t from_us);
+
+/// The rank of the quantile q, 0 < q <= 1, among `count` values in ascending order: nearest-rank method,
+/// first rank 1.
+std::uint64_t nearest_rank(double q, std::uint64_t count);
 
 /// The largest value in each stretch of time. There are at most `max_stretches` stretches. When they no
 /// longer cover the run, the length of every stretch doubles.

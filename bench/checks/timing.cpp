@@ -47,10 +47,7 @@ bool same(const scenario::Window& a, const scenario::Window& b) {
 }
 
 // The index of the quantile q in a sorted sample of `count` values, by the nearest-rank method.
-std::size_t place_of(double q, std::size_t count) {
-  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(count)));
-  return std::max<std::size_t>(rank, 1) - 1;
-}
+std::size_t place_of(double q, std::size_t count) { return nearest_rank(q, count) - 1; }
 
 template <class At>
 Distribution distribution_of(std::size_t count, double min, double max, At at) {
@@ -124,32 +121,32 @@ std::size_t unanswered(const Observations& seen, std::string_view message) {
 }
 
 PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double begin_s, double end_s,
-                                 double quantile) {
+                                 double quantile, double permitted_s) {
   std::vector<std::pair<double, std::uint64_t>> deviations;
-  std::uint64_t count = 0;
+  PeriodDeviation found;
   const auto add = [&](double period_s, std::uint64_t times) {
     times *= static_cast<std::uint64_t>(std::max(1.0, std::round(period_s / nominal_s)));
     deviations.emplace_back(std::abs(period_s - nominal_s), times);
-    count += times;
+    found.count += times;
+    if (deviations.back().first > permitted_s) found.outside += times;
   };
   const auto least_s = static_cast<double>(periods.min_ns()) * 1e-9;
   const auto most_s = static_cast<double>(periods.max_ns()) * 1e-9;
   for (const Histogram::Bucket& bucket : periods.buckets()) {
-    const auto half_us = static_cast<double>(bucket_width_us(bucket.from_us)) / 2;
-    add(std::clamp((static_cast<double>(bucket.from_us) + half_us) * 1e-6, least_s, most_s), bucket.count);
+    add(std::clamp(bucket_middle_us(bucket.from_us) * 1e-6, least_s, most_s), bucket.count);
   }
   for (const double silent_s : {begin_s, end_s}) {
     if (silent_s > nominal_s) add(silent_s, 1);
   }
   std::ranges::sort(deviations);
-  const auto rank = std::max<std::uint64_t>(
-      1, static_cast<std::uint64_t>(std::ceil(quantile * static_cast<double>(count))));
+  const std::uint64_t rank = nearest_rank(quantile, found.count);
   std::uint64_t passed = 0;
   for (const auto& [off_s, times] : deviations) {
     passed += times;
-    if (passed >= rank) return {.off_s = off_s, .count = count};
+    found.off_s = off_s;
+    if (passed >= rank) break;
   }
-  return {};
+  return found;
 }
 
 double longest_silence_s(const Observations& seen, std::string_view message) {

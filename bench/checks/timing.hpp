@@ -50,16 +50,18 @@ std::size_t unanswered(const Observations& seen, std::string_view message);
 std::optional<std::uint64_t> due(const Observations& seen, std::string_view message, double duration_s,
                                  std::size_t estimators);
 
-/// `off_s` is the quantile of |period - nominal period| [s], and `count` is the number of nominal periods. A
-/// gap of n nominal periods counts n times, because a quantile would ignore a long gap that counts once.
-/// `begin_s`, `end_s`: the time from the begin to the first message, and from the last message to the end;
-/// each counts as a period if it exceeds the nominal period.
+/// `off_s` is the quantile of |period - nominal period| [s], `count` is the number of nominal periods, and
+/// `outside` is the number of those that deviate by more than `permitted_s`. A gap of n nominal periods
+/// counts n times, because a quantile would ignore a long gap that counts once. `begin_s`, `end_s`: the time
+/// from the begin to the first message, and from the last message to the end; each counts as a period if it
+/// exceeds the nominal period.
 struct PeriodDeviation {
   double off_s = 0;
   std::uint64_t count = 0;
+  std::uint64_t outside = 0;
 };
 PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double begin_s, double end_s,
-                                 double quantile);
+                                 double quantile, double permitted_s);
 
 /// The longest time [s] without the given message. The times before the first arrival and after the last
 /// arrival count too.

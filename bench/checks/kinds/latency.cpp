@@ -56,8 +56,12 @@ Finding Latency::judge(const Evidence& evidence) const {
     missing.expected = expected;
     return missing;
   }
-  return unless_target_waited(
+  return unless_host_disturbed(
       evidence, quantile, bar_s,
+      {.count = timed->latency.count() + came.missing(),
+       .missing = came.missing(),
+       .outside = timed->latency.count_above(bar_s * 1e9),
+       .bench_off = timed->lateness},
       {pass_if(*value < bar_s), fmt::format("{:.3f} ms of {}", *value * 1e3, timed->latency.count()),
        expected});
 }

@@ -54,11 +54,15 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
             expected};
   }
   if (timed->period.count() == 0) return {Outcome::fail, "fewer than two arrivals", expected};
-  const PeriodDeviation off = period_deviation(timed->period, nominal, began_after_s(evidence.seen, *timed),
-                                               ended_before_s(evidence.seen, *timed), quantile);
-  return unless_target_waited(evidence, quantile, nominal * within,
-                              {pass_if(off.off_s <= nominal * within),
-                               fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count), expected});
+  const PeriodDeviation off =
+      period_deviation(timed->period, nominal, began_after_s(evidence.seen, *timed),
+                       ended_before_s(evidence.seen, *timed), quantile, nominal * within);
+  // A late message spoils two periods: the one that it ends, and the one that it begins.
+  return unless_host_disturbed(
+      evidence, quantile, nominal * within,
+      {.count = off.count, .outside = off.outside, .bench_off = timed->stimulus_deviation, .per_wait = 2},
+      {pass_if(off.off_s <= nominal * within),
+       fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count), expected});
 }
 
 }  // namespace canhil::checks

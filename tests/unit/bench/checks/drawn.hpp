@@ -48,7 +48,8 @@ class Drawn {
   ExpectedCounts expected_counts;
   std::uint32_t frames_lost = 0;  ///< frames of the target that were lost on the way
   std::uint64_t outages = 0;      ///< times that the bus was away
-  std::int64_t waited_ns = 0;     ///< other programs held the target's CPU for this time, again and again
+  std::int64_t waited_ns = 0;     ///< other programs held the target's CPU for this time
+  std::uint64_t waits = 600;      ///< in so many of 600 looks
   std::string timing_unfit;
   std::optional<FaultRecord> fault;
 

@@ -50,6 +50,17 @@ TEST(Histogram, KnowsTheExtremesExactly) {
   EXPECT_THAT(histogram.buckets(), ElementsAre(Bucket{0, 1}, Bucket{123'400, 1}));
 }
 
+TEST(Histogram, CountsTheDurationsAboveALimit) {
+  Histogram histogram;
+  histogram.add(1'000'000, 3);
+  histogram.add(2'000'000, 2);
+  histogram.add(20'000'000);
+  EXPECT_EQ(histogram.count_above(0), 6U);
+  EXPECT_EQ(histogram.count_above(1'000'600), 3U) << "the middle of the bucket is 1000.5 us";
+  EXPECT_EQ(histogram.count_above(2'001'000), 1U);
+  EXPECT_EQ(histogram.count_above(1e12), 0U);
+}
+
 TEST(Histogram, QuantilesAreThoseOfTheSampleWithinHalfAMicrosecond) {
   std::mt19937_64 random(5);
   std::lognormal_distribution<double> late(std::log(200'000), 0.7);

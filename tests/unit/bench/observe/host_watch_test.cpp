@@ -114,6 +114,38 @@ TEST_F(Waited, WhatPassesAlthoughTheTargetWaitedPasses) {
   EXPECT_EQ(judged(100, 0.5, checks::Outcome::pass).outcome, checks::Outcome::pass);
 }
 
+// A check of a quantile of 1000 times, `outside` of which are beyond the limit of 5 ms. At 99 %, 10 may be.
+class Disturbed : public Waited {
+ protected:
+  struct Host {
+    std::uint64_t stimuli_off = 0, waits = 0;  // of 1000 each, by 3 ms
+  };
+  [[nodiscard]] checks::Outcome judged(std::uint64_t outside, Host host, std::uint64_t per_wait = 1) const {
+    const checks::Observations seen;
+    checks::Evidence evidence{.seen = seen, .truth = {.flight = flight_}};
+    evidence.target_wait.add(0, 1000 - host.waits);
+    if (host.waits > 0) evidence.target_wait.add(3 * ms, host.waits);
+    checks::Histogram off;
+    off.add(0, 1000 - host.stimuli_off);
+    if (host.stimuli_off > 0) off.add(3 * ms, host.stimuli_off);
+    const checks::Times times{.count = 1000, .outside = outside, .bench_off = off, .per_wait = per_wait};
+    return checks::unless_host_disturbed(evidence, 0.99, 5e-3, times,
+                                         {.outcome = checks::Outcome::fail, .measured = "", .expected = ""})
+        .outcome;
+  }
+};
+
+TEST_F(Disturbed, RareDisturbancesOfTwoKindsExplainAFailureTogether) {
+  EXPECT_EQ(judged(19, {.stimuli_off = 4, .waits = 5}), checks::Outcome::not_measured);
+  EXPECT_EQ(judged(14, {.waits = 2}, 2), checks::Outcome::not_measured);
+}
+
+TEST_F(Disturbed, ATargetThatIsLateMoreOftenFails) {
+  EXPECT_EQ(judged(11, {}), checks::Outcome::fail);
+  EXPECT_EQ(judged(20, {.stimuli_off = 4, .waits = 5}), checks::Outcome::fail);
+  EXPECT_EQ(judged(15, {.waits = 2}, 2), checks::Outcome::fail);
+}
+
 class Unfit : public testing::Test {
  protected:
   Unfit() { seen_.host.wall_s = 10; }
