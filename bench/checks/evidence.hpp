@@ -9,6 +9,7 @@
 #include "bench/checks/estimator.hpp"
 #include "bench/checks/finding.hpp"
 #include "bench/checks/histogram.hpp"
+#include "bench/checks/host.hpp"
 #include "bench/checks/observations.hpp"
 
 namespace canhil::checks {
@@ -19,8 +20,7 @@ struct Evidence {
   std::span<const estimators::Estimator* const> estimators{};  ///< the estimators whose answers may be judged
   std::string ended_early{};   ///< why the run ended early; empty: it was completed
   std::string timing_unfit{};  ///< why timing cannot be judged; empty: it can be judged
-  Histogram target_wait{};  ///< time in which the target was ready to run but other programs held the CPU, in
-                            ///< each 10 ms of the run; empty: unknown
+  TargetDelays delays{};
   std::vector<estimators::OwnTrack>
       tracks{};  ///< tracks of the quantities that the rules use; judge() adds these tracks
 };
@@ -39,21 +39,21 @@ std::string unfit(const Evidence& evidence, double quantile, double bar_s);
 inline constexpr double lateness_share = 0.5;
 
 /// If a quantile of the timing exceeds its limit `bar_s`, the reason may be that other programs kept the
-/// target waiting for a CPU. Returns the finding, unless it is a failure with this excuse: then it is not
-/// measured.
-Finding unless_target_waited(const Evidence& evidence, double quantile, double bar_s, Finding finding);
+/// target waiting for a CPU, or that the host took the CPU away. Returns the finding, unless it is a failure
+/// with this excuse: then it is not measured.
+Finding unless_target_delayed(const Evidence& evidence, double quantile, double bar_s, Finding finding);
 
 /// The values of a check of a quantile of times.
 struct Times {
+  double nominal_s = 0;        ///< time from one value to the next; 0: it varies
   std::uint64_t count = 0;     ///< number of values that are due
   std::uint64_t missing = 0;   ///< number of values that did not come; the host does not explain them
   std::uint64_t outside = 0;   ///< number of values that came and are beyond the limit
   const Histogram& bench_off;  ///< how far the bench itself was off, for each stimulus in the window
-  std::uint64_t per_wait = 1;  ///< number of values that one wait of the target for a CPU can spoil
 };
-/// Like unless_target_waited(), for the disturbances of the host together. Each kind alone may be too rare to
-/// matter at the quantile. If the values beyond the limit would be few enough without those that the host can
-/// have spoiled, a failure is not measured.
+/// Like unless_target_delayed(), for the disturbances of the host together. Each kind alone may be too rare
+/// to matter at the quantile. If the values beyond the limit would be few enough without those that the host
+/// can have spoiled, a failure is not measured.
 Finding unless_host_disturbed(const Evidence& evidence, double quantile, double bar_s, const Times& times,
                               Finding finding);
 

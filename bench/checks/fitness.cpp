@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bench/checks/finding.hpp"
@@ -16,6 +17,21 @@ constexpr double most_waited = 0.05;
 // The largest permitted fraction of the machine's CPU time that the hypervisor gives to other guests. The
 // programs on the machine cannot see at which moments the hypervisor does so.
 constexpr double most_stolen = 0.05;
+
+// How many values the delays above `most_s` can have spoiled. A delay spoils the values that fall into it and
+// one more: a late message spoils the period that it ends and the one that it begins. `longest_s`: the part
+// of a longer delay that counts, because its other parts count as delays of their own.
+std::uint64_t spoiled_by(const Histogram& delays, double most_s, double nominal_s,
+                         double longest_s = HUGE_VAL) {
+  double values = 0;
+  for (const Histogram::Bucket& bucket : delays.buckets()) {
+    const double delay_s = bucket_middle_us(bucket.from_us) * 1e-6;
+    if (delay_s <= most_s) continue;
+    const double in_delay = nominal_s > 0 ? std::ceil(std::min(delay_s, longest_s) / nominal_s) : 1;
+    values += static_cast<double>(bucket.count) * (in_delay + 1);
+  }
+  return static_cast<std::uint64_t>(values);
+}
 
 }  // namespace
 
@@ -58,34 +74,39 @@ std::string unfit(const Evidence& evidence, double quantile, double bar_s) {
 
 // A slow target computes or sleeps; it does not wait for a CPU. If it waited, the measured times contain the
 // wait, so a check that passes needs no excuse.
-Finding unless_target_waited(const Evidence& evidence, double quantile, double bar_s, Finding finding) {
-  const double waited_s = evidence.target_wait.quantile_ns(quantile) * 1e-9;
-  if (finding.outcome != Outcome::fail || waited_s <= lateness_share * bar_s) return finding;
+Finding unless_target_delayed(const Evidence& evidence, double quantile, double bar_s, Finding finding) {
+  if (finding.outcome != Outcome::fail) return finding;
+  const double waited_s = evidence.delays.waits.quantile_ns(quantile) * 1e-9;
+  const double stalled_s = evidence.delays.stalls.quantile_ns(quantile) * 1e-9;
+  if (std::max(waited_s, stalled_s) <= lateness_share * bar_s) return finding;
   finding.outcome = Outcome::not_measured;
-  finding.measured = fmt::format(
-      "{}; on this host other programs kept the target waiting for a CPU for {:.2f} ms ({}), more than {:g} "
-      "% "
-      "of the limit",
-      finding.measured, waited_s * 1e3, quantile_name(quantile), lateness_share * 100);
+  finding.measured +=
+      fmt::format("; on this host {} for {:.2f} ms ({}), more than {:g} % of the limit",
+                  waited_s >= stalled_s ? "other programs kept the target waiting for a CPU"
+                                        : "no program could run on a CPU of the target",
+                  std::max(waited_s, stalled_s) * 1e3, quantile_name(quantile), lateness_share * 100);
   return finding;
 }
 
 Finding unless_host_disturbed(const Evidence& evidence, double quantile, double bar_s, const Times& times,
                               Finding finding) {
-  finding = unless_target_waited(evidence, quantile, bar_s, std::move(finding));
+  finding = unless_target_delayed(evidence, quantile, bar_s, std::move(finding));
   if (finding.outcome != Outcome::fail) return finding;
-  const double most_ns = lateness_share * bar_s * 1e9;
-  const std::uint64_t late = times.bench_off.count_above(most_ns);
-  const std::uint64_t waits = evidence.target_wait.count_above(most_ns);
+  const double most_s = lateness_share * bar_s;
+  const auto& [waits, stalls] = evidence.delays;
+  const std::uint64_t late = times.bench_off.count_above(most_s * 1e9);
+  const std::uint64_t delayed =
+      spoiled_by(waits, most_s, times.nominal_s, 1e-3 * TargetDelays::part.count()) +
+      spoiled_by(stalls, most_s, times.nominal_s);
   const auto permitted = times.count - nearest_rank(quantile, times.count) - times.missing;
-  const std::uint64_t spoiled = late + times.per_wait * waits;
-  if (spoiled == 0 || times.outside > permitted + spoiled) return finding;
+  if (late + delayed == 0 || times.outside > permitted + late + delayed) return finding;
   finding.outcome = Outcome::not_measured;
   finding.measured += fmt::format(
       "; {} of {} are beyond the limit, and this host can have caused {}: {} of the bench's stimuli were "
       "off, "
-      "and other programs kept the target waiting for a CPU {} times, each by more than {:g} % of the limit",
-      times.outside, times.count, std::min(times.outside, spoiled), late, waits, lateness_share * 100);
+      "and the target had no CPU {} times, each by more than {:g} % of the limit",
+      times.outside, times.count, std::min(times.outside, late + delayed), late,
+      waits.count_above(most_s * 1e9) + stalls.count_above(most_s * 1e9), lateness_share * 100);
   return finding;
 }
 

@@ -61,6 +61,16 @@ void Histogram::add(std::int64_t t_ns, std::uint64_t times) {
   counts_[bucket] += times;
 }
 
+void Histogram::add(const Histogram& other) {
+  if (other.count_ == 0) return;
+  min_ns_ = count_ == 0 ? other.min_ns_ : std::min(min_ns_, other.min_ns_);
+  max_ns_ = count_ == 0 ? other.max_ns_ : std::max(max_ns_, other.max_ns_);
+  count_ += other.count_;
+  counts_.resize(std::max(counts_.size(), other.counts_.size()));
+  for (std::size_t bucket = 0; bucket < other.counts_.size(); ++bucket)
+    counts_[bucket] += other.counts_[bucket];
+}
+
 double Histogram::quantile_ns(double q) const {
   if (count_ == 0) return 0;
   const std::uint64_t rank = nearest_rank(q, count_);

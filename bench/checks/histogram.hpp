@@ -22,6 +22,8 @@ class Histogram {
   /// Adds `times` to the count of a duration. A negative duration occurs if a clock was set; it counts in the
   /// first bucket.
   void add(std::int64_t t_ns, std::uint64_t times = 1);
+  /// Adds all durations of another histogram.
+  void add(const Histogram& other);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] std::int64_t min_ns() const { return min_ns_; }

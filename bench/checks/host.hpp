@@ -1,9 +1,22 @@
 // How the bench's own machine affected a run.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 
+#include "bench/checks/histogram.hpp"
+
 namespace canhil::checks {
+
+/// How the host delayed a target that the bench started on it. Empty: unknown.
+struct TargetDelays {
+  /// The length of the parts of a run that `waits` counts.
+  static constexpr std::chrono::milliseconds part{10};
+  Histogram waits{};   ///< time in which the target was ready to run but other programs held the CPU, in each
+                       ///< part of the run
+  Histogram stalls{};  ///< delays of a thread of high priority on the target's CPUs, see
+                       ///< observe::CpuStalls
+};
 
 struct HostRecord {
   std::int64_t clock_step_ns = 0;  ///< largest step of the clock that stamps frames; 0: no step, or a clock

@@ -48,7 +48,7 @@ Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario) {
 
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            const Collected& flown, const std::string& timing_unfit,
-                           const checks::Histogram& target_wait) {
+                           const checks::TargetDelays& delays) {
   const bool to_the_end = flown.ending.kind == Ending::Kind::wrong_end;
   checks::Verdict verdict =
       checks::judge(scenario, {.seen = flown.seen,
@@ -56,7 +56,7 @@ checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::Flig
                                .estimators = estimators::in(scenario),
                                .ended_early = to_the_end ? "" : flown.ending.detail,
                                .timing_unfit = timing_unfit,
-                               .target_wait = target_wait});
+                               .delays = delays});
   if (to_the_end) checks::conclude(verdict, flown.ending.detail);
   if (flown.ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
   return verdict;

@@ -16,9 +16,9 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
 /// The ending says why.
 Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario);
 
-/// The verdict on a flight, whether or not it was completed. `target_wait`: see checks::Evidence.
+/// The verdict on a flight, whether or not it was completed. `delays`: see checks::Evidence.
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            const Collected& flown, const std::string& timing_unfit,
-                           const checks::Histogram& target_wait = {});
+                           const checks::TargetDelays& delays = {});
 
 }  // namespace canhil::drive

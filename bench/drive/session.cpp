@@ -18,6 +18,7 @@
 #include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/observe/bus_watch.hpp"
+#include "bench/observe/cpu_stalls.hpp"
 #include "bench/observe/host_watch.hpp"
 #include "bench/observe/intruders.hpp"
 #include "bench/observe/load_meter.hpp"
@@ -114,7 +115,10 @@ class Session {
     if (options_.for_verdict) {
       load_watched.emplace(link_, load_);
       host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
-      if (target_ && clock_ == ClockKind::real_time) waits_.emplace(target_->id());
+      if (target_ && clock_ == ClockKind::real_time) {
+        waits_.emplace(target_->id());
+        if (options_.realtime) stalls_.emplace(target_->id());
+      }
     }
     std::optional<Attached> looking_on;
     if (options_.onlooker != nullptr) {
@@ -131,7 +135,8 @@ class Session {
                   ? run_lockstep(link_, *schedule_, *target, step_limit_ns, stop, progress, is_gone)
                   : run_real_time(link_, *schedule_, *target, dialect_->silence_limit_ns(), stop, progress,
                                   options_.spin_ns, is_gone);
-    if (waits_) target_wait_ = waits_->record();
+    if (waits_) delays_.waits = waits_->record();
+    if (stalls_) delays_.stalls = stalls_->record();
   }
 
   // Stops the target, closes the log and ends the target's process.
@@ -156,7 +161,7 @@ class Session {
   }
 
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
-  [[nodiscard]] const checks::Histogram& target_wait() const { return target_wait_; }
+  [[nodiscard]] const checks::TargetDelays& delays() const { return delays_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
   // Adds the possible cause to an error message: the frames that flooded the bus or, if there was no flood,
   // the first note, for example about a program that the bench rejected on its local bus.
@@ -303,10 +308,11 @@ class Session {
   std::optional<observe::Intruders> intruders_;
   observe::LoadMeter load_;
   std::optional<observe::HostWatch> host_;  // watches from its construction on
-  checks::Histogram target_wait_;
+  checks::TargetDelays delays_;
   std::unique_ptr<observe::Recorder> log_;
   std::optional<ChildProcess> target_;
   std::optional<observe::TargetWaits> waits_;
+  std::optional<observe::CpuStalls> stalls_;
   RigCommands commands_;  // after the target: `after` runs before the target's process ends
   const std::atomic<bool>* stop_ = nullptr;  // of the flight
   std::vector<int> target_cpus_;
@@ -359,7 +365,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
   Collected flown = session.collect();
   std::string timing_unfit = session.timing_unfit(flown.seen);
   const ClockKind clock = session.clock();
-  checks::Verdict verdict = verdict_of(scenario, *truth, flown, timing_unfit, session.target_wait());
+  checks::Verdict verdict = verdict_of(scenario, *truth, flown, timing_unfit, session.delays());
   if (flown.ending.detail.empty() && verdict.outcome != checks::Outcome::pass)
     verdict.reason = session.explained(verdict.reason);
   return Run{.verdict = std::move(verdict),

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/checks/histogram.hpp"
+#include "bench/checks/host.hpp"
 
 namespace canhil::observe {
 
@@ -36,7 +37,7 @@ std::int64_t waited_for_others_ns(std::span<const ThreadTimes> before, std::span
 class TargetWaits {
  public:
   /// The time from one look to the next.
-  static constexpr std::chrono::milliseconds period{10};
+  static constexpr std::chrono::milliseconds period = checks::TargetDelays::part;
 
   explicit TargetWaits(pid_t process)
       : process_(process), thread_([this](const std::stop_token& stop) { look(stop); }) {}

@@ -31,9 +31,9 @@ Finding Heartbeat::judge(const Evidence& evidence) const {
   if (auto why = unfit(evidence, 1, most_s); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
   const double gap_s = longest_silence_s(evidence.seen, message);
-  return unless_target_waited(evidence, 1, most_s,
-                              {pass_if(gap_s * 1e6 <= static_cast<double>(silent_at_most_us)),
-                               fmt::format("longest gap {:.3f} s", gap_s), expected});
+  return unless_target_delayed(evidence, 1, most_s,
+                               {pass_if(gap_s * 1e6 <= static_cast<double>(silent_at_most_us)),
+                                fmt::format("longest gap {:.3f} s", gap_s), expected});
 }
 
 }  // namespace canhil::checks

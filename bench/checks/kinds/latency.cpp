@@ -44,10 +44,10 @@ Finding Latency::judge(const Evidence& evidence) const {
   const double bar_s = static_cast<double>(below_us) * 1e-6;
   const std::string expected =
       fmt::format("{} {} < {:g} ms {}", message, quantile_name(quantile), bar_s * 1e3, seconds(window));
-  if (auto why = unfit(evidence, quantile, bar_s); !why.empty())
-    return {Outcome::not_measured, std::move(why), expected};
+  if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
   if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
+  // A late bench or target does not explain answers that never came.
   if (timed->latency.count() == 0) return {Outcome::fail, "no answers", expected};
   const Answered came = answered(evidence.seen, message, window);
   const auto value = quantile_s(timed->latency, quantile, came.missing());
@@ -56,9 +56,12 @@ Finding Latency::judge(const Evidence& evidence) const {
     missing.expected = expected;
     return missing;
   }
+  if (auto why = unfit(evidence, quantile, bar_s); !why.empty())
+    return {Outcome::not_measured, std::move(why), expected};
   return unless_host_disturbed(
       evidence, quantile, bar_s,
-      {.count = timed->latency.count() + came.missing(),
+      {.nominal_s = nominal_period_s(evidence.seen, message),
+       .count = timed->latency.count() + came.missing(),
        .missing = came.missing(),
        .outside = timed->latency.count_above(bar_s * 1e9),
        .bench_off = timed->lateness},

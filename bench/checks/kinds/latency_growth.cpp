@@ -55,11 +55,11 @@ Finding LatencyGrowth::judge(const Evidence& evidence) const {
                         "the allowed growth of the latency",
                         host_s * 1e3, lateness_share * 100),
             expected};
-  return unless_target_waited(evidence, median, (ratio_below - 1) * before_s,
-                              {pass_if(after_s < ratio_below * before_s),
-                               fmt::format("{:.3f} ms of {}, before {:.3f} ms of {}", after_s * 1e3,
-                                           late->latency.count(), before_s * 1e3, early->latency.count()),
-                               expected});
+  return unless_target_delayed(evidence, median, (ratio_below - 1) * before_s,
+                               {pass_if(after_s < ratio_below * before_s),
+                                fmt::format("{:.3f} ms of {}, before {:.3f} ms of {}", after_s * 1e3,
+                                            late->latency.count(), before_s * 1e3, early->latency.count()),
+                                expected});
 }
 
 }  // namespace canhil::checks

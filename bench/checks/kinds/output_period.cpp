@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/checks/answered.hpp"
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/scenario/contract.hpp"
@@ -12,6 +13,19 @@
 namespace canhil::checks {
 
 using scenario::Limits;
+
+namespace {
+
+// Why the bench sent too irregularly for a deviation of `bar_s`; empty: it did not. If the bench's own
+// stimuli come too irregularly, irregular answers are not the target's fault.
+std::string bench_off(const Evidence& evidence, const TimedWindow& timed, double quantile, double bar_s) {
+  if (auto why = unfit(evidence, quantile, bar_s); !why.empty()) return why;
+  const double off_s = timed.stimulus_deviation.quantile_ns(quantile) * 1e-9;
+  if (off_s <= lateness_share * bar_s) return "";
+  return fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3);
+}
+
+}  // namespace
 
 void expect_sent(scenario::Section& section, const scenario::CheckContext& context,
                  const std::string& message) {
@@ -43,26 +57,29 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
   const std::string expected = fmt::format("{} every {:g} ms +- {:g} % ({}) {}", message, nominal * 1e3,
                                            within * 100, quantile_name(quantile), seconds(window));
   if (nominal <= 0) return {Outcome::not_measured, "the message has no period", expected};
-  if (auto why = unfit(evidence, quantile, nominal * within); !why.empty())
-    return {Outcome::not_measured, std::move(why), expected};
+  if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
   if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
-  // If the bench's own stimuli come too irregularly, irregular answers are not the target's fault.
-  if (const double off_s = timed->stimulus_deviation.quantile_ns(quantile) * 1e-9;
-      off_s > lateness_share * nominal * within) {
-    return {Outcome::not_measured, fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3),
-            expected};
+  if (auto why = bench_off(evidence, *timed, quantile, nominal * within); !why.empty()) {
+    // A late bench does not explain answers that never came.
+    const Answered came = answered(evidence.seen, message, window);
+    if (came.missing() <= came.due - std::min(came.due, nearest_rank(quantile, came.due)))
+      return {Outcome::not_measured, std::move(why), expected};
+    Finding missing = too_few(evidence.seen, message, came);
+    missing.expected = expected;
+    return missing;
   }
   if (timed->period.count() == 0) return {Outcome::fail, "fewer than two arrivals", expected};
   const PeriodDeviation off =
       period_deviation(timed->period, nominal, began_after_s(evidence.seen, *timed),
                        ended_before_s(evidence.seen, *timed), quantile, nominal * within);
-  // A late message spoils two periods: the one that it ends, and the one that it begins.
-  return unless_host_disturbed(
-      evidence, quantile, nominal * within,
-      {.count = off.count, .outside = off.outside, .bench_off = timed->stimulus_deviation, .per_wait = 2},
-      {pass_if(off.off_s <= nominal * within),
-       fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count), expected});
+  return unless_host_disturbed(evidence, quantile, nominal * within,
+                               {.nominal_s = nominal,
+                                .count = off.count,
+                                .outside = off.outside,
+                                .bench_off = timed->stimulus_deviation},
+                               {pass_if(off.off_s <= nominal * within),
+                                fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count), expected});
 }
 
 }  // namespace canhil::checks

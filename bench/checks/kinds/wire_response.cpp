@@ -46,7 +46,7 @@ Finding WireResponseRule::judge(const Evidence& evidence) const {
   // If the host stops a program between two frames, the frames are late although the bus has no fault.
   if (auto why = unfit(evidence, 1, bar_s); !why.empty())
     return {Outcome::not_measured, std::move(why), std::move(finding.expected)};
-  return unless_target_waited(evidence, 1, bar_s, std::move(finding));
+  return unless_target_delayed(evidence, 1, bar_s, std::move(finding));
 }
 
 }  // namespace canhil::checks

@@ -192,8 +192,8 @@ class SlowJudge : public FlyPast {
       const Observations seen = observed(run, flight_, duration_us, scenario.checks);
       Evidence evidence{
           .seen = seen, .truth = truth(), .estimators = estimators::all(), .timing_unfit = run.timing_unfit};
-      evidence.target_wait.add(run.waited_ns, run.waits);
-      if (run.waits < 600) evidence.target_wait.add(0, 600 - run.waits);
+      evidence.delays.waits.add(run.waited_ns, run.waits);
+      if (run.waits < 600) evidence.delays.waits.add(0, 600 - run.waits);
       const CheckResult found = checks::judge(scenario, std::move(evidence)).checks.at(0);
       const Judged expected = plain(PlainRun(run, flight_, duration_us), rule);
       same(Judged{found.outcome, found.measured}, expected);

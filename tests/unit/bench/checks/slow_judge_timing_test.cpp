@@ -73,21 +73,19 @@ std::int64_t disturbing(const std::vector<std::int64_t>& times_ns, double bar_s)
 }
 
 // Like unless_waited(). Nor does the target fail if `outside` of `count` values are beyond the limit, and
-// those that the host did not spoil would pass. `off_ns`: how far the bench was off, for each stimulus; one
-// wait spoils `per_wait` values.
+// those that the host did not spoil would pass. `off_ns`: how far the bench was off, for each stimulus. A
+// wait shorter than the period spoils two values.
 Judged unless_disturbed(const Drawn& run, double q, double bar_s, Judged verdict, std::int64_t outside,
-                        std::int64_t count, std::int64_t missing, const std::vector<std::int64_t>& off_ns,
-                        std::int64_t per_wait) {
+                        std::int64_t count, std::int64_t missing, const std::vector<std::int64_t>& off_ns) {
   verdict = unless_waited(run, q, bar_s, std::move(verdict));
   const std::int64_t late = disturbing(off_ns, bar_s), waited = disturbing(waits(run), bar_s);
-  const std::int64_t spoiled = std::min(outside, late + per_wait * waited);
+  const std::int64_t spoiled = std::min(outside, late + 2 * waited);
   const double good = std::max(1.0, std::ceil(q * static_cast<double>(count)));
   const bool enough_good = static_cast<double>(count - missing - outside + spoiled) >= good;
   if (verdict.outcome != Outcome::fail || spoiled == 0 || !enough_good) return verdict;
   return not_measured(fmt::format(
       "{}; {} of {} are beyond the limit, and this host can have caused {}: {} of the bench's stimuli were "
-      "off, and other programs kept the target waiting for a CPU {} times, each by more than 50 % of the "
-      "limit",
+      "off, and the target had no CPU {} times, each by more than 50 % of the limit",
       verdict.measured, outside, count, spoiled, late, waited));
 }
 
@@ -108,12 +106,13 @@ std::vector<std::int64_t> latencies(const PlainRun& of, const scenario::Window& 
 
 Judged latency(const PlainRun& of, const Latency& rule) {
   const double bar_s = s(rule.below_us);
-  if (std::string why = unfit(of.run, rule.quantile, bar_s); !why.empty()) return not_measured(why);
+  if (!of.run.timing_unfit.empty()) return not_measured(of.run.timing_unfit);
   const auto times = latencies(of, rule.window);
   if (times.empty()) return fail("no answers");
   const PlainRun::Due due = of.due_in({.window = rule.window});
   const auto value = quantile_ns(times, rule.quantile, due.due - due.came);
-  if (!value) return of.too_few(due);
+  if (!value) return of.too_few(due);  // although the host may have been late
+  if (std::string why = unfit(of.run, rule.quantile, bar_s); !why.empty()) return not_measured(why);
   const double value_s = *value * 1e-9;
   std::vector<std::int64_t> late;
   for (std::size_t i = 0; i < of.flight.epochs.size(); ++i) {
@@ -124,7 +123,7 @@ Judged latency(const PlainRun& of, const Latency& rule) {
   return unless_disturbed(
       of.run, rule.quantile, bar_s,
       passes_if(value_s < bar_s, fmt::format("{:.3f} ms of {}", value_s * 1e3, times.size())), outside,
-      std::ssize(times) + due.due - due.came, due.due - due.came, late, 1);
+      std::ssize(times) + due.due - due.came, due.due - due.came, late);
 }
 
 std::string in(const scenario::Window& window) {
@@ -171,7 +170,7 @@ Judged latency_growth(const PlainRun& of, const LatencyGrowth& rule) {
 // All arrivals count, in the order in which they came; the window is that of their causes.
 Judged output_period(const PlainRun& of, const OutputPeriod& rule) {
   const double permitted_s = nominal_s * rule.within;
-  if (std::string why = unfit(of.run, rule.quantile, permitted_s); !why.empty()) return not_measured(why);
+  if (!of.run.timing_unfit.empty()) return not_measured(of.run.timing_unfit);
   std::vector<std::int64_t> arrivals, periods, stimuli, own_deviations;
   for (std::size_t i = 0; i < of.flight.epochs.size(); ++i) {
     const std::int64_t valid_us = of.flight.epochs[i].t_us;
@@ -179,13 +178,19 @@ Judged output_period(const PlainRun& of, const OutputPeriod& rule) {
     stimuli.push_back(valid_us * 1000 + of.run.late_ns[i]);
     if (i == 0) continue;
     const std::int64_t off_ns = of.run.late_ns[i] - of.run.late_ns[i - 1];
-    const double periods = std::round(1 + static_cast<double>(off_ns) * 1e-9 / nominal_s);
-    for (double times = std::max(1.0, periods); times > 0; --times)  // each period that it lasts
+    const double lasts = std::round(1 + static_cast<double>(off_ns) * 1e-9 / nominal_s);
+    for (double times = std::max(1.0, lasts); times > 0; --times)  // each period that it lasts
       own_deviations.push_back(std::abs(off_ns));
   }
   const double off_s = *quantile_ns(own_deviations, rule.quantile) * 1e-9;
-  if (off_s > 0.5 * permitted_s)
-    return not_measured(fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3));
+  std::string why = unfit(of.run, rule.quantile, permitted_s);
+  if (why.empty() && off_s > 0.5 * permitted_s)
+    why = fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3);
+  if (!why.empty()) {
+    const PlainRun::Due due = of.due_in({.window = rule.window});
+    const bool enough = due.came >= std::max(1.0, std::ceil(rule.quantile * static_cast<double>(due.due)));
+    return enough ? not_measured(why) : of.too_few(due);
+  }
   for (const auto& [t_ns, answer] : of.run.answers) {
     if (!lies_in(rule.window, answer.cause_us)) continue;
     if (!arrivals.empty()) periods.push_back(t_ns - arrivals.back());
@@ -214,7 +219,7 @@ Judged output_period(const PlainRun& of, const OutputPeriod& rule) {
   return unless_disturbed(of.run, rule.quantile, permitted_s,
                           passes_if(value_s <= permitted_s,
                                     fmt::format("{:.3f} ms off, of {}", value_s * 1e3, deviations.size())),
-                          outside, std::ssize(deviations), 0, own_deviations, 2);
+                          outside, std::ssize(deviations), 0, own_deviations);
 }
 
 Judged own_times(const PlainRun& of, const OwnTimes& /*rule*/) {

@@ -95,10 +95,10 @@ class Waited : public testing::Test {
                                        checks::Outcome outcome) const {
     const checks::Observations seen;
     checks::Evidence evidence{.seen = seen, .truth = {.flight = flight_}};
-    evidence.target_wait.add(0, 100 - periods);
-    if (periods > 0) evidence.target_wait.add(3 * ms, periods);
-    return checks::unless_target_waited(evidence, quantile, 5e-3,
-                                        {.outcome = outcome, .measured = "7 ms", .expected = "< 5 ms"});
+    evidence.delays.waits.add(0, 100 - periods);
+    if (periods > 0) evidence.delays.waits.add(3 * ms, periods);
+    return checks::unless_target_delayed(evidence, quantile, 5e-3,
+                                         {.outcome = outcome, .measured = "7 ms", .expected = "< 5 ms"});
   }
   world::FlightRecord flight_{{.start = {}, .motion = world::Rest{}}, 0, 10'000};
 };
@@ -110,6 +110,15 @@ TEST_F(Waited, AFailureIsTheHostsAtTheQuantileOfTheCheck) {
   EXPECT_EQ(judged(0, 1, checks::Outcome::fail).outcome, checks::Outcome::fail);
 }
 
+TEST_F(Waited, AStallOfTheCpusIsTheHostsToo) {
+  const checks::Observations seen;
+  checks::Evidence evidence{.seen = seen, .truth = {.flight = flight_}};
+  evidence.delays.stalls.add(3 * ms);
+  const checks::Finding failed{.outcome = checks::Outcome::fail, .measured = "7 ms", .expected = "< 5 ms"};
+  EXPECT_EQ(checks::unless_target_delayed(evidence, 1, 5e-3, failed).outcome, checks::Outcome::not_measured);
+  EXPECT_EQ(checks::unless_target_delayed(evidence, 1, 7e-3, failed).outcome, checks::Outcome::fail);
+}
+
 TEST_F(Waited, WhatPassesAlthoughTheTargetWaitedPasses) {
   EXPECT_EQ(judged(100, 0.5, checks::Outcome::pass).outcome, checks::Outcome::pass);
 }
@@ -118,32 +127,48 @@ TEST_F(Waited, WhatPassesAlthoughTheTargetWaitedPasses) {
 class Disturbed : public Waited {
  protected:
   struct Host {
-    std::uint64_t stimuli_off = 0, waits = 0;  // of 1000 each, by 3 ms
+    std::uint64_t stimuli_off = 0, waits = 0, stalls = 0;  // of 1000 each
+    std::int64_t by_ns = 3 * ms;
   };
-  [[nodiscard]] checks::Outcome judged(std::uint64_t outside, Host host, std::uint64_t per_wait = 1) const {
+  static void add(checks::Histogram& to, std::uint64_t times, std::int64_t ns) {
+    to.add(0, 1000 - times);
+    if (times > 0) to.add(ns, times);
+  }
+  [[nodiscard]] checks::Outcome judged(std::uint64_t outside, Host host, std::uint64_t missing = 0) const {
     const checks::Observations seen;
     checks::Evidence evidence{.seen = seen, .truth = {.flight = flight_}};
-    evidence.target_wait.add(0, 1000 - host.waits);
-    if (host.waits > 0) evidence.target_wait.add(3 * ms, host.waits);
+    add(evidence.delays.waits, host.waits, host.by_ns);
+    add(evidence.delays.stalls, host.stalls, host.by_ns);
     checks::Histogram off;
-    off.add(0, 1000 - host.stimuli_off);
-    if (host.stimuli_off > 0) off.add(3 * ms, host.stimuli_off);
-    const checks::Times times{.count = 1000, .outside = outside, .bench_off = off, .per_wait = per_wait};
+    add(off, host.stimuli_off, host.by_ns);
+    const checks::Times times{
+        .nominal_s = 5e-3, .count = 1000, .missing = missing, .outside = outside, .bench_off = off};
     return checks::unless_host_disturbed(evidence, 0.99, 5e-3, times,
                                          {.outcome = checks::Outcome::fail, .measured = "", .expected = ""})
         .outcome;
   }
 };
 
-TEST_F(Disturbed, RareDisturbancesOfTwoKindsExplainAFailureTogether) {
-  EXPECT_EQ(judged(19, {.stimuli_off = 4, .waits = 5}), checks::Outcome::not_measured);
-  EXPECT_EQ(judged(14, {.waits = 2}, 2), checks::Outcome::not_measured);
+TEST_F(Disturbed, RareDisturbancesOfSeveralKindsExplainAFailureTogether) {
+  EXPECT_EQ(judged(20, {.stimuli_off = 4, .waits = 2, .stalls = 1}), checks::Outcome::not_measured);
+  EXPECT_EQ(judged(14, {.stalls = 2}), checks::Outcome::not_measured);
+  EXPECT_EQ(judged(17, {.stalls = 1, .by_ns = 27 * ms}), checks::Outcome::not_measured);
+  EXPECT_EQ(judged(16, {.waits = 2, .by_ns = 27 * ms}), checks::Outcome::not_measured)
+      << "two of the three parts of the run in which the target waited";
 }
 
 TEST_F(Disturbed, ATargetThatIsLateMoreOftenFails) {
   EXPECT_EQ(judged(11, {}), checks::Outcome::fail);
-  EXPECT_EQ(judged(20, {.stimuli_off = 4, .waits = 5}), checks::Outcome::fail);
-  EXPECT_EQ(judged(15, {.waits = 2}, 2), checks::Outcome::fail);
+  EXPECT_EQ(judged(21, {.stimuli_off = 4, .waits = 2, .stalls = 1}), checks::Outcome::fail);
+  EXPECT_EQ(judged(15, {.stalls = 2}), checks::Outcome::fail);
+  EXPECT_EQ(judged(18, {.stalls = 1, .by_ns = 27 * ms}), checks::Outcome::fail);
+  EXPECT_EQ(judged(11, {.stimuli_off = 9, .waits = 9, .stalls = 9, .by_ns = 2 * ms}), checks::Outcome::fail)
+      << "less than half of the limit";
+}
+
+TEST_F(Disturbed, TheHostDoesNotExplainAnswersThatNeverCame) {
+  EXPECT_EQ(judged(4, {.waits = 1}, 8), checks::Outcome::not_measured);
+  EXPECT_EQ(judged(5, {.waits = 1}, 8), checks::Outcome::fail);
 }
 
 class Unfit : public testing::Test {
