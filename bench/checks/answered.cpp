@@ -106,6 +106,8 @@ Answered answered(const Observations& seen, std::string_view message, const scen
   return found;
 }
 
+bool Answered::half() const { return static_cast<double>(came) >= least_answered * static_cast<double>(due); }
+
 Finding too_few(const Observations& seen, std::string_view message, const Answered& found) {
   Finding why{.outcome = Outcome::fail,
               .measured = fmt::format("{}: answers to {} of {} samples", message, found.came, found.due),
@@ -124,8 +126,7 @@ std::optional<Finding> missing_answers(const Observations& seen, std::string_vie
                                        const scenario::Window& window) {
   const Answered found = answered(seen, message, window);
   const std::uint64_t missing = found.missing();
-  const bool half = static_cast<double>(found.came) >= least_answered * static_cast<double>(found.due);
-  if (half && (!is_canhils(seen) || missing <= seen.target_frames_lost)) return std::nullopt;
+  if (found.half() && (!is_canhils(seen) || missing <= seen.target_frames_lost)) return std::nullopt;
   return too_few(seen, message, found);
 }
 

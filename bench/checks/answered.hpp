@@ -17,6 +17,8 @@ struct Answered {
   std::uint64_t due = 0;
   std::uint64_t came = 0;  ///< at most `due`
   [[nodiscard]] std::uint64_t missing() const { return due - came; }
+  /// At least half of the answers came. If not, the target was silent: a late host does not explain that.
+  [[nodiscard]] bool half() const;
 };
 
 /// The answers of a message, or of the group that it belongs to, to the stimuli of a window. One answer is

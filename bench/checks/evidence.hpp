@@ -30,6 +30,10 @@ struct Evidence {
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
                                                 const quantities::Quantity& quantity);
 
+/// The finding if an estimator has no track of a quantity although there is a truth: the target told no value
+/// of the quantity, or not all the values that it is made of.
+Finding no_values(const quantities::Quantity& quantity, std::string expected);
+
 /// Returns why a quantile of the timing cannot be compared with the limit `bar_s`; empty: it can be compared.
 /// The bench can judge the target's deadlines only if the bench keeps its own deadlines.
 std::string unfit(const Evidence& evidence, double quantile, double bar_s);

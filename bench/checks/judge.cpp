@@ -163,6 +163,10 @@ std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::s
   return found;
 }
 
+Finding no_values(const quantities::Quantity& quantity, std::string expected) {
+  return {Outcome::fail, fmt::format("no value of {} came", quantity.name), std::move(expected)};
+}
+
 std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks,
                                        std::span<const MessageInfo> messages) {
   TimingRecord timing(messages);

@@ -18,12 +18,11 @@
 #include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/observe/bus_watch.hpp"
-#include "bench/observe/cpu_stalls.hpp"
+#include "bench/observe/delay_watch.hpp"
 #include "bench/observe/host_watch.hpp"
 #include "bench/observe/intruders.hpp"
 #include "bench/observe/load_meter.hpp"
 #include "bench/observe/recorder.hpp"
-#include "bench/observe/target_waits.hpp"
 #include "bench/scenario/foreign.hpp"
 #include "bench/world/stoppable.hpp"
 
@@ -115,10 +114,8 @@ class Session {
     if (options_.for_verdict) {
       load_watched.emplace(link_, load_);
       host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
-      if (target_ && clock_ == ClockKind::real_time) {
-        waits_.emplace(target_->id());
-        if (options_.realtime) stalls_.emplace(target_->id());
-      }
+      if (target_ && clock_ == ClockKind::real_time)
+        delay_watch_.emplace(target_->id(), options_.realtime.has_value());
     }
     std::optional<Attached> looking_on;
     if (options_.onlooker != nullptr) {
@@ -135,8 +132,7 @@ class Session {
                   ? run_lockstep(link_, *schedule_, *target, step_limit_ns, stop, progress, is_gone)
                   : run_real_time(link_, *schedule_, *target, dialect_->silence_limit_ns(), stop, progress,
                                   options_.spin_ns, is_gone);
-    if (waits_) delays_.waits = waits_->record();
-    if (stalls_) delays_.stalls = stalls_->record();
+    if (delay_watch_) delays_ = delay_watch_->record();
   }
 
   // Stops the target, closes the log and ends the target's process.
@@ -163,8 +159,7 @@ class Session {
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
   [[nodiscard]] const checks::TargetDelays& delays() const { return delays_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
-  // Adds the possible cause to an error message: the frames that flooded the bus or, if there was no flood,
-  // the first note, for example about a program that the bench rejected on its local bus.
+  // Adds the possible cause to an error message: a flood of frames, or the first note of the bus.
   [[nodiscard]] std::string explained(const std::string& what) const {
     if (link_.flood()) return fmt::format("{}; {}", what, to_text(*link_.flood()));
     return notes_->empty() ? what : fmt::format("{}; {}", what, notes_->front());
@@ -226,7 +221,7 @@ class Session {
     target_.reset();
     watcher_->target_restarts();
     auto ready = start_target(target_cpus_);
-    if (ready && waits_) waits_->follow(target_->id());
+    if (ready && delay_watch_) delay_watch_->follow(target_->id());
     flight_.initial = initial_states(scenario_, truth_, flight_.per_run_truth, options_.run_index, t_us);
     if (ready) ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(*stop_); });
     if (!ready) restart_error_ = "; restarted: " + ready.error().message;
@@ -311,8 +306,7 @@ class Session {
   checks::TargetDelays delays_;
   std::unique_ptr<observe::Recorder> log_;
   std::optional<ChildProcess> target_;
-  std::optional<observe::TargetWaits> waits_;
-  std::optional<observe::CpuStalls> stalls_;
+  std::optional<observe::DelayWatch> delay_watch_;
   RigCommands commands_;  // after the target: `after` runs before the target's process ends
   const std::atomic<bool>* stop_ = nullptr;  // of the flight
   std::vector<int> target_cpus_;

@@ -37,7 +37,7 @@ Finding Convergence::judge(const Evidence& evidence) const {
   const std::string expected = fmt::format("within {:g} {} for good before {:g} s", within / unit.factor,
                                            unit.name, static_cast<double>(before_us) * 1e-6);
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
-  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
+  if (tracks.empty()) return no_values(*judged.quantity, expected);
   const quantities::Track& track = *tracks.front();
   const Stretch to_the_end{.window = {before_us, evidence.truth.duration_us}};
   if (auto gap = silence(track, to_the_end, inside(track, to_the_end)); !gap.empty())

@@ -62,7 +62,7 @@ Finding Error::judge(const Evidence& evidence) const {
   const std::string expected = fmt::format("{} < {:g} {} {}", asked[static_cast<std::size_t>(statistic)],
                                            below / unit.factor, unit.name, to_text(stretch));
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
-  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
+  if (tracks.empty()) return no_values(*judged.quantity, expected);
   const Places part = inside(*tracks.front(), stretch);
   if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};

@@ -47,17 +47,18 @@ Finding Latency::judge(const Evidence& evidence) const {
   if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
   if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
-  // A late bench or target does not explain answers that never came.
-  if (timed->latency.count() == 0) return {Outcome::fail, "no answers", expected};
   const Answered came = answered(evidence.seen, message, window);
-  const auto value = quantile_s(timed->latency, quantile, came.missing());
-  if (!value) {
+  const auto silent = [&] {
     Finding missing = too_few(evidence.seen, message, came);
     missing.expected = expected;
     return missing;
-  }
+  };
+  if (!came.half()) return silent();
   if (auto why = unfit(evidence, quantile, bar_s); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
+  if (timed->latency.count() == 0) return {Outcome::fail, "no answers", expected};
+  const auto value = quantile_s(timed->latency, quantile, came.missing());
+  if (!value) return silent();
   return unless_host_disturbed(
       evidence, quantile, bar_s,
       {.nominal_s = nominal_period_s(evidence.seen, message),

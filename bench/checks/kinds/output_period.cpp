@@ -61,10 +61,8 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
   if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
   if (auto why = bench_off(evidence, *timed, quantile, nominal * within); !why.empty()) {
-    // A late bench does not explain answers that never came.
     const Answered came = answered(evidence.seen, message, window);
-    if (came.missing() <= came.due - std::min(came.due, nearest_rank(quantile, came.due)))
-      return {Outcome::not_measured, std::move(why), expected};
+    if (came.half()) return {Outcome::not_measured, std::move(why), expected};
     Finding missing = too_few(evidence.seen, message, came);
     missing.expected = expected;
     return missing;

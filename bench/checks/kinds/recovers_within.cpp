@@ -93,7 +93,7 @@ Finding RecoversWithin::judge(const Evidence& evidence) const {
             expected};
   if (!error) return {pass_if(holds), std::move(measured), std::move(expected)};
   const auto tracks = tracks_of(evidence, error->estimator, *error->quantity);
-  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
+  if (tracks.empty()) return no_values(*error->quantity, expected);
   std::int64_t beyond_us = -1;  // time of the last error that is not below the limit; -1: none
   std::size_t judged = 0;
   for (const quantities::TrackPoint& point : tracks.front()->points) {

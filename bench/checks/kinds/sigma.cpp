@@ -28,7 +28,7 @@ Finding Sigma::judge(const Evidence& evidence) const {
   const std::string expected = fmt::format("sigma between {:g} and {:g} {} {}", low / unit.factor,
                                            high / unit.factor, unit.name, to_text(stretch));
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
-  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
+  if (tracks.empty()) return no_values(*judged.quantity, expected);
   const quantities::Track& track = *tracks.front();
   const Places part = inside(track, stretch);
   if (auto gap = silence(track, stretch, part); !gap.empty())

@@ -37,7 +37,7 @@ Finding SigmaGrows::judge(const Evidence& evidence) const {
   if (auto why = did_not_strike(evidence, fault); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
-  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
+  if (tracks.empty()) return no_values(*judged.quantity, expected);
   const Stretch stretch{.window = window};
   if (fault.empty()) {  // a fault may leave nothing to be answered
     if (auto gap = silence(*tracks.front(), stretch, inside(*tracks.front(), stretch)); !gap.empty())

@@ -142,6 +142,12 @@ Convergence convergence(double within, std::int64_t before_us) {
           .end_us = duration_us};
 }
 
+TEST_F(Judged, AQuantityThatTheTargetNeverToldFails) {
+  const CheckResult found = judge(error_of("los_rate", quantities::attitude_pitch, whole, 0.01));
+  EXPECT_EQ(found.outcome, Outcome::fail);
+  EXPECT_EQ(found.measured, "no value of attitude.pitch came");
+}
+
 TEST_F(Judged, AttitudeErrorByTheWorstInItsWindow) {
   seen_.of<TransferAnswers>().navigation[100].angles.pitch = 0.5;  // at 1.01 s: outside the window
   seen_.of<TransferAnswers>().navigation[300].angles.roll = 0.5;   // another axis
@@ -509,7 +515,7 @@ TEST_F(Judged, AWindowTakesTheTimesOfItsPartOfTheRun) {
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
   rule.message = "AlignUpdate";
   came<messages::AlignUpdate>().clear();
-  EXPECT_EQ(judge(rule).measured, "no answers");
+  EXPECT_EQ(judge(rule).measured, "AlignUpdate: answers to 0 of 11 samples");
 }
 
 TEST(TimedWindows, AreTakenOnceForAllThatAskForThem) {

@@ -107,12 +107,13 @@ std::vector<std::int64_t> latencies(const PlainRun& of, const scenario::Window& 
 Judged latency(const PlainRun& of, const Latency& rule) {
   const double bar_s = s(rule.below_us);
   if (!of.run.timing_unfit.empty()) return not_measured(of.run.timing_unfit);
+  const PlainRun::Due due = of.due_in({.window = rule.window});
+  if (2 * due.came < due.due) return of.too_few(due);  // although the host may have been late
+  if (std::string why = unfit(of.run, rule.quantile, bar_s); !why.empty()) return not_measured(why);
   const auto times = latencies(of, rule.window);
   if (times.empty()) return fail("no answers");
-  const PlainRun::Due due = of.due_in({.window = rule.window});
   const auto value = quantile_ns(times, rule.quantile, due.due - due.came);
-  if (!value) return of.too_few(due);  // although the host may have been late
-  if (std::string why = unfit(of.run, rule.quantile, bar_s); !why.empty()) return not_measured(why);
+  if (!value) return of.too_few(due);
   const double value_s = *value * 1e-9;
   std::vector<std::int64_t> late;
   for (std::size_t i = 0; i < of.flight.epochs.size(); ++i) {
@@ -188,8 +189,7 @@ Judged output_period(const PlainRun& of, const OutputPeriod& rule) {
     why = fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3);
   if (!why.empty()) {
     const PlainRun::Due due = of.due_in({.window = rule.window});
-    const bool enough = due.came >= std::max(1.0, std::ceil(rule.quantile * static_cast<double>(due.due)));
-    return enough ? not_measured(why) : of.too_few(due);
+    return 2 * due.came >= due.due ? not_measured(why) : of.too_few(due);
   }
   for (const auto& [t_ns, answer] : of.run.answers) {
     if (!lies_in(rule.window, answer.cause_us)) continue;
