@@ -16,7 +16,8 @@ namespace canhil::scenario {
 namespace {
 
 /// Why errors of the initial state are refused beside a mapping.
-constexpr std::string_view no_start = "has no effect: a target with a mapping receives no initial state";
+constexpr std::string_view no_start =
+    "has no effect: with a mapping, only the sensor [start] tells the target a start state";
 
 /// The keys of a truth, followed by the keys of the nodes that sample it.
 std::vector<std::string_view> keys_of(TruthOf truth, const DbcVocabulary& contract,
@@ -98,7 +99,9 @@ void read_glider(Section& root, Scenario& scenario, const DbcVocabulary& contrac
     return;
   }
   Section glide = root.table("glide");
-  if (contract.foreign != nullptr) glide.refuse("initial_error", no_start, "no such table");
+  if (contract.foreign != nullptr)
+    glide.refuse("initial_error", "has no effect: a target with a mapping is not told this state",
+                 "no such table");
   scenario.glide = read_glide(root, glide);
   read_nodes(root, scenario, contract, TruthOf::glide);
 }
@@ -274,7 +277,8 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   }
   read_glider(root, scenario, contract);
   read_navigation(root, scenario, contract);
-  if (contract.foreign != nullptr) root.refuse("initial_error", no_start, "no such table");
+  if (contract.foreign != nullptr && !root.has("start"))
+    root.refuse("initial_error", no_start, "a table [start] beside it");
   if (auto initial_error = root.optional_table("initial_error")) {
     scenario.initial_error = read_initial_error(*initial_error);
   }

@@ -14,6 +14,7 @@
 #include "bench/sensors/seeker.hpp"
 #include "bench/sensors/slave_imu.hpp"
 #include "bench/sensors/ssbl.hpp"
+#include "bench/sensors/start.hpp"
 #include "bench/sensors/wheels.hpp"
 
 namespace canhil::sensors {
@@ -29,6 +30,7 @@ constexpr std::array registered{
     &fins,        // of the glider
     &dvl,         // of an underwater vehicle
     &wheels,      // of a car
+    &start,       // what somebody tells the device before it starts
 };
 
 }  // namespace

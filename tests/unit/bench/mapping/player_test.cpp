@@ -396,6 +396,43 @@ TEST(Player, PlaysEachPageOfAMessage) {
             "ecu.mapping.toml: Paged has Page=0 in two plays, expected each page once");
 }
 
+// The start state is told three times, each time with the same error of 5 deg to one side.
+TEST(Player, TellsTheStartStateWithTheErrorsOfTheRun) {
+  std::string mapping = mapping_with("[[hear]]", R"([[play]]
+messages = ["Paged"]
+every_ms = 50
+signals = { "Paged.Page" = 0, "Paged.Gyro" = "start.heading" }
+[[play]]
+messages = ["Paged"]
+every_ms = 50
+signals = { "Paged.Page" = 1, "Paged.Accel" = "start.heading_sigma" }
+[[hear]])");
+  mapping.replace(mapping.find("[units]\n"), 8,
+                  "[units]\n\"Paged.Gyro\" = \"rad\"\n\"Paged.Accel\" = \"deg\"\n");
+  const std::string start = "[start]\nperiod_ms = 50\ntimes = 3\nheading_sigma_deg = 6\n";
+  const auto scenario = read(start + "[initial_error]\nheading_magnitude_deg = 5\n", mapping);
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  std::vector<double> errors;
+  int sigmas = 0;
+  for (std::size_t k = 0; k < flown.frames.size(); ++k) {
+    if (flown.frames[k].id != 103) continue;
+    if (flown.value(k, "Page") == 1) {
+      EXPECT_NEAR(flown.value(k, "Accel"), 6, 1e-6);
+      ++sigmas;
+    } else {
+      const double t_s = 0.05 * static_cast<double>(errors.size());
+      errors.push_back(flown.value(k, "Gyro") - 2 * std::numbers::pi / 10 * t_s);
+    }
+  }
+  ASSERT_EQ(errors.size(), 3U);
+  EXPECT_EQ(sigmas, 3);
+  EXPECT_NEAR(std::abs(errors[0]), 5 * std::numbers::pi / 180, 1e-4);
+  for (const double error : errors) EXPECT_NEAR(error, errors[0], 1e-4);
+  EXPECT_THAT(read("[initial_error]\nheading_magnitude_deg = 5\n").error().message,
+              testing::HasSubstr("expected a table [start] beside it"));
+}
+
 // A target whose own task answers every second sample: no sample is owed an answer, and the latest one is the
 // cause.
 TEST(Listener, ATaskOfItsOwnAnswersTheLatestSample) {
