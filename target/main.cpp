@@ -32,7 +32,7 @@ int run(int argc, char** argv) {
   canhil::command_line::Program program{
       "The device under test: navigation and guidance estimators behind a CAN interface.",
       fmt::format("{} · DBC {:016x}, on the bus {:06x}", canhil::version_line("hil-target"),
-                  canhil::messages::dbc_hash, canhil::messages::dbc_hash24)};
+                  canhil::messages::dbc_hash, canhil::messages::exchange_hash24())};
   std::vector<std::string> buses;
   std::string log;
   std::string dbc{canhil::name_of(canhil::BusFormat::classic)};

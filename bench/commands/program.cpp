@@ -75,7 +75,7 @@ int run(int argc, char** argv, std::span<const AddCommand> add_commands) {
       "A hardware-in-the-loop bench over CAN for navigation and guidance estimators.\n"
       "Exit codes: 0 pass, 1 fail, 2 usage or configuration, 3 not measured.",
       fmt::format("{} · DBC {:016x}, on the bus {:06x}", version_line(own_file().filename().string()),
-                  messages::dbc_hash, messages::dbc_hash24)};
+                  messages::dbc_hash, messages::exchange_hash24())};
   program.require_subcommands(1, 1);
   int code = 0;
   for (const AddCommand add : add_commands) add(program, code);

@@ -20,8 +20,9 @@ Line target_line(const std::optional<TargetHeartbeat>& beat) {
         "start it (`hil-target --bus ...`), or let the bench start one; then look at wiring and bit rate"};
   const std::string found =
       fmt::format("{}, DBC hash {:06x}", messages::name_of(beat->state), beat->dbc_hash);
-  if (beat->dbc_hash == messages::dbc_hash24) return {Grade::good, "target", found + " as in this bench"};
-  return {Grade::bad, "target", fmt::format("{}, this bench has {:06x}", found, messages::dbc_hash24),
+  const std::uint32_t own = messages::exchange_hash24(messages::name_of(beat->estimator));
+  if (beat->dbc_hash == own) return {Grade::good, "target", found + " as in this bench"};
+  return {Grade::bad, "target", fmt::format("{}, this bench has {:06x}", found, own),
           "build target and bench from the same DBC file"};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "dbc/codegen/definitions.hpp"
+#include "dbc/codegen/exchange.hpp"
 #include "dbc/codegen/message.hpp"
 #include "dbc/codegen/names.hpp"
 #include "dbc/codegen/rules.hpp"
@@ -28,6 +29,19 @@ std::string enum_text(const EnumType& type) {
       "constexpr std::string_view name_of({0} value) {{\n  switch (value) {{\n{5}  }}\n  return "
       "{{}};\n}}\n\n",
       type.name, type.underlying, declared, type.values.size(), listed, named);
+}
+
+std::string exchange_text(const Database& database) {
+  std::string text, of_every_run;
+  for (const Exchange& exchange : exchanges(database)) {
+    const std::string value = fmt::format("return 0x{:06X}U;\n", exchange.hash24);
+    if (exchange.estimator.empty()) {
+      of_every_run = "  " + value;
+    } else {
+      text += fmt::format("  if (estimator == {}) {}", in_quotes(exchange.estimator), value);
+    }
+  }
+  return text.empty() ? "  static_cast<void>(estimator);\n" + of_every_run : text + of_every_run;
 }
 
 std::string directory_text(const Database& database) {
@@ -61,12 +75,13 @@ Result<std::string> generate_header(const Database& database, std::string_view n
       "namespace {1} {{\n\nnamespace wire = ::canhil::wire;\nnamespace types = ::{1};  // for members named "
       "as their type\nusing ::canhil::MessageInfo;\nusing "
       "::canhil::SignalInfo;\n\n"
-      "/// FNV-1a of the DBC's text, and the same folded into 24 bits.\n"
-      "inline constexpr std::uint64_t dbc_hash = 0x{2:016X}U;\ninline constexpr std::uint32_t dbc_hash24 = "
-      "0x{3:06X}U;\n\n"
+      "/// FNV-1a of the DBC's text.\ninline constexpr std::uint64_t dbc_hash = 0x{2:016X}U;\n\n"
+      "/// The hash of the messages that a run with this estimator exchanges. If the DBC does not name the\n"
+      "/// estimator: the hash of the messages that every run exchanges.\n"
+      "constexpr std::uint32_t exchange_hash24(std::string_view estimator = \"\") {{\n{3}}}\n\n"
       "/// Every named value of an enumeration, ascending.\ntemplate <class E>\n"
       "inline constexpr std::array<E, 0> enumerators{{}};\n\n",
-      dbc_name, name_space, database.hash, fold24(database.hash));
+      dbc_name, name_space, database.hash, exchange_text(database));
   for (const EnumType& type : enums.all()) text += enum_text(type);
   text +=
       "/// The enumerator with this name in the DBC, or none.\ntemplate <class E>\n"

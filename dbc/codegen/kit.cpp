@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "dbc/codegen/exchange.hpp"
 #include "dbc/codegen/names.hpp"
 #include "dbc/codegen/rules.hpp"
 #include "dbc/parser/parse.hpp"
@@ -132,7 +133,28 @@ std::string table_of(const Database& database, const Signal& signal) {
   return signal.values.empty() || table == database.value_tables.end() ? "" : table->name;
 }
 
-std::string c_tables(const std::vector<Group>& groups) {
+// A value of the value table Estimator, and the hash of the messages that its runs exchange.
+struct OfEstimator {
+  ValueName estimator;
+  std::uint32_t hash24 = 0;
+};
+std::vector<OfEstimator> hashes_of(const Database& database) {
+  std::vector<OfEstimator> all;
+  const std::vector<Exchange> exchanged = exchanges(database);
+  const auto table = std::ranges::find(database.value_tables, "Estimator", &ValueTable::name);
+  if (table == database.value_tables.end()) return all;
+  for (const ValueName& value : ascending(table->values)) {
+    const auto own = std::ranges::find(exchanged, value.name, &Exchange::estimator);
+    all.push_back({value, own == exchanged.end() ? exchanged.front().hash24 : own->hash24});
+  }
+  return all;
+}
+
+std::string c_tables(const Database& database, const std::vector<Group>& groups) {
+  std::string hashes;
+  for (const OfEstimator& one : hashes_of(database))
+    hashes +=
+        fmt::format("  {{{}, 0x{:06X}UL}}, /* {} */\n", one.estimator.value, one.hash24, one.estimator.name);
   std::string signals, messages, listed;
   std::size_t first_signal = 0, first_message = 0;
   for (const Group& group : groups) {
@@ -172,8 +194,11 @@ std::string c_tables(const std::vector<Group>& groups) {
       "/* time, cause_time, cause_counter: indices among the values; -1: the group has none. */\n"
       "typedef struct {{ unsigned char first_message, messages, values, from_target; signed char time, "
       "cause_time, cause_counter; }} canhil_group;\n"
-      "static const canhil_group canhil_groups[] = {{\n{}}};\n#endif\n",
-      signals, messages, listed);
+      "static const canhil_group canhil_groups[] = {{\n{}}};\n\n"
+      "/* The hash of the messages that a run with an estimator exchanges. */\n"
+      "typedef struct {{ unsigned char estimator; unsigned long hash24; }} canhil_exchange;\n"
+      "static const canhil_exchange canhil_exchanges[] = {{\n{}}};\n#endif\n",
+      signals, messages, listed, hashes);
 }
 
 std::string made_by(std::string_view option, std::string_view dbc_name) {
@@ -185,10 +210,8 @@ std::string made_by(std::string_view option, std::string_view dbc_name) {
 Result<std::string> c_header(const Database& database, std::string_view dbc_name) {
   const auto groups = fit_groups(database, dbc_name);
   if (!groups) return tl::unexpected(groups.error());
-  std::string text = fmt::format(
-      "/* {} */\n#ifndef CANHIL_MESSAGES_H\n#define CANHIL_MESSAGES_H\n\n#define CANHIL_DBC_HASH24 "
-      "0x{:06X}UL\n\n",
-      made_by("--c", dbc_name), fold24(database.hash));
+  std::string text = fmt::format("/* {} */\n#ifndef CANHIL_MESSAGES_H\n#define CANHIL_MESSAGES_H\n\n",
+                                 made_by("--c", dbc_name));
   for (const ValueTable& table : database.value_tables) {
     text += fmt::format("enum {{ /* {} */\n", table.name);
     const auto values = ascending(table.values);
@@ -222,15 +245,18 @@ Result<std::string> c_header(const Database& database, std::string_view dbc_name
                       find_message(database, "TargetHeartbeat") == nullptr
                           ? 0
                           : find_message(database, "TargetHeartbeat")->cycle_time_us / 1000);
-  return text + "\n" + c_tables(*groups) + "\n#endif\n";
+  return text + "\n" + c_tables(database, *groups) + "\n#endif\n";
 }
 
 Result<std::string> python_module(const Database& database, std::string_view dbc_name) {
   const auto groups = fit_groups(database, dbc_name);
   if (!groups) return tl::unexpected(groups.error());
-  std::string text =
-      fmt::format("\"\"\"{}\"\"\"\n\nDBC_HASH24 = 0x{:06X}\n\n# name: {{value: name}}\nVALUE_TABLES = {{\n",
-                  made_by("--python", dbc_name), fold24(database.hash));
+  std::string text = fmt::format(
+      "\"\"\"{}\"\"\"\n\n# estimator: the hash of the messages that its runs exchange\nHASH24 = {{\n",
+      made_by("--python", dbc_name));
+  for (const OfEstimator& one : hashes_of(database))
+    text += fmt::format("    {}: 0x{:06X},\n", in_quotes(one.estimator.name), one.hash24);
+  text += "}\n\n# name: {value: name}\nVALUE_TABLES = {\n";
   for (const ValueTable& table : database.value_tables) {
     text += fmt::format("    {}: {{", in_quotes(table.name));
     for (const ValueName& value : ascending(table.values))

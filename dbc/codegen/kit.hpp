@@ -21,7 +21,7 @@ namespace canhil::dbc {
 Result<std::string> c_header(const Database& database, std::string_view dbc_name);
 
 /// Generates a Python module that describes the contract with VALUE_TABLES, GROUPS, ANSWERS, CYCLE_MS,
-/// FROM_TARGET and DBC_HASH24. Returns an error in the same cases as c_header().
+/// FROM_TARGET and HASH24. Returns an error in the same cases as c_header().
 Result<std::string> python_module(const Database& database, std::string_view dbc_name);
 
 }  // namespace canhil::dbc

@@ -27,8 +27,9 @@ constexpr std::array keywords{
     "xor_eq",      "std",      "canhil",     "wire",      "linux",     "unix"};
 
 constexpr std::array<std::string_view, 13> names_of_header{
-    "all_messages", "AllMessages", "dbc_hash", "dbc_hash24", "detail",      "enumerators", "find_message",
-    "from_name",    "name_of",     "types",    "wire",       "MessageInfo", "SignalInfo"};
+    "all_messages", "AllMessages",  "dbc_hash",  "exchange_hash24", "detail",
+    "enumerators",  "find_message", "from_name", "name_of",         "types",
+    "wire",         "MessageInfo",  "SignalInfo"};
 
 bool is_plain_letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';

@@ -87,8 +87,11 @@ void read_message_attributes(const Defaults& defaults, Findings& findings, Messa
   message.e2e_data_id = static_cast<std::uint16_t>(data_id);
   message.sample_group =
       attribute_or<std::string>(defaults, message.attributes, Owner::message, "SampleGroup", {});
-  message.answers =
-      words_of(attribute_or<std::string>(defaults, message.attributes, Owner::message, "Answers", {}));
+  const auto words = [&](std::string_view name) {
+    return words_of(attribute_or<std::string>(defaults, message.attributes, Owner::message, name, {}));
+  };
+  message.answers = words("Answers");
+  message.estimators = words("Estimators");
   const auto format =
       attribute_or<std::string>(defaults, message.attributes, Owner::message, "VFrameFormat", {});
   message.fd = format.ends_with("_FD");

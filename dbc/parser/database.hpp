@@ -137,12 +137,14 @@ struct Message {
   Attributes attributes;
   Position at;
 
-  /// The values of the attributes VFrameFormat, GenMsgCycleTime, E2eDataId, SampleGroup and Answers.
+  /// The values of the attributes VFrameFormat, GenMsgCycleTime, E2eDataId, SampleGroup, Answers and
+  /// Estimators.
   bool fd = false;
   std::int64_t cycle_time_us = 0;
   std::uint16_t e2e_data_id = 0;
   std::string sample_group;
-  std::vector<std::string> answers;  ///< names of sample groups; in the text, spaces separate them
+  std::vector<std::string> answers;     ///< names of sample groups; in the text, spaces separate them
+  std::vector<std::string> estimators;  ///< the estimators whose runs exchange the message; empty: every run
 };
 
 /// An environment variable (EV_).

@@ -133,7 +133,7 @@ void Device::on_sync(const Sync& sync) {
 }
 
 void Device::on_command(const TargetCommand& command) {
-  if (command.dbc_hash != dbc_hash24) {
+  if (command.dbc_hash != exchange_hash24(name_of(command.estimator))) {
     raise(&Errors::dbc_mismatch);
     return send_heartbeats();
   }
@@ -329,20 +329,21 @@ void Device::send_heartbeats() {
 void Device::send_heartbeat(const Estimation& estimation) {
   const auto bit = [](bool set) { return static_cast<std::uint8_t>(set); };
   const Errors& errors = estimation.errors;
-  answers_.send(TargetHeartbeat{
-      .state = estimation.state,
-      .estimator = estimation.adapter == nullptr ? Estimator::none : estimation.adapter->estimator(),
-      .algorithm = estimation.algorithm,
-      .dbc_hash = dbc_hash24,
-      .version_major = version().major,
-      .version_minor = version().minor,
-      .error_dbc_mismatch = bit(errors.dbc_mismatch),
-      .error_not_initialised = bit(errors.not_initialised),
-      .error_input_lost = bit(errors.input_lost),
-      .error_input_silent = bit(errors.input_silent),
-      .error_numeric = bit(errors.numeric),
-      .error_command = bit(errors.command),
-      .degraded = bit(estimation.consistency.degraded())});
+  const Estimator estimator =
+      estimation.adapter == nullptr ? Estimator::none : estimation.adapter->estimator();
+  answers_.send(TargetHeartbeat{.state = estimation.state,
+                                .estimator = estimator,
+                                .algorithm = estimation.algorithm,
+                                .dbc_hash = exchange_hash24(name_of(estimator)),
+                                .version_major = version().major,
+                                .version_minor = version().minor,
+                                .error_dbc_mismatch = bit(errors.dbc_mismatch),
+                                .error_not_initialised = bit(errors.not_initialised),
+                                .error_input_lost = bit(errors.input_lost),
+                                .error_input_silent = bit(errors.input_silent),
+                                .error_numeric = bit(errors.numeric),
+                                .error_command = bit(errors.command),
+                                .degraded = bit(estimation.consistency.degraded())});
 }
 
 void Device::send_counters() {

@@ -50,6 +50,7 @@ LINES = [
     ("tests/CMakeLists.txt", "add_compile_options(${canhil_not_numerical})", "add_subdirectory(fifth_estimator)"),
 ]
 LAST_ESTIMATOR, ONE_MORE = '4 "wind"', '5 "baro_inertial" '
+IMU_MESSAGE = r'BA_ "Estimators" BO_ (128|129|130) ".*";'  # the estimator reads the IMU too
 
 
 def with_lines(name: str, text: str) -> str:
@@ -63,7 +64,8 @@ def with_lines(name: str, text: str) -> str:
 
 
 def contract(text: str) -> str:
-    """Adds the parts of contract.dbc to the text of the DBC: the nodes to BU_, the estimator to the lists of estimators, the rest at the end."""
+    """Adds the parts of contract.dbc to the text of the DBC: the nodes to BU_, the estimator to the lists of estimators and to the messages of the IMU, the rest
+    at the end."""
     own = (ROOT / HERE / "contract.dbc").read_text()
     nodes, rest = own.split("\n", 1)
     for line in block("adding-a-sensor", "## 1. The DBC").splitlines():
@@ -75,6 +77,8 @@ def contract(text: str) -> str:
             line += nodes.removeprefix("BU_:")
         elif line.startswith(("VAL_ ", "VAL_TABLE_ ")) and f" {LAST_ESTIMATOR} " in line:
             line = line.replace(LAST_ESTIMATOR, ONE_MORE + LAST_ESTIMATOR)
+        elif re.fullmatch(IMU_MESSAGE, line):
+            line = line.replace('";', f' {ONE_MORE.split(chr(34))[1]}";')
         lines.append(line)
     return "\n".join(lines) + "\n" + rest
 

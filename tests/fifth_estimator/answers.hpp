@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "bench/checks/reception.hpp"
-#include "bench/spool/in_order.hpp"
 #include "bench/world/flight_record.hpp"
+#include "dbc/spool/in_order.hpp"
 
 namespace canhil::estimators {
 

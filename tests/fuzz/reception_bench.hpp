@@ -57,7 +57,7 @@ class Bench {
     send({}, messages::TargetCommand{.command = command,
                                      .estimator = estimator,
                                      .algorithm = algorithm,
-                                     .dbc_hash = messages::dbc_hash24});
+                                     .dbc_hash = messages::exchange_hash24(messages::name_of(estimator))});
   }
   void set(messages::Parameter parameter, double value) {
     send({}, messages::ParamSet{.parameter = parameter, .value = static_cast<float>(value)});

@@ -16,10 +16,10 @@
 #include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/observe/bus_watch.hpp"
-#include "bench/observe/contract_watch.hpp"
 #include "bench/observe/intruders.hpp"
 #include "bench/observe/load_meter.hpp"
-#include "bench/observe/monitor.hpp"
+#include "bench/protocol/contract_watch.hpp"
+#include "bench/protocol/monitor.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/run_reports.hpp"
 #include "bench/report/whole.hpp"
@@ -44,7 +44,7 @@ Prepared prepare() {
 }
 
 // Collects the observations of the run, as the session of hil-bench does.
-checks::Observations collected(observe::Monitor& monitor, const observe::BusWatch& bus,
+checks::Observations collected(protocol::Monitor& monitor, const observe::BusWatch& bus,
                                const observe::Intruders& intruders, const observe::LoadMeter& load,
                                const drive::Link& link) {
   checks::Observations seen = monitor.finish();
@@ -88,13 +88,13 @@ void fly(const Prepared& prepared, std::uint8_t how, std::span<const std::uint8_
                                       [] { return std::nullopt; });
   if (!ready) return fuzz::expect_words(ready.error().message);
 
-  observe::Monitor monitor(observe::Asked{.windows = checks::timed_windows(scenario.checks),
-                                          .wire = port.capabilities().wire,
-                                          .takers = estimators::takers(scenario),
-                                          .own_interval_s = estimators::own_intervals_s(scenario)});
+  protocol::Monitor monitor(protocol::Asked{.windows = checks::timed_windows(scenario.checks),
+                                            .wire = port.capabilities().wire,
+                                            .takers = estimators::takers(scenario),
+                                            .own_interval_s = estimators::own_intervals_s(scenario)});
   observe::LoadMeter load(BusFormat::classic, observe::LoadBy::stamps);
   drive::Ending ending;
-  observe::ContractWatch watch;
+  protocol::ContractWatch watch;
   {
     const drive::Attached monitored(link, monitor), loaded(link, load), listening(link, schedule);
     const auto progress = [](std::int64_t) {};

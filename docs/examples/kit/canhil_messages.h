@@ -2,8 +2,6 @@
 #ifndef CANHIL_MESSAGES_H
 #define CANHIL_MESSAGES_H
 
-#define CANHIL_DBC_HASH24 0x152DE9UL
-
 enum { /* TargetState */
   CANHIL_TARGET_STATE_IDLE = 0,
   CANHIL_TARGET_STATE_READY = 1,
@@ -937,6 +935,16 @@ static const canhil_group canhil_groups[] = {
   {72, 1, 1, 1, -1, -1, -1}, /* StepDone */
   {73, 2, 6, 0, -1, -1, -1}, /* TargetInitAir */
   {75, 6, 14, 0, 13, -1, -1}, /* TargetInit */
+};
+
+/* The hash of the messages that a run with an estimator exchanges. */
+typedef struct { unsigned char estimator; unsigned long hash24; } canhil_exchange;
+static const canhil_exchange canhil_exchanges[] = {
+  {0, 0x91A9CAUL}, /* none */
+  {1, 0xEC38ADUL}, /* transfer_alignment */
+  {2, 0x42DFF6UL}, /* inflight_alignment */
+  {3, 0x695B46UL}, /* los_rate */
+  {4, 0xEB5C2DUL}, /* wind */
 };
 #endif
 

@@ -1,6 +1,13 @@
 """Made by dbcgen --python from canhil.dbc: edit canhil.dbc instead."""
 
-DBC_HASH24 = 0x152DE9
+# estimator: the hash of the messages that its runs exchange
+HASH24 = {
+    "none": 0x91A9CA,
+    "transfer_alignment": 0xEC38AD,
+    "inflight_alignment": 0x42DFF6,
+    "los_rate": 0x695B46,
+    "wind": 0xEB5C2D,
+}
 
 # name: {value: name}
 VALUE_TABLES = {

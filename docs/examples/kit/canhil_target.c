@@ -91,12 +91,20 @@ static void send_group(canhil_target* target, unsigned group, const double* valu
 
 /* ---- status messages of the target ---- */
 
+/* The hash of the messages that a run with this estimator exchanges. An unknown estimator exchanges those of every run, like none. */
+static double hash_of(unsigned estimator) {
+  unsigned i;
+  for (i = 0; i < sizeof canhil_exchanges / sizeof canhil_exchanges[0]; ++i)
+    if (canhil_exchanges[i].estimator == estimator) return (double)canhil_exchanges[i].hash24;
+  return hash_of(CANHIL_ESTIMATOR_NONE);
+}
+
 static void send_heartbeat(canhil_target* target) {
   double v[CANHIL_TARGET_HEARTBEAT_VALUES] = {0};
   v[CANHIL_TARGET_HEARTBEAT_STATE] = target->state;
   v[CANHIL_TARGET_HEARTBEAT_ESTIMATOR] = target->selected;
   v[CANHIL_TARGET_HEARTBEAT_ALGORITHM] = target->algorithm;
-  v[CANHIL_TARGET_HEARTBEAT_DBC_HASH] = (double)CANHIL_DBC_HASH24;
+  v[CANHIL_TARGET_HEARTBEAT_DBC_HASH] = hash_of(target->selected);
   v[CANHIL_TARGET_HEARTBEAT_ERROR_DBC_MISMATCH] = target->dbc_mismatch;
   v[CANHIL_TARGET_HEARTBEAT_ERROR_NOT_INITIALISED] = target->not_initialised;
   v[CANHIL_TARGET_HEARTBEAT_ERROR_INPUT_LOST] = target->input_lost;
@@ -171,7 +179,7 @@ static void start(canhil_target* target) {
 }
 
 static void on_command(canhil_target* target, const double* v) {
-  if ((uint32_t)v[CANHIL_TARGET_COMMAND_DBC_HASH] != CANHIL_DBC_HASH24) {
+  if (v[CANHIL_TARGET_COMMAND_DBC_HASH] != hash_of((unsigned)v[CANHIL_TARGET_COMMAND_ESTIMATOR])) {
     target->dbc_mismatch = true;
     send_heartbeat(target);
     return;

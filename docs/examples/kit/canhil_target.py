@@ -16,7 +16,7 @@ import sys
 import time
 from typing import NamedTuple
 
-from canhil_messages import ANSWERS, CYCLE_MS, DBC_HASH24, FROM_TARGET, GROUPS, VALUE_TABLES
+from canhil_messages import ANSWERS, CYCLE_MS, FROM_TARGET, GROUPS, HASH24, VALUE_TABLES
 
 COUNTERS = 15  # E2E profile 11 counts from 0 to 14
 HEARTBEAT_US = round(CYCLE_MS["TargetHeartbeat"] * 1000)
@@ -131,7 +131,7 @@ class Target:
 
     def send_heartbeat(self):
         self.send_group("TargetHeartbeat", {"state": self.state, "estimator": self.selected, "algorithm": self.algorithm,
-                                            "dbc_hash": DBC_HASH24, **{"error_" + name: error for name, error in self.errors.items()}})
+                                            "dbc_hash": HASH24[self.selected], **{"error_" + name: error for name, error in self.errors.items()}})
 
     def enter(self, state):
         self.state = state
@@ -203,7 +203,7 @@ class Target:
     # -- commands --
 
     def on_command(self, command):
-        if command["dbc_hash"] != DBC_HASH24:
+        if command["dbc_hash"] != HASH24.get(command["estimator"], HASH24["none"]):
             self.refuse("dbc_mismatch")
         elif command["command"] == "reset":
             self.reset(command["estimator"], command["algorithm"])

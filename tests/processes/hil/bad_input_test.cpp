@@ -235,7 +235,7 @@ TEST(Version, NamesTheProjectAndTheContract) {
   const std::string bench = version_of(hil_bench("--version"));
   EXPECT_THAT(bench, testing::StartsWith(fmt::format(" {} (revision ", PROJECT_VERSION)));
   EXPECT_THAT(bench, testing::EndsWith(fmt::format(") · DBC {:016x}, on the bus {:06x}\n", messages::dbc_hash,
-                                                   messages::dbc_hash24)));
+                                                   messages::exchange_hash24())));
   EXPECT_EQ(version_of(hil_target("--version")), bench);
   const std::string revision = bench.substr(0, bench.find(" ·"));
   EXPECT_EQ(version_of(shell(DBCGEN " --version")), revision + "\n");
@@ -382,7 +382,7 @@ TEST(BadInput, TargetBuiltFromAnotherDbc) {
     Outbox<1> out;
     while (!stop) {
       out.clear();
-      out.send(messages::TargetHeartbeat{.dbc_hash = messages::dbc_hash24 ^ 0xFFU});
+      out.send(messages::TargetHeartbeat{.dbc_hash = messages::exchange_hash24() ^ 0xFFU});
       static_cast<void>((*hub)->send(out.frames().front()));
       for (int i = 0; i < 10; ++i) {
         while ((*hub)->receive()) {

@@ -32,7 +32,7 @@ long peak_kib(int samples) {
   return of_children.ru_maxrss;
 }
 
-// A series that is larger than 2 MiB is stored in a file (bench/spool). The series of navigation answers have
+// A series that is larger than 2 MiB is stored in a file (dbc/spool). The series of navigation answers have
 // this size at 60 000 samples. A dozen other series reach this size only in longer runs: the series of filter
 // answers, which have a tenth of the samples, and the series with 8 or 16 bytes per sample. If the bench kept
 // all series in memory, 120 000 more samples would take 90 MiB.

@@ -168,15 +168,15 @@ Frame heartbeat(std::uint32_t hash) {
 
 TEST_F(OnABus, ATargetIsKnownByItsHeartbeatAndItsHash) {
   EXPECT_THAT(grades(listen(*node_, 1'000'000, never)), ElementsAre(Grade::good, Grade::weak));
-  EXPECT_THAT(grades(heard(*hub_, *node_, heartbeat(messages::dbc_hash24))),
+  EXPECT_THAT(grades(heard(*hub_, *node_, heartbeat(messages::exchange_hash24()))),
               ElementsAre(Grade::good, Grade::good));
-  const std::vector<Line> other = heard(*hub_, *node_, heartbeat(messages::dbc_hash24 ^ 1U));
+  const std::vector<Line> other = heard(*hub_, *node_, heartbeat(messages::exchange_hash24() ^ 1U));
   EXPECT_THAT(grades(other), ElementsAre(Grade::good, Grade::bad));
   EXPECT_THAT(other.back().remedy, HasSubstr("from the same DBC"));
 }
 
 TEST_F(OnABus, ErrorFramesAreWeakAndNoHeartbeat) {
-  Frame error = heartbeat(messages::dbc_hash24);
+  Frame error = heartbeat(messages::exchange_hash24());
   error.error = true;
   const std::vector<Line> lines = heard(*hub_, *node_, error);
   EXPECT_THAT(grades(lines), ElementsAre(Grade::weak, Grade::weak));

@@ -39,7 +39,7 @@ class BenchSide {
     send(messages::TargetCommand{.command = command,
                                  .estimator = estimator,
                                  .algorithm = algorithm,
-                                 .dbc_hash = messages::dbc_hash24});
+                                 .dbc_hash = messages::exchange_hash24(messages::name_of(estimator))});
   }
   void initialise() {
     send(messages::TargetInitLatitude{.latitude_deg = 37, .height_m = 1000});

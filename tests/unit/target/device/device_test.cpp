@@ -9,14 +9,14 @@ namespace {
 
 using namespace messages;
 
-TEST(Device, AnswersAResetWithItsStateAndTheHashOfItsDbc) {
+TEST(Device, AnswersAResetWithItsStateAndTheHashOfItsMessages) {
   BenchSide bench;
   bench.command(Command::reset);
   const auto heartbeat = bench.last<TargetHeartbeat>();
   ASSERT_TRUE(heartbeat);
   EXPECT_EQ(heartbeat->state, TargetState::idle);
   EXPECT_EQ(heartbeat->estimator, Estimator::transfer_alignment);
-  EXPECT_EQ(heartbeat->dbc_hash, dbc_hash24);
+  EXPECT_EQ(heartbeat->dbc_hash, exchange_hash24("transfer_alignment"));
   EXPECT_EQ(heartbeat->error_command, 0);
 }
 
@@ -24,7 +24,7 @@ TEST(Device, RefusesACommandOfAnotherDbc) {
   BenchSide bench;
   bench.command(Command::reset);
   bench.initialise();
-  bench.send(TargetCommand{.command = Command::start, .dbc_hash = dbc_hash24 ^ 1U});
+  bench.send(TargetCommand{.command = Command::start, .dbc_hash = exchange_hash24("none") ^ 1U});
   EXPECT_EQ(bench.last<TargetHeartbeat>()->state, TargetState::ready);
   EXPECT_EQ(bench.last<TargetHeartbeat>()->error_dbc_mismatch, 1);
 }
@@ -344,7 +344,7 @@ TEST(Device, HearsACommandThatRepeatsTheCounterOfTheLast) {
   second_bench.send(TargetCommand{.command = Command::reset,
                                   .estimator = Estimator::transfer_alignment,
                                   .algorithm = Algorithm::robust_h2,
-                                  .dbc_hash = dbc_hash24});
+                                  .dbc_hash = exchange_hash24("transfer_alignment")});
   first.feed(second_bench.frames().front());  // counter 0 again
   EXPECT_EQ(first.last<TargetHeartbeat>()->algorithm, Algorithm::robust_h2);
 }
