@@ -15,10 +15,10 @@
 #include "bench/quantities/track.hpp"
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/estimator_facts.hpp"
-#include "bench/spool/spool.hpp"
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/glide/glide.hpp"
+#include "dbc/spool/spool.hpp"
 
 namespace canhil::scenario {
 struct Scenario;

@@ -86,7 +86,7 @@ struct Observations {
   Complaints complaints;              ///< errors that the target reported in addition to its answers
   TargetReports reports;              ///< what the target reported about its own state
   std::vector<FaultRecord> faults{};  ///< the faults of the scenario
-  std::optional<std::int64_t> longest_input_gap_us{};  ///< see observe::ReceiverModel::longest_gap_us; none:
+  std::optional<std::int64_t> longest_input_gap_us{};  ///< see protocol::ReceiverModel::longest_gap_us; none:
                                                        ///< no model observed the run
   ExpectedCounts expected_counts{};                    ///< limits for `counters`
   std::vector<wire::BitLength> length_by_second{};     ///< lengths of all frames on the bus; see

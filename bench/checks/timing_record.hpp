@@ -12,8 +12,8 @@
 
 #include "bench/checks/histogram.hpp"
 #include "bench/scenario/checks.hpp"
-#include "bench/spool/spool.hpp"
 #include "dbc/ports/port.hpp"
+#include "dbc/spool/spool.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::checks {

@@ -1,4 +1,5 @@
 #include "bench/conformance/conformance.hpp"
+#include "bench/commands/conformance_report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -46,9 +46,4 @@ struct Report {
   [[nodiscard]] checks::Outcome outcome() const;
 };
 
-/// For people: one line for each rule; a second line describes the violation, if there is one.
-std::string text(const Report& report);
-std::string json(const Report& report);
-std::string junit(const Report& report);
-
 }  // namespace canhil::conformance

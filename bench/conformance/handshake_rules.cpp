@@ -26,7 +26,7 @@ std::string beats(Subject& subject) {
     }
     const std::int64_t median_ns = gaps[gaps.size() / 2];
     const TargetHeartbeat& last = beats.back().second;
-    if (last.state != TargetState::idle || last.dbc_hash != dbc_hash24)
+    if (last.state != TargetState::idle || last.dbc_hash != exchange_hash24(name_of(last.estimator)))
       return fmt::format("a heartbeat before the first command says {}, DBC hash {:06x}", described(last),
                          last.dbc_hash);
     if (median_ns >= period_ns / 2 && median_ns <= period_ns * 3 / 2) return "";
@@ -50,6 +50,7 @@ std::string refuses_another_contract(Subject& subject) {
 std::string refuses_another_estimator(Subject& subject) {
   TargetCommand reset = subject.talk.command(Command::reset);
   reset.estimator = Estimator{0b111};  // the largest value of the signal; no estimator has this number
+  reset.dbc_hash = exchange_hash24();
   subject.talk.send(reset);
   const auto beat =
       subject.talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_command != 0; });

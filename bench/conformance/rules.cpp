@@ -28,7 +28,7 @@ std::vector<Rule> rules(bool parameters_known, bool apply_known) {
 std::string described(const std::optional<TargetHeartbeat>& beat) {
   if (!beat) return "no heartbeat";
   return fmt::format("state {}, {} {}, errors: {}", name_of(beat->state), name_of(beat->estimator),
-                     name_of(beat->algorithm), observe::errors_of(*beat));
+                     name_of(beat->algorithm), protocol::errors_of(*beat));
 }
 
 std::string made_to_run(Subject& subject) {

@@ -54,7 +54,7 @@ TargetCommand Talk::command(Command what) const {
   return {.command = what,
           .estimator = from_name<Estimator>(setup.estimator).value_or(Estimator::none),
           .algorithm = from_name<Algorithm>(setup.algorithm).value_or(Algorithm::kalman),
-          .dbc_hash = dbc_hash24};
+          .dbc_hash = exchange_hash24(setup.estimator)};
 }
 
 void Talk::send() {
@@ -151,7 +151,7 @@ bool Talk::closes(std::uint16_t step) {
   const auto closed = [&] {
     // Clang 14 cannot compile std::views::reverse. NOLINTNEXTLINE(modernize-loop-convert)
     for (auto one = listener_.frames.rbegin(); one != listener_.frames.rend(); ++one) {
-      if (const auto done = observe::decode_from_target<StepDone>(*one)) return done->step == step;
+      if (const auto done = protocol::decode_from_target<StepDone>(*one)) return done->step == step;
     }
     return false;
   };

@@ -17,8 +17,8 @@
 #include "bench/drive/link.hpp"
 #include "bench/drive/schedule.hpp"
 #include "bench/drive/target_process.hpp"
-#include "bench/observe/decode_from_target.hpp"
-#include "bench/observe/heartbeat_errors.hpp"
+#include "bench/protocol/decode_from_target.hpp"
+#include "bench/protocol/heartbeat_errors.hpp"
 
 namespace canhil::conformance {
 
@@ -66,7 +66,7 @@ class Talk {
     for (;;) {
       static_cast<void>(link_.drain());
       for (; !listener_.frames.empty(); listener_.frames.pop_front()) {
-        const auto message = observe::decode_from_target<Message>(listener_.frames.front());
+        const auto message = protocol::decode_from_target<Message>(listener_.frames.front());
         if (message && condition(*message)) return message;
       }
       if (over(deadline_ns)) return std::nullopt;
@@ -86,7 +86,7 @@ class Talk {
     static_cast<void>(link_.drain());
     std::vector<std::pair<std::int64_t, Message>> all;
     for (const Received& received : listener_.frames) {
-      if (const auto message = observe::decode_from_target<Message>(received))
+      if (const auto message = protocol::decode_from_target<Message>(received))
         all.emplace_back(received.t_ns, *message);
     }
     return all;
@@ -119,7 +119,7 @@ class Talk {
   template <class Message>
   std::optional<Message> first_received() const {
     for (const Received& received : listener_.frames) {
-      if (const auto message = observe::decode_from_target<Message>(received)) return message;
+      if (const auto message = protocol::decode_from_target<Message>(received)) return message;
     }
     return std::nullopt;
   }
@@ -127,7 +127,7 @@ class Talk {
   std::optional<Message> last_received() const {
     std::optional<Message> last;
     for (const Received& received : listener_.frames) {
-      if (const auto message = observe::decode_from_target<Message>(received)) last = message;
+      if (const auto message = protocol::decode_from_target<Message>(received)) last = message;
     }
     return last;
   }

@@ -2,8 +2,8 @@
 #include "bench/drive/dialect.hpp"
 #include "bench/drive/handshake.hpp"
 #include "bench/estimators/of_scenario.hpp"
-#include "bench/observe/contract_watch.hpp"
-#include "bench/observe/monitor.hpp"
+#include "bench/protocol/contract_watch.hpp"
+#include "bench/protocol/monitor.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::drive {
@@ -23,17 +23,17 @@ class ContractDialect final : public Dialect {
   }
   [[nodiscard]] bool watches_frames_alone() const override { return true; }
   std::unique_ptr<observe::Watcher> watcher(bool with_times) override {
-    if (!with_times) return std::make_unique<observe::Monitor>();
+    if (!with_times) return std::make_unique<protocol::Monitor>();
     WireFacts wire = of_.wire;
     wire.fd = of_.format == BusFormat::fd;
-    return std::make_unique<observe::Monitor>(
-        observe::Asked{.windows = checks::timed_windows(of_.scenario.checks),
-                       .wire = wire,
-                       .takers = estimators::takers(of_.scenario),
-                       .own_interval_s = estimators::own_intervals_s(of_.scenario)});
+    return std::make_unique<protocol::Monitor>(
+        protocol::Asked{.windows = checks::timed_windows(of_.scenario.checks),
+                        .wire = wire,
+                        .takers = estimators::takers(of_.scenario),
+                        .own_interval_s = estimators::own_intervals_s(of_.scenario)});
   }
   std::unique_ptr<observe::TargetWatch> target_watch(bool alone) override {
-    return std::make_unique<observe::ContractWatch>(alone);
+    return std::make_unique<protocol::ContractWatch>(alone);
   }
   Result<void> configure(Link& link, nodes::Transmission& out,
                          const std::function<std::optional<std::string>()>& gone) override {

@@ -7,7 +7,7 @@
 
 #include "bench/drive/dialect.hpp"
 #include "bench/drive/target_dialogue.hpp"
-#include "bench/observe/heartbeat_errors.hpp"
+#include "bench/protocol/heartbeat_errors.hpp"
 #include "target/device/device.hpp"
 
 namespace canhil::drive {
@@ -18,7 +18,10 @@ using namespace messages;
 constexpr std::int64_t several_syncs_ns = 8 * Sync::info.cycle_time_us * 1000;
 
 TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {
-  return {.command = what, .estimator = estimator, .algorithm = algorithm, .dbc_hash = dbc_hash24};
+  return {.command = what,
+          .estimator = estimator,
+          .algorithm = algorithm,
+          .dbc_hash = exchange_hash24(name_of(estimator))};
 }
 
 // The range in hil-target; another target may accept another range.
@@ -88,8 +91,21 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
   return {};
 }
 
+// Returns an error if the target exchanges other messages than the bench. The hash of an estimator that the
+// bench does not know says nothing.
+Result<void> same_messages(const TargetHeartbeat& heartbeat, const std::string& bus) {
+  const std::string_view estimator = name_of(heartbeat.estimator);
+  const std::uint32_t expected = exchange_hash24(estimator);
+  if (estimator.empty() || heartbeat.dbc_hash == expected) return {};
+  return failure(
+      fmt::format("target on '{}': DBC hash {:06x}, expected {:06x}: target and bench are built from "
+                  "different DBC files{}",
+                  bus, heartbeat.dbc_hash, expected,
+                  heartbeat.estimator == Estimator::none ? "" : fmt::format(" for '{}'", estimator)));
+}
+
 // Finds the target. Checks that the bus has no second target and no other bench, and that the target is built
-// from this DBC.
+// from the same messages.
 Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) {
   const Mailbox& box = dialogue.mailbox();
   auto found = dialogue.until(
@@ -106,13 +122,7 @@ Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) 
   if (box.other_bench) {
     return failure(fmt::format("bus '{}': another bench is at work here, expected to be the only one", bus));
   }
-  if (box.heartbeat->dbc_hash != dbc_hash24) {
-    return failure(
-        fmt::format("target on '{}': DBC hash {:06x}, expected {:06x}: target and bench are built from "
-                    "different DBC files",
-                    bus, box.heartbeat->dbc_hash, dbc_hash24));
-  }
-  return {};
+  return same_messages(*box.heartbeat, bus);
 }
 
 // Selects an estimator and configures it. `selection`: the command `reset`, which removes all other
@@ -125,6 +135,8 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
     return failure(
         fmt::format("estimator '{}' with algorithm '{}': not in the DBC", setup.estimator, setup.algorithm));
   }
+  const bool refused_before =
+      dialogue.mailbox().heartbeat && dialogue.mailbox().heartbeat->error_dbc_mismatch != 0;
   dialogue.mailbox().forget_heartbeats();
   auto selected = dialogue.until(
       {.doing = selection == Command::reset ? "being reset" : fmt::format("adding '{}'", setup.estimator),
@@ -136,16 +148,24 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
         const bool as_commanded = box.heartbeat->estimator == *estimator &&
                                   box.heartbeat->algorithm == *algorithm &&
                                   box.heartbeat->state == TargetState::idle;
-        return as_commanded || box.heartbeat->error_command != 0;
+        return as_commanded || box.heartbeat->error_command != 0 ||
+               (box.heartbeat->error_dbc_mismatch != 0 && !refused_before);
       });
   if (!selected) return selected;
+  if (dialogue.mailbox().heartbeat->error_dbc_mismatch != 0) {
+    return failure(fmt::format(
+        "target on '{}': refuses the DBC hash {:06x} of the messages for '{}': target and bench are built "
+        "from different DBC files",
+        bus, exchange_hash24(setup.estimator), setup.estimator));
+  }
   if (dialogue.mailbox().heartbeat->error_command != 0) {
     return failure(fmt::format(
         "{}: the target on '{}' does not offer '{}' for '{}'{}, expected one of: {}; its errors: {}",
         setup.algorithm_where, bus, setup.algorithm, setup.estimator,
         selection == Command::add ? " beside others" : "", algorithms_of(*estimator),
-        observe::errors_of(*dialogue.mailbox().heartbeat)));
+        protocol::errors_of(*dialogue.mailbox().heartbeat)));
   }
+  if (auto same = same_messages(*dialogue.mailbox().heartbeat, bus); !same) return same;
   for (const scenario::Parameter& parameter : setup.parameters) {
     if (auto set = set_parameter(dialogue, *estimator, parameter); !set) return set;
   }

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/observe/decode_from_target.hpp"
-#include "bench/observe/heartbeat_errors.hpp"
+#include "bench/protocol/decode_from_target.hpp"
+#include "bench/protocol/heartbeat_errors.hpp"
 #include "dbc/wire/transmit.hpp"
 
 namespace canhil::drive {
@@ -20,18 +20,18 @@ std::string parameter_name(Parameter parameter) {
 
 std::string to_text(const TargetHeartbeat& beat) {
   return fmt::format("state {}, estimator {}, algorithm {}, errors: {}", name_of(beat.state),
-                     name_of(beat.estimator), name_of(beat.algorithm), observe::errors_of(beat));
+                     name_of(beat.estimator), name_of(beat.algorithm), protocol::errors_of(beat));
 }
 
 }  // namespace
 
 void Mailbox::received(const Received& received) {
-  if (const auto beat = observe::decode_from_target<TargetHeartbeat>(received)) {
+  if (const auto beat = protocol::decode_from_target<TargetHeartbeat>(received)) {
     heartbeat = beat;
     beats_[static_cast<std::size_t>(beat->estimator)] = *beat;
   }
-  if (const auto ack = observe::decode_from_target<ParamAck>(received)) acknowledgement = ack;
-  if (observe::decode_from_target<Sync>(received)) other_bench = true;
+  if (const auto ack = protocol::decode_from_target<ParamAck>(received)) acknowledgement = ack;
+  if (protocol::decode_from_target<Sync>(received)) other_bench = true;
 }
 
 void Mailbox::foreign(const Received& received) {
@@ -53,7 +53,7 @@ Result<void> Dialogue::until(const Step& step, const Request& request, const Con
       return failure(fmt::format("bus '{}': gone while {}", link_.port().name(), step.doing));
     if (second_.found())
       return failure(fmt::format("target on '{}': {}, expected to be the only one", link_.port().name(),
-                                 observe::SecondTarget::complaint));
+                                 protocol::SecondTarget::complaint));
     if (condition(mailbox_)) return {};
     if (const auto why = gone_()) return failure(fmt::format("{} while {}", *why, step.doing));
     if (link_.now_ns() >= deadline_ns) return failure(complaint(step));

@@ -10,8 +10,8 @@
 
 #include "bench/drive/link.hpp"
 #include "bench/nodes/node.hpp"
-#include "bench/observe/second_target.hpp"
-#include "bench/observe/sightings.hpp"
+#include "bench/protocol/second_target.hpp"
+#include "bench/protocol/sightings.hpp"
 #include "dbc/wire/result.hpp"
 #include "messages/canhil.hpp"
 
@@ -85,8 +85,8 @@ class Dialogue {
   nodes::Transmission& out_;
   const Gone& gone_;
   Mailbox mailbox_;
-  observe::SecondTarget second_;
-  observe::Sightings sightings_;  // frames received in the current step
+  protocol::SecondTarget second_;
+  protocol::Sightings sightings_;  // frames received in the current step
   Attached attached_, second_attached_, sightings_attached_;
 };
 

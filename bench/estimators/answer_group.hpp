@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "bench/checks/reception.hpp"
-#include "bench/spool/in_order.hpp"
+#include "dbc/spool/in_order.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/sample_group.hpp"
 #include "dbc/wire/time_base.hpp"

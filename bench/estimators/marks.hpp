@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "bench/spool/spool.hpp"
+#include "dbc/spool/spool.hpp"
 
 namespace canhil::estimators {
 

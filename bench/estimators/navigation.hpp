@@ -7,10 +7,10 @@
 
 #include "bench/estimators/answer_group.hpp"
 #include "bench/quantities/track.hpp"
-#include "bench/spool/spool.hpp"
 #include "bench/world/attitude.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/units.hpp"
+#include "dbc/spool/spool.hpp"
 
 namespace canhil::estimators {
 

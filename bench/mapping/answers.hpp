@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "bench/mapping/mapping.hpp"
-#include "bench/spool/in_order.hpp"
+#include "dbc/spool/in_order.hpp"
 
 namespace canhil::mapping {
 

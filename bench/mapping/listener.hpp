@@ -1,4 +1,4 @@
-// Turns frames of a mapped target into observations, as observe::Monitor does for canhil's own DBC.
+// Turns frames of a mapped target into observations, as protocol::Monitor does for canhil's own DBC.
 #pragma once
 
 #include <map>

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "bench/quantities/quantity.hpp"
-#include "bench/spool/spool.hpp"
+#include "dbc/spool/spool.hpp"
 
 namespace canhil::quantities {
 

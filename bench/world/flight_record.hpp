@@ -10,8 +10,8 @@
 
 #include <cstdint>
 
-#include "bench/spool/spool.hpp"
 #include "bench/world/motion.hpp"
+#include "dbc/spool/spool.hpp"
 
 namespace canhil::world {
 

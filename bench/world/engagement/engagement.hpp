@@ -5,9 +5,9 @@
 #include <Eigen/Core>
 #include <deque>
 
-#include "bench/spool/spool.hpp"
 #include "bench/world/engagement/plan.hpp"
 #include "bench/world/stream.hpp"
+#include "dbc/spool/spool.hpp"
 
 namespace canhil::world {
 

@@ -55,13 +55,16 @@ STANDARD_HEADER = re.compile(r"[a-z_]+$")  # <cmath>, never <math.h>
 MACHINE_PATH = re.compile(r"(?<![\w.~})\-])/(?:work|root|home/\w+|Users/\w+|builds)/")
 
 
+DEEPEST = 9  # so many folders of the bench may stand on each other
+
+
 def check(root):
     root = Path(root)
     files = sorted(p for p in root.rglob("*") if p.is_file() and not SKIPPED & set(p.relative_to(root).parts))
     texts = {p.relative_to(root).as_posix(): p.read_text(encoding="utf-8", errors="replace") for p in files}
     sources = {n: t for n, t in texts.items() if n.split("/")[0] in CODE and n.endswith((".hpp", ".cpp"))}
     graph = {name: includes(text) for name, text in sources.items()}
-    return [*direct_breaches(graph), *reach_breaches(graph), *cycle_breaches(graph), *size_breaches(sources),
+    return [*direct_breaches(graph), *reach_breaches(graph), *cycle_breaches(graph), *depth_breaches(graph), *size_breaches(sources),
             *name_breaches(texts), *machine_path_breaches(texts), *quantity_breaches(sources),
             *estimator_breaches(sources), *named_test_breaches(texts), *node_breaches(sources, graph),
             *dbc_breaches(texts, sources)]
@@ -145,12 +148,34 @@ def reach_breaches(graph):
                         ways.append((*way, other))
 
 
-def cycle_breaches(graph):
+def folder_edges(graph):
+    """{folder: {folder that it includes: an example}}"""
     edges = {}
     for name, included in graph.items():
         for _, _, other in included:
             if is_project(other) and part(other) != part(name):
                 edges.setdefault(part(name), {}).setdefault(part(other), f"{name} includes {other}")
+    return edges
+
+
+def depth_breaches(graph):
+    edges = {folder: [other for other in others if other.startswith("bench/")]
+             for folder, others in folder_edges(graph).items() if folder.startswith("bench/")}
+    longest = {}
+
+    def way_from(folder, above=()):
+        if folder not in longest and folder not in above:
+            ways = [way_from(other, (*above, folder)) for other in edges.get(folder, ())]
+            longest[folder] = [folder, *max(ways, key=len, default=[])]
+        return longest.get(folder, [])
+
+    way = max((way_from(folder) for folder in edges), key=len, default=[])
+    if len(way) > DEEPEST:
+        yield f"{' > '.join(way)}: {len(way)} folders, expected at most {DEEPEST}"
+
+
+def cycle_breaches(graph):
+    edges = folder_edges(graph)
     reported = set()
 
     def visit(node, way):

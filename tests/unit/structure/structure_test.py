@@ -90,7 +90,7 @@ class Checker(unittest.TestCase):
                     "bench/estimators/registry.cpp": "const Estimator& one = odometry;\n",
                     "bench/papers/odometry/claims.cpp": 'auto name = "odometry";\n'}
         self.assertEqual(breaches_of({**odometry, "bench/drive/x.cpp": 'int odometry = 0; auto s = "odometry of a car";\n'}), [])
-        for name in ("bench/observe/monitor.cpp", "bench/checks/kinds/error.cpp", "bench/scenario/target_setup.cpp", "bench/nodes/registry.cpp"):
+        for name in ("bench/protocol/monitor.cpp", "bench/checks/kinds/error.cpp", "bench/scenario/target_setup.cpp", "bench/nodes/registry.cpp"):
             for text in ('if (name == "odometry") return;\n', "auto speed = from_frame<OdometrySpeed>(frame);\n"):
                 with self.subTest(name=name, text=text):
                     self.expect(f"{name}:1: names", {**odometry, name: text})
@@ -142,6 +142,13 @@ class Checker(unittest.TestCase):
 
         self.assertEqual(breaches_of({"bench/world/truth.hpp": '#include "bench/world/motion/turn.hpp"\n',
                                       "bench/world/motion/turn.hpp": '#include "bench/world/earth.hpp"\n'}), [])
+
+    def test_folders_are_not_deep(self):
+        def tower(floors):
+            return {f"bench/floor{i}/x.hpp": f'#include "bench/floor{i + 1}/x.hpp"\n' for i in range(floors - 1)}
+
+        self.assertEqual(breaches_of(tower(9)), [])
+        self.expect("10 folders, expected at most 9", tower(10))
 
     def test_every_spelling_of_an_include_is_seen(self):
         for line in ('#include"bench/world/truth.hpp"', '  #  include\t"bench/world/truth.hpp" // why',

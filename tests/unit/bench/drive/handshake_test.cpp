@@ -51,7 +51,10 @@ class Handshake : public testing::Test {
       beat();
     }
   }
-  void beat() { port_.give(heartbeat_); }
+  void beat() {
+    heartbeat_.dbc_hash = exchange_hash24(name_of(heartbeat_.estimator)) ^ other_;
+    port_.give(heartbeat_);
+  }
 
   Result<void> configure() {
     nodes::Transmission out;
@@ -63,7 +66,8 @@ class Handshake : public testing::Test {
   [[nodiscard]] auto sent(std::uint32_t id) const { return std::ranges::count(port_.sent, id, &Frame::id); }
 
   FakePort port_;
-  TargetHeartbeat heartbeat_{.dbc_hash = dbc_hash24};
+  TargetHeartbeat heartbeat_;
+  std::uint32_t other_ = 0;  // the difference of the target's hash
   scenario::TargetSetup setup_{
       .estimator = "transfer_alignment",
       .algorithm = "robust_h2",
@@ -139,12 +143,39 @@ TEST_F(Handshake, AHeartbeatOfTheLastRunIsNotTheAnswerToAReset) {
 }
 
 TEST_F(Handshake, RefusesATargetOfAnotherDbcWithoutCommandingIt) {
-  heartbeat_.dbc_hash ^= 1U;
+  other_ = 1;
   beat();
   const auto done = configure();
   ASSERT_FALSE(done);
   EXPECT_THAT(done.error().message, HasSubstr("different DBC files"));
   EXPECT_TRUE(port_.sent.empty());
+}
+
+TEST_F(Handshake, RefusesATargetWhoseMessagesForTheEstimatorDiffer) {
+  port_.on_send = [this](const Frame& frame) {
+    if (frame.id == TargetCommand::info.id) heartbeat_.error_dbc_mismatch = 1;  // and stays as it is
+    beat();
+  };
+  const auto refused = configure();
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("of the messages for 'transfer_alignment'"));
+  port_.on_send = [this](const Frame& frame) {
+    other_ = 1;  // a target that does not compare
+    answer(frame);
+  };
+  heartbeat_.error_dbc_mismatch = 0;
+  beat();
+  const auto differs = configure();
+  ASSERT_FALSE(differs);
+  EXPECT_THAT(differs.error().message, HasSubstr("from different DBC files for 'transfer_alignment'"));
+}
+
+TEST_F(Handshake, TakesATargetThatRunsAnEstimatorOfANewerContract) {
+  heartbeat_.estimator = Estimator{7};
+  other_ = 1;
+  beat();
+  other_ = 0;
+  EXPECT_TRUE(configure());
 }
 
 TEST_F(Handshake, NamesAnEstimatorThatTheTargetDoesNotOffer) {
@@ -216,7 +247,7 @@ TEST_F(Handshake, NamesABusThatIsDown) {
 
 TEST_F(Handshake, AHeartbeatWithAWrongCrcIsNone) {
   FakePort port;
-  port.target.send(TargetHeartbeat{.dbc_hash = dbc_hash24 ^ 1U});
+  port.target.send(TargetHeartbeat{.dbc_hash = exchange_hash24() ^ 1U});
   Frame frame = port.target.frames().front();
   frame.data[0] ^= 1U;
   port_.give(frame);

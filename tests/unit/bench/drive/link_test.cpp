@@ -1,6 +1,6 @@
 // A bus that delivers more frames than the bench can process.
 #include "bench/drive/link.hpp"
-#include "bench/observe/contract_watch.hpp"
+#include "bench/protocol/contract_watch.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -134,7 +134,7 @@ class Flooded : public testing::Test {
   Ending run() { return run_until_silent(60 * ns_per_s); }
   Ending run_until_silent(std::int64_t silence_limit_ns) {
     Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(50'000, false));
-    observe::ContractWatch watch;
+    protocol::ContractWatch watch;
     return run_real_time(link_, schedule, watch, silence_limit_ns, stop_, [](std::int64_t) {});
   }
   FloodedPort port_;

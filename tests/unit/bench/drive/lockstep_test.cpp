@@ -1,5 +1,5 @@
 #include "bench/drive/lockstep.hpp"
-#include "bench/observe/contract_watch.hpp"
+#include "bench/protocol/contract_watch.hpp"
 
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@ class Lockstep : public testing::Test {
   Ending run(std::int64_t step_limit_ns = 50'000'000) {
     Link link(port_);
     Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(50'000, true));
-    observe::ContractWatch watch;
+    protocol::ContractWatch watch;
     return run_lockstep(link, schedule, watch, step_limit_ns, stop_, [](std::int64_t) {});
   }
   static std::uint16_t step_of(const Frame& frame) { return from_frame<Sync>(frame).step; }

@@ -1,5 +1,5 @@
 #include "bench/drive/real_time.hpp"
-#include "bench/observe/contract_watch.hpp"
+#include "bench/protocol/contract_watch.hpp"
 
 #include <gmock/gmock.h>
 #include <linux/can/error.h>
@@ -24,7 +24,7 @@ class RealTime : public testing::Test {
   Ending run(std::int64_t silence_limit_ns) {
     Link link(port_);
     Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(50'000, false));
-    observe::ContractWatch watch;
+    protocol::ContractWatch watch;
     return run_real_time(link, schedule, watch, silence_limit_ns, stop_, [](std::int64_t) {});
   }
   static constexpr std::int64_t patient_ns = 60'000'000'000;
@@ -64,7 +64,7 @@ TEST_F(RealTime, LooksAtTheBusAllTheTimeThatItSpins) {
     SilentPort port;
     Link link(port);
     Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(50'000, false));
-    observe::ContractWatch watch;
+    protocol::ContractWatch watch;
     EXPECT_EQ(run_real_time(
                   link, schedule, watch, patient_ns, stop_, [](std::int64_t) {}, spin_ns)
                   .kind,
@@ -93,7 +93,7 @@ TEST_F(RealTime, ASignalThatEndsAWaitMakesNoFrameEarly) {
   const auto before = std::signal(SIGALRM, [](int) {});
   const itimerval often{.it_interval = {0, 1000}, .it_value = {0, 1000}}, never{};
   ::setitimer(ITIMER_REAL, &often, nullptr);
-  observe::ContractWatch watch;
+  protocol::ContractWatch watch;
   const Ending ending = run_real_time(link, schedule, watch, patient_ns, stop_, [](std::int64_t) {});
   ::setitimer(ITIMER_REAL, &never, nullptr);
   std::signal(SIGALRM, before);

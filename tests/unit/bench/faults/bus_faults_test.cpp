@@ -1,7 +1,7 @@
 // Faults of frames on their way to the bus, and the other faults of the bus and of the target.
 #include <algorithm>
 
-#include "bench/observe/receiver_model.hpp"
+#include "bench/protocol/receiver_model.hpp"
 #include "tests/unit/bench/faults/flown_with_faults.hpp"
 
 namespace canhil::faults {

@@ -1,6 +1,6 @@
 // Detects two targets on one bus, and does not mistake one target for two.
-#include "bench/observe/second_target.hpp"
-#include "bench/observe/contract_watch.hpp"
+#include "bench/protocol/second_target.hpp"
+#include "bench/protocol/contract_watch.hpp"
 
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@
 #include "target/device/device.hpp"
 #include "tests/unit/bench/drive/fake_port.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 namespace {
 
 using namespace drive;
@@ -118,13 +118,13 @@ class Targets : public testing::Test {
   Ending lockstep() {
     Link link(port_);
     Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(2'000'000, true));
-    observe::ContractWatch watch;
+    protocol::ContractWatch watch;
     return run_lockstep(link, schedule, watch, 5'000'000'000, stop_, [](std::int64_t) {});
   }
   Ending real_time() {
     Link link(port_);
     Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(2'000'000, false));
-    observe::ContractWatch watch;
+    protocol::ContractWatch watch;
     return run_real_time(link, schedule, watch, 5'000'000'000, stop_, [](std::int64_t) {});
   }
   FakePort port_;
@@ -155,4 +155,4 @@ TEST_F(OneTarget, IsOne) {
 }
 
 }  // namespace
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

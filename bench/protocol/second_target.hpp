@@ -8,7 +8,7 @@
 
 #include "bench/observe/observer.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 
 /// Watches messages in which a target reports its own state (heartbeats, acknowledgements, ends of steps,
 /// timing, counters). Each message carries a counter that increases by one. If the counter of a frame
@@ -16,7 +16,7 @@ namespace canhil::observe {
 /// have different senders. Several such frames within a short time mean a second target. Lost frames do not
 /// have this effect: almost a whole period of the counter would have to be lost repeatedly, each time within
 /// a few heartbeats.
-class SecondTarget final : public Observer {
+class SecondTarget final : public observe::Observer {
  public:
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
@@ -41,4 +41,4 @@ class SecondTarget final : public Observer {
   bool found_ = false;
 };
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

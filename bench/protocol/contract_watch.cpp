@@ -1,17 +1,17 @@
-#include "bench/observe/contract_watch.hpp"
+#include "bench/protocol/contract_watch.hpp"
 
 #include <fmt/format.h>
 
-#include "bench/observe/decode_from_target.hpp"
-#include "bench/observe/heartbeat_errors.hpp"
+#include "bench/protocol/decode_from_target.hpp"
+#include "bench/protocol/heartbeat_errors.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 
 void ContractWatch::received(const Received& received) {
   if (!alone_) second_.received(received);
   if (received.own || target_messages(received.frame) == Routes::nowhere) return;
   heard_ = true;
-  if (const auto done = observe::decode_from_target<messages::StepDone>(received))
+  if (const auto done = protocol::decode_from_target<messages::StepDone>(received))
     done_ = done_ || done->step == awaited_;
   if (const auto beat = fault_in(received)) fault_ = beat;
 }
@@ -30,4 +30,4 @@ bool ContractWatch::closes_step(const Frame& frame) {
 
 std::string ContractWatch::step() const { return fmt::format("step {}", awaited_); }
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

@@ -1,15 +1,15 @@
-#include "bench/observe/sightings.hpp"
+#include "bench/protocol/sightings.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "bench/observe/decode_from_target.hpp"
+#include "bench/protocol/decode_from_target.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/transmit.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 
 bool look_at(const Frame& frame, const MessageInfo& message, checks::Sighting& sighting) {
   if (frame.size != message.size || frame.fd != message.fd) {
@@ -78,4 +78,4 @@ std::string Sightings::to_text() const {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

@@ -1,5 +1,5 @@
 // A series whose items came out of order.
-#include "bench/spool/in_order.hpp"
+#include "dbc/spool/in_order.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "bench/observe/second_target.hpp"
+#include "bench/protocol/second_target.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -7,7 +7,7 @@
 #include "dbc/wire/e2e.hpp"
 #include "messages/canhil.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 namespace {
 
 using namespace messages;
@@ -61,4 +61,4 @@ bool SecondTarget::continues_an_earlier_one(const History& history, const Seen& 
          std::ranges::any_of(history, precedes);
 }
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

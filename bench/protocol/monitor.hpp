@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "bench/checks/reception.hpp"
-#include "bench/observe/receiver_model.hpp"
 #include "bench/observe/stopwatch.hpp"
 #include "bench/observe/watcher.hpp"
+#include "bench/protocol/receiver_model.hpp"
 #include "dbc/wire/e2e.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 
 /// What a verdict needs in addition to the answers.
 struct Asked {
@@ -26,7 +26,7 @@ struct Asked {
 };
 
 /// Watches a run from the target's start on.
-class Monitor final : public Watcher {
+class Monitor final : public observe::Watcher {
  public:
   /// Without `asked`, the monitor measures no times. A campaign saves this work in its thousands of runs,
   /// because a campaign judges no times.
@@ -44,7 +44,7 @@ class Monitor final : public Watcher {
   void echoed(const Received& received);
   void decode(const Frame& frame, std::size_t index);
   checks::Observations seen_;
-  std::optional<Stopwatch> stopwatch_;
+  std::optional<observe::Stopwatch> stopwatch_;
   Takers takers_;
   std::optional<ReceiverModel> model_;
   bool sent_any_ = false;
@@ -56,4 +56,4 @@ class Monitor final : public Watcher {
   std::int64_t now_us_ = 0;  // time of the last Sync
 };
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

@@ -3,12 +3,12 @@
 
 #include <utility>
 
-#include "bench/observe/monitor.hpp"
+#include "bench/protocol/monitor.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/carriers.hpp"
 #include "dbc/wire/transmit.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 namespace {
 
 using namespace messages;
@@ -146,4 +146,4 @@ TEST(Carriers, AreTheFramesOfTheContract) {
 }
 
 }  // namespace
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

@@ -1,12 +1,12 @@
 // The counts that a receiver must report for frames that are missing, damaged, repeated or out of date.
-#include "bench/observe/receiver_model.hpp"
+#include "bench/protocol/receiver_model.hpp"
 
 #include <gmock/gmock.h>
 
 #include "dbc/wire/time_base.hpp"
 #include "dbc/wire/transmit.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 namespace {
 
 using namespace messages;
@@ -167,4 +167,4 @@ TEST_F(Model, InRealTimeTheTargetMayBeAPeriodOfItsCountersBehind) {
 }
 
 }  // namespace
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

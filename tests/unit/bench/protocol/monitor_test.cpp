@@ -1,4 +1,4 @@
-#include "bench/observe/monitor.hpp"
+#include "bench/protocol/monitor.hpp"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@
 #include "bench/estimators/transfer_alignment/answers.hpp"
 #include "dbc/wire/time_base.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 namespace {
 
 using namespace messages;
@@ -406,7 +406,8 @@ TEST_F(Watched, AFrameThatIsNotEchoedHasNoTimeOnTheBus) {
 }
 
 TEST_F(Watched, AnswersToWhatIsLongPastAnswerNothing) {
-  for (std::size_t k = 0; k <= Stopwatch::remembered; ++k) imu(static_cast<std::int64_t>(k) * 5'000, 0);
+  for (std::size_t k = 0; k <= observe::Stopwatch::remembered; ++k)
+    imu(static_cast<std::int64_t>(k) * 5'000, 0);
   answer(0);
   EXPECT_EQ(latency<AlignVelocityD>().count(), 0U);
   EXPECT_EQ(seen().timing.answers[message_index<AlignVelocityD>()].unpaired, 1U);
@@ -499,4 +500,4 @@ TEST_F(OnAWire, AStimulusIsAnsweredWithItsLastAnswer) {
 }
 
 }  // namespace
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

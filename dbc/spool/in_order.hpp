@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/spool/spool.hpp"
+#include "dbc/spool/spool.hpp"
 
 namespace canhil {
 

@@ -1,10 +1,10 @@
-#include "bench/observe/heartbeat_errors.hpp"
+#include "bench/protocol/heartbeat_errors.hpp"
 
 #include <fmt/format.h>
 
-#include "bench/observe/decode_from_target.hpp"
+#include "bench/protocol/decode_from_target.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 
 std::string errors_of(const messages::TargetHeartbeat& heartbeat) {
   constexpr std::string_view error = "error_";
@@ -30,4 +30,4 @@ std::optional<messages::TargetHeartbeat> fault_in(const Received& received) {
   return beat;
 }
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

@@ -11,13 +11,13 @@
 #include "bench/observe/observer.hpp"
 #include "messages/canhil.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 
 /// Looks for a defect in a frame that has the id of `message`, and counts the frame by its defect. Returns
 /// true if the frame has no defect.
 bool look_at(const Frame& frame, const MessageInfo& message, checks::Sighting& sighting);
 
-class Sightings final : public Observer {
+class Sightings final : public observe::Observer {
  public:
   void received(const Received& received) override;
   /// Resets all counts.
@@ -49,4 +49,4 @@ class Sightings final : public Observer {
   Seen seen_;
 };
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

@@ -7,7 +7,7 @@
 #include "dbc/ports/port.hpp"
 #include "messages/canhil.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 
 /// "input_lost, numeric" with the DBC's names, or "none".
 std::string errors_of(const messages::TargetHeartbeat& heartbeat);
@@ -18,4 +18,4 @@ std::string fault_of(const messages::TargetHeartbeat& heartbeat);
 /// The heartbeat in a received frame, if it reports the state `fault` of an estimator; otherwise none.
 std::optional<messages::TargetHeartbeat> fault_in(const Received& received);
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

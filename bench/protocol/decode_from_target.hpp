@@ -9,7 +9,7 @@
 #include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 
 /// The messages of the target.
 inline constexpr Routes target_messages([](const MessageInfo& info) {
@@ -24,4 +24,4 @@ std::optional<Message> decode_from_target(const Received& received) {
   return from_frame<Message>(received.frame);
 }
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

@@ -1,4 +1,4 @@
-#include "bench/observe/receiver_model.hpp"
+#include "bench/protocol/receiver_model.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,7 @@
 #include "dbc/wire/routes.hpp"
 #include "dbc/wire/transmit.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 namespace {
 
 using namespace messages;
@@ -149,4 +149,4 @@ checks::ExpectedCounts ReceiverModel::expected() const {
   return expected;
 }
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

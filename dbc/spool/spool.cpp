@@ -1,4 +1,4 @@
-#include "bench/spool/spool.hpp"
+#include "dbc/spool/spool.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>

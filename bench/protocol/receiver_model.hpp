@@ -17,7 +17,7 @@
 #include "dbc/wire/frame.hpp"
 #include "messages/canhil.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 
 /// For each sample group, the number of the target's estimators that use it: each estimator counts the groups
 /// that it drops.
@@ -73,4 +73,4 @@ class ReceiverModel {
   bool lockstep_ = false;
 };
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

@@ -1,4 +1,4 @@
-#include "bench/observe/monitor.hpp"
+#include "bench/protocol/monitor.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "bench/estimators/registry.hpp"
-#include "bench/observe/decode_from_target.hpp"
-#include "bench/observe/sightings.hpp"
+#include "bench/protocol/decode_from_target.hpp"
+#include "bench/protocol/sightings.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/time_base.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 namespace {
 
 using namespace messages;
@@ -196,4 +196,4 @@ void Monitor::decode(const Frame& frame, std::size_t index) {
   }
 }
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

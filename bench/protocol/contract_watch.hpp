@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <utility>
 
-#include "bench/observe/second_target.hpp"
 #include "bench/observe/target_watch.hpp"
+#include "bench/protocol/second_target.hpp"
 #include "messages/canhil.hpp"
 
-namespace canhil::observe {
+namespace canhil::protocol {
 
-class ContractWatch final : public TargetWatch {
+class ContractWatch final : public observe::TargetWatch {
  public:
   /// `alone`: no other node can be on the bus, so there is no check for a second target.
   explicit ContractWatch(bool alone = false) : alone_(alone) {}
@@ -35,4 +35,4 @@ class ContractWatch final : public TargetWatch {
   SecondTarget second_;
 };
 
-}  // namespace canhil::observe
+}  // namespace canhil::protocol

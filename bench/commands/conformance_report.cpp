@@ -1,9 +1,10 @@
+#include "bench/commands/conformance_report.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/conformance/conformance.hpp"
 #include "bench/report/run_reports.hpp"
 
 namespace canhil::conformance {
