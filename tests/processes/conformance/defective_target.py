@@ -30,7 +30,7 @@ class AnyContract(Sound):
     """Obeys commands without checking the hash of the DBC in them."""
 
     def on_command(self, command):
-        super().on_command({**command, "dbc_hash": canhil_target.HASH24.get(command["estimator"], 0)})
+        super().on_command({**command, "dbc_hash": canhil_target.HASH24.get(command["estimator"], canhil_target.HASH24["none"])})
 
 
 class AnyEstimator(Sound):

@@ -314,7 +314,7 @@ std::string measured(const nlohmann::json& report, const std::string& name) {
 // What a target with a mapping does not get must not look as if it had an effect.
 TEST_F(Altered, WhatHasNoEffectIsRefused) {
   expect_refused("own_ecu.toml", "[slave_imu]", "[initial_error]\nattitude_deg = [1, 1, 1]\n[slave_imu]",
-                 "key 'initial_error': has no effect: a target with a mapping receives no initial state");
+                 "key 'initial_error': has no effect: with a mapping, only the sensor [start] tells");
   expect_refused("own_ecu.toml", "[slave_imu]", "[engagement]\nguidance = \"target\"\n[seeker]\n[slave_imu]",
                  "key 'engagement.guidance': is 'target', but answers by a mapping do not reach the missile");
 }
