@@ -11,6 +11,8 @@ namespace {
 
 using std::chrono::nanoseconds, std::chrono::steady_clock;
 
+constexpr std::chrono::minutes longest{1};  // a delay beyond all buckets of a histogram
+
 // The memory of the bench may be locked, so each stack takes real memory.
 constexpr std::size_t stack_bytes = 128 * 1024;
 
@@ -48,6 +50,8 @@ CpuStalls::CpuStalls(pid_t process) {
   for (std::size_t cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
     if (!CPU_ISSET(cpu, &cpus)) continue;
     auto probe = std::make_unique<Probe>(Probe{.stop = &stop_});
+    probe->delays.add(nanoseconds(longest).count(),
+                      0);  // allocates all buckets: the thread allocates nothing
     const Attributes attributes(cpu);
     if (pthread_create(&probe->thread, &attributes.of_thread, watch, probe.get()) != 0) continue;
     probes_.push_back(std::move(probe));

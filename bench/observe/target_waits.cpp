@@ -114,6 +114,7 @@ void TargetWaits::look(const std::stop_token& stop) {
   using std::chrono::steady_clock;
   const sched_param ordinary{};  // the priority is for the thread that sends
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+  waits_.add(std::chrono::nanoseconds(std::chrono::minutes(1)).count(), 0);  // allocates all buckets
   auto then = steady_clock::now();
   constexpr std::size_t usual_threads = 64;
   std::vector<ThreadTimes> before, times;
