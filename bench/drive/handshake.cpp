@@ -91,12 +91,11 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
   return {};
 }
 
-// Returns an error if the target exchanges other messages than the bench. The hash of an estimator that the
-// bench does not know says nothing.
+// Returns an error if the target exchanges other messages than the bench in a run with its estimator.
 Result<void> same_messages(const TargetHeartbeat& heartbeat, const std::string& bus) {
   const std::string_view estimator = name_of(heartbeat.estimator);
   const std::uint32_t expected = exchange_hash24(estimator);
-  if (estimator.empty() || heartbeat.dbc_hash == expected) return {};
+  if (heartbeat.dbc_hash == expected) return {};
   return failure(
       fmt::format("target on '{}': DBC hash {:06x}, expected {:06x}: target and bench are built from "
                   "different DBC files{}",
@@ -122,7 +121,8 @@ Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) 
   if (box.other_bench) {
     return failure(fmt::format("bus '{}': another bench is at work here, expected to be the only one", bus));
   }
-  return same_messages(*box.heartbeat, bus);
+  // The messages of an estimator that is left from an earlier run may differ.
+  return box.heartbeat->estimator == Estimator::none ? same_messages(*box.heartbeat, bus) : Result<void>{};
 }
 
 // Selects an estimator and configures it. `selection`: the command `reset`, which removes all other
