@@ -136,9 +136,15 @@ TEST(CpuHog, BesideTheBenchLeavesTimingNotMeasured) {
     for (int i = 0; i < 4; ++i) all.push_back(std::make_unique<Hog>(cpu, 0, 20ms, 20ms));
     return all;
   }();
-  const Ended ended = shell(fmt::format("taskset -c {} {} run {} --json {}", cpu, HIL_BENCH,
-                                        scenario("transfer_alignment_quick"), report));
-  expect_not_measured(ended, read_json(report));
+  // The scheduler may let the bench go first each time that it wakes up. Then the hogs do not delay it, and a
+  // pass is right.
+  for (int chance = 1; chance <= 5; ++chance) {
+    const Ended ended = shell(fmt::format("taskset -c {} {} run {} --json {}", cpu, HIL_BENCH,
+                                          scenario("transfer_alignment_quick"), report));
+    ASSERT_NE(ended.code, 1) << ended.out;
+    if (ended.code != 0) return expect_not_measured(ended, read_json(report));
+  }
+  FAIL() << "the hogs never delayed the bench";
 }
 
 // The hogs run on the CPU of the target, the bench on another one. Whether the target waits depends on the
