@@ -108,10 +108,11 @@ Answered answered(const Observations& seen, std::string_view message, const scen
 
 bool Answered::half() const { return static_cast<double>(came) >= least_answered * static_cast<double>(due); }
 
-Finding too_few(const Observations& seen, std::string_view message, const Answered& found) {
+Finding too_few(const Observations& seen, std::string_view message, const Answered& found,
+                std::string expected) {
   Finding why{.outcome = Outcome::fail,
               .measured = fmt::format("{}: answers to {} of {} samples", message, found.came, found.due),
-              .expected = ""};
+              .expected = std::move(expected)};
   const std::uint64_t lost = lost_to_the_target(seen);
   std::string elsewhere = seen.bus.outages();
   if (found.came > 0 && lost > 0 && found.missing() <= seen.target_frames_lost + lost)

@@ -33,9 +33,10 @@ Answered answered(const Observations& seen, std::string_view message, const scen
 std::optional<Finding> missing_answers(const Observations& seen, std::string_view message,
                                        const scenario::Window& window);
 
-/// The finding for a check that fails because answers are missing; its `expected` is empty. The outcome is
-/// 'not measured' if the target need not be the cause.
-Finding too_few(const Observations& seen, std::string_view message, const Answered& found);
+/// The finding for a check that fails because answers are missing. The outcome is 'not measured' if the
+/// target need not be the cause.
+Finding too_few(const Observations& seen, std::string_view message, const Answered& found,
+                std::string expected = "");
 
 /// Whether a message is the last one of an answer group, or has no group. `index`: its index in `messages`.
 bool closes_answer(std::span<const MessageInfo> messages, std::size_t index);

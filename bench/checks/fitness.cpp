@@ -103,8 +103,7 @@ Finding unless_host_disturbed(const Evidence& evidence, double quantile, double 
   finding.outcome = Outcome::not_measured;
   finding.measured += fmt::format(
       "; {} of {} are beyond the limit, and this host can have caused {}: {} of the bench's stimuli were "
-      "off, "
-      "and the target had no CPU {} times, each by more than {:g} % of the limit",
+      "off, and the target had no CPU {} times, each by more than {:g} % of the limit",
       times.outside, times.count, std::min(times.outside, late + delayed), late,
       waits.count_above(most_s * 1e9) + stalls.count_above(most_s * 1e9), lateness_share * 100);
   return finding;

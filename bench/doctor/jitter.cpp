@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "dbc/ports/port.hpp"
+#include "dbc/realtime/wake_ups.hpp"
 
 namespace canhil::doctor {
 namespace {
@@ -16,20 +17,12 @@ constexpr double weak_p99_s = 1e-3;
 }  // namespace
 
 std::vector<double> measure_jitter(std::int64_t duration_ns, const std::function<bool()>& stop) {
-  constexpr std::int64_t ns_per_s = 1'000'000'000;
   std::vector<double> late_s;
   late_s.reserve(static_cast<std::size_t>(duration_ns / jitter_period_ns) + 1);
-  std::int64_t due_ns = clock_ns(CLOCK_MONOTONIC) + jitter_period_ns;
-  const std::int64_t end_ns = due_ns + duration_ns;
-  while (due_ns < end_ns && !stop()) {
-    const timespec due{.tv_sec = due_ns / ns_per_s, .tv_nsec = due_ns % ns_per_s};
-    if (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) != 0)
-      continue;  // a signal interrupted the sleep
-    const std::int64_t late_ns = clock_ns(CLOCK_MONOTONIC) - due_ns;
-    late_s.push_back(static_cast<double>(late_ns) * 1e-9);
-    // Skips the periods that passed during a late wake-up; otherwise one delay would count several times.
-    due_ns += jitter_period_ns * (1 + late_ns / jitter_period_ns);
-  }
+  const std::int64_t end_ns = clock_ns(CLOCK_MONOTONIC) + jitter_period_ns + duration_ns;
+  realtime::wake_each(
+      jitter_period_ns, [&](std::int64_t due_ns) { return due_ns < end_ns && !stop(); },
+      [&](std::int64_t late_ns) { late_s.push_back(static_cast<double>(late_ns) * 1e-9); });
   return late_s;
 }
 

@@ -2,14 +2,16 @@
 
 #include <sched.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <ctime>
+#include <cstdint>
+#include <utility>
+
+#include "dbc/realtime/wake_ups.hpp"
 
 namespace canhil::observe {
 namespace {
 
-using std::chrono::nanoseconds, std::chrono::steady_clock;
+using std::chrono::nanoseconds;
 
 constexpr std::chrono::minutes longest{1};  // a delay beyond all buckets of a histogram
 
@@ -35,13 +37,6 @@ struct Attributes {
   pthread_attr_t of_thread{};
 };
 
-void sleep_until(steady_clock::time_point deadline) {
-  const nanoseconds since_boot = deadline.time_since_epoch();  // steady_clock is CLOCK_MONOTONIC
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(since_boot);
-  const timespec at{.tv_sec = seconds.count(), .tv_nsec = (since_boot - seconds).count()};
-  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
-}
-
 }  // namespace
 
 CpuStalls::CpuStalls(pid_t process) {
@@ -62,12 +57,9 @@ CpuStalls::~CpuStalls() { end(); }
 
 void* CpuStalls::watch(void* probe) {
   auto& [stop, delays, thread] = *static_cast<Probe*>(probe);
-  for (auto deadline = steady_clock::now() + period; !*stop; deadline += period) {
-    sleep_until(deadline);
-    const auto now = steady_clock::now();
-    delays.add(nanoseconds(now - deadline).count());
-    deadline = std::max(deadline, now - period);  // after a long delay, no wake-ups at once
-  }
+  realtime::wake_each(
+      nanoseconds(period).count(), [&](std::int64_t /*due_ns*/) { return !*stop; },
+      [&](std::int64_t late_ns) { delays.add(late_ns); });
   return nullptr;
 }
 

@@ -7,20 +7,23 @@ namespace canhil::sensors {
 
 /// Sample k is valid at k * period, and is sent one latency after this time. No sample is sent after the end
 /// of the run, because an answer after the end would not be observed. `Settings`: the settings of the
-/// sensor's table.
+/// sensor's table. `first`: the first k; `last`: the last k, if it is not the end of the run that ends the
+/// samples.
 template <class Settings>
 class Sampler : public Sensor {
  public:
-  Sampler(const NodeSettings& node, const Run& run)
+  Sampler(const NodeSettings& node, const Run& run, std::int64_t first = 1,
+          std::optional<std::int64_t> last = {})
       : config_(*node.own<Settings>()),
         run_(run),
         period_us_(node.period_us()),
         latency_us_(node.latency_us()),
-        valid_us_(period_us_) {}
+        valid_us_(first * period_us_),
+        last_us_(last ? *last * period_us_ : never_us) {}
 
   [[nodiscard]] std::int64_t due_us() const final {
     const std::int64_t due_us = valid_us_ + latency_us_;
-    return due_us > run_.flight.end_us() ? never_us : due_us;
+    return valid_us_ > last_us_ || due_us > run_.flight.end_us() ? never_us : due_us;
   }
   Sample measure() final {
     Sample sample{.valid_us = valid_us_, .stamp_us = valid_us_};
@@ -40,6 +43,7 @@ class Sampler : public Sensor {
   std::int64_t period_us_;
   std::int64_t latency_us_;
   std::int64_t valid_us_;
+  std::int64_t last_us_;
 };
 
 }  // namespace canhil::sensors

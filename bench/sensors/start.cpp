@@ -1,9 +1,8 @@
 #include "bench/sensors/start.hpp"
 
-#include <algorithm>
 #include <array>
 
-#include "bench/sensors/kind.hpp"
+#include "bench/sensors/sampler.hpp"
 #include "bench/world/navigation_errors.hpp"
 
 namespace canhil::sensors {
@@ -42,26 +41,17 @@ NodeSettings read(const NodeTable& table, Section& section) {
 }
 
 // All samples have the same errors: somebody measured the state once.
-class Start final : public Sensor {
+class Start final : public Sampler<StartSettings> {
  public:
   Start(const NodeSettings& node, const Run& run)
-      : config_(*node.own<StartSettings>()),
-        run_(run),
-        stream_(run.stream("initial_error")),
-        period_us_(node.period_us()),
-        latency_us_(node.latency_us()) {}
+      : Sampler(node, run, 0, node.own<StartSettings>()->times - 1), stream_(run.stream("initial_error")) {}
 
-  [[nodiscard]] std::int64_t due_us() const override {
-    const std::int64_t due_us = sent_ * period_us_ + latency_us_;
-    return sent_ == config_.times || due_us > run_.flight.end_us() ? never_us : due_us;
-  }
-  Sample measure() override {
-    const std::int64_t t_us = sent_++ * period_us_;
+ private:
+  bool take(std::int64_t t_us, Sample& sample) override {
     world::Stream stream = stream_;
     const world::NavigationSolution state =
         initial_solution(run_.flight.at(t_us), run_.scenario.initial_error, stream);
     const world::Euler angles = world::euler_from(state.C_bn);
-    Sample sample{.valid_us = t_us, .stamp_us = t_us};
     sample.values = {state.position.latitude,
                      state.position.longitude,
                      state.position.height,
@@ -75,15 +65,10 @@ class Start final : public Sensor {
                      config_.velocity_sigma,
                      config_.tilt_sigma,
                      config_.heading_sigma};
-    return sample;
+    return true;
   }
 
- private:
-  const StartSettings config_;
-  const Run run_;
   const world::Stream stream_;
-  std::int64_t period_us_, latency_us_;
-  std::int64_t sent_ = 0;
 };
 
 }  // namespace

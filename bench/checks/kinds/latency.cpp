@@ -48,17 +48,12 @@ Finding Latency::judge(const Evidence& evidence) const {
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
   if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
   const Answered came = answered(evidence.seen, message, window);
-  const auto silent = [&] {
-    Finding missing = too_few(evidence.seen, message, came);
-    missing.expected = expected;
-    return missing;
-  };
-  if (!came.half()) return silent();
+  if (!came.half()) return too_few(evidence.seen, message, came, expected);
   if (auto why = unfit(evidence, quantile, bar_s); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
   if (timed->latency.count() == 0) return {Outcome::fail, "no answers", expected};
   const auto value = quantile_s(timed->latency, quantile, came.missing());
-  if (!value) return silent();
+  if (!value) return too_few(evidence.seen, message, came, expected);
   return unless_host_disturbed(
       evidence, quantile, bar_s,
       {.nominal_s = nominal_period_s(evidence.seen, message),

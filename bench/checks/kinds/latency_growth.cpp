@@ -40,9 +40,8 @@ Finding LatencyGrowth::judge(const Evidence& evidence) const {
   const auto after = quantile_s(late->latency, median, answered(evidence.seen, message, last).missing());
   if (!before || !after) {
     const scenario::Window& window = before ? last : first;
-    Finding missing = too_few(evidence.seen, message, answered(evidence.seen, message, window));
+    Finding missing = too_few(evidence.seen, message, answered(evidence.seen, message, window), expected);
     missing.measured += " " + seconds(window);
-    missing.expected = expected;
     return missing;
   }
   const double before_s = *before, after_s = *after;

@@ -63,9 +63,7 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
   if (auto why = bench_off(evidence, *timed, quantile, nominal * within); !why.empty()) {
     const Answered came = answered(evidence.seen, message, window);
     if (came.half()) return {Outcome::not_measured, std::move(why), expected};
-    Finding missing = too_few(evidence.seen, message, came);
-    missing.expected = expected;
-    return missing;
+    return too_few(evidence.seen, message, came, expected);
   }
   if (timed->period.count() == 0) return {Outcome::fail, "fewer than two arrivals", expected};
   const PeriodDeviation off =
