@@ -56,10 +56,10 @@ CpuStalls::CpuStalls(pid_t process) {
 CpuStalls::~CpuStalls() { end(); }
 
 void* CpuStalls::watch(void* probe) {
-  auto& [stop, delays, thread] = *static_cast<Probe*>(probe);
+  Probe& own = *static_cast<Probe*>(probe);
   realtime::wake_each(
-      nanoseconds(period).count(), [&](std::int64_t /*due_ns*/) { return !*stop; },
-      [&](std::int64_t late_ns) { delays.add(late_ns); });
+      nanoseconds(period).count(), [&](std::int64_t /*due_ns*/) { return !*own.stop; },
+      [&](std::int64_t late_ns) { own.delays.add(late_ns); });
   return nullptr;
 }
 
