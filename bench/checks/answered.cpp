@@ -46,10 +46,6 @@ const Spool<OwedAnswer>* owed_by(const Observations& seen, const MessageInfo& in
   return nullptr;
 }
 
-bool is_canhils(const Observations& seen) {
-  return seen.timing.messages.data() == messages::all_messages.data();
-}
-
 // The frames that the target counts beyond those that the bench withheld or damaged.
 std::uint64_t lost_to_the_target(const Observations& seen) {
   if (!seen.counters) return 0;
@@ -77,12 +73,10 @@ Answered answered(const Observations& seen, std::string_view message, const scen
   if (info == seen.timing.messages.end()) return found;
   const Spool<OwedAnswer>* owed = owed_by(seen, *info);
   if (owed == nullptr) return found;
-  // A mapped target promises no answer to each sample, but a message every cycle, if its DBC has a cycle
-  // time.
-  if (!is_canhils(seen) && info->cycle_time_us == 0) return found;
+  if (!seen.answers_each_sample && info->cycle_time_us == 0) return found;
   const auto own = seen.own_interval_s.find(info->sample_group);
   const std::int64_t interval_us = own != seen.own_interval_s.end() ? std::llround(own->second * 1e6)
-                                   : is_canhils(seen)               ? 0
+                                   : seen.answers_each_sample       ? 0
                                                                     : std::int64_t{info->cycle_time_us};
   const std::int64_t end_us = given_up_us(seen);
   std::optional<std::int64_t> counted_us, before_us;
@@ -127,7 +121,7 @@ std::optional<Finding> missing_answers(const Observations& seen, std::string_vie
                                        const scenario::Window& window) {
   const Answered found = answered(seen, message, window);
   const std::uint64_t missing = found.missing();
-  if (found.half() && (!is_canhils(seen) || missing <= seen.target_frames_lost)) return std::nullopt;
+  if (found.half() && (!seen.answers_each_sample || missing <= seen.target_frames_lost)) return std::nullopt;
   return too_few(seen, message, found);
 }
 

@@ -6,7 +6,14 @@
 namespace canhil::estimators {
 
 void give_tracks(const Estimator& of, const checks::Observations& seen, const Truth& truth,
-                 const quantities::TrackSink& give) {
+                 const quantities::TrackSink& give_away) {
+  const auto give = [&](quantities::Track track) {
+    if (track.quantity->of_engagement && truth.engagement != nullptr) {
+      for (const world::EngagementTruth& epoch : truth.engagement->epochs)
+        track.to_go.push_back({.t_us = epoch.t_us, .to_go_s = epoch.time_to_go()});
+    }
+    give_away(std::move(track));
+  };
   if (truth.flight.is_known()) return of.tracks(seen, truth, give);
   of.tracks(seen, truth, [&](quantities::Track track) {
     if (!track.quantity->white) {

@@ -78,6 +78,8 @@ struct Observations {
   std::int64_t last_ns = 0;    ///< stamp of the bench's last transmission
   wire::BitRates bit_rates{};  ///< bit rates of the bus; nominal 0: the rate is unknown, or the bus has none
   TimingRecord timing;         ///< empty where no times are measured
+  /// The target owes each sample an answer; false: only a message every cycle, if its DBC has a cycle time.
+  bool answers_each_sample = true;
   bool transmit_stamps_echoed = false;  ///< stamps of stimuli come from the echo on the bus, not the bench
 
   std::optional<messages::TargetCounters> counters;  ///< the last counters that the target sent

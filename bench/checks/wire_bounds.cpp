@@ -16,8 +16,6 @@ namespace {
 
 using schedulability::Stream;
 
-bool is_targets(const MessageInfo& info) { return info.sender == messages::TargetHeartbeat::info.sender; }
-
 bool was_seen(const TimingRecord& timing, std::size_t index) {
   return timing.transmit[index].handed_over.count() > 0 || timing.answers[index].last_ns;
 }

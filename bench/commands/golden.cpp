@@ -17,6 +17,7 @@
 #include "bench/drive/target_command.hpp"
 #include "bench/observe/divergence.hpp"
 #include "bench/report/file.hpp"
+#include "bench/scenario/binding.hpp"
 #include "dbc/files/command_files.hpp"
 #include "dbc/files/text_file.hpp"
 
@@ -47,7 +48,7 @@ Golden golden(const fs::path& folder, const fs::path& scenario) {
 // A scenario that can be kept. The frames of a target with a mapping have neither a time base nor values that
 // observe::compare() knows.
 Result<scenario::Scenario> keepable(Result<scenario::Scenario> read, const std::string& file) {
-  if (read && read->foreign != nullptr)
+  if (read && !read->binding->time_base)
     return failure(
         fmt::format("{}: has a mapping, expected a scenario for a target with canhil's DBC", file));
   return read;

@@ -23,13 +23,14 @@
 #include "bench/drive/inputs.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/live/terminal.hpp"
+#include "bench/nodes/registry.hpp"
 #include "bench/observe/recorder.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/commands.hpp"
 #include "bench/scenario/nearest.hpp"
 #include "dbc/files/command_files.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/realtime/command_line.hpp"
-#include "messages/canhil.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -68,21 +69,17 @@ std::string plain(std::string name) {
 // Parses NODE=BUS, and replaces NODE by the name of the node in the DBC. The frames of the bench itself and
 // of the target always use --bus.
 Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text) {
-  std::vector<std::string_view> nodes;
-  for (const MessageInfo& info : messages::all_messages) {
-    if (info.sender == messages::Sync::info.sender || info.sender == messages::TargetHeartbeat::info.sender)
-      continue;
-    if (std::ranges::find(nodes, info.sender) == nodes.end()) nodes.push_back(info.sender);
-  }
+  std::vector<std::string_view> senders;
+  for (const nodes::Kind* kind : nodes::all()) senders.push_back(kind->table.closes->sender);
   const std::size_t equals = text.find('=');
-  const auto node = std::ranges::find_if(nodes, [&](std::string_view name) {
+  const auto node = std::ranges::find_if(senders, [&](std::string_view name) {
     return plain(std::string(name)) == plain(text.substr(0, equals));
   });
   const std::string bus = equals == std::string::npos ? "" : text.substr(equals + 1);
-  if (node == nodes.end() || bus.empty() || bus == local_prefix || drive::BusName(bus).in_process)
+  if (node == senders.end() || bus.empty() || bus == local_prefix || drive::BusName(bus).in_process)
     return failure(
         fmt::format("--bus-of '{}': expected NODE=BUS with NODE one of {} and BUS an interface or local:NAME",
-                    text, fmt::join(nodes, ", ")));
+                    text, fmt::join(senders, ", ")));
   return std::pair(std::string(*node), bus);
 }
 
@@ -201,7 +198,7 @@ Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
 // The format of the bus: from the command line, from the scenario, or from both if they agree.
 Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario& scenario) {
   if (arguments.dbc.empty()) return drive::format_of(scenario);
-  if (scenario.foreign != nullptr)
+  if (!scenario.binding->containers)
     return failure(fmt::format("--dbc {}: {} has a mapping, whose DBC counts, expected one of the two",
                                arguments.dbc, scenario.file));
   auto named = named_contract(arguments.dbc);
@@ -230,7 +227,7 @@ Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& s
   for (const std::string& text : arguments.bus_of) {
     const std::string name = node_and_bus(text)->first;
     if (std::ranges::any_of(scenario.nodes, [&](const auto& node) {
-          const MessageInfo* closes = node.table().closes;
+          const MessageInfo* closes = scenario.binding->closing_of(node.table());
           return closes != nullptr && closes->sender == name;
         }))
       continue;

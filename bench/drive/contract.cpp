@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "bench/bindings/canhil.hpp"
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/registry.hpp"
+#include "bench/estimators/vocabulary.hpp"
 #include "bench/faults/kinds.hpp"
 #include "bench/mapping/mapping.hpp"
 #include "bench/nodes/registry.hpp"
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/files/text_file.hpp"
 #include "messages/canhil.hpp"
@@ -24,27 +26,15 @@ std::vector<std::string> names() {
 }
 
 scenario::DbcVocabulary make_contract() {
-  scenario::DbcVocabulary contract{.estimators = names<messages::Estimator>(),
-                                   .algorithms = names<messages::Algorithm>(),
+  scenario::DbcVocabulary contract{.algorithms = names<messages::Algorithm>(),
                                    .parameters = names<messages::Parameter>(),
-                                   .messages = {},
-                                   .answers = {},
                                    .check_kinds = checks::kinds(estimators::all()),
-                                   .known = estimators::all(),
-                                   .former_check_kinds = checks::former_kinds(estimators::all())};
-  contract.facts = estimators::facts();
-  contract.nodes = nodes::tables();
-  contract.fault_kinds = faults::kinds();
-  contract.read_recorded = nodes::read_recorded;
-  contract.named = nodes::named;
-  std::erase(contract.estimators, name_of(messages::Estimator::none));
-  for (const MessageInfo& info : messages::all_messages) {
-    contract.messages.emplace_back(info.name);
-    if (!info.answers.empty()) contract.answers.emplace_back(info.name);
-    if (const estimators::Estimator* sender = estimators::sending(info))
-      contract.sent_by[contract.messages.back()] = sender->name;
-  }
-  return contract;
+                                   .former_check_kinds = checks::former_kinds(estimators::all()),
+                                   .nodes = nodes::tables(),
+                                   .fault_kinds = faults::kinds(),
+                                   .read_recorded = nodes::read_recorded,
+                                   .named = nodes::named};
+  return estimators::bound_to(std::move(contract), bindings::canhil());
 }
 
 }  // namespace
@@ -60,8 +50,8 @@ Result<scenario::Scenario> parse_scenario(std::string_view text, const std::stri
   const auto by = mapping::contract_of(text, name, contract(), read);
   if (!by) return tl::unexpected(by.error());
   auto scenario = scenario::parse(text, name, *by, settings, std::move(folder));
-  if (scenario && by->foreign != nullptr)
-    scenario->hash = world::fnv1a_64(fmt::format("{:x} {:x}", scenario->hash, by->foreign->hash));
+  if (scenario && by->binding->hash != 0)
+    scenario->hash = world::fnv1a_64(fmt::format("{:x} {:x}", scenario->hash, by->binding->hash));
   return scenario;
 }
 
@@ -73,13 +63,7 @@ Result<void> add_faults(scenario::Scenario& scenario, const std::string& file) {
 
 Result<void> add_faults(scenario::Scenario& scenario, std::string_view text, const std::string& name,
                         const scenario::FaultPlaces* some) {
-  scenario::DbcVocabulary by = contract();
-  if (scenario.foreign != nullptr) {
-    by.foreign = scenario.foreign;
-    by.messages.clear();
-    for (const MessageInfo& info : scenario.foreign->messages) by.messages.emplace_back(info.name);
-  }
-  return scenario::add_faults(scenario, text, name, by, some);
+  return scenario::add_faults(scenario, text, name, estimators::bound_to(contract(), scenario.binding), some);
 }
 
 Result<scenario::Scenario> read_scenario(const std::string& file) {

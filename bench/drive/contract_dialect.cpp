@@ -4,6 +4,7 @@
 #include "bench/estimators/of_scenario.hpp"
 #include "bench/protocol/contract_watch.hpp"
 #include "bench/protocol/monitor.hpp"
+#include "bench/scenario/binding.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::drive {
@@ -15,7 +16,6 @@ class ContractDialect final : public Dialect {
  public:
   explicit ContractDialect(const Setting& setting) : of_(setting) {}
 
-  [[nodiscard]] std::span<const MessageInfo> messages() const override { return messages::all_messages; }
   std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) override {
     return std::unique_ptr<Schedule>(
         new Schedule(make_schedule(of_.scenario, of_.truth, of_.flight.per_run_truth, of_.run_index,
@@ -53,8 +53,8 @@ std::unique_ptr<Dialect> contract_dialect(const Setting& setting) {
 }
 
 Result<std::unique_ptr<Dialect>> make_dialect(const Setting& setting) {
-  if (setting.scenario.foreign != nullptr) return mapped_dialect(setting);
-  return contract_dialect(setting);
+  if (setting.scenario.binding->handshake) return contract_dialect(setting);
+  return mapped_dialect(setting);
 }
 
 }  // namespace canhil::drive

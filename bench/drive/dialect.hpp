@@ -46,8 +46,6 @@ class Dialect {
   Dialect& operator=(const Dialect&) = delete;
   virtual ~Dialect() = default;
 
-  /// The messages of the bus.
-  [[nodiscard]] virtual std::span<const MessageInfo> messages() const = 0;
   /// `faults`: the faults of the run.
   virtual std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) = 0;
   virtual std::unique_ptr<observe::Watcher> watcher(bool with_times) = 0;

@@ -8,6 +8,7 @@
 #include "bench/estimators/registry.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/nodes/time_keeper.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/table.hpp"
 #include "bench/world/stoppable.hpp"
 
@@ -121,12 +122,7 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
   if (auto dense = check_density(scenario); !dense) return tl::unexpected(dense.error());
   world::FlightRecord truth(scenario.truth, scenario.duration_us, epoch_interval_us(scenario));
   if (world::Stoppable::stopped()) return failure("interrupted");
-  for (const nodes::Kind* kind : nodes::all()) {
-    if (scenario.foreign != nullptr) break;  // the ranges of canhil's signals do not matter
-    const scenario::NodeSettings* node = scenario.node(kind->table.key);
-    if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
-    if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
-  }
+  if (auto fits = scenario.binding->fits(scenario, truth); !fits) return tl::unexpected(fits.error());
   // Checks the initial state without drawn errors. If a value does not fit into its signal, the scenario is
   // rejected here, before its first run. make_flight() checks the initial state with the errors that are
   // drawn for its run.
@@ -172,7 +168,7 @@ Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRe
                        PerRunTruth& per_run_truth, std::uint64_t run_index, bool lockstep, Rounding rounding,
                        std::unique_ptr<faults::Faults> faults) {
   if (faults == nullptr)
-    faults = std::make_unique<faults::Faults>(scenario, run_index, messages::all_messages);
+    faults = std::make_unique<faults::Faults>(scenario, run_index, scenario.binding->messages);
   auto nodes = nodes::make({.scenario = scenario,
                             .index = run_index,
                             .flight = truth,

@@ -119,9 +119,6 @@ class MappedDialect final : public Dialect {
         conversation_(mapping),
         places_(mapping) {}
 
-  [[nodiscard]] std::span<const MessageInfo> messages() const override {
-    return conversation_.mapping.messages;
-  }
   std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) override {
     std::vector<std::unique_ptr<nodes::Node>> players;
     players.push_back(std::make_unique<mapping::Player>(
@@ -140,9 +137,10 @@ class MappedDialect final : public Dialect {
   [[nodiscard]] bool watches_frames_alone() const override { return false; }
   std::unique_ptr<observe::Watcher> watcher(bool /*with_times*/) override {
     WireFacts wire = of_.wire;
-    wire.fd = !messages().empty() && messages().front().fd;
+    const auto messages = conversation_.mapping.messages;
+    wire.fd = messages.front().fd;
     return std::make_unique<mapping::Listener>(
-        conversation_, checks::timed_windows(of_.scenario.checks, messages()), wire, of_.virtual_time);
+        conversation_, checks::timed_windows(of_.scenario.checks, messages), wire, of_.virtual_time);
   }
   std::unique_ptr<observe::TargetWatch> target_watch(bool /*alone*/) override {
     return std::make_unique<MappedWatch>(conversation_);
@@ -197,9 +195,7 @@ class MappedDialect final : public Dialect {
 }  // namespace
 
 Result<std::unique_ptr<Dialect>> mapped_dialect(const Setting& setting) {
-  const auto& mapping = dynamic_cast<const mapping::Mapping&>(*setting.scenario.foreign);
-  if (auto fits = mapping::Player::check(mapping, setting.scenario); !fits)
-    return failure(fmt::format("{}: {}", setting.scenario.file, fits.error().message));
+  const auto& mapping = dynamic_cast<const mapping::Mapping&>(*setting.scenario.binding);
   if (setting.in_process)
     return failure(
         "the device in this process speaks the project's contract, expected a bus and --target for a "

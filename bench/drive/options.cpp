@@ -5,15 +5,14 @@
 #include <atomic>
 
 #include "bench/drive/session.hpp"
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 #include "dbc/ports/local_bus.hpp"
 
 namespace canhil::drive {
 
 BusFormat format_of(const scenario::Scenario& scenario) {
-  if (scenario.foreign != nullptr)
-    return scenario.foreign->messages.front().fd ? BusFormat::fd_frames : BusFormat::classic;
-  return scenario.fd.value_or(false) ? BusFormat::fd : BusFormat::classic;
+  if (scenario.binding->messages.front().fd) return BusFormat::fd_frames;
+  return scenario.binding->containers && scenario.fd.value_or(false) ? BusFormat::fd : BusFormat::classic;
 }
 
 ClockKind clock_of(BusTime time, bool lockstep) {

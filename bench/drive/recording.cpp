@@ -10,7 +10,7 @@
 #include "bench/drive/judged.hpp"
 #include "bench/faults/in_run.hpp"
 #include "bench/observe/load_meter.hpp"
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 #include "dbc/logs/candump.hpp"
 #include "messages/canhil.hpp"
 
@@ -86,12 +86,12 @@ Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scena
     const auto entry = reader->next();
     if (!entry) return tl::unexpected(entry.error());
     if (!*entry) {
-      manner.lockstep = scenario.foreign != nullptr && at_once;
+      manner.lockstep = !scenario.binding->time_base && at_once;
       return manner;
     }
-    if (scenario.foreign != nullptr) {
-      const MessageInfo* message = find(scenario.foreign->messages, (*entry)->frame);
-      const bool target = message != nullptr && message->sender == messages::TargetHeartbeat::info.sender;
+    if (!scenario.binding->time_base) {
+      const MessageInfo* message = find(scenario.binding->messages, (*entry)->frame);
+      const bool target = message != nullptr && is_targets(*message);
       at_once = at_once && (!target || last_ns.value_or((*entry)->t_ns) == (*entry)->t_ns);
       last_ns = (*entry)->t_ns;
       continue;
@@ -109,7 +109,7 @@ Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scena
 }
 
 observe::LoadBy load_by(const scenario::Scenario& scenario, const Manner& manner) {
-  if (scenario.foreign != nullptr) return observe::LoadBy::virtual_time;
+  if (!scenario.binding->time_base) return observe::LoadBy::virtual_time;
   return manner.in_process ? observe::LoadBy::time_base_alone : observe::LoadBy::time_base;
 }
 
@@ -134,10 +134,10 @@ class Recording {
     if (!dialect) return tl::unexpected(dialect.error());
     dialect_ = std::move(*dialect);
     schedule_ = dialect_->schedule(
-        std::make_unique<faults::Faults>(scenario_, 0, dialect_->messages(),
+        std::make_unique<faults::Faults>(scenario_, 0, scenario_.binding->messages,
                                          faults::Place{.virtual_time = manner_.lockstep,
                                                        .starts_target = true,
-                                                       .mapped = scenario_.foreign != nullptr,
+                                                       .handshake = scenario_.binding->handshake,
                                                        .fd = format_of(scenario_) != BusFormat::classic},
                                          &hands_));
     watcher_ = dialect_->watcher(true);
@@ -189,10 +189,10 @@ class Recording {
   Result<void> hear() {
     for (; frames_.next();) {
       const LogEntry& entry = *frames_.next();
-      const MessageInfo* message = find(dialect_->messages(), entry.frame);
-      const bool target = message != nullptr && message->sender == messages::TargetHeartbeat::info.sender;
+      const MessageInfo* message = find(scenario_.binding->messages, entry.frame);
+      const bool target = message != nullptr && is_targets(*message);
       const bool handshake =
-          message != nullptr && !target && scenario_.foreign == nullptr && message->cycle_time_us == 0;
+          message != nullptr && !target && scenario_.binding->handshake && message->cycle_time_us == 0;
       if (!target && !handshake && (message != nullptr || entry.transmitted)) return {};
       over_ = over_ || (flown_ && handshake);  // the bench stops the target
       if (begun_ && !handshake && !over_) hear(entry);
@@ -213,7 +213,7 @@ class Recording {
       const auto shown = [](Frame one) {
         return format_log_line({.interface = "bus", .frame = one}).substr(15);
       };
-      const MessageInfo* message = find(dialect_->messages(), frame);
+      const MessageInfo* message = find(scenario_.binding->messages, frame);
       return failure(fmt::format("{}: is not of {}: at t={:.3f} s it has {}, the scenario sends {}{}", log_,
                                  scenario_.file, static_cast<double>(t_us) / 1e6, shown(entry.frame),
                                  shown(frame),

@@ -5,17 +5,16 @@
 #include "bench/drive/inputs.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/drive/target_command.hpp"
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 
 namespace canhil::drive {
 
 std::vector<CommandFiles::File> inputs_of(const scenario::Scenario& scenario) {
   std::vector<CommandFiles::File> files{{"scenario", scenario.file}};
   for (const scenario::InputFile& input : scenario.inputs) files.push_back({input.role, input.path});
-  if (scenario.foreign != nullptr) {
-    files.push_back({"mapping", scenario.foreign->file});
-    files.push_back({"DBC", scenario.foreign->dbc_file});
-  }
+  const scenario::Binding& binding = *scenario.binding;
+  if (!binding.file.empty()) files.push_back({"mapping", binding.file});
+  if (!binding.dbc_file.empty()) files.push_back({"DBC", binding.dbc_file});
   return files;
 }
 
@@ -37,7 +36,7 @@ std::vector<RunFile> files_of(const scenario::Scenario& scenario, const Options&
   add({{"bench", std::filesystem::read_symlink("/proc/self/exe", unknown).string()}});
   if (options.target && !in_process) add(inputs_of_target(*options.target));
   add(inputs_of(scenario));
-  if (scenario.foreign == nullptr) {
+  if (scenario.binding->dbc_file.empty()) {
     const bool fd = options.format == BusFormat::fd;
     files.push_back({"DBC",
                      fd ? "canhil-fd.dbc (built in)" : "canhil.dbc (built in)",

@@ -23,7 +23,7 @@
 #include "bench/observe/intruders.hpp"
 #include "bench/observe/load_meter.hpp"
 #include "bench/observe/recorder.hpp"
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/world/stoppable.hpp"
 
 namespace canhil::drive {
@@ -68,7 +68,7 @@ class Session {
         hands_(options.bus.text, target_, [this](std::int64_t t_us) { restart_target(t_us); }),
         link_(*port_),
         bus_watch_(*port_),
-        load_(options.format, load_by(bus_, clock_, scenario.foreign == nullptr)),
+        load_(options.format, load_by(bus_, clock_, scenario.binding->time_base)),
         commands_(rig_commands_of(scenario)) {}
 
   // Creates the dialect. After this call the session is complete.
@@ -87,13 +87,13 @@ class Session {
     dialect_ = std::move(*dialect);
     const faults::Place where = place();
     if (auto work = faults::check(scenario_.faults, where); !work) return work;
-    schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(scenario_, options_.run_index,
-                                                                    dialect_->messages(), where, &hands_));
+    schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(
+        scenario_, options_.run_index, scenario_.binding->messages, where, &hands_));
     // A campaign against a program judges the causes of its answers, which needs their stimuli.
     watcher_ = dialect_->watcher(options_.for_verdict || options_.target.has_value());
     if (!options_.for_verdict) return {};
     link_.attach(bus_watch_);
-    link_.attach(intruders_.emplace(dialect_->messages()));
+    link_.attach(intruders_.emplace(scenario_.binding->messages));
     return {};
   }
 
@@ -194,7 +194,7 @@ class Session {
                         .real_time = clock_ == ClockKind::real_time,
                         .format = options_.format,
                         .wire = bus_.wire,
-                        .load_by = load_by(bus_, clock_, scenario_.foreign == nullptr)};
+                        .load_by = load_by(bus_, clock_, scenario_.binding->time_base)};
     if (dialect_->watches_frames_alone())
       departure.watcher = [this](bool with_times) { return dialect_->watcher(with_times); };
     return departure;
@@ -210,7 +210,7 @@ class Session {
             .virtual_time = clock_ != ClockKind::real_time,
             .in_process = bus_.in_process,
             .starts_target = options_.target && !bus_.in_process,
-            .mapped = scenario_.foreign != nullptr,
+            .handshake = scenario_.binding->handshake,
             .fd = options_.format != BusFormat::classic,
             .wire = bus_.wire};
   }
@@ -392,7 +392,7 @@ Result<Collected> run_against(const std::string& target, const scenario::Scenari
                               const std::atomic<bool>& stop) {
   Options options = in_lockstep_against(target);
   // If answers do not name their cause, the bench cannot see when a step of virtual time is complete.
-  options.lockstep = scenario.foreign == nullptr || scenario.foreign->answers_by_name;
+  options.lockstep = scenario.binding->answers_by_name;
   options.format = format_of(scenario);
   return fly_for_campaign(scenario, truth, run_index, std::move(options), stop);
 }

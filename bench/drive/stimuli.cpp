@@ -1,6 +1,7 @@
 #include "bench/drive/stimuli.hpp"
 
 #include "bench/drive/dialect.hpp"
+#include "bench/scenario/binding.hpp"
 
 namespace canhil::drive {
 
@@ -14,8 +15,8 @@ Result<void> check_stimuli(const scenario::Scenario& scenario, const world::Flig
   const auto dialect =
       make_dialect({.scenario = undisturbed, .truth = truth, .flight = *flight, .run_index = run_index});
   if (!dialect) return {};  // the run itself reports this error
-  const auto schedule =
-      (*dialect)->schedule(std::make_unique<faults::Faults>(undisturbed, run_index, (*dialect)->messages()));
+  const auto schedule = (*dialect)->schedule(
+      std::make_unique<faults::Faults>(undisturbed, run_index, scenario.binding->messages));
   while (schedule->due_us() != nodes::never_us && !stop) {
     static_cast<void>(schedule->take());
     const nodes::Clipped& clipped = schedule->outbox().clipped();

@@ -10,12 +10,12 @@ using world::Matrix3;
 using world::Vector3;
 using world::wrapped;
 
-Spool<NavigationError> navigation_errors(const InOrderOfCause<NavigationAnswer>& answers,
-                                         const world::FlightRecord& truth) {
+const Spool<NavigationError>& NavigationAnswers::errors(const world::FlightRecord& truth) const {
+  if (truth_ == &truth && of_revision_ == revision()) return errors_;
   Spool<NavigationError> errors;
-  errors.reserve(answers.size());
-  for (std::size_t index = 0; index < answers.size(); ++index) {
-    const NavigationAnswer& answer = answers[index];
+  errors.reserve(size());
+  for (std::size_t index = 0; index < size(); ++index) {
+    const NavigationAnswer& answer = (*this)[index];
     if (answer.cause_us < 0 || answer.cause_us > truth.end_us()) continue;
     const world::Truth at = truth.at(answer.cause_us);
     const world::Euler angles = world::euler_from(at.C_bn);
@@ -27,7 +27,10 @@ Spool<NavigationError> navigation_errors(const InOrderOfCause<NavigationAnswer>&
          .misalignment = world::misalignment(world::C_bn_from(answer.angles), at.C_bn),
          .answer = index});
   }
-  return errors;
+  errors_ = std::move(errors);
+  truth_ = &truth;
+  of_revision_ = revision();
+  return errors_;
 }
 
 const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,

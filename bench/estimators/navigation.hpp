@@ -42,11 +42,6 @@ struct NavigationGroup : AnswerGroup<Attitude, VelocityNE, VelocityD> {
   }
 };
 
-/// The latest cause of the navigation answers so far; -1: no answer.
-inline std::int64_t latest_cause_us(const InOrderOfCause<NavigationAnswer>& navigation) {
-  return navigation.latest().value_or(-1);
-}
-
 /// The errors (estimated - true) of one navigation answer, at the time of validity of its cause.
 struct NavigationError {
   std::int64_t t_us = 0;
@@ -56,9 +51,24 @@ struct NavigationError {
   std::size_t answer = 0;                                ///< index of the navigation answer
 };
 
-/// Errors of all navigation answers whose cause lies within the flight record.
-Spool<NavigationError> navigation_errors(const InOrderOfCause<NavigationAnswer>& answers,
-                                         const world::FlightRecord& truth);
+/// The navigation answers of a run, and their errors.
+struct NavigationAnswers : InOrderOfCause<NavigationAnswer> {
+  using InOrderOfCause<NavigationAnswer>::InOrderOfCause;
+
+  /// The errors of all answers whose cause lies within the flight record. They are computed once for a run:
+  /// its checks, results, pictures and tables read the same series.
+  [[nodiscard]] const Spool<NavigationError>& errors(const world::FlightRecord& truth) const;
+
+ private:
+  mutable Spool<NavigationError> errors_;
+  mutable const world::FlightRecord* truth_ = nullptr;  // the truth and the answers that errors_ is of
+  mutable std::uint64_t of_revision_ = 0;
+};
+
+/// The latest cause of the navigation answers so far; -1: no answer.
+inline std::int64_t latest_cause_us(const NavigationAnswers& navigation) {
+  return navigation.latest().value_or(-1);
+}
 
 /// The error of the first navigation answer that includes a filter update with the cause `cause_us`.
 /// `navigation_us` is the latest cause of the navigation answers that arrived before the update; the cause of

@@ -8,7 +8,7 @@
 #include "bench/estimators/registry.hpp"
 #include "bench/estimators/transfer_alignment/transfer_alignment.hpp"
 #include "bench/estimators/wind/wind.hpp"
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -25,12 +25,6 @@ constexpr std::array registered{
 }  // namespace
 
 std::span<const Estimator* const> all() { return registered; }
-
-std::map<std::string, scenario::EstimatorFacts, std::less<>> facts() {
-  std::map<std::string, scenario::EstimatorFacts, std::less<>> all;
-  for (const Estimator* one : registered) all.emplace(one->name, one->facts);
-  return all;
-}
 
 const Estimator* find(std::string_view name) { return find(registered, name); }
 
@@ -51,8 +45,7 @@ const Estimator* sending(const MessageInfo& message) {
 }
 
 std::span<const Estimator* const> in(const scenario::Scenario& scenario) {
-  if (scenario.foreign != nullptr) return {&scenario.foreign->estimator, 1};
-  return registered;
+  return scenario.binding->estimators;
 }
 
 const Estimator& of(const scenario::Scenario& scenario) {

@@ -1,9 +1,6 @@
 // The registry of estimators: registry.cpp has one line for each.
 #pragma once
 
-#include <map>
-#include <string>
-
 #include "bench/checks/estimator.hpp"
 
 namespace canhil {
@@ -26,9 +23,6 @@ const Estimator* telling(std::string_view columns);
 const Estimator* sending(const MessageInfo& message);
 /// The estimator whose samples a campaign keeps for a scenario.
 const Estimator& of(const scenario::Scenario& scenario);
-/// The facts that scenarios need about each estimator, by the name of the estimator, for
-/// scenario::DbcVocabulary.
-std::map<std::string, scenario::EstimatorFacts, std::less<>> facts();
 /// Every quantity that any estimator reports, each once, in the order of the registry.
 std::span<const quantities::Quantity* const> every_quantity();
 

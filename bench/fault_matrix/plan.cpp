@@ -12,7 +12,6 @@
 #include "bench/scenario/section.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/files/text_file.hpp"
-#include "messages/canhil.hpp"
 
 namespace canhil::fault_matrix {
 namespace {

@@ -9,6 +9,7 @@
 #include "bench/drive/contract.hpp"
 #include "bench/fault_matrix/plan.hpp"
 #include "bench/fault_matrix/response.hpp"
+#include "bench/scenario/binding.hpp"
 #include "dbc/files/text_file.hpp"
 
 namespace canhil::fault_matrix {
@@ -80,7 +81,7 @@ Result<Column> read_column(const std::string& file) {
   if (!text) return tl::unexpected(text.error());
   auto read = drive::parse_scenario(*text, file);
   if (!read) return tl::unexpected(read.error());
-  if (read->foreign != nullptr)
+  if (!read->binding->handshake)
     return failure(fmt::format("{}: has a mapping, expected a scenario of canhil's own contract", file));
   return Column{.file = file, .text = std::move(*text), .scenario = std::move(*read)};
 }

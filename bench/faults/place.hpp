@@ -16,7 +16,7 @@ struct Place {
   bool virtual_time = false;              ///< time advances when the target completes a step
   bool in_process = false;                ///< the target is a Device in the bench's process
   bool starts_target = false;             ///< the bench starts the target's process
-  bool mapped = false;                    ///< the target has its own DBC, used through a mapping
+  bool handshake = true;                  ///< see scenario::Binding
   bool fd = false;                        ///< FD frames are allowed
   WireFacts wire{};
 };

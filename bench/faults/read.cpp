@@ -9,9 +9,8 @@
 #include <utility>
 
 #include "bench/nodes/registry.hpp"
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 #include "dbc/wire/turns.hpp"
-#include "messages/canhil.hpp"
 
 namespace canhil::faults {
 namespace {
@@ -38,20 +37,19 @@ std::vector<std::string> keys_of(std::string_view stem, std::string_view si) {
   return keys;
 }
 
-auto node_of(const MessageInfo& message, const FaultContext& context) {
-  return std::ranges::find_if(context.nodes, [&](const scenario::NodeSettings& node) {
-    const MessageInfo* closes = node.table().closes;
-    return !message.sample_group.empty() && closes != nullptr &&
-           closes->sample_group == message.sample_group && closes->sender == message.sender;
+// Whether a message belongs to the sample group of a node.
+bool is_of_node(const MessageInfo& message, const scenario::NodeTable& node, const FaultContext& context) {
+  const MessageInfo* closes = context.contract.binding->closing_of(node);
+  return closes != nullptr && closes->sample_group == message.sample_group &&
+         closes->sender == message.sender;
+}
+
+// The kind of the node that sends a message; null: the messages of this bus are not those of single nodes.
+const nodes::Kind* kind_of(const MessageInfo& message, const FaultContext& context) {
+  const auto found = std::ranges::find_if(context.nodes, [&](const scenario::NodeSettings& node) {
+    return is_of_node(message, node.table(), context);
   });
-}
-
-bool is_sample_of_a_node(const MessageInfo& message, const FaultContext& context) {
-  return node_of(message, context) != context.nodes.end();
-}
-
-const nodes::Kind& kind_of(const MessageInfo& message, const FaultContext& context) {
-  return nodes::kind_of(node_of(message, context)->table());
+  return found == context.nodes.end() ? nullptr : &nodes::kind_of(found->table());
 }
 
 // What a signal carries, in the unit of the signal.
@@ -68,10 +66,7 @@ std::vector<const MessageInfo*> messages_by_name(Section& section, const FaultCo
   std::vector<const MessageInfo*> all;
   std::vector<std::string> sent;
   for (const MessageInfo& message : messages_of(context)) {
-    const bool is_sent = context.contract.foreign != nullptr
-                             ? message.sender != messages::TargetHeartbeat::info.sender
-                             : is_sample_of_a_node(message, context);
-    if (is_sent) sent.emplace_back(message.name);
+    if (context.contract.binding->is_played(message, context.nodes)) sent.emplace_back(message.name);
   }
   for (const std::string& name :
        section.some_of({"messages", "Names of the messages that the fault affects."}, sent))
@@ -88,8 +83,7 @@ std::string words_of(const std::vector<const MessageInfo*>& all) {
 }  // namespace
 
 std::span<const MessageInfo> messages_of(const FaultContext& context) {
-  if (context.contract.foreign != nullptr) return context.contract.foreign->messages;
-  return messages::all_messages;
+  return context.contract.binding->messages;
 }
 
 const scenario::NodeTable* read_node(Section& section, const FaultContext& context) {
@@ -116,12 +110,10 @@ OfMessages read_messages(Section& section, const FaultContext& context) {
   section.refuse("messages", "is given beside node", "one of the two");
   const scenario::NodeTable* node = read_node(section, context);
   if (node == nullptr) return of;
-  if (context.contract.foreign != nullptr)
+  if (context.contract.binding->closing_of(*node) == nullptr)
     section.reject("node", "sends no messages of its own where a mapping plays it", "messages in its place");
   for (const MessageInfo& message : messages_of(context)) {
-    if (node->closes != nullptr && message.sender == node->closes->sender &&
-        message.sample_group == node->closes->sample_group)
-      of.all.push_back(&message);
+    if (is_of_node(message, *node, context)) of.all.push_back(&message);
   }
   of.text = node->key;
   return of;
@@ -185,19 +177,20 @@ OfValues read_values(Section& section, const FaultContext& context) {
                                          "and `signal` together, in place of `quantity`."});
   of.text = words_of(messages);
   for (const MessageInfo* message : messages) {
-    if (context.contract.foreign != nullptr) {
+    const nodes::Kind* kind = kind_of(*message, context);
+    if (kind == nullptr) {
       section.reject("messages",
                      fmt::format("{} is from a mapping: '{}' is for canhil's own messages", message->name,
                                  section.text("kind", "")),
                      "another kind, or a quantity");
       continue;
     }
-    const nodes::SampleSignal* signal = nodes::carried(kind_of(*message, context), *message, name);
+    const nodes::SampleSignal* signal = nodes::carried(*kind, *message, name);
     if (signal == nullptr) {
       section.reject("signal", fmt::format("{} has no signal '{}'", message->name, name), "one that it has");
       continue;
     }
-    of.all.push_back(measured(*signal, kind_of(*message, context)));
+    of.all.push_back(measured(*signal, *kind));
     of.ranges.push_back({.signal = fmt::format("{} of {}", name, message->name),
                          .lowest = signal->info.minimum,
                          .highest = signal->info.maximum});

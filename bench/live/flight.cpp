@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "bench/checks/answered.hpp"
 #include "bench/checks/judge.hpp"
 #include "bench/checks/rule.hpp"
 #include "bench/estimators/registry.hpp"
@@ -46,8 +47,7 @@ std::vector<FaultLine> faults_of(const scenario::Scenario& scenario) {
   return lines;
 }
 
-std::vector<TimingLine> timing_of(const scenario::Scenario& scenario, const checks::TimingRecord& timing) {
-  const std::vector<std::string_view> closing = report::closing_answers(scenario);
+std::vector<TimingLine> timing_of(const checks::TimingRecord& timing) {
   std::vector<TimingLine> lines;
   for (std::size_t i = 0; i < timing.messages.size(); ++i) {
     const checks::AnswerTiming& answers = timing.answers[i];
@@ -60,7 +60,7 @@ std::vector<TimingLine> timing_of(const scenario::Scenario& scenario, const chec
                     .jitter_count = answers.jitter.count(),
                     .jitter_p99_us = us(answers.jitter.quantile_ns(0.99)),
                     .jitter_max_us = us(static_cast<double>(answers.jitter.max_ns()))};
-    if (scenario.foreign != nullptr || std::ranges::find(closing, line.message) != closing.end()) {
+    if (checks::closes_answer(timing.messages, i)) {
       line.stretch_s = static_cast<double>(answers.latency_line.stretch_ns()) * 1e-9;
       for (const std::int64_t ns : answers.latency_line.largest_ns())
         line.slowest_us.push_back(ns < 0 ? std::numeric_limits<double>::quiet_NaN()
@@ -123,7 +123,7 @@ Flight flight_of(const scenario::Scenario& scenario, const drive::Run& run) {
   if (run.clock == drive::ClockKind::lockstep)
     flight.no_timing = "virtual time";
   else
-    flight.timing = timing_of(scenario, run.seen.timing);
+    flight.timing = timing_of(run.seen.timing);
   add_load(flight, run.seen.length_by_second, run.seen.bit_rates, run.options.format);
   return flight;
 }
@@ -194,7 +194,7 @@ void FlightInProgress::update(Flight& flight, bool all_seen, bool landed) {
     flight.no_tracks = "the scenario has a mapping: quantities and times are shown at the end of the run";
     return;
   }
-  if (flight.no_timing.empty()) flight.timing = timing_of(scenario, whole_->observations().timing);
+  if (flight.no_timing.empty()) flight.timing = timing_of(whole_->observations().timing);
   take_tracks(flight, landed ? std::numeric_limits<std::int64_t>::max() : now_us() - settled_us);
   if (all_seen) judge_ended(flight);
 }

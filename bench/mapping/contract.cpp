@@ -3,10 +3,12 @@
 #include <map>
 #include <mutex>
 
+#include "bench/estimators/vocabulary.hpp"
 #include "bench/mapping/mapping.hpp"
+#include "bench/mapping/player.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "bench/scenario/section.hpp"
 #include "dbc/files/text_file.hpp"
-#include "messages/canhil.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -22,13 +24,27 @@ Result<std::string> read_from_disk(const std::string& file) {
   return read_text_file(file, "a file of a mapping", most_bytes);
 }
 
-const protection::Protection* Mapping::protection_of(std::size_t message) const {
+std::shared_ptr<const protection::Protection> Mapping::protection_of(const MessageInfo& message) const {
+  const auto index = static_cast<std::size_t>(&message - messages.data());
   for (const Play& play : plays) {
     for (const PlayedMessage& one : play.messages) {
-      if (one.of.index == message) return one.of.protection ? &*one.of.protection : nullptr;
+      if (one.of.index == index && one.of.protection)
+        return std::make_shared<const protection::Protection>(*one.of.protection);
     }
   }
   return nullptr;
+}
+
+bool Mapping::is_played(const MessageInfo& message, std::span<const scenario::NodeSettings> /*nodes*/) const {
+  return estimator_of(message).empty();
+}
+
+std::string_view Mapping::estimator_of(const MessageInfo& message) const {
+  return is_targets(message) ? std::string_view(name) : "";
+}
+
+Result<void> Mapping::fits(const scenario::Scenario& scenario, const world::FlightRecord& /*flight*/) const {
+  return Player::check(*this, scenario);
 }
 
 const quantities::Layout* find_layout(std::string_view columns) {
@@ -64,24 +80,7 @@ Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::st
     if (const auto error = root.error()) return tl::unexpected(*error);
     auto mapping = read_mapping((fs::path(file).parent_path() / name).string(), read);
     if (!mapping) return tl::unexpected(mapping.error());
-    scenario::DbcVocabulary contract = own;
-    contract.estimators = {(*mapping)->name};
-    contract.algorithms.clear();
-    contract.parameters.clear();
-    contract.messages.clear();
-    contract.answers.clear();
-    contract.sent_by.clear();
-    for (const MessageInfo& info : (*mapping)->messages) {
-      contract.messages.emplace_back(info.name);
-      if (!info.answers.empty()) contract.answers.emplace_back(info.name);
-      if (info.sender == messages::TargetHeartbeat::info.sender)
-        contract.sent_by[std::string(info.name)] = (*mapping)->name;
-    }
-    contract.known = {&(*mapping)->estimator, 1};
-    contract.facts.clear();
-    contract.facts[(*mapping)->name] = (*mapping)->own->facts;
-    contract.foreign = std::move(*mapping);
-    return contract;
+    return estimators::bound_to(own, std::move(*mapping));
   }
   return own;
 }

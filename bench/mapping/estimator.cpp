@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/checks/delay.hpp"
+#include "bench/estimators/end_of_flight.hpp"
 #include "bench/estimators/tracks.hpp"
 #include "bench/mapping/points.hpp"
 
@@ -16,12 +17,14 @@ using estimators::Truth;
 using quantities::Track;
 using quantities::TrackPoint;
 
+// A quantity with components has the truth of its components.
 const ReferenceQuantity& reference_of(const quantities::Quantity& quantity) {
-  return *find_reference_quantity(quantity.name);
+  return *find_reference_quantity(quantity.parts.empty() ? quantity.name : quantity.parts.front()->name);
 }
 
 // The quantities that the target reports and from which a quantity comes: itself, or what it is derived from.
 std::vector<const quantities::Quantity*> sources_of(const quantities::Quantity& quantity) {
+  if (!quantity.parts.empty()) return {quantity.parts.begin(), quantity.parts.end()};
   const ReferenceQuantity& of = reference_of(quantity);
   if (of.of.empty()) return {&quantity};
   return {of.of.begin(), of.of.end()};
@@ -49,8 +52,11 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const quant
   for (const quantities::Quantity* quantity : answers.mapping->quantities) {
     const ReferenceQuantity& of = reference_of(*quantity);
     const std::string_view message = hear_of(*answers.mapping, sources_of(*quantity).back()).of.message->name;
-    const estimators::Answering answering{.longest_wait_us = estimators::longest_wait_us(seen, message),
-                                          .answers_end_us = truth.duration_us};
+    const bool ends_early = quantity->of_engagement && truth.engagement != nullptr;
+    const estimators::Answering answering{
+        .longest_wait_us = estimators::longest_wait_us(seen, message),
+        .answers_end_us = ends_early ? estimators::answers_end_us(*truth.engagement, truth.duration_us)
+                                     : truth.duration_us};
     Track track = answering.track(*quantity, std::string(quantity->meaning));
     track.kind = kind_of(*quantity);
     track.only_if_judged = !of.of.empty();
@@ -122,9 +128,11 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
     if (track.kind != Track::Kind::error || of.of.size() > 1) return;
     const std::string name(quantity.name);
     const double last = track.points.back().value;
-    // A position is shown in metres, which are derived from its coordinates.
+    // A position is shown in metres, which are derived from its coordinates. The last error of a LOS rate
+    // says nothing, because the rate grows beyond all bounds at the passage.
     const bool is_derived = !of.of.empty();
-    const bool shown = is_derived == is_on_the_ground(is_derived ? reference_of(*of.of.front()) : of);
+    const bool shown = !quantity.of_engagement &&
+                       is_derived == is_on_the_ground(is_derived ? reference_of(*of.of.front()) : of);
     const bool certain = ambiguous(seen, quantity).empty();
     if (shown && certain)
       end.add(name, last,
@@ -137,7 +145,11 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
         delay ? fmt::format("{} {:.1f} +- {:.1f} ms", name, delay->delay_s * 1e3, delay->half_width_s * 1e3)
               : fmt::format("{} not measured ({})", name, delay.error().message));
   });
-  return {std::move(end), std::move(delays)};
+  std::vector<estimators::ResultLine> lines;
+  if (truth.engagement != nullptr) lines.push_back(estimators::end_of_flight(*truth.engagement));
+  if (lines.empty() || !end.figures.empty()) lines.push_back(std::move(end));
+  lines.push_back(std::move(delays));
+  return lines;
 }
 
 std::vector<std::string_view> closing_with(const checks::Observations& seen,
@@ -163,7 +175,7 @@ estimators::Estimator estimator_of(const Mapping& mapping) {
   return {.name = mapping.name,
           .facts = {.start = scenario::Start::nothing},
           .layout = *mapping.layout,
-          .of_runs = mapping.quantities,
+          .of_runs = mapping.of_runs,
           .reception = nullptr,
           .samples = samples_of,
           .tracks = tracks_of,

@@ -7,8 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "dbc/parser/codec.hpp"
-#include "messages/canhil.hpp"
+#include "bench/mapping/reading.hpp"
 
 namespace canhil::mapping {
 
@@ -19,6 +18,7 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
         checks::Observations seen(conversation.mapping.messages);
         seen.timing.windows = std::move(windows);
         seen.timing.wire = wire;
+        seen.answers_each_sample = false;
         seen.of<Answers>().mapping = &conversation.mapping;
         return seen;
       }()),
@@ -161,19 +161,12 @@ void Listener::settle(const Hear& hear, const Paired& paired) {
 void Listener::record(const Hear& hear, const Frame& frame, std::int64_t t_us) {
   auto& answers = seen_.of<Answers>();
   answers.messages[hear.of.message->name].push_back(t_us);
-  values_.resize(hear.of.plan.signals());
-  static_cast<void>(hear.of.plan.decode(frame.payload(), values_));  // the sizes match
-  for (const ReportedSignal& telling : hear.reported_signals) {
-    const std::size_t number = hear.of.number(*telling.signal);
-    if (!hear.of.plan.is_present(number, frame.payload())) continue;
-    const bool invalid =
-        telling.invalid && dbc::raw_bits(*telling.signal, frame.payload()) == *telling.invalid;
-    const double value = values_[number] * telling.factor;  // NaN is recorded too; it makes checks fail
+  read(hear, frame, [&](const ReportedSignal& telling, double value, bool invalid) {
     if (telling.what != ReportedSignal::What::value)
-      answers.sigmas[&telling].push_back({.t_us = t_us, .value = invalid ? std::nan("") : value});
-    else if (!invalid)
+      answers.sigmas[&telling].push_back({.t_us = t_us, .value = value});
+    else if (!invalid)  // NaN is recorded too; it makes checks fail
       answers.values[telling.quantity->quantity].push_back({.t_us = t_us, .value = value});
-  }
+  });
 }
 
 std::int64_t Listener::bench_us(std::int64_t t_ns) const {

@@ -17,8 +17,8 @@
 
 #include "bench/checks/estimator.hpp"
 #include "bench/mapping/reference_quantities.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/contract.hpp"
-#include "bench/scenario/foreign.hpp"
 #include "bench/sensors/measurands.hpp"
 #include "dbc/parser/database.hpp"
 #include "dbc/parser/plan.hpp"
@@ -28,7 +28,7 @@
 
 namespace canhil::mapping {
 
-/// A message of the DBC and its index in Mapping::messages.
+/// A message of the DBC and its index in Binding::messages.
 struct Mapped {
   explicit Mapped(const dbc::Message& of) : message(&of), plan(of) {}
 
@@ -100,8 +100,18 @@ struct Hear {
   [[nodiscard]] bool is_owed() const { return answers && task_us == 0; }
 };
 
-struct Mapping final : scenario::Foreign {
-  [[nodiscard]] const protection::Protection* protection_of(std::size_t message) const override;
+struct Mapping final : scenario::Binding {
+  Mapping() { any_sensor = true; }
+  [[nodiscard]] std::shared_ptr<const protection::Protection> protection_of(
+      const MessageInfo& message) const override;
+  [[nodiscard]] const MessageInfo* closing_of(const scenario::NodeTable& /*node*/) const override {
+    return nullptr;
+  }
+  [[nodiscard]] bool is_played(const MessageInfo& message,
+                               std::span<const scenario::NodeSettings> nodes) const override;
+  [[nodiscard]] std::string_view estimator_of(const MessageInfo& message) const override;
+  [[nodiscard]] Result<void> fits(const scenario::Scenario& scenario,
+                                  const world::FlightRecord& flight) const override;
 
   dbc::Database database;
   std::vector<const sensors::Kind*> sensors;  ///< those with names of their own
@@ -112,14 +122,17 @@ struct Mapping final : scenario::Foreign {
   /// is accepted.
   std::map<std::uint32_t, std::size_t> by_group;
 
-  // Storage for Foreign::messages and Foreign::estimator.
+  // Storage for Binding::messages and Binding::estimators.
+  std::vector<MessageInfo> infos;
   std::deque<std::string_view> groups;
   std::vector<const quantities::Quantity*> quantities;  ///< each once
+  std::vector<const quantities::Quantity*> of_runs;     ///< these, and those of which they are the components
   const quantities::Layout* layout = nullptr;
   std::vector<std::string_view> closing;
   std::vector<std::string_view>
       heard;  ///< names of the target's messages, which are marks but no signs of trouble
   std::optional<estimators::Estimator> own;
+  const estimators::Estimator* estimator = nullptr;  ///< `own`
 };
 
 /// Reads a named file. Error: one line.
@@ -135,7 +148,7 @@ constexpr std::uint32_t j1939_group(std::uint32_t id) {
   return ((group >> 8U) & 0xFFU) < first_broadcast ? group & 0x3FF00U : group;
 }
 
-/// Finds the index of a frame's message in Mapping::messages.
+/// Finds the index of a frame's message in Binding::messages.
 class Places {
  public:
   explicit Places(const Mapping& mapping) : by_id_(mapping.messages), by_group_(mapping.by_group) {}

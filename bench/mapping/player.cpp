@@ -7,7 +7,9 @@
 #include <numbers>
 #include <utility>
 
+#include "bench/estimators/los_rate/quantities.hpp"
 #include "bench/mapping/range.hpp"
+#include "bench/mapping/reading.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/sensors/registry.hpp"
 #include "dbc/parser/codec.hpp"
@@ -72,7 +74,8 @@ Player::Player(Conversation& conversation, const nodes::Run& run)
     : conversation_(conversation),
       end_us_(run.flight.end_us()),
       values_(conversation.mapping.plays.size()),
-      samples_(conversation.mapping.plays.size(), 0) {
+      samples_(conversation.mapping.plays.size(), 0),
+      places_(conversation.mapping) {
   for (const sensors::Kind* kind : played_by(conversation.mapping)) {
     const scenario::NodeSettings* node = run.scenario.node(kind->key);
     sensors_.push_back(
@@ -139,6 +142,42 @@ void Player::transmit(nodes::Transmission& out) {
   if (due.lost) return;
   for (const Frame& frame : due.sent.frames) out.put(frame);
   conversation_.add(due.play, std::move(due.sent));
+}
+
+bool Player::listens() const {
+  return std::ranges::any_of(sensors_, [](const Played& played) { return played.sensor->is_guided(); });
+}
+
+// Whether a frame has the size of its message, and the counter and checksum that the message must have.
+bool Player::passes(const Hear& hear, const Frame& frame) {
+  if (frame.size != hear.of.message->size || frame.fd != hear.of.message->fd) return false;
+  if (!hear.of.protection) return true;
+  const protection::Check check = receivers_[&hear].check(*hear.of.protection, frame.payload());
+  return check == protection::Check::ok || check == protection::Check::some_lost;
+}
+
+// The guidance takes a LOS rate when both planes answer the same sample. It holds its command while an answer
+// has no value.
+void Player::hear(const Frame& frame) {
+  const std::size_t index = places_(frame);
+  for (const Hear& hear : conversation_.mapping.hears) {
+    if (hear.of.index != index || !hear.answers || !passes(hear, frame)) continue;
+    const Sent* cause = cause_of(conversation_, hear, frame);
+    if (cause == nullptr) continue;
+    if (cause->valid_us != los_rate_.cause_us) los_rate_ = {.cause_us = cause->valid_us};
+    read(hear, frame, [&](const ReportedSignal& signal, double value, bool /*invalid*/) {
+      if (signal.what != ReportedSignal::What::value || !std::isfinite(value)) return;
+      if (signal.quantity->quantity == &quantities::los_rate_pitch) los_rate_.pitch = value;
+      if (signal.quantity->quantity == &quantities::los_rate_yaw) los_rate_.yaw = value;
+    });
+    if (!los_rate_.pitch || !los_rate_.yaw) continue;
+    const sensors::Guidance answer{.cause_us = los_rate_.cause_us,
+                                   .los_rate = {.pitch = *los_rate_.pitch, .yaw = *los_rate_.yaw}};
+    for (const Played& played : sensors_) {
+      if (played.sensor->is_guided()) played.sensor->guide(answer);
+    }
+    los_rate_ = {};
+  }
 }
 
 void Player::sample(Played& played, std::vector<Triggered>& triggered) {

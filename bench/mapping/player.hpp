@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ class Player final : public nodes::Node {
 
   [[nodiscard]] std::int64_t due_us() const override;
   void transmit(nodes::Transmission& out) override;
+  /// Whether the target's answers guide the vehicle of a sensor.
+  [[nodiscard]] bool listens() const override;
+  void hear(const Frame& frame) override;
 
  private:
   // A sensor whose samples are played.
@@ -51,6 +55,13 @@ class Player final : public nodes::Node {
     sensors::Sample sample;
   };
 
+  // The newest answer with a LOS rate. Its two planes may come in two messages.
+  struct LosRate {
+    std::int64_t cause_us = -1;
+    std::optional<double> pitch{}, yaw{};
+  };
+
+  [[nodiscard]] bool passes(const Hear& hear, const Frame& frame);
   void sample(Played& played, std::vector<Triggered>& triggered);
   void take(const sensors::Kind& kind, const sensors::Sample& sample);
   void restart(const Play& play);
@@ -69,6 +80,9 @@ class Player final : public nodes::Node {
   nodes::Clipped clipped_;             // by the samples that are due
   std::map<std::string, protection::Sender> shared_;
   std::map<const dbc::Message*, protection::Sender> own_;
+  Places places_;
+  LosRate los_rate_;
+  std::map<const Hear*, protection::Receiver> receivers_;
 };
 
 }  // namespace canhil::mapping

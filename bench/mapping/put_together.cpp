@@ -6,6 +6,9 @@
 #include <set>
 #include <utility>
 
+#include "bench/estimators/los_rate/quantities.hpp"
+#include "bench/mapping/points.hpp"
+
 namespace canhil::mapping {
 namespace {
 
@@ -26,6 +29,15 @@ void add_derived(Mapping& mapping) {
         (!one.of_sigmas || has_all(ReportedSignal::What::sigma)))
       mapping.quantities.push_back(one.quantity);
   }
+}
+
+// Whether answers contain both planes of the LOS rate, with which a missile is guided.
+bool guides(const Mapping& mapping) {
+  const auto is_answered = [&](const quantities::Quantity& plane) {
+    const bool reported = std::ranges::find(mapping.quantities, &plane) != mapping.quantities.end();
+    return reported && hear_of(mapping, &plane).answers.has_value();
+  };
+  return is_answered(quantities::los_rate_pitch) && is_answered(quantities::los_rate_yaw);
 }
 
 // The message of a play that carries a page which an earlier message carries too; null: there is none.
@@ -54,13 +66,13 @@ std::string page_of(const PlayedMessage& message) {
 
 std::optional<std::string> put_together(Mapping& mapping) {
   const auto wrong = [&](const std::string& what) { return fmt::format("{}: {}", mapping.file, what); };
-  if (mapping.messages.size() > MessagePlaces::most)
+  if (mapping.infos.size() > MessagePlaces::most)
     return wrong(
-        fmt::format("{} messages, expected {} at the most", mapping.messages.size(), MessagePlaces::most));
-  for (const MessageInfo& info : mapping.messages) {
-    if (info.fd != mapping.messages.front().fd)
+        fmt::format("{} messages, expected {} at the most", mapping.infos.size(), MessagePlaces::most));
+  for (const MessageInfo& info : mapping.infos) {
+    if (info.fd != mapping.infos.front().fd)
       return wrong(fmt::format("{} and {} have different formats, expected all CAN FD or all classic",
-                               mapping.messages.front().name, info.name));
+                               mapping.infos.front().name, info.name));
   }
   if (const PlayedMessage* twice = repeated_page(mapping))
     return wrong(fmt::format("{} has {} in two plays, expected each page once", twice->of.message->name,
@@ -68,13 +80,13 @@ std::optional<std::string> put_together(Mapping& mapping) {
   for (const Play& play : mapping.plays) {
     const std::string_view group = mapping.groups.emplace_back(play.name);
     for (const PlayedMessage& one : play.messages) {
-      MessageInfo& info = mapping.messages[one.of.index];
+      MessageInfo& info = mapping.infos[one.of.index];
       if (info.sample_group.empty())
         info.sample_group = group;  // else the message is a page of several plays
     }
   }
   for (const Hear& hear : mapping.hears) {
-    MessageInfo& info = mapping.messages[hear.of.index];
+    MessageInfo& info = mapping.infos[hear.of.index];
     info.sample_group = hear.of.message->name;
     mapping.answers_by_name = mapping.answers_by_name || (hear.is_owed() && hear.echo);
     if (hear.is_owed()) info.answers = {&mapping.groups[*hear.answers], 1};
@@ -99,13 +111,18 @@ std::optional<std::string> put_together(Mapping& mapping) {
       }
     }
   }
+  mapping.closes_loop = guides(mapping);
   add_derived(mapping);
+  mapping.of_runs = mapping.quantities;
+  if (mapping.closes_loop) mapping.of_runs.push_back(&quantities::los_rate_both);
   std::string columns;
   for (const quantities::Quantity* one : mapping.quantities)
     columns += (columns.empty() ? "" : " ") + std::string(one->name);
   mapping.layout = find_layout(columns);
   mapping.own.emplace(estimator_of(mapping));
   mapping.estimator = &*mapping.own;
+  mapping.estimators = {&mapping.estimator, 1};
+  mapping.messages = mapping.infos;
   return std::nullopt;
 }
 

@@ -14,7 +14,6 @@
 #include "bench/world/hash.hpp"
 #include "dbc/parser/parse.hpp"
 #include "dbc/wire/message_places.hpp"
-#include "messages/canhil.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -151,20 +150,19 @@ class Reader {
   }
 
   Mapped mapped(Section& section, std::string_view key, const dbc::Message& message, bool of_target) {
-    auto& all = mapping_->messages;
+    auto& all = mapping_->infos;
     const auto used = std::ranges::find(all, message.name, &MessageInfo::name);
     const bool has_pages = std::ranges::any_of(message.signals, &dbc::Signal::multiplexor);
-    if (used != all.end() && (of_target || !has_pages || used->sender != messages::Sync::info.sender))
+    if (used != all.end() && (of_target || !has_pages || is_targets(*used)))
       section.reject(key, fmt::format("{} is already used", message.name),
                      "each message once, or each page of a multiplexed message that the bench sends");
-    MessageInfo info{
-        .name = message.name,
-        .id = message.id,
-        .extended = message.extended,
-        .fd = message.fd,
-        .size = static_cast<std::uint8_t>(message.size),
-        .cycle_time_us = message.cycle_time_us,
-        .sender = of_target ? messages::TargetHeartbeat::info.sender : messages::Sync::info.sender};
+    MessageInfo info{.name = message.name,
+                     .id = message.id,
+                     .extended = message.extended,
+                     .fd = message.fd,
+                     .size = static_cast<std::uint8_t>(message.size),
+                     .cycle_time_us = message.cycle_time_us,
+                     .sender = of_target ? target_node : bench_node};
     Mapped mapped(message);
     mapped.index = static_cast<std::size_t>(used - all.begin());
     if (used == all.end()) all.push_back(info);

@@ -1,7 +1,5 @@
 #include "bench/observe/intruders.hpp"
 
-#include "messages/canhil.hpp"
-
 namespace canhil::observe {
 
 void Intruders::transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {

@@ -9,7 +9,6 @@
 
 #include "bench/observe/observer.hpp"
 #include "dbc/wire/message_places.hpp"
-#include "messages/canhil.hpp"
 
 namespace canhil::observe {
 
@@ -17,7 +16,7 @@ namespace canhil::observe {
 class Intruders final : public Observer {
  public:
   /// `messages`: the messages of the bus.
-  explicit Intruders(std::span<const MessageInfo> messages = messages::all_messages)
+  explicit Intruders(std::span<const MessageInfo> messages)
       : messages_(messages), places_(messages), ours_(messages.size()) {}
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;

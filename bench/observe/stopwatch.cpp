@@ -40,8 +40,7 @@ void add(checks::WireResponse& response, std::int64_t ns) {
 /// The index of a message that the bench sends; nowhere: the bench does not send this frame.
 std::size_t Stopwatch::of_bench(const Frame& frame) const {
   const std::size_t index = places_(frame);
-  const bool targets = index != MessagePlaces::nowhere &&
-                       record_.messages[index].sender == messages::TargetHeartbeat::info.sender;
+  const bool targets = index != MessagePlaces::nowhere && is_targets(record_.messages[index]);
   return targets ? MessagePlaces::nowhere : index;
 }
 
@@ -53,7 +52,7 @@ bool Stopwatch::answers(std::size_t index, std::string_view group) const {
 /// The frame on the wire that ends with this message; none: the frame on the wire is a container that also
 /// contains later messages.
 std::optional<Frame> Stopwatch::closed_by(const Frame& message, FdPacker& packer) const {
-  if (!record_.wire.fd || record_.messages.data() != messages::all_messages.data()) return message;
+  if (!record_.wire.fd || message.fd) return message;
   if (packer.due_before(message)) packer.clear();  // the container was sent without its last message
   return packer.put(message);
 }

@@ -12,8 +12,8 @@ namespace canhil::observe {
 namespace {
 
 constexpr Routes answers([](const MessageInfo& info) {
-  return info.sender == messages::TargetHeartbeat::info.sender &&
-         info.id != messages::TargetTiming::info.id && info.id != messages::StepDone::info.id;
+  return is_targets(info) && info.id != messages::TargetTiming::info.id &&
+         info.id != messages::StepDone::info.id;
 });
 
 // Calls visit.operator()<Message>() for the message of a frame; makes no call if the frame matches no

@@ -12,9 +12,7 @@
 namespace canhil::protocol {
 
 /// The messages of the target.
-inline constexpr Routes target_messages([](const MessageInfo& info) {
-  return info.sender == messages::TargetHeartbeat::info.sender;
-});
+inline constexpr Routes target_messages(is_targets);
 
 /// The message in a frame; none: the frame is not a valid message of this type, or is an echo of a frame that
 /// the bench sent.

@@ -71,7 +71,7 @@ Monitor::Monitor(std::optional<Asked> asked) {
   }
   for (std::size_t i = 0; i < all_messages.size(); ++i) {
     checks::Sighting& sighting = seen_.from_target[i];
-    sighting.has_counter = sighting.has_checksum = all_messages[i].sender == TargetHeartbeat::info.sender;
+    sighting.has_counter = sighting.has_checksum = is_targets(all_messages[i]);
   }
   for (const estimators::Estimator* estimator : estimators::all()) {
     estimators::Reception* own = receptions_.emplace_back(estimator->reception()).get();

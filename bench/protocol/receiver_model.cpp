@@ -14,9 +14,7 @@ namespace {
 
 using namespace messages;
 
-constexpr Routes bench_messages([](const MessageInfo& info) {
-  return info.sender != TargetHeartbeat::info.sender;
-});
+constexpr Routes bench_messages([](const MessageInfo& info) { return !is_targets(info); });
 
 // An estimator may drop a group that arrives more than this time before or after the group's time of
 // validity.

@@ -43,7 +43,7 @@ struct Track {
   std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
   double longest_wait_us = 0;       ///< the longest time between answers that does not count as silence
   std::int64_t answers_end_us = 0;  ///< no answers are expected after this time
-  /// The time to go at one stimulus. `to_go` is empty if the flight has no closest approach.
+  /// The time to go at one stimulus. Only tracks of quantities of an engagement have it.
   struct ToGo {
     std::int64_t t_us = 0;
     double to_go_s = 0;

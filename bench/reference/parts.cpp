@@ -9,9 +9,9 @@
 #include "bench/campaign/metric.hpp"
 #include "bench/drive/contract.hpp"
 #include "bench/drive/target_parameters.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/engagement.hpp"
 #include "bench/scenario/faults.hpp"
-#include "bench/scenario/foreign.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/node.hpp"
 #include "bench/scenario/scenario.hpp"
@@ -23,9 +23,23 @@ namespace canhil::reference {
 namespace {
 
 // A target with a DBC of its own, of which nothing is known.
-struct AnyForeign final : scenario::Foreign {
-  [[nodiscard]] const protection::Protection* protection_of(std::size_t /*message*/) const override {
+struct AnyBinding final : scenario::Binding {
+  AnyBinding() { any_sensor = true; }
+  [[nodiscard]] std::shared_ptr<const protection::Protection> protection_of(
+      const MessageInfo& /*message*/) const override {
     return nullptr;
+  }
+  [[nodiscard]] const MessageInfo* closing_of(const scenario::NodeTable& /*node*/) const override {
+    return nullptr;
+  }
+  [[nodiscard]] bool is_played(const MessageInfo& /*message*/,
+                               std::span<const scenario::NodeSettings> /*nodes*/) const override {
+    return false;
+  }
+  [[nodiscard]] std::string_view estimator_of(const MessageInfo& /*message*/) const override { return ""; }
+  [[nodiscard]] Result<void> fits(const scenario::Scenario& /*scenario*/,
+                                  const world::FlightRecord& /*flight*/) const override {
+    return {};
   }
 };
 
@@ -73,7 +87,7 @@ std::vector<AskedKey> keys_of_file(const scenario::DbcVocabulary& contract) {
 Part target_part(const scenario::DbcVocabulary& contract) {
   const auto keys = keys_of([&](Section& root) { scenario::read_targets(root, contract); });
   scenario::DbcVocabulary mapped = contract;
-  mapped.foreign = std::make_shared<const AnyForeign>();
+  mapped.binding = std::make_shared<const AnyBinding>();
   const auto own = keys_of([&](Section& root) { scenario::read_targets(root, mapped); });
   Part part{
       .title = "The target",
@@ -208,7 +222,7 @@ Part faults_part(const scenario::DbcVocabulary& contract) {
 
 Part checks_part(const scenario::DbcVocabulary& contract) {
   scenario::DbcVocabulary mapped = contract;
-  mapped.foreign = std::make_shared<const AnyForeign>();
+  mapped.binding = std::make_shared<const AnyBinding>();
   const std::vector<scenario::FaultWindow> faults{{.name = "NAME", .window = {.from_us = 0, .to_us = 1}}};
   const auto context_of = [&](const scenario::DbcVocabulary& by) {
     return scenario::CheckContext{

@@ -14,7 +14,7 @@
 #include "bench/report/rounded.hpp"
 #include "bench/report/series.hpp"
 #include "bench/report/summary.hpp"
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 #include "dbc/realtime/host.hpp"
 #include "dbc/version/version.hpp"
 
@@ -162,11 +162,11 @@ Json object(const drive::Adapter& adapter) {
 }
 
 Json provenance(const scenario::Scenario& scenario, const drive::Run& run) {
-  const scenario::Foreign* foreign = scenario.foreign.get();
+  const scenario::Binding& binding = *scenario.binding;
   Json json{{"scenario", scenario.file},
             {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
-            {"contract", foreign == nullptr ? std::string(name_of(run.options.format)) : foreign->file},
-            {"dbc_hash", fmt::format("{:016x}", foreign == nullptr ? messages::dbc_hash : foreign->dbc_hash)},
+            {"contract", binding.file.empty() ? std::string(name_of(run.options.format)) : binding.file},
+            {"dbc_hash", fmt::format("{:016x}", binding.dbc_hash)},
             {"seed", scenario.seed},
             {"run", run.options.run_index},
             {"bus", run.options.bus.text},

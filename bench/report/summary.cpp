@@ -7,7 +7,7 @@
 #include "bench/checks/timing.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/nodes/registry.hpp"
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 
 namespace canhil::report {
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario) {
@@ -19,9 +19,7 @@ std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario
 }
 
 bool is_due(const scenario::Scenario& scenario, const MessageInfo& message) {
-  if (scenario.foreign != nullptr) return !message.answers.empty();
-  const estimators::Estimator* sender = estimators::sending(message);
-  return sender != nullptr && scenario.runs(sender->name);
+  return !message.answers.empty() && scenario.runs(scenario.binding->estimator_of(message));
 }
 
 bool is_cut_off(const drive::Run& run) {
@@ -98,17 +96,17 @@ std::vector<wire::BitRates> load_rates(wire::BitRates known, BusFormat format) {
 
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   std::vector<std::string> lines;
-  if (scenario.foreign != nullptr) return lines;  // the target's own DBC defines the rates
   for (const bool at_every_epoch :
        {true, false}) {  // the first pass is for the node whose period is the interval of the truth
     for (const nodes::Kind* kind : nodes::all()) {
-      const MessageInfo& closes = *kind->table.closes;
+      const MessageInfo* closes = scenario.binding->closing_of(kind->table);
       const scenario::NodeSettings* node = scenario.node(kind->table.key);
-      if (kind->table.sensor->at_every_epoch != at_every_epoch || node == nullptr) continue;
-      if (node->period_us() == closes.cycle_time_us) continue;
-      lines.push_back(fmt::format("{} every {:g} ms (DBC: {:g} ms)", closes.sample_group,
+      if (kind->table.sensor->at_every_epoch != at_every_epoch || node == nullptr || closes == nullptr)
+        continue;
+      if (node->period_us() == closes->cycle_time_us) continue;
+      lines.push_back(fmt::format("{} every {:g} ms (DBC: {:g} ms)", closes->sample_group,
                                   static_cast<double>(node->period_us()) * 1e-3,
-                                  static_cast<double>(closes.cycle_time_us) * 1e-3));
+                                  static_cast<double>(closes->cycle_time_us) * 1e-3));
     }
   }
   return lines;

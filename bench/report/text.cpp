@@ -11,7 +11,7 @@
 #include "bench/report/latency_breakdown.hpp"
 #include "bench/report/summary.hpp"
 #include "bench/report/uncertainty.hpp"
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 #include "dbc/text/escape.hpp"
 #include "dbc/version/version.hpp"
 
@@ -168,7 +168,7 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
                                                                    : "",
                       clock_name(run), static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
-  if (scenario.foreign != nullptr) page += fmt::format("  by {}\n", one_line(scenario.foreign->file));
+  if (!scenario.binding->file.empty()) page += fmt::format("  by {}\n", one_line(scenario.binding->file));
   page += fmt::format("  canhil {} (revision {}){}{}\n", version_text(), revision(),
                       run.seen.target_version.empty() ? "" : " · target " + run.seen.target_version,
                       run.options.operator_name.empty() ? "" : " · operator " + run.options.operator_name);

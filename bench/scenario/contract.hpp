@@ -20,17 +20,17 @@ struct Estimator;
 
 namespace canhil::scenario {
 
-struct Foreign;
+struct Binding;
 struct NodeTable;
 class NodeSettings;
 class Section;
 
 struct DbcVocabulary {
-  std::vector<std::string> estimators;  ///< value table Estimator, without "none"
-  std::vector<std::string> algorithms;  ///< value table Algorithm
-  std::vector<std::string> parameters;  ///< value table Parameter
-  std::vector<std::string> messages;    ///< names of all messages
-  std::vector<std::string> answers;     ///< names of the messages that answer a sample group
+  std::vector<std::string> estimators{};  ///< those that the target may run
+  std::vector<std::string> algorithms{};  ///< value table Algorithm
+  std::vector<std::string> parameters{};  ///< value table Parameter
+  std::vector<std::string> messages{};    ///< names of all messages
+  std::vector<std::string> answers{};     ///< names of the messages that answer a sample group
   std::vector<CheckKind> check_kinds{};
   std::span<const estimators::Estimator* const> known{};  ///< the estimators known to the bench
   std::vector<FormerCheckKind> former_check_kinds{};
@@ -40,7 +40,7 @@ struct DbcVocabulary {
   std::map<std::string, EstimatorFacts, std::less<>> facts{};  ///< by estimator
   std::vector<const NodeTable*> nodes{};                       ///< in the order in which they are read
   std::vector<FaultKind> fault_kinds{};
-  std::shared_ptr<const Foreign> foreign{};  ///< null: the target uses canhil's own DBC
+  std::shared_ptr<const Binding> binding{};
   /// Reads the table of any node if the table has the key `recorded`; null: recordings are not allowed.
   NodeSettings (*read_recorded)(const NodeTable& table, Section& section, std::int64_t duration_us) = nullptr;
   /// The table of a sensor with a name of its own; `kind`: the table of its kind.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/engagement.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/section.hpp"
@@ -55,7 +56,7 @@ void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract
       (truth == TruthOf::glide && scenario.glide) || (truth == TruthOf::engagement && scenario.engagement);
   for (const NodeTable* node : contract.nodes) {
     if (node->samples != truth) continue;
-    if (contract.foreign == nullptr && node->closes == nullptr) {
+    if (!contract.binding->any_sensor && contract.binding->closing_of(*node) == nullptr) {
       if (root.has(node->key))
         root.reject(node->key, "is given, but canhil's DBC has no message for its samples",
                     "a target with a mapping");
@@ -72,7 +73,7 @@ void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract
 
 /// Reads the sensors that have names of their own.
 void read_sensors(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
-  if (contract.foreign == nullptr) {
+  if (!contract.binding->any_sensor) {
     if (root.has("sensor"))
       root.reject("sensor", "is given, but canhil's DBC carries one sensor of each kind",
                   "the tables of its nodes, or a target with a mapping");
@@ -99,7 +100,7 @@ void read_glider(Section& root, Scenario& scenario, const DbcVocabulary& contrac
     return;
   }
   Section glide = root.table("glide");
-  if (contract.foreign != nullptr)
+  if (!contract.binding->handshake)
     glide.refuse("initial_error", "has no effect: a target with a mapping is not told this state",
                  "no such table");
   scenario.glide = read_glide(root, glide);
@@ -267,23 +268,23 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
                                                "Seed of all random numbers: the same seed gives the same "
                                                "frames. The option `--seed` overrides this key."},
                                               0));
-  scenario.foreign = contract.foreign;
+  scenario.binding = contract.binding;
   scenario.targets = read_targets(root, contract);
   if (auto engagement = root.optional_table("engagement")) {
     scenario.engagement = read_engagement(*engagement);
-    if (contract.foreign != nullptr && scenario.engagement->guidance == world::Guidance::target)
-      engagement->reject("guidance", "is 'target', but answers by a mapping do not reach the missile",
-                         "'truth'");
+    if (!contract.binding->closes_loop && scenario.engagement->guidance == world::Guidance::target)
+      engagement->reject("guidance", "is 'target', but the mapping has no answers that guide the missile",
+                         "'truth', or answers with los.rate.pitch and los.rate.yaw");
   }
   read_glider(root, scenario, contract);
   read_navigation(root, scenario, contract);
-  if (contract.foreign != nullptr && !root.has("start"))
+  if (!contract.binding->handshake && !root.has("start"))
     root.refuse("initial_error", no_start, "a table [start] beside it");
   if (auto initial_error = root.optional_table("initial_error")) {
     scenario.initial_error = read_initial_error(*initial_error);
   }
   read_nodes(root, scenario, contract, TruthOf::navigation);
-  if (contract.foreign == nullptr) expect_aid(root, scenario, contract);
+  if (!contract.binding->any_sensor) expect_aid(root, scenario, contract);
   read_nodes(root, scenario, contract, TruthOf::engagement);
   read_sensors(root, scenario, contract);
   for (const NodeSettings& node : scenario.nodes) {

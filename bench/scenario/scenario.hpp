@@ -47,7 +47,7 @@ struct Scenario {
   std::uint64_t seed = 0;
   std::optional<bool> fd;  ///< the selected DBC; true: canhil-fd, false: canhil, none: not selected
 
-  std::shared_ptr<const Foreign> foreign;  ///< null: the target uses canhil's own DBC
+  std::shared_ptr<const Binding> binding;  ///< of the DBC of the bus
   std::vector<TargetSetup> targets;        ///< one for each estimator that the target runs
   world::Flight truth;                     ///< at rest if no estimator navigates
   world::InitialErrorModel

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/world/units.hpp"
@@ -87,7 +88,7 @@ TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
 }
 
 TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
-  if (contract.foreign != nullptr) return read_own_start(section, contract);
+  if (!contract.binding->handshake) return read_own_start(section, contract);
   for (const std::string_view key : {"handshake", "settle_s", "silence_s", "before", "after"})
     section.refuse(key, "is for a target with a mapping", "the key 'mapping' beside it");
   TargetSetup target;

@@ -65,9 +65,12 @@ class TimeOrdered {
     in_order_ = in_order_ && !(latest_ && t < *latest_);
     latest_ = latest_ ? std::max(*latest_, t) : t;
     items_.push_back(item);
+    ++revision_;
   }
   /// The latest time of an item that has arrived; none: no item has arrived.
   [[nodiscard]] auto latest() const { return latest_; }
+  /// Changes whenever an item is added or may have been changed.
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }
 
   [[nodiscard]] const Spool<T>& in_order() const {
     if (!in_order_) put_in_order(items_, time);
@@ -79,7 +82,10 @@ class TimeOrdered {
   [[nodiscard]] bool empty() const { return items_.empty(); }
   const T& operator[](std::size_t index) const { return in_order()[index]; }
   /// The time of the item must not be changed.
-  T& operator[](std::size_t index) { return const_cast<T&>(std::as_const(*this)[index]); }
+  T& operator[](std::size_t index) {
+    ++revision_;
+    return const_cast<T&>(std::as_const(*this)[index]);
+  }
   [[nodiscard]] const T& front() const { return in_order().front(); }
   [[nodiscard]] const T& back() const { return in_order().back(); }
   T& back() { return (*this)[size() - 1]; }
@@ -91,6 +97,7 @@ class TimeOrdered {
   mutable Spool<T> items_;
   mutable bool in_order_ = true;
   std::optional<Time> latest_{};
+  std::uint64_t revision_ = 0;
 };
 
 }  // namespace canhil

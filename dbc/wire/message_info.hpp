@@ -54,4 +54,8 @@ struct MessageInfo {
   bool can_travel_unrounded = false;
 };
 
+/// The senders of the messages of the bench itself and of the device under test, whatever DBC these are of.
+inline constexpr std::string_view bench_node = "Bench", target_node = "Target";
+constexpr bool is_targets(const MessageInfo& info) { return info.sender == target_node; }
+
 }  // namespace canhil

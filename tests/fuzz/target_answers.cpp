@@ -82,7 +82,7 @@ void fly(const Prepared& prepared, std::uint8_t how, std::span<const std::uint8_
   drive::Schedule schedule =
       drive::make_schedule(scenario, truth, flight->per_run_truth, 0, (how & lockstep) != 0);
   observe::BusWatch bus(port);
-  observe::Intruders intruders;
+  observe::Intruders intruders{messages::all_messages};
   const drive::Attached bus_watched(link, bus), intruders_watched(link, intruders);
   const auto ready = drive::configure(link, schedule.outbox(), scenario.targets, flight->initial,
                                       [] { return std::nullopt; });

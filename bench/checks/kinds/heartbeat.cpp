@@ -4,6 +4,7 @@
 
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/timing.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/section.hpp"
 
@@ -11,7 +12,7 @@ namespace canhil::checks {
 
 Heartbeat Heartbeat::read(scenario::Section& section, const scenario::CheckContext& context) {
   Heartbeat rule;
-  if (context.contract.foreign != nullptr) {
+  if (!context.contract.binding->handshake) {
     std::vector<std::string> own;
     for (const auto& [message, sender] : context.contract.sent_by) own.push_back(message);
     rule.message = section.one_of({"message",

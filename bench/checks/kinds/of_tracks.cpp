@@ -86,12 +86,11 @@ Subject read_subject(scenario::Section& section, const scenario::CheckContext& c
 
 Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& context,
                      const Subject& subject) {
-  const estimators::Estimator* estimator = estimators::find(context.contract.known, subject.estimator);
   if (!section.has("time_to_go_s")) {
     section.optional("time_to_go_s");
     return {.window = scenario::read_window(section, context.duration_us)};
   }
-  if (estimator != nullptr && estimator->layout.to_go_stretch_us == 0)
+  if (subject.quantity != nullptr && !subject.quantity->of_engagement)
     section.reject("time_to_go_s", "is for flights that go to a target", "from_s and to_s");
   for (const std::string_view key : {"from_s", "to_s"})
     section.refuse(key, "has no effect beside time_to_go_s", "one of the two");

@@ -11,8 +11,8 @@
 #include "bench/checks/kinds/output_period.hpp"
 #include "bench/checks/rule.hpp"
 #include "bench/checks/timing.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/contract.hpp"
-#include "bench/scenario/foreign.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/scenario/section.hpp"
 
@@ -20,11 +20,8 @@ namespace canhil::checks {
 namespace {
 
 bool is_sent_by_target(const scenario::DbcVocabulary& contract, const std::string& message) {
-  const std::span<const MessageInfo> all =
-      contract.foreign == nullptr ? messages::all_messages : std::span(contract.foreign->messages);
-  return std::ranges::any_of(all, [&](const MessageInfo& one) {
-    return one.name == message && one.sender == messages::TargetHeartbeat::info.sender;
-  });
+  return std::ranges::any_of(contract.binding->messages,
+                             [&](const MessageInfo& one) { return one.name == message && is_targets(one); });
 }
 
 std::uint64_t arrived(const Sighting& one) {

@@ -45,7 +45,7 @@ struct SentFix {
 };
 
 struct InflightAnswers {
-  InOrderOfCause<NavigationAnswer> navigation;
+  NavigationAnswers navigation;
   InOrderOfCause<FixAnswer> fixes;
   Spool<SentFix> sent;
 };

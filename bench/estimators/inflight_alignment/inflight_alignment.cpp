@@ -49,7 +49,7 @@ constexpr Layout layout{.kept = kept, .derived = derived, .answers_may_omit = tr
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   const InflightAnswers& answers = seen.of<InflightAnswers>();
-  const auto errors = navigation_errors(answers.navigation, truth.flight);
+  const auto& errors = answers.navigation.errors(truth.flight);
   for (const FixAnswer& update : answers.fixes) {
     if (!has_time_and_truth(update, truth.flight)) continue;
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
@@ -132,7 +132,7 @@ void give_positions(const InflightAnswers& answers, const Answering& filters, co
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const InflightAnswers& answers = seen.of<InflightAnswers>();
-  const auto errors = navigation_errors(answers.navigation, truth.flight);
+  const auto& errors = answers.navigation.errors(truth.flight);
   // Fixes that the bench withheld on purpose need no answer.
   const auto unanswered = [&answers](std::int64_t from_us, std::int64_t to_us) {
     return unanswered_fixes(answers, {.from_us = from_us, .to_us = to_us});
@@ -177,7 +177,7 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
                                    std::string_view algorithm) {
   constexpr std::array bands_deg{30.0, 10.0, 3.0, 1.0};
   const InflightAnswers& answers = seen.of<InflightAnswers>();
-  auto lines = alignment_results(navigation_errors(answers.navigation, truth.flight), bands_deg, degrees);
+  auto lines = alignment_results(answers.navigation.errors(truth.flight), bands_deg, degrees);
   if (answers.fixes.empty()) return lines;
   const FixAnswer& last = answers.fixes.back();
   ResultLine filter{.name = "filter", .what = "filter"};

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "bench/estimators/end_of_flight.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/los_rate/answers.hpp"
 #include "bench/estimators/los_rate/miss_distance.hpp"
@@ -111,17 +112,14 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   constexpr double least_to_go_s = 0.08;
   const auto last = std::find_if(errors.rbegin(), errors.rend(),
                                  [](const LosError& e) { return e.time_to_go >= least_to_go_s; });
-  const Answering of{
-      longest_wait_us(seen, messages::LosRateTarget::info.name),
-      engagement.miss_n ? std::min(truth.duration_us, engagement.passage_us) : truth.duration_us};
+  const Answering of{longest_wait_us(seen, messages::LosRateTarget::info.name),
+                     answers_end_us(engagement, truth.duration_us)};
   const auto plane = [&](const Quantity& quantity, const std::string& name,
                          double world::Planes<double>::*member) {
     Track track = of.track(quantity, "LOS rate error, " + name);
     track.drawn_until_us = last == errors.rend() ? 0 : last->t_us;
     track.estimate_title = "LOS rate, " + name;
     track.estimate_unit = mradps;
-    for (const world::EngagementTruth& epoch : engagement.epochs)
-      track.to_go.push_back({.t_us = epoch.t_us, .to_go_s = epoch.time_to_go()});
     for (const LosError& e : errors) {
       const LosAnswer& answer = answers[e.answer];
       track.points.push_back({.t_us = e.t_us,
@@ -150,19 +148,6 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
                                    std::string_view /*algorithm*/) {
   if (truth.engagement == nullptr) return {};
   const world::EngagementRecord& engagement = *truth.engagement;
-  const double passage_s = static_cast<double>(engagement.passage_us) * 1e-6;
-  ResultLine end{.name = "end", .what = "end of the flight"};
-  if (engagement.miss_n) {
-    const double miss = engagement.miss_n->norm();
-    end.add("miss", miss, fmt::format("miss {:.3f} m", miss));
-    end.add("passage", passage_s, fmt::format("at {:.3f} s", passage_s));
-  } else {
-    end.add("miss", std::nullopt, "the target was not passed");
-  }
-  if (engagement.late_commands > 0) {
-    end.add("late_commands", static_cast<double>(engagement.late_commands),
-            fmt::format("{} answers too late to guide", engagement.late_commands));
-  }
   ResultLine rms{.name = "rms", .what = "RMS [mrad/s] by s to go"};
   constexpr std::array<std::pair<double, double>, 6> windows{
       {{4.5, 3}, {3, 2}, {2, 1}, {1, 0.5}, {0.5, 0.2}, {0.2, 0.08}}};
@@ -172,7 +157,7 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
     const std::string name = fmt::format("{:g} to {:g}", most, least);
     rms.add(name, value, name + (value ? fmt::format(": {:.2f}", *value / mradps.factor) : ": no answers"));
   }
-  return {std::move(end), std::move(rms)};
+  return {end_of_flight(engagement), std::move(rms)};
 }
 
 constexpr std::array closing{messages::LosRateTarget::info.name};

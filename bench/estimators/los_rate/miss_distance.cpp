@@ -4,20 +4,28 @@
 
 #include <algorithm>
 
+#include "bench/checks/estimator.hpp"
 #include "bench/checks/evidence.hpp"
-#include "bench/estimators/los_rate/los_rate.hpp"
+#include "bench/scenario/contract.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::estimators {
 
 MissDistance MissDistance::read(scenario::Section& section, const scenario::CheckContext& context) {
-  if (std::ranges::find(context.estimators, los_rate.name) == context.estimators.end())
+  MissDistance rule;
+  for (const Estimator* one : context.contract.known) {
+    const bool runs = std::ranges::find(context.estimators, one->name) != context.estimators.end();
+    if (runs && std::ranges::any_of(one->of_runs, &quantities::Quantity::of_engagement))
+      rule.estimators.emplace_back(one->name);
+  }
+  if (rule.estimators.empty())
     section.reject("kind", "needs an engagement to be judged", "estimator los_rate in the scenario");
-  return {.below = section.number({"below_m", "The closest approach must be below this value."},
-                                  scenario::Limits::above(0))};
+  rule.below = section.number({"below_m", "The closest approach must be below this value."},
+                              scenario::Limits::above(0));
+  return rule;
 }
 
-std::vector<std::string> MissDistance::held_against_truth() const { return {std::string(los_rate.name)}; }
+std::vector<std::string> MissDistance::held_against_truth() const { return estimators; }
 
 checks::Finding MissDistance::judge(const checks::Evidence& evidence) const {
   using checks::Outcome;

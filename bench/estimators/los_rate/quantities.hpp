@@ -13,17 +13,20 @@ inline constexpr Quantity los_rate_pitch{
     .name = "los.rate.pitch",
     .meaning = "error of the LOS rate in pitch, antenna axes; in campaigns RMS over 20 ms of the time to go",
     .unit = mradps,
+    .of_engagement = true,
     .once = "los_pitch"};
 inline constexpr Quantity los_rate_yaw{
     .name = "los.rate.yaw",
     .meaning = "error of the LOS rate in yaw, antenna axes; in campaigns RMS over 20 ms of the time to go",
     .unit = mradps,
+    .of_engagement = true,
     .once = "los_yaw"};
 inline constexpr std::array<const Quantity*, 2> los_rate_planes{&los_rate_pitch, &los_rate_yaw};
 inline constexpr Quantity los_rate_both{
     .name = "los.rate",
     .meaning = "error of the LOS rate: RMS over both planes and over 20 ms of the time to go",
     .unit = mradps,
+    .of_engagement = true,
     .once = "los_rate",
     .parts = los_rate_planes};
 /// The reported sigma, RMS of both planes.
@@ -71,6 +74,7 @@ inline constexpr Quantity los_nis{.name = "los.nis",
                                   .unit = plain,
                                   .degrees_of_freedom = 2,
                                   .white = true,
-                                  .nan_allowed = true};
+                                  .nan_allowed = true,
+                                  .of_engagement = true};
 
 }  // namespace canhil::quantities

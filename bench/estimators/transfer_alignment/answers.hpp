@@ -23,7 +23,7 @@ struct FilterAnswer {
 };
 
 struct TransferAnswers {
-  InOrderOfCause<NavigationAnswer> navigation;
+  NavigationAnswers navigation;
   InOrderOfCause<FilterAnswer> filter;
 };
 

@@ -31,7 +31,7 @@ constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_may
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   const TransferAnswers& answers = seen.of<TransferAnswers>();
-  const auto errors = navigation_errors(answers.navigation, truth.flight);
+  const auto& errors = answers.navigation.errors(truth.flight);
   for (const FilterAnswer& update : answers.filter) {
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
@@ -62,7 +62,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const TransferAnswers& answers = seen.of<TransferAnswers>();
-  const auto errors = navigation_errors(answers.navigation, truth.flight);
+  const auto& errors = answers.navigation.errors(truth.flight);
   const Alignment alignment{
       .angle = mrad,
       .innovation = {&velocity_innovation_north, &velocity_innovation_east, &velocity_innovation_down},
@@ -95,8 +95,7 @@ std::vector<Mark> marks_of(const checks::Observations& seen) {
 std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
                                    std::string_view /*algorithm*/) {
   constexpr std::array bands_mrad{10.0, 3.0, 2.0, 1.0};
-  return alignment_results(navigation_errors(seen.of<TransferAnswers>().navigation, truth.flight), bands_mrad,
-                           mrad);
+  return alignment_results(seen.of<TransferAnswers>().navigation.errors(truth.flight), bands_mrad, mrad);
 }
 
 constexpr std::array closing{messages::AlignVelocityD::info.name, messages::AlignUpdate::info.name};

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bench/scenario/foreign.hpp"
+#include "bench/scenario/binding.hpp"
 #include "dbc/protection/profiles.hpp"
 #include "dbc/protection/protection.hpp"
 
@@ -13,31 +13,13 @@ namespace {
 
 using protection::Protection;
 
-// The protection of canhil's own messages, as dbc/wire/e2e.hpp writes it; null: the message has none.
-std::shared_ptr<const Protection> own_protection(const MessageInfo& message) {
-  if (message.e2e_data_id == 0) return nullptr;
-  protection::ProfileChoice choice;
-  choice.data_id = message.e2e_data_id;
-  const auto settings = protection::profile("autosar-e2e-11a", choice, message.size);
-  return std::make_shared<const Protection>(
-      Protection::make(settings.value(), {.id = message.id, .size = message.size}).value());
-}
-
-std::shared_ptr<const Protection> protection_of(const MessageInfo& message,
-                                                const scenario::FaultContext& context) {
-  const auto& foreign = context.contract.foreign;
-  if (foreign == nullptr) return own_protection(message);
-  const auto index = static_cast<std::size_t>(&message - foreign->messages.data());
-  return {foreign, foreign->protection_of(index)};
-}
-
 // Requires messages with a protection, because otherwise the places of counter and checksum are unknown.
 template <class Kind>
 Kind read_protected(scenario::Section& section, const scenario::FaultContext& context, bool counter) {
   Kind kind;
   kind.of = read_messages(section, context);
   for (const MessageInfo* message : kind.of.all) {
-    auto own = protection_of(*message, context);
+    auto own = context.contract.binding->protection_of(*message);
     if (own == nullptr)
       section.reject("messages", fmt::format("{} has no protection that the bench can spoil", message->name),
                      "kind = \"damaged\"");

@@ -94,7 +94,8 @@ Restarted Restarted::read(scenario::Section& section, const scenario::FaultConte
   return kind;
 }
 std::string Restarted::cannot(const Place& place) const {
-  if (place.mapped) return "has no handshake in a mapping, expected a target that speaks canhil's contract";
+  if (!place.handshake)
+    return "has no handshake in a mapping, expected a target that speaks canhil's contract";
   return needs_process(place);
 }
 std::unique_ptr<Injector> Restarted::injector(const InRun& run) const {

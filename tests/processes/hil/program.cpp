@@ -108,7 +108,7 @@ void each_entry(const std::string& log_path, const Take& take) {
 
 bool of_target(const Frame& frame) {
   const MessageInfo* info = messages::find_message(frame.id);
-  return info != nullptr && info->sender == messages::TargetHeartbeat::info.sender;
+  return info != nullptr && is_targets(*info);
 }
 
 // Silences before the first Sync do not count: during the handshake, the bench waits for the target.

@@ -315,8 +315,35 @@ std::string measured(const nlohmann::json& report, const std::string& name) {
 TEST_F(Altered, WhatHasNoEffectIsRefused) {
   expect_refused("own_ecu.toml", "[slave_imu]", "[initial_error]\nattitude_deg = [1, 1, 1]\n[slave_imu]",
                  "key 'initial_error': has no effect: with a mapping, only the sensor [start] tells");
-  expect_refused("own_ecu.toml", "[slave_imu]", "[engagement]\nguidance = \"target\"\n[seeker]\n[slave_imu]",
-                 "key 'engagement.guidance': is 'target', but answers by a mapping do not reach the missile");
+  expect_refused(
+      "own_ecu.toml", "[slave_imu]", "[engagement]\nguidance = \"target\"\n[seeker]\n[slave_imu]",
+      "key 'engagement.guidance': is 'target', but the mapping has no answers that guide the missile");
+}
+
+// The missile flies by the tracker's answers, so a tracker with a defect misses.
+TEST(Tracker, GuidesTheMissile) {
+  const std::string own = SOURCE_DIR "/tests/processes/mapping/tracker/";
+  const auto flown = [&](const std::string& defect, const std::string& more) {
+    return hil_bench(
+        fmt::format("run {0}tracker.toml {1} --target '/usr/bin/python3 {0}tracker.py {2}' --json {3}", own,
+                    more, defect, scratch("tracker.json")));
+  };
+  const auto miss_m = [] { return figure(read_json(scratch("tracker.json")), "tracker", "end", "miss"); };
+  const Ended good = flown("none", "--lockstep");
+  EXPECT_EQ(good.code, 0) << good.out << good.err;
+  EXPECT_LT(miss_m(), 1);
+  for (const char* defect : {"zero", "mirrored", "late"}) {
+    const Ended bad = flown(defect, "--lockstep");
+    EXPECT_EQ(bad.code, 1) << defect << bad.err;
+    EXPECT_THAT(checks(read_json(scratch("tracker.json")), "fail"),
+                testing::Contains("miss_distance miss_distance"));
+    EXPECT_GT(miss_m(), 5) << defect;
+  }
+  // In real time an answer that comes too late for its command is counted.
+  Ended real = flown("none", "--bus " + bus());
+  for (int left = 3; left > 0 && real.code == 1; --left) real = flown("none", "--bus " + bus());
+  EXPECT_EQ(real.code, 0) << real.out << real.err;
+  EXPECT_LT(miss_m(), 5);
 }
 
 // The counter of the samples has 4 bits and comes round every 160 ms.

@@ -40,6 +40,17 @@ ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/")
 # estimator's name.
 KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/sensors/seeker.", "bench/nodes/seeker.", "bench/nodes/bound_sensor.", "bench/scenario/glide.")
 
+# Code that may know whose DBC it is: the bindings (canhil.dbc's, its sensors' and its estimators', and the mappings of other
+# DBC files), canhil's own protocol, and what is about that protocol alone (conformance, accept, the drawn faults of hil-target).
+# All other code asks the properties of a scenario::Binding.
+KNOW_WHOSE_DBC = ("bench/bindings/", "bench/mapping/", "bench/nodes/", "bench/estimators/", "bench/protocol/", "bench/conformance/", "bench/accept/",
+                  "bench/fault_matrix/drawn.", "bench/drive/contract.", "bench/drive/contract_dialect.", "bench/drive/mapped_dialect.",
+                  "bench/commands/dbc.",  # commands about a mapping
+                  "bench/campaign/metric.", "bench/campaign/row.",  # stored columns: quantities of a mapping
+                  "bench/checks/observations.", "bench/checks/timing_record.", "bench/checks/judge.hpp",  # where a test names no messages
+                  "bench/drive/buses.")  # a condition on the build
+WHOSE_DBC = re.compile(r"\ball_messages\b|\bbindings::canhil\b|\bmapping::\w+")
+
 # The aim is 300 lines. A file with a long table or a long derivation may exceed 300 lines; a file that is longer by a
 # third contains a second subject.
 MOST_LINES = 400
@@ -66,7 +77,7 @@ def check(root):
     graph = {name: includes(text) for name, text in sources.items()}
     return [*direct_breaches(graph), *reach_breaches(graph), *cycle_breaches(graph), *depth_breaches(graph), *size_breaches(sources),
             *name_breaches(texts), *machine_path_breaches(texts), *quantity_breaches(sources),
-            *estimator_breaches(sources), *named_test_breaches(texts), *node_breaches(sources, graph),
+            *estimator_breaches(sources), *named_test_breaches(texts), *node_breaches(sources, graph), *whose_dbc_breaches(sources),
             *dbc_breaches(texts, sources)]
 
 
@@ -240,6 +251,16 @@ def node_breaches(sources, graph):
         if named and not name.startswith(("bench/sensors/", "bench/nodes/")) and (found := named.search(clean := without_comments(text))):
             line = clean.count("\n", 0, found.start()) + 1
             yield f"{name}:{line}: names {found[0]}, expected scenario::NodeSettings: its table stands in bench/sensors"
+
+
+def whose_dbc_breaches(sources):
+    for name, text in sources.items():
+        if not name.startswith("bench/") or name.startswith(KNOW_WHOSE_DBC):
+            continue
+        clean = without_comments(text, keep_strings=False)
+        for found in WHOSE_DBC.finditer(clean):
+            line = clean.count("\n", 0, found.start()) + 1
+            yield f"{name}:{line}: names {found[0]}, expected a property of scenario::Binding: only bindings and the protocol know whose DBC it is"
 
 
 def size_breaches(sources):

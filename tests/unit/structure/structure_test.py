@@ -104,6 +104,14 @@ class Checker(unittest.TestCase):
                 self.expect(f"{name}:1: includes bench/sensors/gps.hpp", {**gps, name: '#include "bench/sensors/gps.hpp"\n'})
         self.expect("bench/scenario/x.cpp:2: names GpsSettings", {**gps, "bench/scenario/x.cpp": "// GpsSettings\nGpsSettings all;\n"})
 
+    def test_whose_dbc_it_is_only_bindings_and_the_protocol_know(self):
+        for text in ("for (const auto& one : messages::all_messages) use(one);\n", "auto own = bindings::canhil();\n",
+                     "auto& of = dynamic_cast<const mapping::Mapping&>(*scenario.binding);\n"):
+            for name in ("bench/report/text.cpp", "bench/drive/session.cpp", "bench/faults/read.cpp", "bench/commands/run.cpp"):
+                with self.subTest(name=name, text=text):
+                    self.expect(f"{name}:1: names", {name: text})
+            self.assertEqual(breaches_of({"bench/drive/mapped_dialect.cpp": text, "bench/bindings/canhil.cpp": text}), [])
+
     def test_a_sensor_knows_no_frame(self):
         for other in ("dbc/wire/frame.hpp", "bench/nodes/node.hpp"):
             with self.subTest(other):

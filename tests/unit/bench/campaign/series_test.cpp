@@ -146,8 +146,7 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
   EXPECT_EQ(series.ending.kind, drive::Ending::Kind::completed);
   // 10 Hz for 3 s; no answer follows the last update.
   ASSERT_EQ(series.samples.size(), 29U);
-  const auto errors =
-      estimators::navigation_errors(flown->seen.of<estimators::TransferAnswers>().navigation, *truth);
+  const auto errors = flown->seen.of<estimators::TransferAnswers>().navigation.errors(*truth);
   for (std::size_t i = 0; i < series.samples.size(); ++i) {
     const auto same_time = [&](const auto& error) {
       return error.t_us == series.samples.times()[i] + 10'000;

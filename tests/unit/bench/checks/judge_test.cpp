@@ -1,5 +1,6 @@
 // Every kind of check: what passes, what fails, what cannot be measured. Silence never passes.
 #include "bench/checks/judge.hpp"
+#include "bench/bindings/canhil.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
 
 #include <gmock/gmock.h>
@@ -104,6 +105,7 @@ class Judged : public testing::Test {
   template <class Rule>
   CheckResult judge(const Rule& rule, const std::string& unfit = "") {
     scenario::Scenario scenario;
+    scenario.binding = bindings::canhil();
     scenario.checks.push_back(check_of(rule));
     const Observations seen = timed(scenario.checks);
     verdict_ = checks::judge(scenario, {.seen = seen,

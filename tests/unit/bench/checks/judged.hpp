@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "bench/bindings/canhil.hpp"
 #include "bench/checks/judge.hpp"
 #include "bench/checks/kinds/error.hpp"
 #include "bench/checks/rule.hpp"
@@ -25,6 +26,7 @@ scenario::Check check_of(Kind rule, const std::string& name = "it") {
 template <class Kind>
 CheckResult judged(const Kind& rule, const Observations& seen, const estimators::Truth& truth) {
   scenario::Scenario scenario;
+  scenario.binding = bindings::canhil();
   scenario.checks.push_back(check_of(rule));
   return judge(scenario, {.seen = seen, .truth = truth, .estimators = estimators::all()}).checks.at(0);
 }

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/bindings/canhil.hpp"
 #include "tests/unit/bench/checks/drawn.hpp"
 #include "tests/unit/bench/checks/fly_past.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
@@ -187,6 +188,7 @@ class SlowJudge : public FlyPast {
     for (unsigned seed = 0; seed < runs; ++seed) {
       Drawn run(seed, flight_, duration_us);
       scenario::Scenario scenario;
+      scenario.binding = bindings::canhil();
       const auto rule = draw(run);
       scenario.checks.push_back(check_of(rule));
       const Observations seen = observed(run, flight_, duration_us, scenario.checks);

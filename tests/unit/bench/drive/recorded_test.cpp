@@ -85,7 +85,7 @@ Flown fly(const std::string& text, const std::string& folder) {
   EXPECT_TRUE(collected) << collected.error().message;
   EXPECT_EQ(collected->ending.kind, Ending::Kind::completed) << collected->ending.detail;
   const auto& answers = collected->seen.of<estimators::TransferAnswers>();
-  return {estimators::navigation_errors(answers.navigation, *truth), answers.filter};
+  return {answers.navigation.errors(*truth), answers.filter};
 }
 
 std::string folder() { return test::own_folder(); }

@@ -28,11 +28,27 @@ TEST(NavigationErrors, AreEstimatedLessTrueAndWrapped) {
        .v_eb_n = Vector3(0, 3, 0)});
   seen.of<TransferAnswers>().navigation.push_back(
       {.cause_us = 1'010'000, .angles = {}});  // after the end of the truth
-  const auto errors = navigation_errors(seen.of<TransferAnswers>().navigation, truth);
+  const auto errors = seen.of<TransferAnswers>().navigation.errors(truth);
   ASSERT_THAT(errors, SizeIs(1));
   EXPECT_NEAR(errors[0].angles.heading, 0.02, 1e-12);
   EXPECT_NEAR(errors[0].angles.roll, 0.02, 1e-12);
   EXPECT_NEAR(errors[0].v_eb_n.y(), 3, 1e-12);
+}
+
+// The errors are kept from one call to the next, so they must follow the answers and the truth.
+TEST(NavigationErrors, FollowTheAnswersAndTheTruth) {
+  const auto north = at_rest(0), east = at_rest(std::numbers::pi / 2);
+  NavigationAnswers navigation;
+  const auto heading = [&](const auto& truth) { return navigation.errors(truth).front().angles.heading; };
+  navigation.push_back({.cause_us = 20'000, .angles = {.roll = 0, .pitch = 0, .heading = 0.1}});
+  EXPECT_NEAR(heading(north), 0.1, 1e-12);
+  EXPECT_EQ(&navigation.errors(north).front(), &navigation.errors(north).front());
+  EXPECT_NEAR(heading(east), 0.1 - std::numbers::pi / 2, 1e-12);
+  navigation.push_back({.cause_us = 10'000, .angles = {.roll = 0, .pitch = 0, .heading = 0.2}});  // late
+  ASSERT_THAT(navigation.errors(east), SizeIs(2));
+  EXPECT_NEAR(heading(east), 0.2 - std::numbers::pi / 2, 1e-12);
+  navigation.back().angles.heading = 0.3;
+  EXPECT_NEAR(navigation.errors(east).back().angles.heading, 0.3 - std::numbers::pi / 2, 1e-12);
 }
 
 NavigationError erring(std::int64_t t_us, const Vector3& phi) {

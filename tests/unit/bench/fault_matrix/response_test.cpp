@@ -1,6 +1,7 @@
 // Tests which response to a fault is reported, depending on the flags of the target and the checks of the
 // flight.
 #include "bench/fault_matrix/response.hpp"
+#include "bench/bindings/canhil.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -33,6 +34,7 @@ constexpr std::int64_t second_us = 1'000'000, duration_us = 20 * second_us;
 class Flown : public testing::Test {
  protected:
   Flown() {
+    scenario_.binding = bindings::canhil();
     scenario_.duration_us = duration_us;
     scenario_.faults.push_back({.name = "it", .from_us = 8 * second_us, .to_us = 10 * second_us});
     run_.ending = {.kind = Ending::Kind::completed, .t_us = duration_us, .detail = ""};

@@ -91,7 +91,7 @@ TEST(ReadFaults, WhatCannotWorkSomewhereSaysWhy) {
   Place controller = everything;
   controller.interface = Place::Interface::controller;
   Place mapped = everything;
-  mapped.mapped = true;
+  mapped.handshake = false;
   const std::string paused = fault("paused", "from_s = 1\nfor_s = 0.1");
   EXPECT_EQ(why(paused, local), "");
   EXPECT_THAT(why(paused, lockstep),

@@ -109,7 +109,7 @@ std::string mapping_with(const std::string& text, const std::string& instead) {
 // The frames that a run plays until its end.
 struct Flown {
   explicit Flown(const scenario::Scenario& scenario)
-      : mapping(dynamic_cast<const Mapping&>(*scenario.foreign)),
+      : mapping(dynamic_cast<const Mapping&>(*scenario.binding)),
         truth(*drive::make_truth(scenario)),
         conversation(mapping) {
     faults::Faults faults(scenario, 0, mapping.messages);
@@ -333,7 +333,7 @@ TEST(Player, PlaysASecondSensorOfAKind) {
               testing::HasSubstr("key 'sensors.gps': is a kind"));
   const auto wrong = read("[[sensor]]\nname = \"imu_b\"\nkind = \"gps\"", with_b);
   ASSERT_TRUE(wrong);
-  EXPECT_THAT(Player::check(dynamic_cast<const Mapping&>(*wrong->foreign), *wrong).error().message,
+  EXPECT_THAT(Player::check(dynamic_cast<const Mapping&>(*wrong->binding), *wrong).error().message,
               testing::HasSubstr("'imu_b' has another kind"));
   const auto uneven = flown_with("", "period_ms = 15");
   ASSERT_TRUE(uneven);
@@ -441,7 +441,7 @@ TEST(Listener, ATaskOfItsOwnAnswersTheLatestSample) {
         read("", mapping_with("answers = \"Rates\"\necho = { signal = \"Repeated\", of = \"Rates.Count\" }",
                               has_task ? "answers = \"Rates\"\ntask_ms = 40" : "answers = \"Rates\""));
     ASSERT_TRUE(scenario) << scenario.error().message;
-    Conversation all(dynamic_cast<const Mapping&>(*scenario->foreign)), said(all.mapping);
+    Conversation all(dynamic_cast<const Mapping&>(*scenario->binding)), said(all.mapping);
     Flown flown(*scenario);
     Listener listener(said, {}, {}, true);
     std::int64_t t_ns = 0;
@@ -473,7 +473,7 @@ TEST(J1939, GroupsAreKnownWithoutPrioritySourceAndDestination) {
           "message = \"Answer\"\nanswers = \"Rates\"\necho = { signal = \"Repeated\", of = \"Rates.Count\" }",
           "message = \"Speed\"\nany_source = true"));
   ASSERT_TRUE(scenario) << scenario.error().message;
-  const auto& mapping = dynamic_cast<const Mapping&>(*scenario->foreign);
+  const auto& mapping = dynamic_cast<const Mapping&>(*scenario->binding);
   const Places places(mapping);
   const std::size_t speed = mapping.hears.front().of.index;
   EXPECT_EQ(places(Frame{.id = 0x18FEF100, .size = 8, .extended = true}), speed);

@@ -98,7 +98,7 @@ class Told {
       : scenario_(read().value()), flight_(drive::make_truth(scenario_).value()), seen_(mapping().messages) {
     seen_.of<Answers>().mapping = &mapping();
   }
-  [[nodiscard]] const Mapping& mapping() const { return dynamic_cast<const Mapping&>(*scenario_.foreign); }
+  [[nodiscard]] const Mapping& mapping() const { return dynamic_cast<const Mapping&>(*scenario_.binding); }
   void place(std::int64_t t_us, double north, double east, double up) {
     const world::Position at = flight_.at(t_us).position;
     const world::Position said = world::displaced(at, {north, east, -up});
@@ -225,13 +225,13 @@ TEST(Derived, OnlyWhatThePartsAllow) {
     return all;
   };
   const auto whole = read().value();
-  EXPECT_THAT(names(dynamic_cast<const Mapping&>(*whole.foreign)),
+  EXPECT_THAT(names(dynamic_cast<const Mapping&>(*whole.binding)),
               testing::IsSupersetOf({"position.north", "position.nees", "innovation.velocity.nis"}));
   std::string text = mapping_text;
   const std::string line = "HeightSigma = \"position.height.sigma\"\n";
   text.erase(text.find(line), line.size());
   const auto less = read(text).value();
-  EXPECT_THAT(names(dynamic_cast<const Mapping&>(*less.foreign)),
+  EXPECT_THAT(names(dynamic_cast<const Mapping&>(*less.binding)),
               testing::AllOf(testing::Contains("position.horizontal.nees"),
                              testing::Not(testing::Contains("position.nees"))));
   text = mapping_text;

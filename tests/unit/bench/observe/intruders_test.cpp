@@ -22,7 +22,7 @@ Frame frame_of(const Message& message) {
 TEST(IntrudersOnTheBus, AreThoseWhoSendWhatTheBenchSends) {
   const Frame sync = frame_of(messages::Sync{});
   const Frame command = frame_of(messages::TargetCommand{});
-  Intruders intruders;
+  Intruders intruders{messages::all_messages};
   intruders.received({.frame = command});  // the bench has not yet sent a command
   intruders.transmitted(sync, 0, 0);
   intruders.transmitted(command, 0, 0);
@@ -33,7 +33,7 @@ TEST(IntrudersOnTheBus, AreThoseWhoSendWhatTheBenchSends) {
 
 TEST(IntrudersOnTheBus, AreNeitherEchoesNorTheTargetNorErrors) {
   const Frame sync = frame_of(messages::Sync{});
-  Intruders intruders;
+  Intruders intruders{messages::all_messages};
   intruders.transmitted(sync, 0, 0);
   intruders.received({.frame = sync, .own = true});
   intruders.received({.frame = frame_of(messages::TargetHeartbeat{})});

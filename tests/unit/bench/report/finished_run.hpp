@@ -1,6 +1,7 @@
 // A finished run for the tests of pages and JSON.
 #pragma once
 
+#include "bench/bindings/canhil.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
 #include "bench/report/run_reports.hpp"
 #include "bench/world/motion/rest.hpp"
@@ -10,6 +11,7 @@ namespace canhil::report {
 
 inline scenario::Scenario scenario_of() {
   scenario::Scenario scenario;
+  scenario.binding = bindings::canhil();
   scenario.title = "<script>alert(1)</script>";
   scenario.duration_us = 2'000'000;
   scenario.targets.emplace_back().estimator = "transfer_alignment";

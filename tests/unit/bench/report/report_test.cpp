@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bench/bindings/canhil.hpp"
 #include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/report/file.hpp"
@@ -36,6 +37,7 @@ const std::string awkward = "a<b> & \"c\" 'd' \x01\n\xC2\xB5";
 
 scenario::Scenario scenario_of() {
   scenario::Scenario scenario;
+  scenario.binding = bindings::canhil();
   scenario.title = awkward;
   scenario.duration_us = 1'000'000;
   return scenario;

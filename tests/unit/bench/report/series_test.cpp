@@ -1,6 +1,7 @@
 // Tests the plots of quantities over a run: the limit of a check is drawn in the plot of the quantity that
 // the check judges, and missing values are gaps.
 #include "bench/report/series.hpp"
+#include "bench/bindings/canhil.hpp"
 #include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
 
@@ -31,6 +32,7 @@ constexpr std::int64_t duration_us = 20'000'000;
 
 scenario::Scenario scenario_of(std::vector<scenario::Check> checks = {}) {
   scenario::Scenario scenario;
+  scenario.binding = bindings::canhil();
   scenario.title = "course";
   scenario.duration_us = duration_us;
   scenario.targets.emplace_back().estimator = "transfer_alignment";

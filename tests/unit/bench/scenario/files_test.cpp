@@ -5,8 +5,10 @@
 #include <iterator>
 #include <regex>
 
+#include "bench/bindings/canhil.hpp"
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/registry.hpp"
+#include "bench/estimators/vocabulary.hpp"
 #include "bench/sensors/gps.hpp"
 #include "bench/sensors/master_ins.hpp"
 #include "bench/sensors/slave_imu.hpp"
@@ -51,8 +53,9 @@ DbcVocabulary of_the_dbc() {
           .answers = answers(text),
           .check_kinds = checks::kinds(estimators::all()),
           .known = estimators::all(),
-          .facts = estimators::facts(),
-          .nodes = nodes::tables()};
+          .facts = estimators::bound_to({}, bindings::canhil()).facts,
+          .nodes = nodes::tables(),
+          .binding = bindings::canhil()};
 }
 
 TEST(ScenarioFiles, AreAllValid) {

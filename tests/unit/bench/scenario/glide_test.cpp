@@ -1,6 +1,7 @@
 // The sections of a glider: their values in SI units, and one line per error.
 #include <gtest/gtest.h>
 
+#include "bench/bindings/canhil.hpp"
 #include "bench/checks/kinds/answers.hpp"
 #include "bench/checks/kinds/consistency.hpp"
 #include "bench/checks/kinds/error.hpp"
@@ -23,8 +24,9 @@ const DbcVocabulary glider_contract{.estimators = {"transfer_alignment", "wind"}
                                     .answers = {"WindVector"},
                                     .check_kinds = checks::kinds(estimators::all()),
                                     .known = estimators::all(),
-                                    .facts = estimators::facts(),
-                                    .nodes = nodes::tables()};
+                                    .facts = estimators::bound_to({}, bindings::canhil()).facts,
+                                    .nodes = nodes::tables(),
+                                    .binding = bindings::canhil()};
 
 constexpr std::string_view glider = R"(title = "A glider"
 duration_s = 20.0

@@ -6,9 +6,11 @@
 #include <string>
 #include <string_view>
 
+#include "bench/bindings/canhil.hpp"
 #include "bench/checks/judge.hpp"
 #include "bench/checks/rule.hpp"
 #include "bench/estimators/registry.hpp"
+#include "bench/estimators/vocabulary.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/scenario/scenario.hpp"
 
@@ -22,8 +24,9 @@ inline const DbcVocabulary contract{.estimators = {"transfer_alignment", "inflig
                                     .check_kinds = checks::kinds(estimators::all()),
                                     .known = estimators::all(),
                                     .former_check_kinds = checks::former_kinds(estimators::all()),
-                                    .facts = estimators::facts(),
-                                    .nodes = nodes::tables()};
+                                    .facts = estimators::bound_to({}, bindings::canhil()).facts,
+                                    .nodes = nodes::tables(),
+                                    .binding = bindings::canhil()};
 
 inline constexpr std::string_view valid = R"(title = "A title"
 duration_s = 20.0

@@ -1,0 +1,78 @@
+#include "bench/bindings/canhil.hpp"
+
+#include <algorithm>
+
+#include "bench/estimators/registry.hpp"
+#include "bench/nodes/registry.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "dbc/protection/profiles.hpp"
+#include "dbc/protection/protection.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::bindings {
+namespace {
+
+using protection::Protection;
+using scenario::NodeSettings;
+using scenario::NodeTable;
+
+static_assert(messages::Sync::info.sender == bench_node && is_targets(messages::TargetHeartbeat::info));
+
+// Whether a message belongs to the sample group that another message closes.
+bool is_in_group_of(const MessageInfo& message, const MessageInfo& closes) {
+  if (closes.sample_group.empty()) return message.name == closes.name;
+  return message.sample_group == closes.sample_group && message.sender == closes.sender;
+}
+
+struct Canhil final : scenario::Binding {
+  Canhil() {
+    messages = messages::all_messages;
+    estimators = estimators::all();
+    dbc_hash = messages::dbc_hash;
+    handshake = time_base = containers = closes_loop = answers_by_name = true;
+  }
+
+  // As dbc/wire/e2e.hpp writes it.
+  [[nodiscard]] std::shared_ptr<const Protection> protection_of(const MessageInfo& message) const override {
+    if (message.e2e_data_id == 0) return nullptr;
+    protection::ProfileChoice choice;
+    choice.data_id = message.e2e_data_id;
+    const auto settings = protection::profile("autosar-e2e-11a", choice, message.size);
+    return std::make_shared<const Protection>(
+        Protection::make(settings.value(), {.id = message.id, .size = message.size}).value());
+  }
+
+  [[nodiscard]] const MessageInfo* closing_of(const NodeTable& node) const override { return node.closes; }
+
+  [[nodiscard]] bool is_played(const MessageInfo& message,
+                               std::span<const NodeSettings> nodes) const override {
+    return std::ranges::any_of(nodes, [&](const NodeSettings& node) {
+      const MessageInfo* closes = node.table().closes;
+      return closes != nullptr && is_in_group_of(message, *closes);
+    });
+  }
+
+  [[nodiscard]] std::string_view estimator_of(const MessageInfo& message) const override {
+    const estimators::Estimator* sender = estimators::sending(message);
+    return sender == nullptr ? "" : sender->name;
+  }
+
+  [[nodiscard]] Result<void> fits(const scenario::Scenario& scenario,
+                                  const world::FlightRecord& flight) const override {
+    for (const nodes::Kind* kind : nodes::all()) {
+      const NodeSettings* node = scenario.node(kind->table.key);
+      if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
+      if (auto fits = kind->fits(*node, scenario, flight); !fits) return fits;
+    }
+    return {};
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<const scenario::Binding> canhil() {
+  static const auto binding = std::make_shared<const Canhil>();
+  return binding;
+}
+
+}  // namespace canhil::bindings
