@@ -108,7 +108,8 @@ void read_glider(Section& root, Scenario& scenario, const DbcVocabulary& contrac
 }
 
 /// Whether the scenario selects the DBC of CAN FD; none: it selects no DBC.
-std::optional<bool> read_fd(Section& root) {
+std::optional<bool> read_fd(Section& root, const Binding& binding) {
+  if (!binding.containers) root.refuse("dbc", "has no effect: the mapping names the DBC", "no such key");
   root.optional("dbc");
   if (!root.has("dbc")) return std::nullopt;
   static const std::vector<std::string> names{"canhil", "canhil-fd"};
@@ -262,7 +263,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   scenario.hash = hash_of(text, settings);
   scenario.title = root.text({"title", "One line, shown in every report."});
   scenario.duration_us = root.time_us({"duration_s", "Length of the run."}, Limits::above(0, 86'400));
-  scenario.fd = read_fd(root);
+  scenario.fd = read_fd(root, *contract.binding);
   scenario.seed =
       static_cast<std::uint64_t>(root.integer({"seed",
                                                "Seed of all random numbers: the same seed gives the same "

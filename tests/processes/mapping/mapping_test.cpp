@@ -320,6 +320,14 @@ TEST_F(Altered, WhatHasNoEffectIsRefused) {
       "key 'engagement.guidance': is 'target', but the mapping has no answers that guide the missile");
 }
 
+// The DBC of the mapping counts, and its messages are not those of single nodes.
+TEST_F(Altered, WhatBelongsToCanhilsDbcIsRefused) {
+  expect_refused("own_ecu.toml", "title =", "dbc = \"canhil-fd\"\ntitle =",
+                 "key 'dbc': has no effect: the mapping names the DBC");
+  for (const char* option : {"--dbc canhil-fd", "--bus-of slave_imu=local:own_ecu_imu"})
+    EXPECT_EQ(hil_bench(fmt::format("run {} --lockstep {} {}", own_ecu, python, option)).code, 2) << option;
+}
+
 // The missile flies by the tracker's answers, so a tracker with a defect misses.
 TEST(Tracker, GuidesTheMissile) {
   const std::string own = SOURCE_DIR "/tests/processes/mapping/tracker/";
