@@ -125,7 +125,9 @@ std::vector<TargetSetup> read_targets(Section& root, const DbcVocabulary& contra
   std::vector<TargetSetup> targets;
   for (Section& section : root.table_or_tables("target")) {
     TargetSetup target = read_target(section, contract);
-    if (std::ranges::find(targets, target.estimator, &TargetSetup::estimator) != targets.end()) {
+    if (!targets.empty() && !contract.binding->handshake) {
+      section.reject("mapping", "is that of a second target", "one target with a mapping in a run");
+    } else if (std::ranges::find(targets, target.estimator, &TargetSetup::estimator) != targets.end()) {
       section.reject("estimator", fmt::format("'{}' is that of another [[target]] too", target.estimator),
                      "each estimator once");
     }
