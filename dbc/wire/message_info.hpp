@@ -54,8 +54,11 @@ struct MessageInfo {
   bool can_travel_unrounded = false;
 };
 
-/// The senders of the messages of the bench itself and of the device under test, whatever DBC these are of.
-inline constexpr std::string_view bench_node = "Bench", target_node = "Target";
+/// The sender of the bench's own messages, whatever DBC these are of.
+inline constexpr std::string_view bench_node = "Bench";
+/// The sender of the messages of the device under test, whatever DBC these are of.
+inline constexpr std::string_view target_node = "Target";
+/// Whether the device under test sends a message.
 constexpr bool is_targets(const MessageInfo& info) { return info.sender == target_node; }
 
 }  // namespace canhil

@@ -92,8 +92,16 @@ TEST(Outages, AnInterfaceDownAndUpAgainIsSurvivedAndFailsTheRun) {
 }
 
 TEST(Outages, AnInterfaceMadeAnewIsSurvived) {
-  const Outcome outcome = run_with("ip link del vcan0 && " + make_vcan0,
-                                   "\n[[check]]\nkind = \"bus_errors\"\ndown_at_most = 1\n");
+  const auto anew = [] {
+    return run_with("ip link del vcan0 && " + make_vcan0,
+                    "\n[[check]]\nkind = \"bus_errors\"\ndown_at_most = 1\n");
+  };
+  Outcome outcome = anew();
+  // On a loaded host, the interface may be away for longer than a target waits for samples (0.5 s).
+  const auto away_too_long = [&] {
+    return outcome.report["ending"]["detail"].get<std::string>().find("input_silent") != std::string::npos;
+  };
+  for (int left = 3; left > 0 && away_too_long(); --left) outcome = anew();
   EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.report["ending"];
   EXPECT_EQ(outcome.report["bus"]["interface_down"], 1);
   EXPECT_EQ(outcome.outcome_of("bus_errors"), "pass");
