@@ -161,7 +161,7 @@ void Listener::settle(const Hear& hear, const Paired& paired) {
 void Listener::record(const Hear& hear, const Frame& frame, std::int64_t t_us) {
   auto& answers = seen_.of<Answers>();
   answers.messages[hear.of.message->name].push_back(t_us);
-  read(hear, frame, [&](const ReportedSignal& telling, double value, bool invalid) {
+  read(hear, frame, values_, [&](const ReportedSignal& telling, double value, bool invalid) {
     if (telling.what != ReportedSignal::What::value)
       answers.sigmas[&telling].push_back({.t_us = t_us, .value = value});
     else if (!invalid)  // NaN is recorded too; it makes checks fail

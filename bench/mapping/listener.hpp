@@ -47,6 +47,7 @@ class Listener final : public observe::Watcher {
   Places places_;
   Passing passing_;
   std::map<std::size_t, std::size_t> hear_of_;   // from the index of a message
+  std::vector<double> values_;                   // signal values of one message
   std::vector<protection::Receiver> receivers_;  // for each hear
   std::vector<OwnPairing> pairings_;             // for each hear
   bool virtual_time_ = false, sent_any_ = false;

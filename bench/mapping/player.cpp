@@ -165,7 +165,7 @@ void Player::hear(const Frame& frame) {
     const Sent* cause = cause_of(conversation_, hear, frame);
     if (cause == nullptr) continue;
     if (cause->valid_us != los_rate_.cause_us) los_rate_ = {.cause_us = cause->valid_us};
-    read(hear, frame, [&](const ReportedSignal& signal, double value, bool /*invalid*/) {
+    read(hear, frame, heard_, [&](const ReportedSignal& signal, double value, bool /*invalid*/) {
       if (signal.what != ReportedSignal::What::value || !std::isfinite(value)) return;
       if (signal.quantity->quantity == &quantities::los_rate_pitch) los_rate_.pitch = value;
       if (signal.quantity->quantity == &quantities::los_rate_yaw) los_rate_.yaw = value;

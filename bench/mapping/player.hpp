@@ -82,6 +82,7 @@ class Player final : public nodes::Node {
   std::map<const dbc::Message*, protection::Sender> own_;
   Places places_;
   LosRate los_rate_;
+  std::vector<double> heard_;  // signal values of one message
   std::map<const Hear*, protection::Receiver> receivers_;
 };
 
