@@ -51,8 +51,14 @@ std::vector<SampleSignal> signals_of(const MessageInfo& closes, const sensors::O
 }
 
 std::vector<SampleSignal> signals_in_si(const sensors::Outputs& outputs) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 5> endings{
-      {{"rad/s", "_radps"}, {"rad", "_rad"}, {"m/s^2", "_mps2"}, {"m/s", "_mps"}, {"m", "_m"}}};
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 8> endings{{{"rad/s", "_radps"},
+                                                                                         {"rad", "_rad"},
+                                                                                         {"m/s^2", "_mps2"},
+                                                                                         {"m/s", "_mps"},
+                                                                                         {"m", "_m"},
+                                                                                         {"Pa", "_pa"},
+                                                                                         {"K", "_k"},
+                                                                                         {"T", "_t"}}};
   static std::mutex mutex;
   static std::deque<std::string> names;  // SignalInfo keeps no text of its own
   const std::lock_guard lock(mutex);

@@ -15,7 +15,7 @@ using world::units::standard_gravity;
 
 constexpr double knot = 1852.0 / 3600;  // [m/s]
 
-constexpr std::array<std::pair<std::string_view, WireUnit>, 21> known{{
+constexpr std::array<std::pair<std::string_view, WireUnit>, 30> known{{
     {"rad", {"rad", 1}},
     {"mrad", {"rad", 1e-3}},
     {"deg", {"rad", deg}},
@@ -36,6 +36,15 @@ constexpr std::array<std::pair<std::string_view, WireUnit>, 21> known{{
     {"s", {"s", 1}},
     {"ms", {"s", 1e-3}},
     {"us", {"s", 1e-6}},
+    {"pa", {"Pa", 1}},
+    {"hpa", {"Pa", 1e2}},
+    {"kpa", {"Pa", 1e3}},
+    {"mbar", {"Pa", 1e2}},
+    {"bar", {"Pa", 1e5}},
+    {"k", {"K", 1}},
+    {"t", {"T", 1}},
+    {"ut", {"T", 1e-6}},
+    {"nt", {"T", 1e-9}},
     {"1", {"", 1}},
 }};
 

@@ -6,10 +6,14 @@
 #include <mutex>
 #include <string>
 
+#include "bench/sensors/air_data.hpp"
+#include "bench/sensors/depth_gauge.hpp"
 #include "bench/sensors/dvl.hpp"
 #include "bench/sensors/fins.hpp"
 #include "bench/sensors/glider_nav.hpp"
+#include "bench/sensors/gnss_velocity.hpp"
 #include "bench/sensors/gps.hpp"
+#include "bench/sensors/magnetometer.hpp"
 #include "bench/sensors/master_ins.hpp"
 #include "bench/sensors/seeker.hpp"
 #include "bench/sensors/slave_imu.hpp"
@@ -28,9 +32,13 @@ constexpr std::array registered{
     &seeker,      // of a missile
     &glider_nav,  // the GPS/INS of the glider
     &fins,        // of the glider
-    &dvl,         // of an underwater vehicle
-    &wheels,      // of a car
-    &start,       // what somebody tells the device before it starts
+    &gnss_velocity,
+    &dvl,          // of an underwater vehicle
+    &depth_gauge,  // of an underwater vehicle
+    &air_data,     // of an aircraft
+    &magnetometer,
+    &wheels,  // of a car
+    &start,   // what somebody tells the device before it starts
 };
 
 }  // namespace

@@ -29,6 +29,12 @@ TEST(WireUnits, AreKnownInTheSpellingsOfDbcFiles) {
   EXPECT_EQ(wire_unit("us")->factor, 1e-6);
   EXPECT_EQ(wire_unit("µs")->factor, 1e-6);
   EXPECT_EQ(wire_unit("mm")->factor, 1e-3);
+  EXPECT_EQ(wire_unit("hPa")->si, "Pa");
+  EXPECT_EQ(wire_unit("mbar")->factor, 100);
+  EXPECT_EQ(wire_unit("kPa")->factor, 1000);
+  EXPECT_EQ(wire_unit("uT")->factor, 1e-6);
+  EXPECT_EQ(wire_unit("nT")->si, "T");
+  EXPECT_EQ(wire_unit("K")->factor, 1);
 }
 
 TEST(WireUnits, ThatNobodyKnowsAreNone) {

@@ -1,0 +1,67 @@
+#include "bench/sensors/depth_gauge.hpp"
+
+#include <array>
+
+#include "bench/sensors/sampler.hpp"
+
+namespace canhil::sensors {
+namespace {
+
+constexpr std::array<Output, 1> values{{{"depth", "m"}}};
+constexpr std::int64_t usual_period_us = 100'000;
+
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  DepthGaugeSettings node;
+  node.schedule = read_schedule(section);
+  node.surface_height =
+      section.number({"surface_height_m", "Height of the water's surface above the ellipsoid."}, {}, 0);
+  node.below =
+      section.number({"below_m", "Place of the gauge below the IMU, along the body's z axis."}, {}, 0);
+  node.scale_factor = {
+      .value = section.number(
+          {"scale_factor_ppm", "Constant scale factor error, for example of a wrong density of the water."},
+          {}, 0),
+      .sigma = section.number(
+          {"scale_factor_sigma_ppm", "1-sigma of a further scale factor error, drawn for each run."}, sigma,
+          0)};
+  node.bias = {.value = section.number({"bias_m", "Constant error of the depth."}, {}, 0),
+               .sigma = section.number(
+                   {"bias_sigma_m", "1-sigma of a further constant error, drawn for each run."}, sigma, 0)};
+  node.noise = section.number({"noise_m", "White noise of the depth, 1-sigma of a sample."}, sigma, 0);
+  node.loss = read_sample_loss(section);
+  return {table, node};
+}
+
+class DepthGauge final : public Sampler<DepthGaugeSettings> {
+ public:
+  DepthGauge(const NodeSettings& node, const Run& run)
+      : Sampler(node, run),
+        stream_(run.stream("depth_gauge")),
+        losses_(run.stream("depth_gauge.loss")),
+        scale_(1 + draw(config_.scale_factor, stream_)),
+        bias_(draw(config_.bias, stream_)) {}
+
+ private:
+  bool take(std::int64_t t_us, Sample& sample) override {
+    const world::Truth truth = run_.flight.at(t_us);
+    const double gauge = config_.surface_height - truth.position.height + config_.below * truth.C_bn(2, 2);
+    sample.values = {scale_ * gauge + bias_ + config_.noise * stream_.normal()};
+    return !is_lost(config_.loss, t_us, losses_);
+  }
+
+  world::Stream stream_;
+  world::Stream losses_;  // a separate stream: losses do not change measurements
+  double scale_, bias_;
+};
+
+}  // namespace
+
+constinit const Kind depth_gauge{.key = "depth_gauge",
+                                 .samples = scenario::TruthOf::navigation,
+                                 .read = read,
+                                 .make = make<DepthGauge>,
+                                 .outputs = {.values = values},
+                                 .period_us = usual_period_us};
+
+}  // namespace canhil::sensors

@@ -1,0 +1,89 @@
+#include "bench/sensors/gnss_velocity.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/sensors/sampler.hpp"
+#include "bench/world/correlated_noise.hpp"
+
+namespace canhil::sensors {
+namespace {
+
+using world::Vector3;
+
+constexpr std::array<Output, 6> values{{{"north", "m/s"},
+                                        {"east", "m/s"},
+                                        {"down", "m/s"},
+                                        {"ground_speed", "m/s"},
+                                        {"course", "rad", true},
+                                        {"sigma", "m/s"}}};
+constexpr std::array<std::string_view, 1> flags{"velocity"};
+constexpr std::int64_t usual_period_us = 200'000;
+
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  GnssVelocitySettings node;
+  node.schedule = read_schedule(section);
+  node.lever_arm = section.three({"lever_arm_m", "From the IMU to the antenna, body axes [x, y, z]."});
+  node.bias = {.value = section.three({"bias_mps", "Constant error of the velocity, [N, E, D]."}),
+               .sigma = section.three(
+                   {"bias_sigma_mps", "1-sigma of a further constant error, drawn for each run."}, sigma)};
+  node.noise = section.three({"noise_mps", "White noise of the velocity, 1-sigma of a sample."}, sigma);
+  node.correlated = section.number(
+      {"correlated_mps", "1-sigma of an error of each axis that is correlated in time (Gauss-Markov)."},
+      sigma, 0);
+  node.correlation_s = section.number({"correlation_s", "Its correlation time."}, Limits::above(0), 60);
+  node.invalid_probability = section.number(
+      {"invalid_percent", "Share of the samples without a solution. They are marked as invalid."},
+      Limits::between(0, 100), 0);
+  node.loss = read_sample_loss(section);
+  return {table, node};
+}
+
+class GnssVelocity final : public Sampler<GnssVelocitySettings> {
+ public:
+  GnssVelocity(const NodeSettings& node, const Run& run)
+      : Sampler(node, run),
+        stream_(run.stream("gnss_velocity")),
+        losses_(run.stream("gnss_velocity.loss")),
+        bias_(draw(config_.bias, stream_)),
+        correlated_(1, config_.correlation_s, stream_),
+        interval_s_(1e-6 * static_cast<double>(node.period_us())) {}
+
+ private:
+  // The velocity of the antenna: v_ea_n = v_eb_n + C_bn (omega_eb_b x l_ba_b), from the time derivative of
+  // Groves (2013), eq. (2.164).
+  bool take(std::int64_t t_us, Sample& sample) override {
+    const world::Truth truth = run_.flight.at(t_us);
+    const Vector3 omega_eb_b =
+        truth.omega_ib_b - truth.C_bn.transpose() * world::omega_ie_n(truth.position.latitude);
+    const Vector3 antenna = truth.v_eb_n + truth.C_bn * omega_eb_b.cross(config_.lever_arm);
+    const Vector3 correlated = config_.correlated * correlated_.next(interval_s_, stream_);
+    Vector3 v = antenna + bias_ + correlated + config_.noise.cwiseProduct(stream_.normal3());
+    const bool invalid = losses_.uniform() < config_.invalid_probability;
+    if (invalid) v.setZero();
+    const double sigma = std::hypot(std::max(config_.noise.x(), config_.noise.y()), config_.correlated);
+    sample.values = {v.x(), v.y(), v.z(), std::hypot(v.x(), v.y()), std::atan2(v.y(), v.x()), sigma};
+    sample.invalid = invalid ? 1 : 0;
+    return !is_lost(config_.loss, t_us, losses_);
+  }
+
+  world::Stream stream_;
+  world::Stream losses_;  // a separate stream: losses do not change measurements
+  Vector3 bias_;
+  world::CorrelatedNoise correlated_;
+  double interval_s_;
+};
+
+}  // namespace
+
+constinit const Kind gnss_velocity{.key = "gnss_velocity",
+                                   .samples = scenario::TruthOf::navigation,
+                                   .read = read,
+                                   .make = make<GnssVelocity>,
+                                   .outputs = {.values = values, .flags = flags},
+                                   .period_us = usual_period_us};
+
+}  // namespace canhil::sensors

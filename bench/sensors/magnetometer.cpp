@@ -1,0 +1,91 @@
+#include "bench/sensors/magnetometer.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "bench/sensors/sampler.hpp"
+#include "bench/world/attitude.hpp"
+
+namespace canhil::sensors {
+namespace {
+
+using world::Vector3;
+
+constexpr std::array<Output, 4> values{
+    {{"field_x", "T"}, {"field_y", "T"}, {"field_z", "T"}, {"heading", "rad", true}}};
+constexpr std::int64_t usual_period_us = 50'000;
+
+// The field of strength F, inclination I (down) and declination D (east): F (cos I cos D, cos I sin D, sin
+// I).
+Vector3 read_field(Section& section) {
+  const double strength = section.number(
+      {"field_ut", "Strength of the earth's field at the place of the flight, from a model such as the WMM."},
+      Limits::between(10, 100));
+  const double inclination =
+      section.number({"inclination_deg", "Its inclination, positive downwards."}, Limits::between(-90, 90));
+  const double declination = section.number({"declination_deg", "Its declination, positive to the east."},
+                                            Limits::between(-180, 180));
+  return strength * Vector3(std::cos(inclination) * std::cos(declination),
+                            std::cos(inclination) * std::sin(declination), std::sin(inclination));
+}
+
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  MagnetometerSettings node;
+  node.schedule = read_schedule(section);
+  node.field_n = read_field(section);
+  node.hard_iron = {
+      .value =
+          section.three({"hard_iron_ut", "Field of magnetised parts of the vehicle, body axes [x, y, z]."}),
+      .sigma = section.three(
+          {"hard_iron_sigma_ut", "1-sigma of a further such field, drawn for each run, body axes."}, sigma)};
+  node.scale_factor = {
+      .value = section.number({"scale_factor_ppm", "Constant scale factor error of all axes."}, {}, 0),
+      .sigma = section.number(
+          {"scale_factor_sigma_ppm", "1-sigma of a further scale factor error, drawn for each run."}, sigma,
+          0)};
+  node.noise = section.three({"noise_ut", "White noise of the field, 1-sigma of a sample."}, sigma);
+  node.loss = read_sample_loss(section);
+  return {table, node};
+}
+
+class Magnetometer final : public Sampler<MagnetometerSettings> {
+ public:
+  Magnetometer(const NodeSettings& node, const Run& run)
+      : Sampler(node, run),
+        stream_(run.stream("magnetometer")),
+        losses_(run.stream("magnetometer.loss")),
+        hard_iron_(draw(config_.hard_iron, stream_)),
+        scale_(1 + draw(config_.scale_factor, stream_)) {}
+
+ private:
+  // The magnetic heading of a compass with an ideal level: the measured field is turned by the true roll and
+  // pitch, and the heading is the angle from it to the forward axis. It is the true heading less the
+  // declination, and has the errors of the field. Groves (2013), eq. (6.6).
+  bool take(std::int64_t t_us, Sample& sample) override {
+    const world::Truth truth = run_.flight.at(t_us);
+    const Vector3 m = scale_ * (truth.C_bn.transpose() * config_.field_n) + hard_iron_ +
+                      config_.noise.cwiseProduct(stream_.normal3());
+    world::Euler level = world::euler_from(truth.C_bn);
+    level.heading = 0;
+    const Vector3 levelled = world::C_bn_from(level) * m;
+    sample.values = {m.x(), m.y(), m.z(), std::atan2(-levelled.y(), levelled.x())};
+    return !is_lost(config_.loss, t_us, losses_);
+  }
+
+  world::Stream stream_;
+  world::Stream losses_;  // a separate stream: losses do not change measurements
+  Vector3 hard_iron_;
+  double scale_;
+};
+
+}  // namespace
+
+constinit const Kind magnetometer{.key = "magnetometer",
+                                  .samples = scenario::TruthOf::navigation,
+                                  .read = read,
+                                  .make = make<Magnetometer>,
+                                  .outputs = {.values = values},
+                                  .period_us = usual_period_us};
+
+}  // namespace canhil::sensors
