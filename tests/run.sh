@@ -32,8 +32,6 @@ while (($#)); do
       if [[ -z "$only" ]]; then usage "--only: expected a regular expression"; fi
       shift ;;
     -h | --help) sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' tests/run.sh; exit ;;
-    --quick) usage "--quick is now the default: bash tests/run.sh" ;;
-    --fuzz) usage "--fuzz is now part of --full: bash tests/run.sh --full" ;;
     *) usage "unknown option '$1': expected --full, --coverage, --tidy, --analyse, --soak, --package or --only REGEX" ;;
   esac
   shift
@@ -206,10 +204,12 @@ address_sanitizer() {
     ThePapersFlight 'Ecu[.]PassesInRealTime' # these long flights in real time run the same code as the quick flights
     # These run code many times that other tests run once, so they find no further memory errors.
     '[.]Bits[./]' 'ClassicAndFdAgree.*all_four' ScenarioFiles Defective 'Killed[.]' 'Divided.*/[(]([17]|3, 1)' 'Acceptance[.]' 'Slurm[.]' 'Suites[.]'
-    'files[.]Inputs' 'Faults[.](WhatIsKnown|Shards|AViolation)' 'IsJudgedAsItWasFlown/.(all_four|inflight)' 'OfScenario[.].*/.?inflight_(gps|ssbl_180)'
+    'Faults[.](WhatIsKnown|Shards|AViolation)' 'IsJudgedAsItWasFlown/.(all_four|inflight)' 'OfScenario[.].*/.?inflight_(gps|ssbl_180)'
     'LogFlownAgain.*all_four'
     'kit_in_Python|/Python$' # the target of these tests is a Python program, so it is not instrumented
     'interruptions[.]' # these send a signal a fixed time after the start, when a program with the sanitizer has not yet begun to fly
+    # These test which files are written, how a program ends, and what a busy host does. Other tests read and write the same files.
+    'files[.]' 'TargetProcess[.]' 'realtime_programs[.]' 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' 'ARecordedDriveIsDrivenAgain'
     'AWireThatIsTooSlowIsNamed' # this needs an embedded bus that carries its bit rate; with the sanitizer, the bus is slower
     'live[.](Refusals|Run|Terminal)' # these wait for the live view, which has the lowest priority and is too slow with the sanitizer
   )
