@@ -18,12 +18,6 @@ using scenario::NodeTable;
 
 static_assert(messages::Sync::info.sender == bench_node && is_targets(messages::TargetHeartbeat::info));
 
-// Whether a message belongs to the sample group that another message closes.
-bool is_in_group_of(const MessageInfo& message, const MessageInfo& closes) {
-  if (closes.sample_group.empty()) return message.name == closes.name;
-  return message.sample_group == closes.sample_group && message.sender == closes.sender;
-}
-
 struct Canhil final : scenario::Binding {
   Canhil() {
     messages = messages::all_messages;
@@ -53,8 +47,13 @@ struct Canhil final : scenario::Binding {
   }
 
   [[nodiscard]] std::string_view estimator_of(const MessageInfo& message) const override {
-    const estimators::Estimator* sender = estimators::sending(message);
-    return sender == nullptr ? "" : sender->name;
+    const auto closes_its_group = [&](std::string_view closing) {
+      return canhil::is_in_group_of(message, *std::ranges::find(messages, closing, &MessageInfo::name));
+    };
+    for (const estimators::Estimator* one : estimators) {
+      if (std::ranges::any_of(one->closing, closes_its_group)) return one->name;
+    }
+    return "";
   }
 
   [[nodiscard]] Result<void> fits(const scenario::Scenario& scenario,

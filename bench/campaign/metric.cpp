@@ -199,8 +199,6 @@ Paired read(Section& section, const Context& context, Paired rule) {
 }
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
-  if (section.has("statistic"))
-    section.reject("statistic", "is a former key", "quantity = the name of a normalised error squared");
   rule.quantity = read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom > 0; });
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;

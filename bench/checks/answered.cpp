@@ -38,10 +38,7 @@ bool is_excused(const Observations& seen, std::int64_t valid_us) {
 // The records of the group's last message; null: there are none.
 const Spool<OwedAnswer>* owed_by(const Observations& seen, const MessageInfo& info) {
   for (const auto& [index, owed] : seen.timing.owed) {
-    const MessageInfo& closing = seen.timing.messages[index];
-    if (closing.name == info.name ||
-        (!info.sample_group.empty() && closing.sample_group == info.sample_group))
-      return &owed;
+    if (is_in_group_of(info, seen.timing.messages[index])) return &owed;
   }
   return nullptr;
 }

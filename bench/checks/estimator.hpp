@@ -2,6 +2,7 @@
 // the rest of the bench uses this interface and handles only quantities.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -46,48 +47,78 @@ struct OwnTrack {
   quantities::Track track;
 };
 
+template <class Signature>
+class OfEstimator;
+
+/// A function of an estimator: a plain function, or one with a context, if many estimators share the
+/// function. Constant-initialised, unlike std::function, so that the registry may be used before main().
+template <class Returned, class... Arguments>
+class OfEstimator<Returned(Arguments...)> {
+ public:
+  using Plain = Returned (*)(Arguments...);
+  using WithContext = Returned (*)(const void* context, Arguments...);
+
+  constexpr OfEstimator() = default;
+  constexpr OfEstimator(std::nullptr_t /*none*/) {}
+  constexpr OfEstimator(Plain function) : plain_(function) {}
+  /// `context` must outlive this object.
+  constexpr OfEstimator(WithContext function, const void* context)
+      : with_context_(function), context_(context) {}
+
+  Returned operator()(Arguments... arguments) const {
+    return plain_ != nullptr ? plain_(arguments...) : with_context_(context_, arguments...);
+  }
+  friend constexpr bool operator==(const OfEstimator& of, std::nullptr_t /*none*/) {
+    return of.plain_ == nullptr && of.with_context_ == nullptr;
+  }
+
+ private:
+  Plain plain_ = nullptr;
+  WithContext with_context_ = nullptr;
+  const void* context_ = nullptr;
+};
+
 struct Estimator {
   std::string_view name;                                 ///< as in the DBC's value table Estimator
   scenario::EstimatorFacts facts;                        ///< facts that a scenario needs
   const quantities::Layout& layout;                      ///< layout of its campaign samples
   std::span<const quantities::Quantity* const> of_runs;  ///< quantities of its tracks in a run
   /// Creates the object that assembles the estimator's answers during a run.
-  std::unique_ptr<Reception> (*reception)() = nullptr;
+  OfEstimator<std::unique_ptr<Reception>()> reception;
   /// The samples that a run contributes to a campaign; empty if there is no truth.
-  quantities::Samples (*samples)(const checks::Observations& seen, const Truth& truth) = nullptr;
+  OfEstimator<quantities::Samples(const checks::Observations& seen, const Truth& truth)> samples;
   /// Passes the tracks of the run to `give`. Passes none if the estimator observes an engagement or a glide
   /// that is null in `truth`.
-  void (*tracks)(const checks::Observations& seen, const Truth& truth,
-                 const quantities::TrackSink& give) = nullptr;
+  OfEstimator<void(const checks::Observations& seen, const Truth& truth, const quantities::TrackSink& give)>
+      tracks;
   /// All marks of the estimator, including marks that never occurred; these have no times. The first mark,
   /// "answers", has a time for each answer.
-  std::vector<Mark> (*marks)(const checks::Observations& seen) = nullptr;
+  OfEstimator<std::vector<Mark>(const checks::Observations& seen)> marks;
   /// Marks that report normal events, such as an update or the start of the estimator. "answers" is not
   /// listed.
   std::span<const std::string_view> plain_marks{};
   /// The results of a run, as lines for people. `algorithm`: the algorithm that the target runs.
-  std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
-                                     std::string_view algorithm) = nullptr;
+  OfEstimator<std::vector<ResultLine>(const checks::Observations& seen, const Truth& truth,
+                                      std::string_view algorithm)>
+      results;
   /// Why a scenario has no truth of a quantity; empty: it has one. Null: the facts decide
   /// (scenario::why_no_truth()).
-  std::string (*why_no_truth)(const scenario::Scenario& scenario,
-                              const quantities::Quantity& quantity) = nullptr;
+  OfEstimator<std::string(const scenario::Scenario& scenario, const quantities::Quantity& quantity)>
+      why_no_truth{};
   /// Why the causes of the answers with a quantity are not certain; empty: they are. Null: each answer names
   /// its cause.
-  std::string (*ambiguous)(const checks::Observations& seen, const quantities::Quantity& quantity) = nullptr;
+  OfEstimator<std::string(const checks::Observations& seen, const quantities::Quantity& quantity)>
+      ambiguous{};
   std::span<const std::string_view> closing;  ///< the last message of each answer group of the estimator
   /// The messages of `closing` whose answers contain a quantity. Null: all answers contain it.
-  std::vector<std::string_view> (*closing_with)(const checks::Observations& seen,
-                                                const quantities::Quantity& quantity) = nullptr;
+  OfEstimator<std::vector<std::string_view>(const quantities::Quantity& quantity)> closing_with{};
   /// The answer group for which the target keeps a minimum interval (output_interval_ms) if the stimuli come
   /// faster; empty: there is no such group.
   std::string_view of_own_interval{};
   std::span<const scenario::CheckKind> check_kinds{};  ///< checks that exist for this estimator only
-  std::span<const scenario::FormerCheckKind>
-      former_check_kinds{};  ///< former checks that existed for this estimator only
   /// How long the estimator's answers stay valid in runs of a scenario, by the rule that the checks use
   /// (bench/checks/silence.hpp).
-  quantities::Freshness (*freshness)(const scenario::Scenario& scenario) = nullptr;
+  OfEstimator<quantities::Freshness(const scenario::Scenario& scenario)> freshness;
 };
 
 /// Passes the tracks of an estimator over a run to `give`. If the truth of the flight is unknown, the tracks

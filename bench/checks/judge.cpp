@@ -118,13 +118,12 @@ scenario::Window window_of(const Stretch& stretch, const Evidence& evidence, std
 }
 
 // The last messages of the answer groups that a rule judges: those with its quantities, otherwise all.
-std::vector<std::string_view> judged_by(const checks::Rule& rule, const Observations& seen,
-                                        const estimators::Estimator& of) {
+std::vector<std::string_view> judged_by(const checks::Rule& rule, const estimators::Estimator& of) {
   std::vector<std::string_view> judged;
   for (const Subject& subject : rule.subjects()) {
     if (of.closing_with == nullptr || subject.estimator != of.name) continue;
     for (const quantities::Quantity* part : parts_of(*subject.quantity))
-      std::ranges::copy(of.closing_with(seen, *part), std::back_inserter(judged));
+      std::ranges::copy(of.closing_with(*part), std::back_inserter(judged));
   }
   if (judged.empty()) judged.assign(of.closing.begin(), of.closing.end());
   return judged;
@@ -137,7 +136,7 @@ std::optional<Finding> missing_answers(const checks::Rule& rule, const Evidence&
   for (const estimators::Estimator* one : evidence.estimators) {
     if (std::ranges::find(needed, one->name) == needed.end()) continue;
     const scenario::Window window = window_of(rule.span(), evidence, one->name);
-    for (const std::string_view message : judged_by(rule, evidence.seen, *one)) {
+    for (const std::string_view message : judged_by(rule, *one)) {
       auto missing = missing_answers(evidence.seen, message, window);
       if (missing && (!found || missing->outcome == Outcome::fail)) found = std::move(missing);
     }

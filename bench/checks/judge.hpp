@@ -29,8 +29,6 @@ std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& check
 
 /// Every kind of check that a scenario may have: kinds of this folder and kinds of the estimators.
 std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* const> estimators);
-/// Former kinds, each with its replacement.
-std::vector<scenario::FormerCheckKind> former_kinds(std::span<const estimators::Estimator* const> estimators);
 
 /// Why no timing of this run can be judged, for example because frames of the target were lost. Empty: timing
 /// can be judged if the bench kept its own deadlines. Each check examines the lateness of the bench against

@@ -48,12 +48,4 @@ std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* co
   return all;
 }
 
-std::vector<scenario::FormerCheckKind> former_kinds(
-    std::span<const estimators::Estimator* const> estimators) {
-  std::vector<scenario::FormerCheckKind> all;
-  for (const estimators::Estimator* one : estimators)
-    all.insert(all.end(), one->former_check_kinds.begin(), one->former_check_kinds.end());
-  return all;
-}
-
 }  // namespace canhil::checks

@@ -25,13 +25,10 @@ const Quantity* read_quantity(scenario::Section& section, std::span<const Quanti
   if (section.has(key)) {
     const std::string word = section.text(key);
     const auto named = std::ranges::find(known, std::string_view(word), &Quantity::name);
-    const auto once = std::ranges::find(known, std::string_view(word), &Quantity::once);
     if (named != known.end()) {
       if (const std::string why = refused(**named); !why.empty())
         section.reject(key, fmt::format("'{}' {}", word, why),
                        fmt::format("one of: {}", fmt::join(words, ", ")));
-    } else if (!word.empty() && once != known.end()) {
-      section.reject(key, fmt::format("'{}' is a former name", word), fmt::format("'{}'", (*once)->name));
     }
   }
   const std::string word = section.one_of({key, "A quantity (quantities.md)."}, words);

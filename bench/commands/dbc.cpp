@@ -104,16 +104,17 @@ ExitCode show(const ShowArguments& arguments) {
 }
 
 std::string text_of(const mapping::Mapping& mapping, const std::vector<mapping::Remark>& remarks) {
+  const mapping::MappedTarget& target = mapping.targets.front();
   std::string text;
   for (const mapping::Remark& one : remarks) {
     const bool warning = one.grade == mapping::Remark::Grade::warning;
-    text += fmt::format("{}: {} {}: {} {}\n", mapping.file, warning ? "warning" : "note", one.rule,
+    text += fmt::format("{}: {} {}: {} {}\n", target.file, warning ? "warning" : "note", one.rule,
                         one.subject, one.what);
   }
   text += fmt::format(
-      "{}: {} messages played, {} heard, {} quantities reported; bus load", mapping.file,
-      std::ranges::count_if(mapping.messages, [](const MessageInfo& m) { return m.sender == "Bench"; }),
-      mapping.hears.size(), mapping.quantities.size());
+      "{}: {} messages played, {} heard, {} quantities reported; bus load", target.file,
+      std::ranges::count_if(mapping.messages, [](const MessageInfo& m) { return !is_targets(m); }),
+      mapping.hears.size(), target.quantities.size());
   std::string_view separator;
   for (const std::int64_t kbitps : {125, 250, 500, 1000}) {
     const double load = mapping::load_of(mapping, {.nominal = kbitps * 1000, .data = 4000 * kbitps});

@@ -40,11 +40,11 @@ constexpr std::size_t heap_bytes = 64 << 20;  // enough for a recording of sever
 // The arguments as given on the command line.
 struct Arguments {
   std::string scenario;
-  std::string bus{local_prefix};    // a private bus
-  std::vector<std::string> bus_of;  // each as NODE=BUS
-  std::string target;               // empty: the hil-target beside this program
-  std::string dbc;                  // empty: the DBC of the scenario
-  std::string faults;               // file of additional faults; empty: none
+  std::string bus{local_prefix};     // a private bus
+  std::vector<std::string> bus_of;   // each as NODE=BUS
+  std::vector<std::string> targets;  // empty: the hil-target beside this program
+  std::string dbc;                   // empty: the DBC of the scenario
+  std::string faults;                // file of additional faults; empty: none
   bool lockstep = false;
   bool no_commands = false;
   std::optional<std::uint64_t> seed;
@@ -57,6 +57,8 @@ struct Arguments {
   Live live;
   bool terminal = false;
 };
+
+bool is_external(const Arguments& arguments) { return arguments.targets == std::vector<std::string>{"none"}; }
 
 // The name of a node without underscores, in lower case: gps, GPS and Gps name the same node; master_ins and
 // MasterIns, too, name the same node.
@@ -94,14 +96,15 @@ WireFacts controller_of(const std::string& bus) {
 drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFormat format) {
   drive::Options options;
   options.format = format;
-  const bool external = arguments.target == "none";
+  const bool external = is_external(arguments);
   options.bus = std::move(bus);
   // The name of a private bus contains the process id, so two benches on one machine do not share a bus. With
   // --target none, the name is fixed, so that an external target can use this name.
   options.bus.text = named_local(options.bus.text, external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external)
-    options.target =
-        arguments.target.empty() ? drive::quoted_word(own_folder() + "/hil-target") : arguments.target;
+    options.targets = arguments.targets.empty()
+                          ? std::vector{drive::quoted_word(own_folder() + "/hil-target")}
+                          : arguments.targets;
   if (arguments.bus_of.empty()) options.controller = controller_of(options.bus.text);
   options.lockstep = arguments.lockstep;
   if (!arguments.log.empty()) options.log_path = arguments.log;
@@ -110,7 +113,7 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
     options.realtime->heap_bytes = heap_bytes;
     // Every target inherits the scheduling policy and the priority. hil-target, in addition, gets these
     // options, so that it also locks its memory.
-    if (arguments.target.empty())
+    if (arguments.targets.empty())
       options.target_arguments = {"--realtime", "--priority", std::to_string(options.realtime->priority)};
   }
   for (const std::string& text : arguments.bus_of) {
@@ -142,7 +145,7 @@ Result<void> check_files(const Arguments& arguments, const scenario::Scenario& s
   files.reads(drive::inputs_of(scenario));
   if (arguments.dbc != name_of(BusFormat::classic) && arguments.dbc != name_of(BusFormat::fd))
     files.reads("--dbc", arguments.dbc);
-  if (options.target) files.reads(drive::inputs_of_target(*options.target));
+  for (const std::string& command : options.targets) files.reads(drive::inputs_of_target(command));
   declare(arguments.reports, files);
   files.writes_file("--log", arguments.log);
   if (!arguments.log.empty()) files.may_write("incomplete log", observe::incomplete_log(arguments.log));
@@ -151,7 +154,7 @@ Result<void> check_files(const Arguments& arguments, const scenario::Scenario& s
 
 Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
   const bool here = bus.in_process;
-  if (here && !arguments.target.empty())
+  if (here && !arguments.targets.empty())
     return failure(
         "--target: with --bus in-process the device is in hil-bench itself, expected only one of the two");
   if (here && (arguments.realtime.wanted || arguments.spin_us))
@@ -181,7 +184,7 @@ Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
         fmt::format("--lockstep: with the queues of --bus '{}' Sync overtakes the samples of its step, "
                     "expected queue=fifo",
                     arguments.bus));
-  if (arguments.target_cpu && (arguments.target == "none" || here))
+  if (arguments.target_cpu && (is_external(arguments) || here))
     return failure("--target-cpu: no target is started here, expected one with --target and a bus");
   if (arguments.target_cpu) {
     if (auto known = realtime::check_cpu("--target-cpu", *arguments.target_cpu); !known) return known;
@@ -237,6 +240,18 @@ Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& s
   return {};
 }
 
+// Checks that there is a target of the scenario for each program.
+Result<void> check_targets(const Arguments& arguments, const scenario::Scenario& scenario) {
+  const std::size_t most = scenario.binding->handshake ? 1 : scenario.targets.size();
+  if (std::max(arguments.targets.size(), std::size_t{1}) > most)
+    return failure(fmt::format("--target: is given {} times, expected at most {}, as {} has {} on its bus",
+                               arguments.targets.size(), most, scenario.file,
+                               most == 1 ? "one target" : fmt::format("{} targets", most)));
+  if (arguments.targets.size() > 1 && std::ranges::find(arguments.targets, "none") != arguments.targets.end())
+    return failure("--target none: is given beside a program, expected only one of the two");
+  return {};
+}
+
 // Checks that the name fits into one line of the text report and into XML.
 Result<void> check_operator(const std::string& name) {
   const bool plain =
@@ -257,6 +272,7 @@ ExitCode execute(const Arguments& arguments) {
   if (arguments.no_commands) {
     if (auto fine = scenario::refuse_commands(*scenario); !fine) return complain(fine.error());
   }
+  if (auto fine = check_targets(arguments, *scenario); !fine) return complain(fine.error());
   if (auto fine = check_nodes(arguments, *scenario); !fine) return complain(fine.error());
   const auto format = format_of(arguments, *scenario);
   if (!format) return complain(format.error());
@@ -321,10 +337,12 @@ void add_run(command_line::Command app, int& code) {
                   "NODE=BUS: this node sends on a bus of its own, such as gps=can1; may be given again. The "
                   "target is to listen there too")
       .one_word_each();
-  command.add_option("--target", arguments->target,
-                     "program to start as target, with its arguments, as one word: 'python3 mine.py --gain "
-                     "3' (default: hil-target "
-                     "beside hil-bench); none: it runs elsewhere");
+  command
+      .add_option("--target", arguments->targets,
+                  "program to start as target, with its arguments, as one word: 'python3 mine.py --gain 3' "
+                  "(default: hil-target beside hil-bench); none: it runs elsewhere. With several mapped "
+                  "targets: may be given again")
+      .one_word_each();
   command.add_option(
       "--dbc", arguments->dbc,
       "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them (default: the "

@@ -29,7 +29,6 @@ scenario::DbcVocabulary make_contract() {
   scenario::DbcVocabulary contract{.algorithms = names<messages::Algorithm>(),
                                    .parameters = names<messages::Parameter>(),
                                    .check_kinds = checks::kinds(estimators::all()),
-                                   .former_check_kinds = checks::former_kinds(estimators::all()),
                                    .nodes = nodes::tables(),
                                    .fault_kinds = faults::kinds(),
                                    .read_recorded = nodes::read_recorded,

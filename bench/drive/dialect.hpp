@@ -34,8 +34,8 @@ struct Setting {
   Rounding rounding = Rounding::as_on_the_bus;
   BusFormat format = BusFormat::classic;
   WireFacts wire{};
-  /// The number of other nodes on the bus; null or none: the bench did not start the target, or does not host
-  /// the bus.
+  std::size_t programs = 0;  ///< number of targets that the bench starts
+  /// The number of other nodes on the bus; none: the bench does not host the bus.
   std::shared_ptr<const std::optional<std::size_t>> others{};
 };
 

@@ -42,19 +42,21 @@ class MappedWatch final : public observe::TargetWatch {
       : conversation_(conversation), places_(conversation.mapping), passing_(conversation) {}
 
   void received(const Received& received) override {
-    const std::size_t index = places_(received.frame);
-    if (received.own || index == MessagePlaces::nowhere) return;
-    for (const mapping::Hear& hear : conversation_.mapping.hears) {
-      if (hear.of.index != index) continue;
+    if (received.own) return;
+    for (const std::size_t index : places_.hears(received.frame)) {
+      const mapping::Hear& hear = conversation_.mapping.hears[index];
       heard_ = true;
+      heard_from_.insert(hear.target);
       if (received.frame.size != hear.of.message->size || !hear.is_owed() || !hear.echo ||
           *hear.answers != awaited_play_)
         continue;
       const mapping::Sent* cause = mapping::cause_of(conversation_, hear, received.frame);
-      if (cause != nullptr && cause->valid_us == awaited_us_) waits_for_.erase(index);
+      if (cause != nullptr && cause->valid_us == awaited_us_) waits_for_.erase(hear.of.index);
     }
   }
   bool heard() override { return std::exchange(heard_, false); }
+  /// The targets of which a message came, as indices of Mapping::targets.
+  [[nodiscard]] const std::set<std::size_t>& heard_from() const { return heard_from_; }
   [[nodiscard]] std::optional<std::string> fault() const override { return std::nullopt; }
 
   bool closes_step(const Frame& frame) override {
@@ -81,6 +83,7 @@ class MappedWatch final : public observe::TargetWatch {
   mapping::Places places_;
   mapping::Passing passing_;
   bool heard_ = false;
+  std::set<std::size_t> heard_from_;
   std::size_t awaited_play_ = 0;
   std::int64_t awaited_us_ = 0;
   std::set<std::size_t> waits_for_;  // indices of the messages that must still answer the played sample
@@ -111,11 +114,21 @@ class Strangers final : public observe::Observer {
   std::set<std::uint32_t> ids_;
 };
 
+// The longest times of all targets, as they are on one bus.
+scenario::OwnStart longest_of(const std::vector<scenario::TargetSetup>& targets) {
+  scenario::OwnStart longest;
+  for (const scenario::TargetSetup& target : targets) {
+    longest.settle_us = std::max(longest.settle_us, target.own_start->settle_us);
+    longest.silence_us = std::max(longest.silence_us, target.own_start->silence_us);
+  }
+  return longest;
+}
+
 class MappedDialect final : public Dialect {
  public:
   MappedDialect(const Setting& setting, const mapping::Mapping& mapping)
       : of_(setting),
-        start_(*setting.scenario.targets.front().own_start),
+        start_(longest_of(setting.scenario.targets)),
         conversation_(mapping),
         places_(mapping) {}
 
@@ -151,20 +164,20 @@ class MappedDialect final : public Dialect {
     MappedWatch watch(conversation_);
     Strangers strangers(places_);
     const Attached watched(link, watch), others(link, strangers);
-    const auto& hears = conversation_.mapping.hears;
-    const bool speaks_first =
-        std::ranges::any_of(hears, [](const mapping::Hear& hear) { return !hear.answers; });
-    bool there = !speaks_first;  // a target that only answers is silent before the run
+    std::set<std::size_t> speakers;  // a target that only answers is silent before the run
+    for (const mapping::Hear& hear : conversation_.mapping.hears) {
+      if (!hear.answers) speakers.insert(hear.target);
+    }
+    const auto is_there = [&] { return std::ranges::includes(watch.heard_from(), speakers); };
     const std::int64_t settled_ns = link.now_ns() + start_.settle_us * 1000;
     const std::int64_t limit_ns = std::max(settled_ns, link.now_ns() + find_limit_ns);
-    while (link.now_ns() < settled_ns || !there || absent()) {
+    while (link.now_ns() < settled_ns || !is_there() || absent()) {
       if (link.drain() == LinkState::down)
         return failure(fmt::format("bus '{}': gone before the run", link.port().name()));
       if (const auto why = gone()) return failure(fmt::format("{} before the run", *why));
-      there = there || watch.heard();
       const std::int64_t now_ns = link.now_ns();
       if (now_ns >= limit_ns && joined()) break;
-      if (now_ns >= limit_ns) return failure(complaint(link, strangers));
+      if (now_ns >= limit_ns) return failure(complaint(link, watch, strangers));
       link.wait_until(std::min(now_ns + poll_ns, limit_ns));
     }
     return {};
@@ -173,14 +186,15 @@ class MappedDialect final : public Dialect {
   [[nodiscard]] std::int64_t silence_limit_ns() const override { return start_.silence_us * 1000; }
 
  private:
-  [[nodiscard]] bool absent() const { return of_.others && *of_.others == std::size_t{0}; }
-  [[nodiscard]] bool joined() const { return of_.others && *of_.others && !absent(); }
-  [[nodiscard]] std::string complaint(const Link& link, const Strangers& strangers) const {
+  [[nodiscard]] bool absent() const { return *of_.others && **of_.others < of_.programs; }
+  [[nodiscard]] bool joined() const { return of_.programs > 0 && *of_.others && !absent(); }
+  [[nodiscard]] std::string complaint(const Link& link, const MappedWatch& watch,
+                                      const Strangers& strangers) const {
     if (absent())
       return fmt::format("target on '{}': its process has not joined the bus within 5 s", link.port().name());
     std::vector<std::string> names;
     for (const mapping::Hear& hear : conversation_.mapping.hears) {
-      if (!hear.answers) names.push_back(hear.of.message->name);
+      if (!hear.answers && !watch.heard_from().contains(hear.target)) names.push_back(hear.of.message->name);
     }
     return fmt::format("target on '{}': none of {} within 5 s; {}", link.port().name(),
                        fmt::join(names, ", "), strangers.to_text());
@@ -204,7 +218,7 @@ Result<std::unique_ptr<Dialect>> mapped_dialect(const Setting& setting) {
     return failure(
         fmt::format("{}: no message of the target repeats what it answers, so virtual time would not "
                     "know when to go on; expected [hear.echo], or real time",
-                    mapping.file));
+                    scenario::to_text(mapping.files)));
   return std::make_unique<MappedDialect>(setting, mapping);
 }
 

@@ -25,7 +25,7 @@ Options in_lockstep_against(std::string command) {
   Options options;
   options.bus =
       BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));
-  options.target = std::move(command);
+  options.targets = {std::move(command)};
   options.lockstep = true;
   return options;
 }

@@ -39,20 +39,30 @@ Result<void> run_command(std::string_view key, const std::string& command, const
 }  // namespace
 
 Result<void> RigCommands::begin(const std::atomic<bool>& stop) {
-  begun_ = true;
-  return before_.empty() ? Result<void>() : run_command("before", before_, stop);
+  for (const Commands& one : of_targets_) {
+    ++begun_;
+    if (one.before.empty()) continue;
+    if (auto done = run_command("before", one.before, stop); !done) return done;
+  }
+  return {};
 }
 
 void RigCommands::finish() {
   static const std::atomic<bool> never = false;
-  if (!std::exchange(begun_, false) || after_.empty()) return;
-  if (const auto done = run_command("after", after_, never); !done)
-    fmt::print(stderr, "hil-bench: {}\n", one_line(done.error().message));
+  const std::size_t begun = std::exchange(begun_, 0);
+  for (std::size_t i = 0; i < begun; ++i) {
+    if (of_targets_[i].after.empty()) continue;
+    if (const auto done = run_command("after", of_targets_[i].after, never); !done)
+      fmt::print(stderr, "hil-bench: {}\n", one_line(done.error().message));
+  }
 }
 
 RigCommands rig_commands_of(const scenario::Scenario& scenario) {
-  const scenario::OwnStart start = scenario.targets.front().own_start.value_or(scenario::OwnStart{});
-  return {start.before, start.after};
+  std::vector<RigCommands::Commands> of_targets;
+  for (const scenario::TargetSetup& target : scenario.targets) {
+    if (target.own_start) of_targets.push_back({target.own_start->before, target.own_start->after});
+  }
+  return RigCommands(std::move(of_targets));
 }
 
 }  // namespace canhil::drive

@@ -50,22 +50,18 @@ InterfaceFacts interface_facts(const std::string& bus) {
           .may_set = set_flag(bus, std::nullopt)};  // writes the flags unchanged: a test of permission
 }
 
-RunRigControl::RunRigControl(std::string bus, std::optional<ChildProcess>& target,
+RunRigControl::RunRigControl(std::string bus, TargetPrograms& targets,
                              std::function<void(std::int64_t)> restart)
-    : bus_(std::move(bus)), target_(target), restart_(std::move(restart)) {}
+    : bus_(std::move(bus)), targets_(targets), restart_(std::move(restart)) {}
 
 RunRigControl::~RunRigControl() {
   interface_up();
   if (errors_ >= 0) close(errors_);
 }
 
-void RunRigControl::pause_target() {
-  if (target_) target_->send_signal(SIGSTOP);
-}
+void RunRigControl::pause_target() { targets_.send_signal(SIGSTOP); }
 
-void RunRigControl::resume_target() {
-  if (target_) target_->send_signal(SIGCONT);
-}
+void RunRigControl::resume_target() { targets_.send_signal(SIGCONT); }
 
 // Sends the error frame through a separate socket. Therefore all listeners, including the bench, receive it
 // as if it came from the driver.

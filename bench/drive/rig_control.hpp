@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "bench/drive/child_process.hpp"
+#include "bench/drive/target_process.hpp"
 #include "bench/faults/injector.hpp"
 #include "bench/faults/place.hpp"
 
@@ -21,10 +21,8 @@ InterfaceFacts interface_facts(const std::string& bus);
 
 class RunRigControl final : public faults::RigControl {
  public:
-  /// `target`: has no value until the target is started; must outlive this object. `restart`: restarts the
-  /// target.
-  RunRigControl(std::string bus, std::optional<ChildProcess>& target,
-                std::function<void(std::int64_t t_us)> restart);
+  /// `targets`: empty until they are started; must outlive this object. `restart`: restarts them.
+  RunRigControl(std::string bus, TargetPrograms& targets, std::function<void(std::int64_t t_us)> restart);
   ~RunRigControl() override;
 
   void pause_target() override;
@@ -36,7 +34,7 @@ class RunRigControl final : public faults::RigControl {
 
  private:
   std::string bus_;
-  std::optional<ChildProcess>& target_;
+  TargetPrograms& targets_;
   std::function<void(std::int64_t)> restart_;
   std::thread up_;   // sets the interface up again
   int errors_ = -1;  // a socket on the interface, opened on demand

@@ -1,5 +1,6 @@
 #include "bench/drive/run_files.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "bench/drive/inputs.hpp"
@@ -12,9 +13,14 @@ namespace canhil::drive {
 std::vector<CommandFiles::File> inputs_of(const scenario::Scenario& scenario) {
   std::vector<CommandFiles::File> files{{"scenario", scenario.file}};
   for (const scenario::InputFile& input : scenario.inputs) files.push_back({input.role, input.path});
-  const scenario::Binding& binding = *scenario.binding;
-  if (!binding.file.empty()) files.push_back({"mapping", binding.file});
-  if (!binding.dbc_file.empty()) files.push_back({"DBC", binding.dbc_file});
+  const auto add = [&](const std::string& role, const std::string& path) {
+    if (std::ranges::find(files, path, &CommandFiles::File::path) == files.end())
+      files.push_back({role, path});
+  };
+  for (const auto& [mapping, dbc] : scenario.binding->files) {
+    add("mapping", mapping);
+    add("DBC", dbc);
+  }
   return files;
 }
 
@@ -34,9 +40,10 @@ std::vector<RunFile> files_of(const scenario::Scenario& scenario, const Options&
   };
   std::error_code unknown;
   add({{"bench", std::filesystem::read_symlink("/proc/self/exe", unknown).string()}});
-  if (options.target && !in_process) add(inputs_of_target(*options.target));
+  for (const std::string& command : options.targets)
+    if (!in_process) add(inputs_of_target(command));
   add(inputs_of(scenario));
-  if (scenario.binding->dbc_file.empty()) {
+  if (scenario.binding->files.empty()) {
     const bool fd = options.format == BusFormat::fd;
     files.push_back({"DBC",
                      fd ? "canhil-fd.dbc (built in)" : "canhil.dbc (built in)",

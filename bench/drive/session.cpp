@@ -39,9 +39,9 @@ class Session {
   static Result<std::unique_ptr<Session>> open(const scenario::Scenario& scenario,
                                                const world::FlightRecord& truth, Flight flight,
                                                const Options& options) {
-    const std::vector<int> cpus = options.target_cpu ? std::vector{*options.target_cpu}
-                                  : options.target   ? realtime::cpus()
-                                                     : std::vector<int>{};
+    const std::vector<int> cpus = options.target_cpu        ? std::vector{*options.target_cpu}
+                                  : options.targets.empty() ? std::vector<int>{}
+                                                            : realtime::cpus();
     if (options.realtime) {
       if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
     }
@@ -65,7 +65,7 @@ class Session {
         bus_(known_of(*port_, options.controller)),
         clock_(clock_of(bus_.time, options.lockstep)),
         truth_(truth),
-        hands_(options.bus.text, target_, [this](std::int64_t t_us) { restart_target(t_us); }),
+        hands_(options.bus.text, targets_, [this](std::int64_t t_us) { restart_target(t_us); }),
         link_(*port_),
         bus_watch_(*port_),
         load_(options.format, load_by(bus_, clock_, scenario.binding->time_base)),
@@ -82,7 +82,8 @@ class Session {
                                  .rounding = bus_.rounding,
                                  .format = options_.format,
                                  .wire = bus_.wire,
-                                 .others = options_.target ? others_ : nullptr});
+                                 .programs = options_.targets.size(),
+                                 .others = others_});
     if (!dialect) return tl::unexpected(dialect.error());
     dialect_ = std::move(*dialect);
     const faults::Place where = place();
@@ -90,7 +91,7 @@ class Session {
     schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(
         scenario_, options_.run_index, scenario_.binding->messages, where, &hands_));
     // A campaign against a program judges the causes of its answers, which needs their stimuli.
-    watcher_ = dialect_->watcher(options_.for_verdict || options_.target.has_value());
+    watcher_ = dialect_->watcher(options_.for_verdict || !options_.targets.empty());
     if (!options_.for_verdict) return {};
     link_.attach(bus_watch_);
     link_.attach(intruders_.emplace(scenario_.binding->messages));
@@ -114,8 +115,8 @@ class Session {
     if (options_.for_verdict) {
       load_watched.emplace(link_, load_);
       host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
-      if (target_ && clock_ == ClockKind::real_time)
-        delay_watch_.emplace(target_->id(), options_.realtime.has_value());
+      if (clock_ == ClockKind::real_time)
+        delay_watches_.emplace(targets_.ids(), options_.realtime.has_value());
     }
     std::optional<Attached> looking_on;
     if (options_.onlooker != nullptr) {
@@ -124,7 +125,7 @@ class Session {
     }
     std::optional<Attached> listening;
     if (schedule_->listens()) listening.emplace(link_, *schedule_);
-    if (options_.realtime && target_)
+    if (options_.realtime && !targets_.empty())
       static_cast<void>(realtime::own_memory_again());  // locking memory was permitted at the start
     const auto target = dialect_->target_watch(bus_.in_process);
     const Gone is_gone = [this] { return gone(false); };
@@ -132,7 +133,7 @@ class Session {
                   ? run_lockstep(link_, *schedule_, *target, step_limit_ns, stop, progress, is_gone)
                   : run_real_time(link_, *schedule_, *target, dialect_->silence_limit_ns(), stop, progress,
                                   options_.spin_ns, is_gone);
-    if (delay_watch_) delays_ = delay_watch_->record();
+    if (delay_watches_) delays_ = delay_watches_->record();
   }
 
   // Stops the target, closes the log and ends the target's process.
@@ -183,8 +184,7 @@ class Session {
   // Why waiting for the target is pointless; none: the bench can wait.
   std::optional<std::string> gone(bool stop) {
     if (stop) return "interrupted";
-    const auto end = target_ ? target_->ended() : std::nullopt;
-    return end ? std::optional("target: " + to_text(*end)) : std::nullopt;
+    return targets_.ended();
   }
 
   [[nodiscard]] Departure departure() {
@@ -209,7 +209,7 @@ class Session {
             .may_set_interface = interface.may_set,
             .virtual_time = clock_ != ClockKind::real_time,
             .in_process = bus_.in_process,
-            .starts_target = options_.target && !bus_.in_process,
+            .starts_target = !options_.targets.empty() && !bus_.in_process,
             .handshake = scenario_.binding->handshake,
             .fd = options_.format != BusFormat::classic,
             .wire = bus_.wire};
@@ -217,25 +217,23 @@ class Session {
 
   // Restarts the target for a fault. If the restart fails, the target stays silent, which ends the run.
   void restart_target(std::int64_t t_us) {
-    target_->send_signal(SIGKILL);
-    target_.reset();
+    targets_.kill();
     watcher_->target_restarts();
     auto ready = start_target(target_cpus_);
-    if (ready && delay_watch_) delay_watch_->follow(target_->id());
+    if (ready && delay_watches_) delay_watches_->follow(targets_.ids());
     flight_.initial = initial_states(scenario_, truth_, flight_.per_run_truth, options_.run_index, t_us);
     if (ready) ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(*stop_); });
     if (!ready) restart_error_ = "; restarted: " + ready.error().message;
   }
 
   Result<void> start_target(const std::vector<int>& cpus) {
-    if (!options_.target || bus_.in_process) return {};
+    if (bus_.in_process) return {};
     target_cpus_ = cpus;
     std::vector<std::string> arguments = options_.target_arguments;
     // On CAN FD, every target gets the option --dbc, so that the target uses the same DBC as the bench.
     if (options_.format == BusFormat::fd)
       arguments.insert(arguments.end(), {"--dbc", std::string(name_of(options_.format))});
-    return drive::start_target(*options_.target, options_.bus.text, arguments, cpus)
-        .map([&](ChildProcess started) { target_.emplace(std::move(started)); });
+    return targets_.start(options_.targets, options_.bus.text, arguments, cpus);
   }
 
   // Closes the log of a run that did not begin. Returns a text with the name of the log, for the end of the
@@ -249,22 +247,22 @@ class Session {
 
   std::string why_silent() {
     if (!restart_error_.empty()) return restart_error_;
-    if (target_ && target_->stopped()) return " (its process is stopped by a signal)";
+    if (targets_.stopped()) return " (its process is stopped by a signal)";
     if (clock_ == ClockKind::lockstep) return {};
     return load_.full_wire(ending_.t_us * 1000 + dialect_->silence_limit_ns(), bus_.wire.rates);
   }
 
   // Ends the target's process. `ended_before`: how it ended before the bench stopped it; none: it did not.
   void end_target(const std::optional<std::string>& ended_before, std::vector<std::string>& notes) {
-    if (!target_) return;
+    if (targets_.empty()) return;
     const bool judged = ending_.kind != Ending::Kind::interrupted;
     const auto patience = judged ? ChildProcess::usual_patience : ChildProcess::short_patience;
-    const ProcessEnd end = target_->end(patience);
+    const TargetPrograms::End end = targets_.end(patience);
     if (!judged) return;
-    if (end.killed)
+    if (end.any_killed)
       notes.push_back(fmt::format("the target did not end within {} s after SIGTERM and was killed",
                                   patience.count() / 1000));
-    ending_ = with_process_end(std::move(ending_), ended_before, end);
+    ending_ = with_process_end(std::move(ending_), ended_before, end.of);
   }
 
   // The note about other senders on the bus comes before all other notes.
@@ -305,8 +303,8 @@ class Session {
   std::optional<observe::HostWatch> host_;  // watches from its construction on
   checks::TargetDelays delays_;
   std::unique_ptr<observe::Recorder> log_;
-  std::optional<ChildProcess> target_;
-  std::optional<observe::DelayWatch> delay_watch_;
+  TargetPrograms targets_;
+  std::optional<observe::DelayWatches> delay_watches_;
   RigCommands commands_;  // after the target: `after` runs before the target's process ends
   const std::atomic<bool>* stop_ = nullptr;  // of the flight
   std::vector<int> target_cpus_;
@@ -329,7 +327,8 @@ Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const wor
   if (auto ready = (*session)->configure(stop); !ready) return tl::unexpected(ready.error());
   (*session)->drive(stop, [](std::int64_t) {});
   Collected flown = (*session)->collect();
-  const bool judged = options.target || !flown.seen.clipped.empty();  // the device in process is right
+  const bool judged =
+      !options.targets.empty() || !flown.seen.clipped.empty();  // the device in process is right
   return judged ? judged_as_a_run(std::move(flown), scenario) : std::move(flown);
 }
 

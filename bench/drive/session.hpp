@@ -31,8 +31,7 @@ ClockKind clock_of(BusTime time, bool lockstep);
 struct Options {
   BusName bus{};
   BusOf bus_of{};
-  std::optional<std::string> target;  ///< the target's command (target_words()); none: the target already
-                                      ///< runs
+  std::vector<std::string> targets;  ///< commands of the targets (target_words()); none: they already run
   BusFormat format = BusFormat::classic;
   WireFacts controller{};  ///< properties of the interface's controller, if the kernel reports them
   bool lockstep = false;   ///< instead of real time

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -30,6 +31,57 @@ Result<ChildProcess> start_target(const std::string& command, const std::string&
   auto started = ChildProcess::start(program, std::move(*words), cpus);
   if (!started) return no_program(started.error().message);
   return started;
+}
+
+Result<void> TargetPrograms::start(const std::vector<std::string>& commands, const std::string& bus,
+                                   const std::vector<std::string>& more, const std::vector<int>& cpus) {
+  commands_ = commands;
+  for (const std::string& command : commands_) {
+    auto started = start_target(command, bus, more, cpus);
+    if (!started) return tl::unexpected(started.error());
+    running_.push_back(std::move(*started));
+  }
+  return {};
+}
+
+void TargetPrograms::kill() {
+  send_signal(SIGKILL);
+  running_.clear();
+}
+
+std::vector<pid_t> TargetPrograms::ids() const {
+  std::vector<pid_t> ids;
+  for (const ChildProcess& one : running_) ids.push_back(one.id());
+  return ids;
+}
+
+std::optional<std::string> TargetPrograms::ended() {
+  for (std::size_t i = 0; i < running_.size(); ++i) {
+    const auto end = running_[i].ended();
+    if (!end) continue;
+    return running_.size() == 1 ? "target: " + to_text(*end)
+                                : fmt::format("target '{}': {}", commands_[i], to_text(*end));
+  }
+  return std::nullopt;
+}
+
+bool TargetPrograms::stopped() const { return std::ranges::any_of(running_, &ChildProcess::stopped); }
+
+void TargetPrograms::send_signal(int signal) {
+  for (ChildProcess& one : running_) one.send_signal(signal);
+}
+
+TargetPrograms::End TargetPrograms::end(std::chrono::milliseconds patience) {
+  send_signal(SIGTERM);  // so that all of them end at the same time
+  std::optional<ProcessEnd> first, wrong;
+  bool any_killed = false;
+  for (ChildProcess& one : running_) {
+    const ProcessEnd end = one.end(patience);
+    any_killed = any_killed || end.killed;
+    if (!first) first = end;
+    if (!wrong && !wrong_end(end).empty()) wrong = end;
+  }
+  return {.of = wrong.value_or(first.value_or(ProcessEnd{})), .any_killed = any_killed};
 }
 
 Ending with_process_end(Ending ending, const std::optional<std::string>& ended_before,

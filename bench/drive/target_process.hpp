@@ -1,4 +1,4 @@
-// The target as a child process of the bench.
+// The targets as child processes of the bench.
 #pragma once
 
 #include <optional>
@@ -16,6 +16,34 @@ namespace canhil::drive {
 Result<ChildProcess> start_target(const std::string& command, const std::string& bus,
                                   const std::vector<std::string>& more = {},
                                   const std::vector<int>& cpus = {});
+
+/// The programs that a run starts: in most runs one, with several mapped targets one for each.
+class TargetPrograms {
+ public:
+  /// Starts the programs. Error, one line: one of them cannot be started.
+  Result<void> start(const std::vector<std::string>& commands, const std::string& bus,
+                     const std::vector<std::string>& more, const std::vector<int>& cpus);
+  /// Kills all programs at once.
+  void kill();
+  [[nodiscard]] bool empty() const { return running_.empty(); }
+  [[nodiscard]] std::vector<pid_t> ids() const;
+  /// How a program ended, with the words for it: "target: exited with 3"; none: all run.
+  std::optional<std::string> ended();
+  /// Whether a program is stopped by a signal such as SIGSTOP.
+  [[nodiscard]] bool stopped() const;
+  void send_signal(int signal);
+
+  struct End {
+    ProcessEnd of;  ///< of the first program that did not end as it should; else of the first one
+    bool any_killed = false;
+  };
+  /// Ends all programs: see ChildProcess::end().
+  End end(std::chrono::milliseconds patience);
+
+ private:
+  std::vector<ChildProcess> running_;
+  std::vector<std::string> commands_;
+};
 
 /// The ending of a run, given how the target's process ended. A target that the bench started must run until
 /// the bench stops it, and must then end without an error (wrong_end()). `ended_before`: how it ended before

@@ -10,22 +10,30 @@ using world::Matrix3;
 using world::Vector3;
 using world::wrapped;
 
+namespace {
+
+NavigationError error_of(const NavigationAnswers& navigation, std::size_t index,
+                         const world::FlightRecord& truth) {
+  const NavigationAnswer& answer = navigation[index];
+  const world::Truth at = truth.at(answer.cause_us);
+  const world::Euler angles = world::euler_from(at.C_bn);
+  return {.t_us = answer.cause_us,
+          .angles = {wrapped(answer.angles.roll - angles.roll), wrapped(answer.angles.pitch - angles.pitch),
+                     wrapped(answer.angles.heading - angles.heading)},
+          .v_eb_n = answer.v_eb_n - at.v_eb_n,
+          .misalignment = world::misalignment(world::C_bn_from(answer.angles), at.C_bn),
+          .answer = index};
+}
+
+}  // namespace
+
 const Spool<NavigationError>& NavigationAnswers::errors(const world::FlightRecord& truth) const {
   if (truth_ == &truth && of_revision_ == revision()) return errors_;
   Spool<NavigationError> errors;
   errors.reserve(size());
   for (std::size_t index = 0; index < size(); ++index) {
-    const NavigationAnswer& answer = (*this)[index];
-    if (answer.cause_us < 0 || answer.cause_us > truth.end_us()) continue;
-    const world::Truth at = truth.at(answer.cause_us);
-    const world::Euler angles = world::euler_from(at.C_bn);
-    errors.push_back(
-        {.t_us = answer.cause_us,
-         .angles = {wrapped(answer.angles.roll - angles.roll), wrapped(answer.angles.pitch - angles.pitch),
-                    wrapped(answer.angles.heading - angles.heading)},
-         .v_eb_n = answer.v_eb_n - at.v_eb_n,
-         .misalignment = world::misalignment(world::C_bn_from(answer.angles), at.C_bn),
-         .answer = index});
+    const std::int64_t t_us = (*this)[index].cause_us;
+    if (t_us >= 0 && t_us <= truth.end_us()) errors.push_back(error_of(*this, index, truth));
   }
   errors_ = std::move(errors);
   truth_ = &truth;
@@ -33,11 +41,13 @@ const Spool<NavigationError>& NavigationAnswers::errors(const world::FlightRecor
   return errors_;
 }
 
-const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
-                                   std::int64_t navigation_us) {
-  const auto after =
-      std::ranges::upper_bound(errors, std::max(cause_us, navigation_us), {}, &NavigationError::t_us);
-  return after == errors.end() ? nullptr : &*after;
+std::optional<NavigationError> NavigationAnswers::first_after(std::int64_t cause_us,
+                                                              std::int64_t navigation_us,
+                                                              const world::FlightRecord& truth) const {
+  const std::int64_t before_us = std::max({cause_us, navigation_us, std::int64_t{-1}});
+  const auto after = std::ranges::upper_bound(in_order(), before_us, {}, &NavigationAnswer::cause_us);
+  if (after == end() || after->cause_us > truth.end_us()) return std::nullopt;
+  return error_of(*this, static_cast<std::size_t>(after - begin()), truth);
 }
 
 double nees(const Vector3& error, const Vector3& sigma, const Vector3& correlation) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "bench/estimators/answer_group.hpp"
 #include "bench/quantities/track.hpp"
@@ -58,6 +59,13 @@ struct NavigationAnswers : InOrderOfCause<NavigationAnswer> {
   /// The errors of all answers whose cause lies within the flight record. They are computed once for a run:
   /// its checks, results, pictures and tables read the same series.
   [[nodiscard]] const Spool<NavigationError>& errors(const world::FlightRecord& truth) const;
+  /// The error of the first navigation answer that includes a filter update with the cause `cause_us`.
+  /// `navigation_us` is the latest cause of the navigation answers that arrived before the update; the cause
+  /// of the answer is later than both times. If a fix arrives late, the navigation answers between its time
+  /// of validity and its arrival do not include its update. None: no such answer follows the update. Only
+  /// this error is computed: a campaign needs no others.
+  [[nodiscard]] std::optional<NavigationError> first_after(std::int64_t cause_us, std::int64_t navigation_us,
+                                                           const world::FlightRecord& truth) const;
 
  private:
   mutable Spool<NavigationError> errors_;
@@ -70,13 +78,6 @@ inline std::int64_t latest_cause_us(const NavigationAnswers& navigation) {
   return navigation.latest().value_or(-1);
 }
 
-/// The error of the first navigation answer that includes a filter update with the cause `cause_us`.
-/// `navigation_us` is the latest cause of the navigation answers that arrived before the update; the cause of
-/// the returned answer is later than both times. If a fix arrives late, the navigation answers between its
-/// time of validity and its arrival do not include its update. Null: no navigation answer follows the update.
-const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
-                                   std::int64_t navigation_us);
-
 /// The normalised estimation error squared, error^T P^-1 error. The covariance P is computed from the sigmas
 /// and the correlations (north-east, north-down, east-down) on the bus. The result is infinite if P is not
 /// positive definite because of rounding on the bus: such a P explains no error.
@@ -86,10 +87,10 @@ double nees(const world::Vector3& error, const world::Vector3& sigma, const worl
 /// `update`. The error comes from first_after(); without such an error, nothing is appended. `update` has the
 /// members cause_us, navigation_us and attitude_sigma.
 template <class Update>
-void add_heading_nees(Spool<quantities::TrackPoint>& series, const Spool<NavigationError>& errors,
-                      const Update& update) {
-  const NavigationError* after = first_after(errors, update.cause_us, update.navigation_us);
-  if (after != nullptr)
+void add_heading_nees(Spool<quantities::TrackPoint>& series, const NavigationAnswers& navigation,
+                      const world::FlightRecord& truth, const Update& update) {
+  const auto after = navigation.first_after(update.cause_us, update.navigation_us, truth);
+  if (after)
     series.push_back(
         {.t_us = update.cause_us, .value = std::pow(after->angles.heading / update.attitude_sigma.z(), 2)});
 }

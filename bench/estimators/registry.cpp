@@ -10,7 +10,6 @@
 #include "bench/estimators/wind/wind.hpp"
 #include "bench/scenario/binding.hpp"
 #include "bench/scenario/scenario.hpp"
-#include "messages/canhil.hpp"
 
 namespace canhil::estimators {
 namespace {
@@ -31,16 +30,6 @@ const Estimator* find(std::string_view name) { return find(registered, name); }
 const Estimator* telling(std::string_view columns) {
   const auto found = std::ranges::find_if(
       registered, [&](const Estimator* one) { return quantities::names(one->layout) == columns; });
-  return found == registered.end() ? nullptr : *found;
-}
-
-const Estimator* sending(const MessageInfo& message) {
-  const auto of_its_group = [&](std::string_view closing) {
-    const MessageInfo& last = *std::ranges::find(messages::all_messages, closing, &MessageInfo::name);
-    return last.sample_group.empty() ? last.name == message.name : last.sample_group == message.sample_group;
-  };
-  const auto found = std::ranges::find_if(
-      registered, [&](const Estimator* one) { return std::ranges::any_of(one->closing, of_its_group); });
   return found == registered.end() ? nullptr : *found;
 }
 

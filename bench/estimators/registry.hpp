@@ -3,10 +3,6 @@
 
 #include "bench/checks/estimator.hpp"
 
-namespace canhil {
-struct MessageInfo;
-}
-
 namespace canhil::estimators {
 
 /// All estimators. If several of them run in a scenario, a campaign keeps only the samples of the one that
@@ -19,8 +15,6 @@ std::span<const Estimator* const> in(const scenario::Scenario& scenario);
 const Estimator* find(std::string_view name);
 /// The estimator whose samples have these columns (quantities::names); null if there is none.
 const Estimator* telling(std::string_view columns);
-/// The estimator that sends a message as a part of its answers; null: none does.
-const Estimator* sending(const MessageInfo& message);
 /// The estimator whose samples a campaign keeps for a scenario.
 const Estimator& of(const scenario::Scenario& scenario);
 /// Every quantity that any estimator reports, each once, in the order of the registry.

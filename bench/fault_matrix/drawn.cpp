@@ -106,8 +106,7 @@ std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", text
 std::vector<const MessageInfo*> messages_of(const scenario::NodeTable& node) {
   std::vector<const MessageInfo*> group;
   for (const MessageInfo& info : messages::all_messages) {
-    if (info.sample_group == node.closes->sample_group && info.sender == node.closes->sender)
-      group.push_back(&info);
+    if (is_in_group_of(info, *node.closes)) group.push_back(&info);
   }
   return group;
 }

@@ -39,9 +39,8 @@ std::vector<std::string> keys_of(std::string_view stem, std::string_view si) {
 
 // Whether a message belongs to the sample group of a node.
 bool is_of_node(const MessageInfo& message, const scenario::NodeTable& node, const FaultContext& context) {
-  const MessageInfo* closes = context.contract.binding->closing_of(node);
-  return closes != nullptr && closes->sample_group == message.sample_group &&
-         closes->sender == message.sender;
+  const MessageInfo* closing = context.contract.binding->closing_of(node);
+  return closing != nullptr && is_in_group_of(message, *closing);
 }
 
 // The kind of the node that sends a message; null: the messages of this bus are not those of single nodes.

@@ -1,4 +1,4 @@
-// The answers of a mapped target in a run.
+// The answers of mapped targets in a run.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,12 @@ struct TimedValue {
   double value = 0;       ///< NaN: the target sent the value that means "none"
 };
 
-/// The reported values of each quantity.
+/// What the targets reported.
 struct Answers {
   using Values = TimeOrdered<TimedValue, &TimedValue::t_us>;
   using Times = TimeOrdered<std::int64_t, std::identity{}>;
 
-  const Mapping* mapping = nullptr;
-  std::map<const quantities::Quantity*, Values> values;
-  std::map<const ReportedSignal*, Values> sigmas;  ///< and correlations, by their signals
+  std::map<const ReportedSignal*, Values> values;  ///< of quantities, sigmas and correlations
   /// The times of the values' causes, or the arrival times if there is no cause, by message name.
   std::map<std::string_view, Times> messages;
 };

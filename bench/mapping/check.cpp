@@ -125,7 +125,7 @@ class Remarks {
   void on_messages_that_nobody_hears() {
     std::set<std::string> senders;
     for (const Hear& hear : mapping_.hears) senders.insert(hear.of.message->sender);
-    for (const dbc::Message& message : mapping_.database.messages) {
+    for (const dbc::Message& message : mapping_.targets.front().database.messages) {
       const bool mapped =
           std::ranges::find(mapping_.messages, message.name, &MessageInfo::name) != mapping_.messages.end();
       if (!mapped && !message.sender.empty() && senders.contains(message.sender))

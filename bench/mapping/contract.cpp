@@ -40,11 +40,24 @@ bool Mapping::is_played(const MessageInfo& message, std::span<const scenario::No
 }
 
 std::string_view Mapping::estimator_of(const MessageInfo& message) const {
-  return is_targets(message) ? std::string_view(name) : "";
+  const auto index = static_cast<std::size_t>(&message - messages.data());
+  const auto hear = std::ranges::find(hears, index, [](const Hear& one) { return one.of.index; });
+  return hear == hears.end() ? std::string_view() : targets[hear->target].name;
 }
 
 Result<void> Mapping::fits(const scenario::Scenario& scenario, const world::FlightRecord& /*flight*/) const {
   return Player::check(*this, scenario);
+}
+
+Places::Places(const Mapping& mapping)
+    : by_id_(mapping.messages), by_group_(mapping.by_group), hears_(mapping.messages.size()) {
+  for (std::size_t index = 0; index < hears_.size(); ++index) {
+    const MessageInfo& info = mapping.messages[index];
+    for (std::size_t i = 0; i < mapping.hears.size(); ++i) {
+      const dbc::Message& heard = *mapping.hears[i].of.message;
+      if (heard.id == info.id && heard.extended == info.extended) hears_[index].push_back(i);
+    }
+  }
 }
 
 const quantities::Layout* find_layout(std::string_view columns) {
@@ -73,16 +86,18 @@ Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::st
                                             const scenario::DbcVocabulary& own, const ReadText& read) {
   Section root = Section::parse(text, file);
   if (root.error() || !root.has("target")) return own;
+  std::vector<std::string> files;
   for (Section& target : root.table_or_tables("target")) {
     if (!target.has("mapping")) continue;
     const std::string name = target.text("mapping");
     if (name.empty()) target.finish();
     if (const auto error = root.error()) return tl::unexpected(*error);
-    auto mapping = read_mapping((fs::path(file).parent_path() / name).string(), read);
-    if (!mapping) return tl::unexpected(mapping.error());
-    return estimators::bound_to(own, std::move(*mapping));
+    files.push_back((fs::path(file).parent_path() / name).string());
   }
-  return own;
+  if (files.empty()) return own;
+  auto mappings = read_mappings(files, read);
+  if (!mappings) return tl::unexpected(mappings.error());
+  return estimators::bound_to(own, std::move(*mappings));
 }
 
 }  // namespace canhil::mapping

@@ -31,11 +31,10 @@ std::vector<const quantities::Quantity*> sources_of(const quantities::Quantity& 
 }
 
 // Why the causes of the answers with a quantity are not certain; empty: they are.
-std::string ambiguous(const checks::Observations& seen, const quantities::Quantity& quantity) {
-  const Mapping* mapping = seen.of<Answers>().mapping;
-  if (mapping == nullptr) return "";
+std::string ambiguous(const MappedTarget& target, const checks::Observations& seen,
+                      const quantities::Quantity& quantity) {
   for (const quantities::Quantity* source : sources_of(quantity)) {
-    std::string why = seen.timing.answers[hear_of(*mapping, source).of.index].ambiguous;
+    std::string why = seen.timing.answers[hear_of(target, source).of.index].ambiguous;
     if (!why.empty()) return why;
   }
   return "";
@@ -46,12 +45,11 @@ Track::Kind kind_of(const quantities::Quantity& quantity) {
   return quantity.white ? Track::Kind::innovation : Track::Kind::error;
 }
 
-void tracks_of(const checks::Observations& seen, const Truth& truth, const quantities::TrackSink& give) {
-  const Answers& answers = seen.of<Answers>();
-  if (answers.mapping == nullptr) return;
-  for (const quantities::Quantity* quantity : answers.mapping->quantities) {
+void tracks_of(const MappedTarget& target, const checks::Observations& seen, const Truth& truth,
+               const quantities::TrackSink& give) {
+  for (const quantities::Quantity* quantity : target.quantities) {
     const ReferenceQuantity& of = reference_of(*quantity);
-    const std::string_view message = hear_of(*answers.mapping, sources_of(*quantity).back()).of.message->name;
+    const std::string_view message = hear_of(target, sources_of(*quantity).back()).of.message->name;
     const bool ends_early = quantity->of_engagement && truth.engagement != nullptr;
     const estimators::Answering answering{
         .longest_wait_us = estimators::longest_wait_us(seen, message),
@@ -60,7 +58,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const quant
     Track track = answering.track(*quantity, std::string(quantity->meaning));
     track.kind = kind_of(*quantity);
     track.only_if_judged = !of.of.empty();
-    track.points = points_of(of, seen, truth);
+    track.points = points_of(of, target, seen, truth);
     if (track.kind == Track::Kind::error && of.of.empty()) {
       track.estimate_title = std::string(quantity->name);
       track.estimate_unit = quantity->unit;
@@ -73,23 +71,22 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const quant
 // quantity, because a target may report its quantities in turn. A NEES or a NIS is of one time only:
 // elsewhere it is NaN. No sample is taken before every other quantity has an error, and none if causes of
 // answers are not certain.
-quantities::Samples samples_of(const checks::Observations& seen, const Truth& truth) {
-  const Answers& answers = seen.of<Answers>();
-  if (answers.mapping == nullptr) return {};
-  const Mapping& mapping = *answers.mapping;
+quantities::Samples samples_of(const MappedTarget& target, const checks::Observations& seen,
+                               const Truth& truth) {
+  const auto& reported = target.quantities;
   const bool unclear = std::ranges::any_of(
-      mapping.quantities, [&](const auto* quantity) { return !ambiguous(seen, *quantity).empty(); });
+      reported, [&](const auto* quantity) { return !ambiguous(target, seen, *quantity).empty(); });
   if (unclear) return {};
   std::map<std::int64_t, std::map<std::size_t, double>> by_time;  // by quantity
-  for (std::size_t i = 0; i < mapping.quantities.size(); ++i) {
-    for (const TrackPoint& one : points_of(reference_of(*mapping.quantities[i]), seen, truth))
+  for (std::size_t i = 0; i < reported.size(); ++i) {
+    for (const TrackPoint& one : points_of(reference_of(*reported[i]), target, seen, truth))
       by_time[one.t_us][i] = one.value;
   }
-  quantities::Samples samples(*mapping.layout);
-  std::vector<std::optional<double>> last(mapping.quantities.size());
+  quantities::Samples samples(*target.layout);
+  std::vector<std::optional<double>> last(reported.size());
   for (const auto& [t_us, values] : by_time) {
     for (std::size_t i = 0; i < last.size(); ++i) {
-      if (mapping.quantities[i]->nan_allowed) last[i] = std::nan("");
+      if (reported[i]->nan_allowed) last[i] = std::nan("");
     }
     for (const auto& [index, value] : values) last[index] = value;
     if (std::ranges::any_of(last, [](const auto& value) { return !value; })) continue;
@@ -102,15 +99,13 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
 
 // The first mark is for all answers. It is followed by one mark for each message that answers a play or
 // carries a quantity.
-std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
-  const Answers& answers = seen.of<Answers>();
+std::vector<estimators::Mark> marks_of(const MappedTarget& target, const checks::Observations& seen) {
   Answers::Times all;
   std::vector<estimators::Mark> marks;
-  for (const auto& [message, times] : answers.messages) {
-    const Hear& hear =
-        *std::ranges::find(answers.mapping->hears, message,
-                           [](const Hear& one) -> std::string_view { return one.of.message->name; });
-    if (!hear.answers && hear.reported_signals.empty()) continue;
+  for (const auto& [message, times] : seen.of<Answers>().messages) {
+    const auto hear = std::ranges::find(
+        target.hears, message, [](const Hear& one) -> std::string_view { return one.of.message->name; });
+    if (hear == target.hears.end() || (!hear->answers && hear->reported_signals.empty())) continue;
     for (const std::int64_t t_us : times) all.push_back(t_us);
     marks.push_back({.name = message, .t_us = times});
   }
@@ -118,11 +113,11 @@ std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
   return marks;
 }
 
-std::vector<estimators::ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
-                                               std::string_view /*algorithm*/) {
+std::vector<estimators::ResultLine> results_of(const MappedTarget& target, const checks::Observations& seen,
+                                               const Truth& truth, std::string_view /*algorithm*/) {
   estimators::ResultLine end{.name = "final_error", .what = "error at the end"},
       delays{.name = "delay", .what = "delay against the truth"};
-  tracks_of(seen, truth, [&](const Track& track) {
+  tracks_of(target, seen, truth, [&](const Track& track) {
     const quantities::Quantity& quantity = *track.quantity;
     const ReferenceQuantity& of = reference_of(quantity);
     if (track.kind != Track::Kind::error || of.of.size() > 1) return;
@@ -133,7 +128,7 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
     const bool is_derived = !of.of.empty();
     const bool shown = !quantity.of_engagement &&
                        is_derived == is_on_the_ground(is_derived ? reference_of(*of.of.front()) : of);
-    const bool certain = ambiguous(seen, quantity).empty();
+    const bool certain = ambiguous(target, seen, quantity).empty();
     if (shown && certain)
       end.add(name, last,
               fmt::format("{} {:+.3f} {}", name, last / quantity.unit.factor, quantity.unit.name));
@@ -152,11 +147,10 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
   return lines;
 }
 
-std::vector<std::string_view> closing_with(const checks::Observations& seen,
-                                           const quantities::Quantity& quantity) {
+std::vector<std::string_view> closing_with(const MappedTarget& target, const quantities::Quantity& quantity) {
   std::vector<std::string_view> messages;
   for (const quantities::Quantity* source : sources_of(quantity)) {
-    const Hear& hear = hear_of(*seen.of<Answers>().mapping, source);
+    const Hear& hear = hear_of(target, source);
     const std::string_view name = hear.of.message->name;
     if (hear.is_owed() && std::ranges::find(messages, name) == messages.end()) messages.push_back(name);
   }
@@ -169,23 +163,33 @@ std::string without_truth(const scenario::Scenario& scenario, const quantities::
 
 quantities::Freshness freshness_of(const scenario::Scenario& /*scenario*/) { return {}; }
 
+// A function of a mapped target as a function with a context.
+template <auto function>
+struct OfTarget;
+template <class Returned, class... Arguments, Returned (*function)(const MappedTarget&, Arguments...)>
+struct OfTarget<function> {
+  static Returned call(const void* target, Arguments... arguments) {
+    return function(*static_cast<const MappedTarget*>(target), arguments...);
+  }
+};
+
 }  // namespace
 
-estimators::Estimator estimator_of(const Mapping& mapping) {
-  return {.name = mapping.name,
+estimators::Estimator estimator_of(const MappedTarget& target) {
+  return {.name = target.name,
           .facts = {.start = scenario::Start::nothing},
-          .layout = *mapping.layout,
-          .of_runs = mapping.of_runs,
+          .layout = *target.layout,
+          .of_runs = target.of_runs,
           .reception = nullptr,
-          .samples = samples_of,
-          .tracks = tracks_of,
-          .marks = marks_of,
-          .plain_marks = mapping.heard,
-          .results = results_of,
+          .samples = {OfTarget<samples_of>::call, &target},
+          .tracks = {OfTarget<tracks_of>::call, &target},
+          .marks = {OfTarget<marks_of>::call, &target},
+          .plain_marks = target.heard,
+          .results = {OfTarget<results_of>::call, &target},
           .why_no_truth = without_truth,
-          .ambiguous = ambiguous,
-          .closing = mapping.closing,
-          .closing_with = closing_with,
+          .ambiguous = {OfTarget<ambiguous>::call, &target},
+          .closing = target.closing,
+          .closing_with = {OfTarget<closing_with>::call, &target},
           .freshness = freshness_of};
 }
 

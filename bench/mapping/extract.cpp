@@ -82,7 +82,8 @@ Result<Extracted> extract(const Mapping& mapping, std::string_view name, const s
   if (play == mapping.plays.end()) {
     std::string names;
     for (const Play& one : mapping.plays) names += (names.empty() ? "" : ", ") + one.name;
-    return failure(fmt::format("{}: has no play '{}', expected one of: {}", mapping.file, name, names));
+    return failure(
+        fmt::format("{}: has no play '{}', expected one of: {}", to_text(mapping.files), name, names));
   }
   Extracted extracted{.csv = "t_s"};
   for (const PlayedMessage& message : play->messages) {
@@ -105,7 +106,7 @@ Result<Extracted> extract(const Mapping& mapping, std::string_view name, const s
   }
   if (extracted.rows == 0)
     return failure(fmt::format("{}: has no whole group of {}, expected a recording of {}", log, name,
-                               mapping.database.messages.empty() ? "it" : mapping.file));
+                               to_text(mapping.files)));
   return extracted;
 }
 

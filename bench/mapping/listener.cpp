@@ -19,7 +19,6 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
         seen.timing.windows = std::move(windows);
         seen.timing.wire = wire;
         seen.answers_each_sample = false;
-        seen.of<Answers>().mapping = &conversation.mapping;
         return seen;
       }()),
       stopwatch_(seen_.timing),
@@ -31,7 +30,6 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
   const Mapping& mapping = conversation.mapping;
   for (std::size_t i = 0; i < mapping.hears.size(); ++i) {
     const Mapped& of = mapping.hears[i].of;
-    hear_of_[of.index] = i;
     if (!of.protection) continue;
     seen_.from_target[of.index].has_counter = of.protection->settings().counter.has_value();
     seen_.from_target[of.index].has_checksum = of.protection->settings().checksum.has_value();
@@ -80,8 +78,8 @@ void Listener::received(const Received& received) {
     return stopwatch_.echoed(received, whole ? conversation_.mapping.groups[whole->play] : "",
                              whole ? whole->sent->valid_us : 0);
   }
-  if (const auto found = hear_of_.find(index); found != hear_of_.end())
-    hear(conversation_.mapping.hears[found->second], received);
+  for (const std::size_t one : places_.hears(received.frame))
+    hear(conversation_.mapping.hears[one], received);
 }
 
 void Listener::hear(const Hear& hear, const Received& received) {
@@ -162,10 +160,9 @@ void Listener::record(const Hear& hear, const Frame& frame, std::int64_t t_us) {
   auto& answers = seen_.of<Answers>();
   answers.messages[hear.of.message->name].push_back(t_us);
   read(hear, frame, values_, [&](const ReportedSignal& telling, double value, bool invalid) {
-    if (telling.what != ReportedSignal::What::value)
-      answers.sigmas[&telling].push_back({.t_us = t_us, .value = value});
-    else if (!invalid)  // NaN is recorded too; it makes checks fail
-      answers.values[telling.quantity->quantity].push_back({.t_us = t_us, .value = value});
+    // NaN is recorded too; it makes checks fail.
+    if (telling.what != ReportedSignal::What::value || !invalid)
+      answers.values[&telling].push_back({.t_us = t_us, .value = value});
   });
 }
 

@@ -1,7 +1,6 @@
-// Turns frames of a mapped target into observations, as protocol::Monitor does for canhil's own DBC.
+// Turns frames of mapped targets into observations, as protocol::Monitor does for canhil's own DBC.
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "bench/mapping/answers.hpp"
@@ -46,7 +45,6 @@ class Listener final : public observe::Watcher {
   observe::Stopwatch stopwatch_;
   Places places_;
   Passing passing_;
-  std::map<std::size_t, std::size_t> hear_of_;   // from the index of a message
   std::vector<double> values_;                   // signal values of one message
   std::vector<protection::Receiver> receivers_;  // for each hear
   std::vector<OwnPairing> pairings_;             // for each hear

@@ -1,8 +1,8 @@
 // A mapping connects a DBC of another project to the bench: a TOML file beside the DBC assigns its signals to
 // the bench's quantities (docs/mapping.md).
 //
-// A play is a group of messages that the bench sends; a hear is a message of the target. Both are independent
-// of any scenario.
+// A play is a group of messages that the bench sends; a hear is a message of a target. Both are independent
+// of any scenario. Several targets of a run, each with its mapping, share the plays that are equal.
 #pragma once
 
 #include <cstdint>
@@ -89,6 +89,7 @@ struct Echo {
 
 struct Hear {
   Mapped of;
+  std::size_t target = 0;  ///< index of its sender in Mapping::targets
   std::vector<ReportedSignal> reported_signals;
   std::optional<std::size_t> answers{};  ///< index of the answered play; none: sent independently of plays
   std::optional<Echo> echo{};            ///< none: the cause is the latest stimulus before the message
@@ -100,24 +101,36 @@ struct Hear {
   [[nodiscard]] bool is_owed() const { return answers && task_us == 0; }
 };
 
+/// One target: what it sends and how it is presented as an estimator of the bench.
+struct MappedTarget {
+  std::string name;  ///< name of its estimator
+  std::string file;  ///< its mapping
+  dbc::Database database;
+  std::span<const Hear> hears{};
+  std::vector<const quantities::Quantity*> quantities{};  ///< each once
+  std::vector<const quantities::Quantity*> of_runs{};  ///< these, and those of which they are the components
+  const quantities::Layout* layout = nullptr;
+  std::vector<std::string_view> closing{};
+  std::vector<std::string_view> heard{};  ///< names of its messages, which are marks but no signs of trouble
+  std::optional<estimators::Estimator> estimator{};
+};
+
+/// The mappings of all targets of a run.
 struct Mapping final : scenario::Binding {
   Mapping() { any_sensor = true; }
   [[nodiscard]] std::shared_ptr<const protection::Protection> protection_of(
       const MessageInfo& message) const override;
-  [[nodiscard]] const MessageInfo* closing_of(const scenario::NodeTable& /*node*/) const override {
-    return nullptr;
-  }
   [[nodiscard]] bool is_played(const MessageInfo& message,
                                std::span<const scenario::NodeSettings> nodes) const override;
   [[nodiscard]] std::string_view estimator_of(const MessageInfo& message) const override;
   [[nodiscard]] Result<void> fits(const scenario::Scenario& scenario,
                                   const world::FlightRecord& flight) const override;
 
-  dbc::Database database;
+  std::deque<MappedTarget> targets;           ///< at least one
   std::vector<const sensors::Kind*> sensors;  ///< those with names of their own
   std::vector<Play> plays;
-  std::vector<Hear> hears;
-  std::string name;  ///< name of the target, used as the name of its estimator
+  std::vector<Hear> hears;              ///< of all targets, in their order
+  const MappedTarget* guide = nullptr;  ///< its answers guide the missile; null: none does
   /// For J1939: the index of each message by its parameter group, because any source address and any priority
   /// is accepted.
   std::map<std::uint32_t, std::size_t> by_group;
@@ -125,14 +138,7 @@ struct Mapping final : scenario::Binding {
   // Storage for Binding::messages and Binding::estimators.
   std::vector<MessageInfo> infos;
   std::deque<std::string_view> groups;
-  std::vector<const quantities::Quantity*> quantities;  ///< each once
-  std::vector<const quantities::Quantity*> of_runs;     ///< these, and those of which they are the components
-  const quantities::Layout* layout = nullptr;
-  std::vector<std::string_view> closing;
-  std::vector<std::string_view>
-      heard;  ///< names of the target's messages, which are marks but no signs of trouble
-  std::optional<estimators::Estimator> own;
-  const estimators::Estimator* estimator = nullptr;  ///< `own`
+  std::vector<const estimators::Estimator*> presented;
 };
 
 /// Reads a named file. Error: one line.
@@ -148,25 +154,36 @@ constexpr std::uint32_t j1939_group(std::uint32_t id) {
   return ((group >> 8U) & 0xFFU) < first_broadcast ? group & 0x3FF00U : group;
 }
 
-/// Finds the index of a frame's message in Binding::messages.
+/// Finds the messages that a frame is.
 class Places {
  public:
-  explicit Places(const Mapping& mapping) : by_id_(mapping.messages), by_group_(mapping.by_group) {}
-  /// Returns MessagePlaces::nowhere if the frame is not a message of the mapping.
+  explicit Places(const Mapping& mapping);
+  /// The index in Binding::messages; MessagePlaces::nowhere if the frame is not a message of the mapping. If
+  /// several targets send messages of this id, the index of one of them.
   [[nodiscard]] std::size_t operator()(const Frame& frame) const {
     const std::size_t index = by_id_(frame);
     if (index != MessagePlaces::nowhere || !frame.extended || frame.error) return index;
     const auto found = by_group_.find(j1939_group(frame.id));
     return found == by_group_.end() ? MessagePlaces::nowhere : found->second;
   }
+  /// The messages of targets that a frame is, as indices of Mapping::hears.
+  [[nodiscard]] std::span<const std::size_t> hears(const Frame& frame) const {
+    const std::size_t index = (*this)(frame);
+    if (index == MessagePlaces::nowhere) return {};
+    return hears_[index];
+  }
 
  private:
   MessagePlaces by_id_;
   const std::map<std::uint32_t, std::size_t>& by_group_;
+  std::vector<std::vector<std::size_t>> hears_;  // for each message
 };
 
-/// Reads a mapping and its DBC. The mapping gives the path of the DBC relative to the folder of the mapping.
-/// An error is one line of text.
+/// Reads the mappings of the targets of a run, and their DBCs. A mapping gives the path of its DBC relative
+/// to the folder of the mapping. An error is one line of text.
+Result<std::shared_ptr<const Mapping>> read_mappings(std::span<const std::string> files,
+                                                     const ReadText& read = read_from_disk);
+/// Reads the mapping of one target.
 Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,
                                                     const ReadText& read = read_from_disk);
 
@@ -175,12 +192,11 @@ Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,
 /// one of the quantities, the bench has no truth.
 const quantities::Layout* find_layout(std::string_view columns);
 
-/// Presents the mapped target as an estimator. The result refers to the mapping, so the mapping must not
-/// move.
-estimators::Estimator estimator_of(const Mapping& mapping);
+/// Presents a mapped target as an estimator. The result refers to the target, which must not move.
+estimators::Estimator estimator_of(const MappedTarget& target);
 
-/// The vocabulary for reading a scenario. If [target] of the scenario names a mapping (by a path relative to
-/// the scenario's file), the vocabulary comes from this mapping; otherwise it comes from canhil's own DBC. An
+/// The vocabulary for reading a scenario. If the targets of the scenario name mappings (by paths relative
+/// to the scenario's file), the vocabulary comes from these; otherwise it comes from canhil's own DBC. An
 /// error is one line of text. This function does not report syntax errors of TOML; the reader of the scenario
 /// reports them.
 Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::string& file,

@@ -59,7 +59,7 @@ Result<void> Player::check(const Mapping& mapping, const scenario::Scenario& sce
                                    kind->of == nullptr ? "a table" : "a [[sensor]] with this name"));
       if (node->table().sensor != kind)
         return failure(fmt::format("key 'sensor': '{}' has another kind than in {}, expected '{}'", kind->key,
-                                   mapping.file, kind->of->key));
+                                   to_text(mapping.files), kind->of->key));
       if (play.sensor == kind && play.period_us % node->period_us() != 0)
         return failure(
             fmt::format("key '{}.period_ms': {:g} does not divide the {:g} ms of {}, expected a "
@@ -159,9 +159,10 @@ bool Player::passes(const Hear& hear, const Frame& frame) {
 // The guidance takes a LOS rate when both planes answer the same sample. It holds its command while an answer
 // has no value.
 void Player::hear(const Frame& frame) {
-  const std::size_t index = places_(frame);
-  for (const Hear& hear : conversation_.mapping.hears) {
-    if (hear.of.index != index || !hear.answers || !passes(hear, frame)) continue;
+  for (const std::size_t index : places_.hears(frame)) {
+    const Hear& hear = conversation_.mapping.hears[index];
+    const bool guides = &conversation_.mapping.targets[hear.target] == conversation_.mapping.guide;
+    if (!guides || !hear.answers || !passes(hear, frame)) continue;
     const Sent* cause = cause_of(conversation_, hear, frame);
     if (cause == nullptr) continue;
     if (cause->valid_us != los_rate_.cause_us) los_rate_ = {.cause_us = cause->valid_us};

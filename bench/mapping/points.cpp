@@ -39,14 +39,14 @@ class Latest {
   double longest_us_;
 };
 
-// A signal of sigmas or correlations; null: the target has none. A correlation has no order.
+// A signal of values, sigmas or correlations; null: the target has none. A correlation has no order.
 struct Told {
   const ReportedSignal* signal = nullptr;
   const Hear* in = nullptr;
 };
-Told told(const Mapping& mapping, What what, const quantities::Quantity* of,
+Told told(const MappedTarget& target, What what, const quantities::Quantity* of,
           const quantities::Quantity* other = nullptr) {
-  for (const Hear& hear : mapping.hears) {
+  for (const Hear& hear : target.hears) {
     for (const ReportedSignal& one : hear.reported_signals) {
       if (one.what != what) continue;
       const auto *a = one.quantity->quantity, *b = one.other == nullptr ? nullptr : one.other->quantity;
@@ -60,7 +60,7 @@ Told told(const Mapping& mapping, What what, const quantities::Quantity* of,
 class Values {
  public:
   Values(const Told& told, const checks::Observations& seen) {
-    const auto& all = seen.of<Answers>().sigmas;
+    const auto& all = seen.of<Answers>().values;
     const auto found = told.signal == nullptr ? all.end() : all.find(told.signal);
     if (found != all.end())
       latest_.emplace(found->second, estimators::longest_wait_us(seen, told.in->of.message->name));
@@ -74,13 +74,13 @@ class Values {
   std::optional<Latest<Answers::Values>> latest_;
 };
 
-Spool<TrackPoint> reported(const ReferenceQuantity& of, const checks::Observations& seen,
-                           const Truth& truth) {
+Spool<TrackPoint> reported(const ReferenceQuantity& of, const MappedTarget& target,
+                           const checks::Observations& seen, const Truth& truth) {
   Spool<TrackPoint> points;
   const Answers& answers = seen.of<Answers>();
-  const auto values = answers.values.find(of.quantity);
+  const auto values = answers.values.find(told(target, What::value, of.quantity).signal);
   if (values == answers.values.end()) return points;
-  const Told sigma = told(*answers.mapping, What::sigma, of.quantity);
+  const Told sigma = told(target, What::sigma, of.quantity);
   Values sigmas(sigma, seen);
   double last_truth = 0;
   for (const TimedValue& one : values->second) {
@@ -102,20 +102,20 @@ Spool<TrackPoint> reported(const ReferenceQuantity& of, const checks::Observatio
   return points;
 }
 
-Spool<TrackPoint> derived(const ReferenceQuantity& of, const checks::Observations& seen, const Truth& truth) {
+Spool<TrackPoint> derived(const ReferenceQuantity& of, const MappedTarget& target,
+                          const checks::Observations& seen, const Truth& truth) {
   Spool<TrackPoint> points;
-  const Mapping& mapping = *seen.of<Answers>().mapping;
   std::vector<Spool<TrackPoint>> series;
   for (const quantities::Quantity* part : of.of)
-    series.push_back(points_of(*find_reference_quantity(part->name), seen, truth));
+    series.push_back(points_of(*find_reference_quantity(part->name), target, seen, truth));
   const std::size_t n = series.size();
   std::vector<Latest<Spool<TrackPoint>>> latest;
   std::vector<Values> correlations;  // of part i with part j at i * n + j
   for (std::size_t i = 0; i < n; ++i) {
     latest.emplace_back(series[i],
-                        estimators::longest_wait_us(seen, hear_of(mapping, of.of[i]).of.message->name));
+                        estimators::longest_wait_us(seen, hear_of(target, of.of[i]).of.message->name));
     for (std::size_t j = 0; j < n; ++j)
-      correlations.emplace_back(i == j ? Told{} : told(mapping, What::correlation, of.of[i], of.of[j]), seen);
+      correlations.emplace_back(i == j ? Told{} : told(target, What::correlation, of.of[i], of.of[j]), seen);
   }
   std::vector<TrackPoint> parts(n);
   for (const TrackPoint& last : series.back()) {
@@ -141,17 +141,13 @@ Spool<TrackPoint> derived(const ReferenceQuantity& of, const checks::Observation
 
 }  // namespace
 
-Spool<TrackPoint> points_of(const ReferenceQuantity& of, const checks::Observations& seen,
-                            const Truth& truth) {
-  return of.of.empty() ? reported(of, seen, truth) : derived(of, seen, truth);
+Spool<TrackPoint> points_of(const ReferenceQuantity& of, const MappedTarget& target,
+                            const checks::Observations& seen, const Truth& truth) {
+  return of.of.empty() ? reported(of, target, seen, truth) : derived(of, target, seen, truth);
 }
 
-const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity) {
-  return *std::ranges::find_if(mapping.hears, [&](const Hear& hear) {
-    return std::ranges::any_of(hear.reported_signals, [&](const ReportedSignal& one) {
-      return one.what == What::value && one.quantity->quantity == quantity;
-    });
-  });
+const Hear& hear_of(const MappedTarget& target, const quantities::Quantity* quantity) {
+  return *told(target, What::value, quantity).in;
 }
 
 }  // namespace canhil::mapping

@@ -9,10 +9,10 @@ namespace canhil::mapping {
 /// a correlation may come in another message than the value: the latest one at or before the value is used,
 /// unless its message has been silent since. A derived quantity has a point for each value of the last of its
 /// parts, with the latest values of the others.
-Spool<quantities::TrackPoint> points_of(const ReferenceQuantity& of, const checks::Observations& seen,
-                                        const estimators::Truth& truth);
+Spool<quantities::TrackPoint> points_of(const ReferenceQuantity& of, const MappedTarget& target,
+                                        const checks::Observations& seen, const estimators::Truth& truth);
 
-/// The message that carries a reported quantity.
-const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity);
+/// The message that carries a quantity which the target reports.
+const Hear& hear_of(const MappedTarget& target, const quantities::Quantity* quantity);
 
 }  // namespace canhil::mapping

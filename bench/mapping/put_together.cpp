@@ -13,9 +13,9 @@ namespace canhil::mapping {
 namespace {
 
 // Adds the quantities that the bench derives from those which the target reports.
-void add_derived(Mapping& mapping) {
+void add_derived(MappedTarget& target) {
   const auto is_told = [&](const quantities::Quantity* of, ReportedSignal::What what) {
-    return std::ranges::any_of(mapping.hears, [&](const Hear& hear) {
+    return std::ranges::any_of(target.hears, [&](const Hear& hear) {
       return std::ranges::any_of(hear.reported_signals, [&](const ReportedSignal& one) {
         return one.quantity->quantity == of && one.what == what;
       });
@@ -27,15 +27,15 @@ void add_derived(Mapping& mapping) {
     };
     if (!one.of.empty() && has_all(ReportedSignal::What::value) &&
         (!one.of_sigmas || has_all(ReportedSignal::What::sigma)))
-      mapping.quantities.push_back(one.quantity);
+      target.quantities.push_back(one.quantity);
   }
 }
 
 // Whether answers contain both planes of the LOS rate, with which a missile is guided.
-bool guides(const Mapping& mapping) {
+bool guides(const MappedTarget& target) {
   const auto is_answered = [&](const quantities::Quantity& plane) {
-    const bool reported = std::ranges::find(mapping.quantities, &plane) != mapping.quantities.end();
-    return reported && hear_of(mapping, &plane).answers.has_value();
+    const bool reported = std::ranges::find(target.quantities, &plane) != target.quantities.end();
+    return reported && hear_of(target, &plane).answers.has_value();
   };
   return is_answered(quantities::los_rate_pitch) && is_answered(quantities::los_rate_yaw);
 }
@@ -64,8 +64,58 @@ std::string page_of(const PlayedMessage& message) {
   return page;
 }
 
+namespace {
+
+// Lists what a target reports. Error: it reports a quantity twice, or the sigma of a quantity that it does
+// not report.
+std::optional<std::string> list_quantities(MappedTarget& target) {
+  const auto wrong = [&](const std::string& what) { return fmt::format("{}: {}", target.file, what); };
+  auto& all = target.quantities;
+  for (const Hear& hear : target.hears) {
+    for (const ReportedSignal& telling : hear.reported_signals) {
+      if (telling.what != ReportedSignal::What::value) continue;
+      if (std::ranges::find(all, telling.quantity->quantity) != all.end())
+        return wrong(fmt::format("{} is reported twice, expected once", telling.quantity->quantity->name));
+      all.push_back(telling.quantity->quantity);
+    }
+  }
+  for (const Hear& hear : target.hears) {
+    for (const ReportedSignal& telling : hear.reported_signals) {
+      for (const ReferenceQuantity* of : {telling.quantity, telling.other}) {
+        if (of == nullptr || std::ranges::find(all, of->quantity) != all.end()) continue;
+        return wrong(
+            fmt::format("{}.{} carries a sigma or correlation of {} without its value, expected both",
+                        hear.of.message->name, telling.signal->name, of->quantity->name));
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+// Presents a target as an estimator.
+void present(Mapping& mapping, MappedTarget& target) {
+  for (const Hear& hear : target.hears) {
+    target.heard.push_back(hear.of.message->name);
+    if (hear.is_owed()) target.closing.push_back(hear.of.message->name);
+  }
+  if (mapping.guide == nullptr && guides(target)) mapping.guide = &target;
+  add_derived(target);
+  target.of_runs = target.quantities;
+  if (mapping.guide == &target) target.of_runs.push_back(&quantities::los_rate_both);
+  std::string columns;
+  for (const quantities::Quantity* one : target.quantities)
+    columns += (columns.empty() ? "" : " ") + std::string(one->name);
+  target.layout = find_layout(columns);
+  target.estimator.emplace(estimator_of(target));
+  mapping.presented.push_back(&*target.estimator);
+}
+
+}  // namespace
+
 std::optional<std::string> put_together(Mapping& mapping) {
-  const auto wrong = [&](const std::string& what) { return fmt::format("{}: {}", mapping.file, what); };
+  const auto wrong = [&](const std::string& what) {
+    return fmt::format("{}: {}", mapping.targets.back().file, what);
+  };
   if (mapping.infos.size() > MessagePlaces::most)
     return wrong(
         fmt::format("{} messages, expected {} at the most", mapping.infos.size(), MessagePlaces::most));
@@ -91,37 +141,17 @@ std::optional<std::string> put_together(Mapping& mapping) {
     mapping.answers_by_name = mapping.answers_by_name || (hear.is_owed() && hear.echo);
     if (hear.is_owed()) info.answers = {&mapping.groups[*hear.answers], 1};
     if (hear.task_us > 0) info.cycle_time_us = hear.task_us;
-    mapping.heard.push_back(hear.of.message->name);
-    if (hear.is_owed()) mapping.closing.push_back(hear.of.message->name);
-    for (const ReportedSignal& telling : hear.reported_signals) {
-      if (telling.what != ReportedSignal::What::value) continue;
-      if (std::ranges::find(mapping.quantities, telling.quantity->quantity) != mapping.quantities.end())
-        return wrong(fmt::format("{} is reported twice, expected once", telling.quantity->quantity->name));
-      mapping.quantities.push_back(telling.quantity->quantity);
-    }
   }
-  for (const Hear& hear : mapping.hears) {
-    for (const ReportedSignal& telling : hear.reported_signals) {
-      for (const ReferenceQuantity* of : {telling.quantity, telling.other}) {
-        if (of == nullptr || std::ranges::find(mapping.quantities, of->quantity) != mapping.quantities.end())
-          continue;
-        return wrong(
-            fmt::format("{}.{} carries a sigma or correlation of {} without its value, expected both",
-                        hear.of.message->name, telling.signal->name, of->quantity->name));
-      }
-    }
+  for (auto next = mapping.hears.cbegin(); MappedTarget & target : mapping.targets) {
+    const auto end = std::find_if(next, mapping.hears.cend(),
+                                  [&](const Hear& hear) { return &mapping.targets[hear.target] != &target; });
+    target.hears = {next, end};
+    next = end;
+    if (auto error = list_quantities(target)) return error;
+    present(mapping, target);
   }
-  mapping.closes_loop = guides(mapping);
-  add_derived(mapping);
-  mapping.of_runs = mapping.quantities;
-  if (mapping.closes_loop) mapping.of_runs.push_back(&quantities::los_rate_both);
-  std::string columns;
-  for (const quantities::Quantity* one : mapping.quantities)
-    columns += (columns.empty() ? "" : " ") + std::string(one->name);
-  mapping.layout = find_layout(columns);
-  mapping.own.emplace(estimator_of(mapping));
-  mapping.estimator = &*mapping.own;
-  mapping.estimators = {&mapping.estimator, 1};
+  mapping.closes_loop = mapping.guide != nullptr;
+  mapping.estimators = mapping.presented;
   mapping.messages = mapping.infos;
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "bench/mapping/join.hpp"
 #include "bench/mapping/mapping.hpp"
 #include "bench/mapping/playable.hpp"
 #include "bench/mapping/put_together.hpp"
@@ -34,26 +35,29 @@ std::vector<std::string> names_of(const Range& range, Name name) {
 
 class Reader {
  public:
-  Reader(std::string file, std::string_view text, const ReadText& read_text)
-      : mapping_(std::make_shared<Mapping>()), root_(Section::parse(text, file)), read_text_(read_text) {
-    mapping_->file = std::move(file);
+  Reader(const std::string& file, std::string_view text, const ReadText& read_text)
+      : mapping_(std::make_shared<Mapping>()),
+        target_(mapping_->targets.emplace_back()),
+        root_(Section::parse(text, file)),
+        read_text_(read_text) {
+    target_.file = file;
     mapping_->hash = world::fnv1a_64(text);
   }
 
-  Result<std::shared_ptr<const Mapping>> read() {
+  Result<std::shared_ptr<Mapping>> read() {
     const std::string named = root_.text("dbc");
     if (named.empty()) root_.reject("dbc", "is missing", "the file of the DBC");
     if (root_.error()) return tl::unexpected(*root_.error());
-    const std::string file = (fs::path(mapping_->file).parent_path() / named).string();
+    const std::string file = (fs::path(target_.file).parent_path() / named).string();
     const auto text = read_text_(file);
     if (!text) return tl::unexpected(text.error());
     auto database = dbc::parse_leniently(*text, file);
     if (!database) return tl::unexpected(database.error());
-    mapping_->database = std::move(*database);
-    mapping_->dbc_file = file;
-    mapping_->dbc_hash = mapping_->database.hash;
-    mapping_->hash = world::fnv1a_64(fmt::format("{:x} {:x}", mapping_->hash, mapping_->database.hash));
-    mapping_->name = root_.text("name", fs::path(mapping_->file).stem().stem().string());
+    target_.database = std::move(*database);
+    mapping_->files.push_back({.mapping = target_.file, .dbc = file});
+    mapping_->dbc_hash = target_.database.hash;
+    mapping_->hash = world::fnv1a_64(fmt::format("{:x} {:x}", mapping_->hash, target_.database.hash));
+    target_.name = root_.text("name", fs::path(target_.file).stem().stem().string());
     if (auto units = root_.optional_table("units")) read_units(*units);
     playable_ = Playable(root_.optional_table("sensors"));
     mapping_->sensors = playable_.named();
@@ -62,7 +66,6 @@ class Reader {
     for (Section& section : root_.tables("hear")) read_hear(section);
     root_.finish();
     if (const auto error = root_.error()) return tl::unexpected(*error);
-    if (const auto wrong = put_together(*mapping_)) return failure(*wrong);
     return mapping_;
   }
 
@@ -74,7 +77,7 @@ class Reader {
   }
 
   const dbc::Message* message(Section& section, std::string_view key, const std::string& name) {
-    const dbc::Message* found = dbc::find_message(mapping_->database, name);
+    const dbc::Message* found = dbc::find_message(target_.database, name);
     if (found == nullptr && !name.empty())
       section.reject(key, fmt::format("the DBC has no message '{}'", name), "the name of one");
     return found;
@@ -367,6 +370,7 @@ class Reader {
   }
 
   std::shared_ptr<Mapping> mapping_;
+  MappedTarget& target_;
   Section root_;
   const ReadText& read_text_;
   std::map<const dbc::Signal*, std::string> units_;
@@ -376,7 +380,7 @@ class Reader {
 
 }  // namespace
 
-Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file, const ReadText& read) {
+Result<std::shared_ptr<Mapping>> read_alone(const std::string& file, const ReadText& read) {
   const auto text = read(file);
   if (!text) return tl::unexpected(text.error());
   return Reader(file, *text, read).read();

@@ -14,34 +14,29 @@ inline constexpr Unit mrad{"mrad", "_mrad", world::units::mrad}, degrees{"deg", 
 /// (misalignment.*), which is defined by C_estimated = exp(-[phi x]) C_true. Both forms refer to the axes
 /// north, east, down (NED).
 inline constexpr Quantity attitude_roll{
-    .name = "attitude.roll", .meaning = "error of the roll angle", .unit = mrad, .once = "roll"};
+    .name = "attitude.roll", .meaning = "error of the roll angle", .unit = mrad};
 inline constexpr Quantity attitude_pitch{
-    .name = "attitude.pitch", .meaning = "error of the pitch angle", .unit = mrad, .once = "pitch"};
+    .name = "attitude.pitch", .meaning = "error of the pitch angle", .unit = mrad};
 inline constexpr Quantity attitude_heading{
-    .name = "attitude.heading", .meaning = "error of the heading angle", .unit = mrad, .once = "heading"};
+    .name = "attitude.heading", .meaning = "error of the heading angle", .unit = mrad};
 inline constexpr Quantity misalignment_north{
     .name = "misalignment.north",
     .meaning = "rotation from true to estimated attitude, about north",
-    .unit = mrad,
-    .once = "phi_north"};
+    .unit = mrad};
 inline constexpr Quantity misalignment_east{.name = "misalignment.east",
                                             .meaning = "rotation from true to estimated attitude, about east",
-                                            .unit = mrad,
-                                            .once = "phi_east"};
+                                            .unit = mrad};
 inline constexpr Quantity misalignment_down{.name = "misalignment.down",
                                             .meaning = "rotation from true to estimated attitude, about down",
-                                            .unit = mrad,
-                                            .once = "phi_down"};
+                                            .unit = mrad};
 /// The sigma of the heading that the target reports, and the heading error divided by this sigma.
 inline constexpr Quantity heading_sigma{.name = "attitude.heading.sigma",
                                         .meaning = "sigma of the heading as the target reports it",
-                                        .unit = mrad,
-                                        .once = "heading_sigma"};
+                                        .unit = mrad};
 inline constexpr Quantity heading_over_sigma{
     .name = "attitude.heading.over_sigma",
     .meaning = "ratio of the heading error to the sigma that the target reports",
-    .unit = plain,
-    .once = "heading_over_sigma"};
+    .unit = plain};
 
 /// One value for each update of the filter. It is computed from the first navigation answer that includes the
 /// update.
@@ -50,16 +45,15 @@ inline constexpr Quantity heading_nees{
     .meaning = "squared ratio of the heading error to the sigma that the target reports",
     .unit = plain,
     .degrees_of_freedom = 1,
-    .nan_allowed = true,
-    .once = "heading_nees"};
+    .nan_allowed = true};
 
 /// The error of the velocity of the body relative to the earth. Axes: north, east, down (NED).
 inline constexpr Quantity velocity_north{
-    .name = "velocity.north", .meaning = "error of the velocity north", .unit = mps, .once = "v_north"};
+    .name = "velocity.north", .meaning = "error of the velocity north", .unit = mps};
 inline constexpr Quantity velocity_east{
-    .name = "velocity.east", .meaning = "error of the velocity east", .unit = mps, .once = "v_east"};
+    .name = "velocity.east", .meaning = "error of the velocity east", .unit = mps};
 inline constexpr Quantity velocity_down{
-    .name = "velocity.down", .meaning = "error of the velocity down", .unit = mps, .once = "v_down"};
+    .name = "velocity.down", .meaning = "error of the velocity down", .unit = mps};
 
 /// Normalised innovation squared (NIS) of a measured velocity or a measured position. Axes: NED.
 inline constexpr Quantity innovation_nis{
@@ -68,8 +62,7 @@ inline constexpr Quantity innovation_nis{
     .unit = plain,
     .degrees_of_freedom = 3,
     .white = true,
-    .nan_allowed = true,
-    .once = "nis"};
+    .nan_allowed = true};
 
 /// The magnitude of the vector of the velocity error.
 inline constexpr Quantity velocity_norm{

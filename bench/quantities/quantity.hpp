@@ -32,7 +32,6 @@ struct Quantity {
   bool nan_allowed = false;    ///< true: a value may be NaN, which means that the sample has no such value
   bool of_whole_run = false;   ///< true: all samples of a run have the same value, which never becomes stale
   bool of_engagement = false;  ///< true: its values belong to samples of the seeker, which have a time to go
-  std::string_view once{};     ///< the former name of the quantity in files; empty: it had no other name
   /// The components of the quantity; each component has its own track. Empty: the quantity has no components,
   /// and has one track.
   std::span<const Quantity* const> parts{};

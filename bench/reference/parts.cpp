@@ -25,22 +25,6 @@ namespace {
 // A target with a DBC of its own, of which nothing is known.
 struct AnyBinding final : scenario::Binding {
   AnyBinding() { any_sensor = true; }
-  [[nodiscard]] std::shared_ptr<const protection::Protection> protection_of(
-      const MessageInfo& /*message*/) const override {
-    return nullptr;
-  }
-  [[nodiscard]] const MessageInfo* closing_of(const scenario::NodeTable& /*node*/) const override {
-    return nullptr;
-  }
-  [[nodiscard]] bool is_played(const MessageInfo& /*message*/,
-                               std::span<const scenario::NodeSettings> /*nodes*/) const override {
-    return false;
-  }
-  [[nodiscard]] std::string_view estimator_of(const MessageInfo& /*message*/) const override { return ""; }
-  [[nodiscard]] Result<void> fits(const scenario::Scenario& /*scenario*/,
-                                  const world::FlightRecord& /*flight*/) const override {
-    return {};
-  }
 };
 
 using scenario::Section;

@@ -163,24 +163,25 @@ Json object(const drive::Adapter& adapter) {
 
 Json provenance(const scenario::Scenario& scenario, const drive::Run& run) {
   const scenario::Binding& binding = *scenario.binding;
-  Json json{{"scenario", scenario.file},
-            {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
-            {"contract", binding.file.empty() ? std::string(name_of(run.options.format)) : binding.file},
-            {"dbc_hash", fmt::format("{:016x}", binding.dbc_hash)},
-            {"seed", scenario.seed},
-            {"run", run.options.run_index},
-            {"bus", run.options.bus.text},
-            {"clock", clock_name(run)},
-            {"latency_stamps", stamp_source(run)},
-            {"period_overrides", period_overrides(scenario)},
-            {"date", date_utc(run.started_s)},
-            {"version", version_text()},
-            {"revision", revision()},
-            {"host", host_name()},
-            {"kernel", kernel()},
-            {"preemption", realtime::preemption()},
-            {"cpu_model", cpu_model()},
-            {"target", target(run)}};
+  Json json{
+      {"scenario", scenario.file},
+      {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
+      {"contract", binding.files.empty() ? std::string(name_of(run.options.format)) : to_text(binding.files)},
+      {"dbc_hash", fmt::format("{:016x}", binding.dbc_hash)},
+      {"seed", scenario.seed},
+      {"run", run.options.run_index},
+      {"bus", run.options.bus.text},
+      {"clock", clock_name(run)},
+      {"latency_stamps", stamp_source(run)},
+      {"period_overrides", period_overrides(scenario)},
+      {"date", date_utc(run.started_s)},
+      {"version", version_text()},
+      {"revision", revision()},
+      {"host", host_name()},
+      {"kernel", kernel()},
+      {"preemption", realtime::preemption()},
+      {"cpu_model", cpu_model()},
+      {"target", target(run)}};
   if (!run.options.operator_name.empty()) json["operator"] = run.options.operator_name;
   for (const auto& [node, bus] : run.options.bus_of) json["bus_of"][node] = bus;
   for (const drive::Adapter& adapter : run.adapters) json["adapters"].push_back(object(adapter));

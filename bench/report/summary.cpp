@@ -1,6 +1,7 @@
 #include "bench/report/summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -56,7 +57,8 @@ std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const 
 
 std::string target_program(const drive::Run& run) {
   if (run.in_process) return "in hil-bench itself";
-  return run.options.target.value_or("runs elsewhere");
+  if (run.options.targets.empty()) return "runs elsewhere";
+  return fmt::format("{}", fmt::join(run.options.targets, ", "));
 }
 
 std::string_view clock_name(const drive::Run& run) {

@@ -168,7 +168,8 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
                                                                    : "",
                       clock_name(run), static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
-  if (!scenario.binding->file.empty()) page += fmt::format("  by {}\n", one_line(scenario.binding->file));
+  if (!scenario.binding->files.empty())
+    page += fmt::format("  by {}\n", one_line(to_text(scenario.binding->files)));
   page += fmt::format("  canhil {} (revision {}){}{}\n", version_text(), revision(),
                       run.seen.target_version.empty() ? "" : " · target " + run.seen.target_version,
                       run.options.operator_name.empty() ? "" : " · operator " + run.options.operator_name);

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "dbc/wire/message_info.hpp"
 #include "dbc/wire/result.hpp"
@@ -32,34 +33,45 @@ struct NodeTable;
 struct Scenario;
 
 struct Binding {
+  struct Files {
+    std::string mapping, dbc;
+  };
+
   Binding() = default;
   Binding(const Binding&) = delete;
   Binding& operator=(const Binding&) = delete;
   virtual ~Binding() = default;
 
+  // A binding of which nothing is known says what each function has as its default.
   /// The counter and checksum of one of `messages`; null: it has none.
   [[nodiscard]] virtual std::shared_ptr<const protection::Protection> protection_of(
-      const MessageInfo& message) const = 0;
+      const MessageInfo& /*message*/) const {
+    return nullptr;
+  }
   /// The message that closes the sample group of a node; null: the messages are not those of single nodes.
-  [[nodiscard]] virtual const MessageInfo* closing_of(const NodeTable& node) const = 0;
+  [[nodiscard]] virtual const MessageInfo* closing_of(const NodeTable& /*node*/) const { return nullptr; }
   /// Whether the bench sends a message with the samples of these nodes.
-  [[nodiscard]] virtual bool is_played(const MessageInfo& message,
-                                       std::span<const NodeSettings> nodes) const = 0;
+  [[nodiscard]] virtual bool is_played(const MessageInfo& /*message*/,
+                                       std::span<const NodeSettings> /*nodes*/) const {
+    return false;
+  }
   /// The only estimator whose targets send a message; empty: every target sends it, or none does.
-  [[nodiscard]] virtual std::string_view estimator_of(const MessageInfo& message) const = 0;
+  [[nodiscard]] virtual std::string_view estimator_of(const MessageInfo& /*message*/) const { return ""; }
   /// Error, one line: the scenario has no sensor for a message, or its messages cannot carry the values of
   /// the flight.
-  [[nodiscard]] virtual Result<void> fits(const Scenario& scenario,
-                                          const world::FlightRecord& flight) const = 0;
+  [[nodiscard]] virtual Result<void> fits(const Scenario& /*scenario*/,
+                                          const world::FlightRecord& /*flight*/) const {
+    return {};
+  }
 
   /// The messages of bench and target; is_targets() tells them apart.
   std::span<const MessageInfo> messages{};
-  /// The estimators that a target may run. The quantities that a mapped target reports are presented as one.
+  /// The estimators that a target may run. Each mapped target is presented as one.
   std::span<const estimators::Estimator* const> estimators{};
-  std::string file{};          ///< its file, as named by the user; empty: built into the program
-  std::uint64_t hash = 0;      ///< hash of the file and its DBC; 0: built in
-  std::string dbc_file{};      ///< the file of the DBC; empty: built in
-  std::uint64_t dbc_hash = 0;  ///< hash of the DBC
+  /// The files of which it is made, as named by the user: one for each target. None: built into the program.
+  std::vector<Files> files{};
+  std::uint64_t hash = 0;      ///< hash of the files; 0: built in
+  std::uint64_t dbc_hash = 0;  ///< hash of the DBC, or of the DBCs
   /// The protocol `canhil`: commands configure, start and stop the target, and it says what it does
   /// (TargetHeartbeat). Without it, the target runs independently of the bench.
   bool handshake = false;
@@ -70,5 +82,8 @@ struct Binding {
   /// A sample has an answer that names it, so virtual time can wait for that answer.
   bool answers_by_name = false;
 };
+
+/// The mappings, separated by commas.
+std::string to_text(const std::vector<Binding::Files>& files);
 
 }  // namespace canhil::scenario

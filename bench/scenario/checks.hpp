@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace canhil::checks {
 class Rule;
@@ -40,6 +41,14 @@ struct Check {
   std::shared_ptr<const checks::Rule> rule;
 };
 
+/// A [[check]] without the key `estimator` becomes a check of each estimator that it can judge. It is read
+/// once for each of them.
+struct EachEstimator {
+  std::size_t index = 0;    ///< which of the estimators
+  std::size_t number = 1;   ///< how many there are; set by the reader of the check
+  std::string estimator{};  ///< its name, if there are several; set by the reader of the check
+};
+
 /// Facts about the scenario, for the functions that read the different kinds of checks.
 struct CheckContext {
   std::int64_t duration_us = 0;
@@ -47,6 +56,7 @@ struct CheckContext {
   std::span<const std::string> estimators;  ///< the estimators that run
   std::span<const FaultWindow> faults{};    ///< the windows end with the run at the latest
   std::int64_t latency_us = 0;              ///< largest latency of a node, from validity to transmission
+  EachEstimator* each = nullptr;            ///< null: the key `estimator` is needed
 };
 
 /// A rule and its subject. The subject is empty for a kind that a scenario may have only once.
@@ -61,12 +71,7 @@ struct CheckKind {
   RuleRead (*read)(Section& section, const CheckContext& context) = nullptr;
 };
 
-/// A kind of check that has been renamed.
-struct FormerCheckKind {
-  std::string_view name;
-  std::string_view now;  ///< its replacement
-};
-
-Check read_check(Section& section, const CheckContext& context);
+/// Reads a [[check]]: one check or, without the key `estimator`, a check of each estimator that it can judge.
+std::vector<Check> read_check(Section& section, CheckContext context);
 
 }  // namespace canhil::scenario

@@ -33,7 +33,6 @@ struct DbcVocabulary {
   std::vector<std::string> answers{};     ///< names of the messages that answer a sample group
   std::vector<CheckKind> check_kinds{};
   std::span<const estimators::Estimator* const> known{};  ///< the estimators known to the bench
-  std::vector<FormerCheckKind> former_check_kinds{};
   /// For each message: the only estimator that sends this message. Without an entry, every target sends the
   /// message, or no target does.
   std::map<std::string, std::string, std::less<>> sent_by{};

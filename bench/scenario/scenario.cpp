@@ -138,15 +138,20 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Db
                              .faults = faults,
                              .latency_us = latency_us};
   std::vector<Check> checks;
+  std::vector<int> numbers;  // of the checks' tables, as the user counts them
+  int number = 0;
   for (Section& section : root.tables("check")) {
-    Check check = read_check(section, context);
-    const auto same = std::ranges::find(checks, check.name, &Check::name);
-    if (same != checks.end()) {
-      section.reject("name",
-                     fmt::format("'{}' is the name of check[{}] too", check.name, same - checks.begin() + 1),
-                     "another name");
+    ++number;
+    for (Check& check : read_check(section, context)) {
+      const auto same = std::ranges::find(checks, check.name, &Check::name);
+      if (same != checks.end())
+        section.reject("name",
+                       fmt::format("'{}' is the name of check[{}] too", check.name,
+                                   numbers[static_cast<std::size_t>(same - checks.begin())]),
+                       "another name");
+      checks.push_back(std::move(check));
+      numbers.push_back(number);
     }
-    checks.push_back(std::move(check));
   }
   return checks;
 }

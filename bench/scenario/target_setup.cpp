@@ -56,7 +56,8 @@ std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& con
 }
 
 /// Without a handshake the target receives no parameters and no initial state, so a scenario cannot set them.
-TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
+/// Its estimator is that of its mapping.
+TargetSetup read_own_start(Section& section, const DbcVocabulary& contract, std::size_t number) {
   static const std::vector<std::string> none{"none"};
   section.one_of(
       {"handshake",
@@ -67,7 +68,7 @@ TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
                 "(mapping.md)."});  // this key was already
                                     // read, to choose the vocabulary
   TargetSetup target;
-  target.estimator = contract.estimators.front();
+  if (number < contract.estimators.size()) target.estimator = contract.estimators[number];
   target.own_start = {
       .settle_us = section.time_us(
           {"settle_s", "With `mapping`: time that the bench waits before it sends the first sample."},
@@ -88,7 +89,6 @@ TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
 }
 
 TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
-  if (!contract.binding->handshake) return read_own_start(section, contract);
   for (const std::string_view key : {"handshake", "settle_s", "silence_s", "before", "after"})
     section.refuse(key, "is for a target with a mapping", "the key 'mapping' beside it");
   TargetSetup target;
@@ -121,15 +121,23 @@ TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
 
 }  // namespace
 
+std::string to_text(const std::vector<Binding::Files>& files) {
+  std::string text;
+  for (const auto& [mapping, dbc] : files) text += (text.empty() ? "" : ", ") + mapping;
+  return text;
+}
+
 std::vector<TargetSetup> read_targets(Section& root, const DbcVocabulary& contract) {
   std::vector<TargetSetup> targets;
   for (Section& section : root.table_or_tables("target")) {
-    TargetSetup target = read_target(section, contract);
-    if (!targets.empty() && !contract.binding->handshake) {
-      section.reject("mapping", "is that of a second target", "one target with a mapping in a run");
-    } else if (std::ranges::find(targets, target.estimator, &TargetSetup::estimator) != targets.end()) {
-      section.reject("estimator", fmt::format("'{}' is that of another [[target]] too", target.estimator),
-                     "each estimator once");
+    const bool mapped = !contract.binding->handshake;
+    TargetSetup target =
+        mapped ? read_own_start(section, contract, targets.size()) : read_target(section, contract);
+    if (!section.error() &&
+        std::ranges::find(targets, target.estimator, &TargetSetup::estimator) != targets.end()) {
+      section.reject(mapped ? "mapping" : "estimator",
+                     fmt::format("'{}' is the name of another [[target]] too", target.estimator),
+                     mapped ? "a mapping with another 'name'" : "each estimator once");
     }
     targets.push_back(std::move(target));
   }

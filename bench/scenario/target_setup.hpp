@@ -30,7 +30,7 @@ struct Parameter {
   std::string where{};  ///< in the scenario, for messages: "my.toml:31: key 'target.parameters.h2_case'"
 };
 
-/// Settings for a target that receives nothing at the start (DbcVocabulary::foreign).
+/// Settings for a target that receives nothing at the start (Binding::handshake).
 struct OwnStart {
   std::int64_t settle_us = 0;   ///< time from the start of target or bench to the first sample
   std::int64_t silence_us = 0;  ///< a target that is silent for longer counts as gone
@@ -47,7 +47,7 @@ struct TargetSetup {
   std::optional<OwnStart> own_start{};                      ///< none: the handshake configures the target
 };
 
-/// All estimators of the target: at least one, without duplicates.
+/// All estimators of the target, or all mapped targets: at least one, without duplicates.
 std::vector<TargetSetup> read_targets(Section& root, const DbcVocabulary& contract);
 
 }  // namespace canhil::scenario

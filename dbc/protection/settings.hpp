@@ -35,6 +35,7 @@ struct Counter {
   std::vector<std::uint64_t> skipped;  ///< values below the modulo that are never sent
   /// Messages with the same `shared_as` share one counter. Empty: the counter is not shared.
   std::string shared_as;
+  friend bool operator==(const Counter&, const Counter&) = default;
 };
 
 /// The source of a byte that a checksum covers in addition to the message's bytes.
@@ -80,12 +81,14 @@ struct Checksum {
   bool own_bytes_as_zero = false;  ///< true: bytes of the checksum are taken as 0 and not skipped
   std::vector<AddedByte> before;
   std::vector<AddedByte> after;
+  friend bool operator==(const Checksum&, const Checksum&) = default;
 };
 
 /// A field with a constant value, such as the length of the message or a part of the data id.
 struct Constant {
   Place place;
   std::uint64_t value = 0;
+  friend bool operator==(const Constant&, const Constant&) = default;
 };
 
 /// The settings for one message. At least one of `counter` and `checksum` must have a value.
@@ -96,6 +99,7 @@ struct Settings {
   std::uint32_t data_id = 0;
   std::vector<std::uint8_t>
       data_id_list;  ///< for Source::data_id_of_counter; an entry for each value below the modulo
+  friend bool operator==(const Settings&, const Settings&) = default;
 };
 
 /// A value for Checksum::bytes: the indices first..last, both included. Returns an error if they violate 0 <=

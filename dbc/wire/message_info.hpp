@@ -60,5 +60,11 @@ inline constexpr std::string_view bench_node = "Bench";
 inline constexpr std::string_view target_node = "Target";
 /// Whether the device under test sends a message.
 constexpr bool is_targets(const MessageInfo& info) { return info.sender == target_node; }
+/// Whether a message belongs to the sample group that the message `closing` closes. A message without a group
+/// is a group of its own.
+constexpr bool is_in_group_of(const MessageInfo& message, const MessageInfo& closing) {
+  if (closing.sample_group.empty()) return message.name == closing.name;
+  return message.sample_group == closing.sample_group && message.sender == closing.sender;
+}
 
 }  // namespace canhil

@@ -17,7 +17,8 @@ Answers Answers::read(scenario::Section& section, const scenario::CheckContext& 
   Answers rule;
   const std::vector<std::string> running(context.estimators.begin(), context.estimators.end());
   rule.estimator = read_estimator(
-      section, running, "Estimator to judge. Required only if the scenario has several estimators.");
+      section, running, "Estimator to judge. By default, each estimator is judged, by a check of its own.",
+      context);
   rule.one_of_several = running.size() > 1;
   rule.window = scenario::read_window(section, context.duration_us);
   const estimators::Estimator* estimator = estimators::find(context.contract.known, rule.estimator);

@@ -26,7 +26,6 @@ std::pair<double, double> interval(const Consistency& rule, std::size_t count) {
 
 Consistency Consistency::read(scenario::Section& section, const scenario::CheckContext& context) {
   Consistency rule;
-  section.refuse("statistic", "is a former key", "quantity, such as 'innovation.nis'");
   rule.judged = read_subject(
       section, context, [](const quantities::Quantity& quantity) { return quantity.degrees_of_freedom > 0; });
   rule.window = scenario::read_window(section, context.duration_us);

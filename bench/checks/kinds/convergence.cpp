@@ -11,7 +11,6 @@ namespace canhil::checks {
 
 Convergence Convergence::read(scenario::Section& section, const scenario::CheckContext& context) {
   Convergence rule;
-  section.refuse("axis", "is a former key", "quantity, such as 'attitude.heading'");
   rule.judged = read_subject(section, context, [](const quantities::Quantity& quantity) {
     return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
   });

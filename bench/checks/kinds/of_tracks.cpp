@@ -48,15 +48,13 @@ quantities::Unit read_unit(scenario::Section& section, std::string_view stem, co
 }  // namespace
 
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates,
-                           std::string_view meaning) {
-  // If the key `estimator` is missing, this error is reported first, because other keys depend on the
-  // estimator.
-  if (candidates.size() > 1 && !section.has("estimator"))
-    section.reject("estimator", "is missing", fmt::format("one of: {}", fmt::join(candidates, ", ")));
+                           std::string_view meaning, const scenario::CheckContext& context) {
   const std::string name = section.given_name({"estimator", meaning}, candidates, "");
-  // After an error, returns the first candidate, so that the reference shows the keys that depend on the
-  // estimator.
-  return name.empty() && !candidates.empty() ? candidates.front() : name;
+  if (!name.empty() || candidates.empty()) return name;
+  if (context.each == nullptr || candidates.size() == 1) return candidates.front();
+  context.each->number = candidates.size();
+  context.each->estimator = candidates[context.each->index];
+  return context.each->estimator;
 }
 
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
@@ -75,9 +73,9 @@ Subject read_subject(scenario::Section& section, const scenario::CheckContext& c
       });
   const std::vector<std::string> names = reported_by(*quantity);
   constexpr std::string_view meaning =
-      "Estimator to judge; it must report the quantity. Required only if several estimators of the scenario "
-      "report the quantity.";
-  Subject subject{.estimator = names.empty() ? "" : read_estimator(section, names, meaning),
+      "Estimator to judge; it must report the quantity. By default, each estimator that reports the quantity "
+      "is judged, by a check of its own.";
+  Subject subject{.estimator = names.empty() ? "" : read_estimator(section, names, meaning, context),
                   .quantity = quantity,
                   .text = std::string(quantity->name)};
   if (names.size() > 1) subject.text += " of " + subject.estimator;

@@ -17,10 +17,10 @@ namespace canhil::checks {
 /// quantity.
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
                      const std::function<bool(const quantities::Quantity&)>& wanted);
-/// Reads the key `estimator`, which may be absent if there is only one candidate. Returns the name of the
-/// estimator.
+/// Reads the key `estimator`, and returns the name of the estimator. If the key is absent, the check is read
+/// for each candidate (CheckContext::each).
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates,
-                           std::string_view meaning);
+                           std::string_view meaning, const scenario::CheckContext& context);
 
 /// Reads the keys `from_s` and `to_s`. If the flight that the estimator observes goes to a target, the key
 /// `time_to_go_s` may replace these two keys.

@@ -49,11 +49,10 @@ constexpr Layout layout{.kept = kept, .derived = derived, .answers_may_omit = tr
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   const InflightAnswers& answers = seen.of<InflightAnswers>();
-  const auto& errors = answers.navigation.errors(truth.flight);
   for (const FixAnswer& update : answers.fixes) {
     if (!has_time_and_truth(update, truth.flight)) continue;
-    const auto* after = first_after(errors, update.cause_us, update.navigation_us);
-    if (after == nullptr) continue;
+    const auto after = answers.navigation.first_after(update.cause_us, update.navigation_us, truth.flight);
+    if (!after) continue;
     const auto& [t_us, angles, v, phi, answer] = *after;
     const world::Vector3 p = position_error(update, truth.flight);
     const double nis =
@@ -149,7 +148,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   for (const FixAnswer& answer : answers.fixes) {
     if (!used(answer.outcome)) continue;
     nis.push_back({.t_us = answer.cause_us, .value = answer.nis});
-    add_heading_nees(of_heading, errors, answer);
+    add_heading_nees(of_heading, answers.navigation, truth.flight, answer);
   }
   const Answering& filters = alignment.filters;
   give(filters.statistic(innovation_nis, "normalised innovation squared", std::move(nis)));
@@ -208,10 +207,6 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
   return {.age_limit_us = std::llround(longest_us), .end_us = scenario.duration_us};
 }
 
-constexpr std::array<scenario::FormerCheckKind, 2> former{
-    {{"position_error", "kind 'error' with quantity 'position.norm', or its component"},
-     {"fixes", "kind 'answers'"}}};
-
 constexpr auto parameters = [] {
   using enum messages::Parameter;
   return names_of(accel_bias_sigma_ug, gyro_bias_sigma_degph, accel_noise_ugprthz, gyro_noise_degprth,
@@ -238,7 +233,6 @@ constinit const Estimator inflight_alignment{
     .results = results_of,
     .closing = closing,
     .of_own_interval = messages::FixVelocityD::info.sample_group,
-    .former_check_kinds = former,
     .freshness = freshness_of};
 
 }  // namespace canhil::estimators

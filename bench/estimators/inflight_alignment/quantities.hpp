@@ -9,18 +9,15 @@ namespace canhil::quantities {
 inline constexpr Quantity position_north{
     .name = "position.north",
     .meaning = "error of the position north; in in-flight alignment at a fix",
-    .unit = metres,
-    .once = "p_north"};
+    .unit = metres};
 inline constexpr Quantity position_east{
     .name = "position.east",
     .meaning = "error of the position east; in in-flight alignment at a fix",
-    .unit = metres,
-    .once = "p_east"};
+    .unit = metres};
 inline constexpr Quantity position_down{
     .name = "position.down",
     .meaning = "error of the position down; in in-flight alignment at a fix",
-    .unit = metres,
-    .once = "p_down"};
+    .unit = metres};
 inline constexpr Quantity velocity_down_sigma{
     .name = "velocity.down.sigma",
     .meaning = "sigma of the velocity down as the target reports it",
@@ -32,8 +29,7 @@ inline constexpr Quantity velocity_down_over_sigma{
 /// The number of repairs of the covariance since the start.
 inline constexpr Quantity covariance_repairs{.name = "covariance.repairs",
                                              .meaning = "number of repairs of the covariance since the start",
-                                             .unit = plain,
-                                             .once = "repairs"};
+                                             .unit = plain};
 
 inline constexpr Quantity position_horizontal{.name = "position.horizontal",
                                               .meaning = "magnitude of the horizontal error of the position",

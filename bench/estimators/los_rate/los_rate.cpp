@@ -175,10 +175,6 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
           .sample_us = std::max(stretch_us, seeker->period_us())};
 }
 
-constexpr std::array<scenario::FormerCheckKind, 2> former{
-    {{"los_rate_error", "kind 'error' with quantity 'los.rate', or its plane, and statistic 'rms'"},
-     {"coasting", "kind 'answers' with coasting_at_least or coasting_at_most"}}};
-
 constexpr auto parameters = [] {
   using enum messages::Parameter;
   return names_of(jerk_density_m2ps5, thermal_noise_pitch_radpm2, thermal_noise_yaw_radpm2,
@@ -208,7 +204,6 @@ constinit const Estimator los_rate{
     .results = results_of,
     .closing = closing,
     .check_kinds = check_kinds,
-    .former_check_kinds = former,
     .freshness = freshness_of};
 
 }  // namespace canhil::estimators

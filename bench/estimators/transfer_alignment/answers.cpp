@@ -43,12 +43,11 @@ std::unique_ptr<Reception> transfer_reception() {
   return std::make_unique<ReceptionOf<TransferAnswers, Navigation, FilterGroup>>();
 }
 
-Spool<quantities::TrackPoint> nees_of(const InOrderOfCause<FilterAnswer>& filter,
-                                      const Spool<NavigationError>& errors) {
+Spool<quantities::TrackPoint> nees_of(const TransferAnswers& answers, const world::FlightRecord& truth) {
   Spool<quantities::TrackPoint> series;
-  for (const FilterAnswer& answer : filter) {
-    const NavigationError* after = first_after(errors, answer.cause_us, answer.navigation_us);
-    if (after == nullptr) continue;
+  for (const FilterAnswer& answer : answers.filter) {
+    const auto after = answers.navigation.first_after(answer.cause_us, answer.navigation_us, truth);
+    if (!after) continue;
     series.push_back(
         {answer.cause_us, nees(after->misalignment, answer.attitude_sigma, answer.attitude_correlation)});
   }

@@ -29,8 +29,7 @@ struct TransferAnswers {
 
 /// The attitude NEES (3 degrees of freedom) after each velocity update: the result of nees() for the
 /// misalignment that first_after() finds.
-Spool<quantities::TrackPoint> nees_of(const InOrderOfCause<FilterAnswer>& filter,
-                                      const Spool<NavigationError>& errors);
+Spool<quantities::TrackPoint> nees_of(const TransferAnswers& answers, const world::FlightRecord& truth);
 
 std::unique_ptr<Reception> transfer_reception();
 

@@ -11,8 +11,7 @@ inline constexpr Quantity attitude_nees{
     .meaning = "normalised error squared of the misalignment, with sigmas and correlations as reported",
     .unit = plain,
     .degrees_of_freedom = 3,
-    .nan_allowed = true,
-    .once = "attitude_nees"};
+    .nan_allowed = true};
 
 /// The innovation of a velocity update, NED.
 inline constexpr Quantity velocity_innovation_north{

@@ -31,10 +31,9 @@ constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_may
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   const TransferAnswers& answers = seen.of<TransferAnswers>();
-  const auto& errors = answers.navigation.errors(truth.flight);
   for (const FilterAnswer& update : answers.filter) {
-    const auto* after = first_after(errors, update.cause_us, update.navigation_us);
-    if (after == nullptr) continue;
+    const auto after = answers.navigation.first_after(update.cause_us, update.navigation_us, truth.flight);
+    if (!after) continue;
     const auto& [t_us, angles, v, phi, answer] = *after;
     const double normalised = nees(phi, update.attitude_sigma, update.attitude_correlation);
     // Only the attitude is compared with its reported sigma. The reported velocity sigma is valid only at the
@@ -74,12 +73,12 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   Spool<TrackPoint> nis, of_heading;
   for (const FilterAnswer& answer : answers.filter) {
     nis.push_back({.t_us = answer.cause_us, .value = answer.nis});
-    add_heading_nees(of_heading, errors, answer);
+    add_heading_nees(of_heading, answers.navigation, truth.flight, answer);
   }
   const Answering& filters = alignment.filters;
   give(filters.statistic(innovation_nis, "normalised innovation squared", std::move(nis)));
   give(judged(filters.statistic(attitude_nees, "normalised error squared of the attitude",
-                                nees_of(answers.filter, errors))));
+                                nees_of(answers, truth.flight))));
   give(judged(
       filters.statistic(heading_nees, "normalised error squared of the heading", std::move(of_heading))));
 }
@@ -107,10 +106,6 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
   return {.age_limit_us = std::llround(longest_us), .end_us = scenario.duration_us};
 }
 
-constexpr std::array<scenario::FormerCheckKind, 2> former{
-    {{"attitude_error", "kind 'error' with quantity 'attitude.heading', 'attitude.roll' or 'attitude.pitch'"},
-     {"velocity_error", "kind 'error' with quantity 'velocity.norm', or its component"}}};
-
 constexpr auto parameters = [] {
   using enum messages::Parameter;
   return names_of(accel_bias_sigma_ug, gyro_bias_sigma_degph, accel_noise_ugprthz, gyro_noise_degprth,
@@ -135,7 +130,6 @@ constinit const Estimator transfer_alignment{.name = "transfer_alignment",
                                              .results = results_of,
                                              .closing = closing,
                                              .of_own_interval = messages::AlignVelocityD::info.sample_group,
-                                             .former_check_kinds = former,
                                              .freshness = freshness_of};
 
 }  // namespace canhil::estimators

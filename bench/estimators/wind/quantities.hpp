@@ -7,19 +7,16 @@ namespace canhil::quantities {
 
 /// The wind error: three components (along the horizontal air velocity, to the right of this velocity, and
 /// down), and the norm of the three.
-inline constexpr Quantity wind_along{.name = "wind.along",
-                                     .meaning = "error of the wind along the horizontal air velocity",
-                                     .unit = mps,
-                                     .once = "wind_along"};
+inline constexpr Quantity wind_along{
+    .name = "wind.along", .meaning = "error of the wind along the horizontal air velocity", .unit = mps};
 inline constexpr Quantity wind_cross{
     .name = "wind.cross",
     .meaning = "error of the wind to the right of the horizontal air velocity",
-    .unit = mps,
-    .once = "wind_cross"};
+    .unit = mps};
 inline constexpr Quantity wind_down{
-    .name = "wind.down", .meaning = "error of the wind downwards", .unit = mps, .once = "wind_down"};
+    .name = "wind.down", .meaning = "error of the wind downwards", .unit = mps};
 inline constexpr Quantity wind_norm{
-    .name = "wind.norm", .meaning = "magnitude of the error of the wind", .unit = mps, .once = "wind_norm"};
+    .name = "wind.norm", .meaning = "magnitude of the error of the wind", .unit = mps};
 inline constexpr Quantity wind_north{.name = "wind.north", .meaning = "error of the wind north", .unit = mps};
 inline constexpr Quantity wind_east{.name = "wind.east", .meaning = "error of the wind east", .unit = mps};
 /// NIS of a sample; NaN without an update.
@@ -28,19 +25,16 @@ inline constexpr Quantity wind_nis{.name = "wind.nis",
                                    .unit = plain,
                                    .degrees_of_freedom = 9,
                                    .white = true,
-                                   .nan_allowed = true,
-                                   .once = "wind_nis"};
+                                   .nan_allowed = true};
 inline constexpr Quantity wind_nees{
     .name = "wind.nees",
     .meaning = "normalised error squared of the wind, with sigmas and correlations as reported",
     .unit = plain,
-    .degrees_of_freedom = 3,
-    .once = "wind_nees"};
+    .degrees_of_freedom = 3};
 /// The reported sigma of the wind along the horizontal air velocity.
 inline constexpr Quantity wind_along_sigma{
     .name = "wind.along.sigma",
     .meaning = "sigma of the wind along the horizontal air velocity, as the target reports it",
-    .unit = mps,
-    .once = "wind_along_sigma"};
+    .unit = mps};
 
 }  // namespace canhil::quantities

@@ -154,10 +154,6 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
   return {.age_limit_us = std::llround(checks::longest_wait_us(answers_us)), .end_us = scenario.duration_us};
 }
 
-constexpr std::array<scenario::FormerCheckKind, 2> former{
-    {{"wind_error", "kind 'error' with quantity 'wind.norm', or its component"},
-     {"wind_answers", "kind 'answers'"}}};
-
 constexpr auto parameters = [] {
   using enum messages::Parameter;
   return names_of(output_interval_ms, process_noise, air_velocity_noise_mpsprts, body_rate_noise_degpsprts,
@@ -189,7 +185,6 @@ constinit const Estimator wind{.name = "wind",
                                .results = results_of,
                                .closing = closing,
                                .of_own_interval = messages::WindUpdate::info.sample_group,
-                               .former_check_kinds = former,
                                .freshness = freshness_of};
 
 }  // namespace canhil::estimators

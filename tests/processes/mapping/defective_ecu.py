@@ -1,4 +1,4 @@
-"""docs/examples/own_ecu/own_ecu.py with a defect: defective_ecu.py DEFECT --bus BUS."""
+"""docs/examples/own_ecu/own_ecu.py with a defect: defective_ecu.py DEFECT [--answers ID] --bus BUS. ID: of its answers, one below that of its status."""
 import math
 import sys
 import time
@@ -151,6 +151,9 @@ DEFECTS = {"none": own_ecu.Ecu, "wrong_sign": WrongSign, "stale": Stale, "wrong_
            "round_late": RoundLate, "sparse": Sparse, "redundant": Redundant}
 
 if __name__ == "__main__":
+    if "--answers" in sys.argv:
+        own_ecu.ATTITUDE = int(sys.argv[sys.argv.index("--answers") + 1], 0)
+        own_ecu.STATUS = own_ecu.ATTITUDE + 1
     if sys.argv[1] in ("answers_only", "status_after_sample"):
         serve(own_ecu.Ecu(), open_bus(sys.argv[sys.argv.index("--bus") + 1]), sys.argv[1] == "status_after_sample")
         sys.exit()

@@ -324,11 +324,6 @@ TEST_F(Altered, WhatHasNoEffectIsRefused) {
 TEST_F(Altered, WhatBelongsToCanhilsDbcIsRefused) {
   expect_refused("own_ecu.toml", "title =", "dbc = \"canhil-fd\"\ntitle =",
                  "key 'dbc': has no effect: the mapping names the DBC");
-  expect_one_line(
-      run_edited({{"own_ecu.toml", "[target]", "[[target]]"},
-                  {"own_ecu.toml", "[truth]", "[[target]]\nmapping = \"own_ecu.mapping.toml\"\n[truth]"}},
-                 python, "--lockstep"),
-      "key 'target[2].mapping': is that of a second target");
   for (const char* option : {"--dbc canhil-fd", "--bus-of slave_imu=local:own_ecu_imu"})
     EXPECT_EQ(hil_bench(fmt::format("run {} --lockstep {} {}", own_ecu, python, option)).code, 2) << option;
 }

@@ -126,7 +126,8 @@ struct Flown {
   }
   [[nodiscard]] double value(std::size_t place, const char* signal) const {
     const Frame& frame = frames[place];
-    const dbc::Message* message = dbc::find_message(mapping.database, frame.id, frame.extended);
+    const dbc::Message* message =
+        dbc::find_message(mapping.targets.front().database, frame.id, frame.extended);
     const dbc::Signal& one = *dbc::find_signal(*message, signal);
     return dbc::to_physical(one, dbc::raw_bits(one, frame.payload()));
   }

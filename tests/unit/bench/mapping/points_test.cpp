@@ -95,10 +95,9 @@ Result<scenario::Scenario> read(std::string mapping = mapping_text) {
 class Told {
  public:
   Told()
-      : scenario_(read().value()), flight_(drive::make_truth(scenario_).value()), seen_(mapping().messages) {
-    seen_.of<Answers>().mapping = &mapping();
-  }
+      : scenario_(read().value()), flight_(drive::make_truth(scenario_).value()), seen_(mapping().messages) {}
   [[nodiscard]] const Mapping& mapping() const { return dynamic_cast<const Mapping&>(*scenario_.binding); }
+  [[nodiscard]] const MappedTarget& target() const { return mapping().targets.front(); }
   void place(std::int64_t t_us, double north, double east, double up) {
     const world::Position at = flight_.at(t_us).position;
     const world::Position said = world::displaced(at, {north, east, -up});
@@ -107,27 +106,32 @@ class Told {
     value("position.height", t_us, said.height);
   }
   void value(std::string_view quantity, std::int64_t t_us, double value) {
-    seen_.of<Answers>().values[find_reference_quantity(quantity)->quantity].push_back(
-        {.t_us = t_us, .value = value});
+    record(t_us, value, [&](const ReportedSignal& one) {
+      return one.what == ReportedSignal::What::value && one.quantity->quantity->name == quantity;
+    });
   }
   void sigma(std::string_view signal, std::int64_t t_us, double value) {
-    for (const Hear& hear : mapping().hears) {
-      for (const ReportedSignal& one : hear.reported_signals) {
-        if (one.signal->name == signal) seen_.of<Answers>().sigmas[&one].push_back({t_us, value});
-      }
-    }
+    record(t_us, value, [&](const ReportedSignal& one) { return one.signal->name == signal; });
   }
   [[nodiscard]] std::vector<quantities::TrackPoint> points(std::string_view quantity) const {
-    const auto all = points_of(*find_reference_quantity(quantity), seen_,
+    const auto all = points_of(*find_reference_quantity(quantity), target(), seen_,
                                {.flight = flight_, .duration_us = flight_.end_us()});
     return {all.begin(), all.end()};
   }
   [[nodiscard]] const world::FlightRecord& flight() const { return flight_; }
   [[nodiscard]] quantities::Samples samples() const {
-    return mapping().own->samples(seen_, {.flight = flight_, .duration_us = flight_.end_us()});
+    return target().estimator->samples(seen_, {.flight = flight_, .duration_us = flight_.end_us()});
   }
 
  private:
+  template <class Holds>
+  void record(std::int64_t t_us, double value, Holds holds) {
+    for (const Hear& hear : mapping().hears) {
+      for (const ReportedSignal& one : hear.reported_signals) {
+        if (holds(one)) seen_.of<Answers>().values[&one].push_back({.t_us = t_us, .value = value});
+      }
+    }
+  }
   scenario::Scenario scenario_;
   world::FlightRecord flight_;
   checks::Observations seen_;
@@ -221,7 +225,7 @@ TEST(Derived, ANisIsOfTheInnovations) {
 TEST(Derived, OnlyWhatThePartsAllow) {
   const auto names = [](const Mapping& mapping) {
     std::vector<std::string_view> all;
-    for (const auto* one : mapping.quantities) all.push_back(one->name);
+    for (const auto* one : mapping.targets.front().quantities) all.push_back(one->name);
     return all;
   };
   const auto whole = read().value();

@@ -19,7 +19,7 @@ using testing::Not;
 // A run on a USB adapter against a program with a file among its arguments.
 drive::Run signed_run() {
   drive::Run run = run_of();
-  run.options.target = "python3 mine.py";
+  run.options.targets = {"python3 mine.py"};
   run.options.operator_name = "Ada <Lovelace>";
   run.seen.target_version = "0.7";
   run.adapters = {{.bus = "can0",

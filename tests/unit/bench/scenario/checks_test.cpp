@@ -213,30 +213,11 @@ TEST(ScenarioChecks, AQuantityIsOneThatIsReportedAndThatTheKindAsksFor) {
           "one of: misalignment.north, "));
   EXPECT_THAT(refused("kind = 'error'\nquantity = 'innovation.nis'\nbelow = 1"),
               HasSubstr("'innovation.nis' cannot be used with this kind, expected one of: "));
-  EXPECT_THAT(refused("kind = 'consistency'\nquantity = 'nis'\nprobability = 0.9"),
-              HasSubstr("'nis' is a former name, expected 'innovation.nis'"));
   EXPECT_THAT(refused("kind = 'error'\nquantity = 'attitude.haeding'\nbelow_mrad = 1"),
               HasSubstr("'attitude.haeding' is unknown, expected 'attitude.heading'"));
   EXPECT_THAT(
       refused("kind = 'error'\nquantity = 'attitude.roll'\ntime_to_go_s = [1, 2]\nbelow_mrad = 1"),
       HasSubstr("key 'check[1].time_to_go_s': is for flights that go to a target, expected from_s and to_s"));
-}
-
-TEST(ScenarioChecks, WhatIsOfBeforeIsRejectedWithWhatToWriteNow) {
-  const auto refused = [](std::string_view lines) { return error_of(one_check(lines)); };
-  EXPECT_EQ(refused("kind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 1"),
-            "s.toml:17: key 'check[1].kind': 'attitude_error' is a former kind, expected kind 'error' "
-            "with quantity "
-            "'attitude.heading', 'attitude.roll' or 'attitude.pitch'");
-  for (const FormerCheckKind& former : checks::former_kinds(estimators::all())) {
-    EXPECT_THAT(refused(fmt::format("kind = '{}'", former.name)),
-                HasSubstr(fmt::format("expected {}", former.now)));
-  }
-  EXPECT_EQ(refused("kind = 'convergence'\naxis = 'roll'\nwithin_mrad = 1\nbefore_s = 2"),
-            "s.toml:18: key 'check[1].axis': is a former key, expected quantity, such as 'attitude.heading'");
-  EXPECT_EQ(
-      refused("kind = 'consistency'\nstatistic = 'nis'\nprobability = 0.9"),
-      "s.toml:18: key 'check[1].statistic': is a former key, expected quantity, such as 'innovation.nis'");
 }
 
 TEST(ScenarioChecks, HeartbeatAndOrder) {

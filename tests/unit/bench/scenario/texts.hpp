@@ -23,7 +23,6 @@ inline const DbcVocabulary contract{.estimators = {"transfer_alignment", "inflig
                                     .answers = {"AlignAttitude", "AlignUpdate"},
                                     .check_kinds = checks::kinds(estimators::all()),
                                     .known = estimators::all(),
-                                    .former_check_kinds = checks::former_kinds(estimators::all()),
                                     .facts = estimators::bound_to({}, bindings::canhil()).facts,
                                     .nodes = nodes::tables(),
                                     .binding = bindings::canhil()};
