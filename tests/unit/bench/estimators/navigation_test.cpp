@@ -51,57 +51,45 @@ TEST(NavigationErrors, FollowTheAnswersAndTheTruth) {
   EXPECT_NEAR(navigation.errors(east).back().angles.heading, 0.3 - std::numbers::pi / 2, 1e-12);
 }
 
-NavigationError erring(std::int64_t t_us, const Vector3& phi) {
-  return {.t_us = t_us, .angles = {}, .misalignment = phi};
-}
-
 TEST(AttitudeNees, IsTheSquareOfTheErrorInUnitsOfItsCovariance) {
-  checks::Observations seen;
-  seen.of<TransferAnswers>().filter.push_back({.cause_us = 100, .attitude_sigma = Vector3(0.01, 0.02, 0.05)});
-  const auto series = nees_of(seen.of<TransferAnswers>().filter, {erring(110, {0.01, -0.04, 0.15})});
-  ASSERT_THAT(series, SizeIs(1));
-  EXPECT_EQ(series[0].t_us, 100);
-  EXPECT_NEAR(series[0].value, 1 + 4 + 9, 1e-9);
+  EXPECT_NEAR(nees({0.01, -0.04, 0.15}, {0.01, 0.02, 0.05}, Vector3::Zero()), 1 + 4 + 9, 1e-9);
 }
 
 TEST(AttitudeNees, KnowsWhichCorrelationIsWhich) {
   // For a strongly correlated pair, a phi along the principal axis is likely, a phi across it is unlikely.
   const double r = 0.96;
   for (int pair = 0; pair < 3; ++pair) {
-    checks::Observations seen;
-    FilterAnswer answer{.cause_us = 100, .attitude_sigma = Vector3(1, 1, 1)};
-    answer.attitude_correlation(pair) = r;  // north-east, north-down, east-down
-    seen.of<TransferAnswers>().filter.push_back(answer);
+    Vector3 correlation = Vector3::Zero();
+    correlation(pair) = r;  // north-east, north-down, east-down
     const int i = pair == 2 ? 1 : 0;
     const int j = pair == 0 ? 1 : 2;
     Vector3 along = Vector3::Zero();
     along(i) = along(j) = 1;
     Vector3 across = along;
     across(j) = -1;
-    EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, {erring(110, along)})[0].value, 2 / (1 + r), 1e-9);
-    EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, {erring(110, across)})[0].value, 2 / (1 - r),
-                1e-9);
+    EXPECT_NEAR(nees(along, Vector3::Ones(), correlation), 2 / (1 + r), 1e-9);
+    EXPECT_NEAR(nees(across, Vector3::Ones(), correlation), 2 / (1 - r), 1e-9);
   }
 }
 
 TEST(AttitudeNees, TakesTheFirstAnswerThatKnewOfTheUpdate) {
-  const Spool<NavigationError> errors{erring(100, {9, 0, 0}), erring(110, {5, 0, 0}), erring(120, {2, 0, 0}),
-                                      erring(130, {1, 0, 0})};
-  checks::Observations seen;
-  seen.of<TransferAnswers>().filter.push_back(
-      {.cause_us = 100, .navigation_us = 100, .attitude_sigma = Vector3::Ones()});
-  EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors)[0].value, 25, 1e-9);
-  seen.of<TransferAnswers>().filter[0].navigation_us =
-      120;  // the fix arrived 20 us late, so earlier answers do not include it
-  EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors)[0].value, 1, 1e-9);
-  seen.of<TransferAnswers>().filter[0].navigation_us = 130;
-  EXPECT_THAT(nees_of(seen.of<TransferAnswers>().filter, errors), SizeIs(0));
+  const auto truth = at_rest(0);
+  TransferAnswers answers;
+  for (const std::int64_t t_us : {10'000, 20'000, 30'000, 40'000, 2'000'000})  // the last one after the truth
+    answers.navigation.push_back(
+        {.cause_us = t_us, .angles = {.roll = 0, .pitch = 0, .heading = 1e-6 * static_cast<double>(t_us)}});
+  answers.filter.push_back(
+      {.cause_us = 10'000, .navigation_us = 10'000, .attitude_sigma = Vector3::Constant(0.01)});
+  const auto value = [&] { return nees_of(answers, truth)[0].value; };
+  EXPECT_NEAR(value(), 4, 1e-6);
+  answers.filter[0].navigation_us = 30'000;  // the fix arrived late, so earlier answers do not include it
+  EXPECT_NEAR(value(), 16, 1e-6);
+  answers.filter[0].navigation_us = 40'000;
+  EXPECT_THAT(nees_of(answers, truth), SizeIs(0));
 }
 
 TEST(AttitudeNees, ACovarianceThatIsNoneExplainsNothing) {
-  checks::Observations seen;
-  seen.of<TransferAnswers>().filter.push_back({.cause_us = 100, .attitude_sigma = Vector3(0.01, 0, 0.05)});
-  EXPECT_TRUE(std::isinf(nees_of(seen.of<TransferAnswers>().filter, {erring(110, {0, 0, 0})})[0].value));
+  EXPECT_TRUE(std::isinf(nees(Vector3::Zero(), {0.01, 0, 0.05}, Vector3::Zero())));
 }
 
 std::optional<std::int64_t> entered(const Spool<NavigationError>& errors, double within) {
