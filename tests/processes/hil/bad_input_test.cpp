@@ -262,8 +262,6 @@ TEST(Scripts, TellTheirUseAndRefuseWhatTheyDoNotKnow) {
     expect_one_line(shell(fmt::format("bash {}/tests/run.sh {}", SOURCE_DIR, options)), what);
   };
   refused("--only", "--only: expected a regular");
-  refused("--quick", "--quick is now the default: bash tests/run.sh");
-  refused("--fuzz", "--fuzz is now part of --full: bash tests/run.sh --full");
   refused("--full --coverage", "--coverage excludes --full");
   refused("--coverage --tidy", "--coverage excludes --tidy");
 }
