@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 #include "bench/world/units.hpp"
 
@@ -43,23 +44,13 @@ NodeSettings read(const NodeTable& table, Section& section) {
       section.number({"temperature_offset_k", "Difference of the temperature from the standard atmosphere."},
                      Limits::between(-60, 60), 0);
   node.wind = section.three({"wind_mps", "Wind, constant: velocity of the air over ground, [N, E, D]."});
-  node.pressure_bias = {
-      .value = section.number({"pressure_bias_hpa", "Constant error of the static pressure."}, {}, 0),
-      .sigma = section.number(
-          {"pressure_bias_sigma_hpa", "1-sigma of a further constant error, drawn for each run."}, sigma, 0)};
+  node.pressure_bias = read_constant(section, "pressure_bias_hpa", "the static pressure");
   node.pressure_noise = section.number(
       {"pressure_noise_hpa", "White noise of the static pressure, 1-sigma of a sample."}, sigma, 0);
-  node.speed_scale = {
-      .value = section.number({"speed_scale_ppm", "Constant scale factor error of the air speed."}, {}, 0),
-      .sigma = section.number(
-          {"speed_scale_sigma_ppm", "1-sigma of a further scale factor error, drawn for each run."}, sigma,
-          0)};
+  node.speed_scale = read_constant(section, "speed_scale_ppm", "the scale of the air speed");
   node.speed_noise =
       section.number({"speed_noise_mps", "White noise of the air speed, 1-sigma of a sample."}, sigma, 0);
-  node.angle_bias = {
-      .value = section.number({"angle_bias_deg", "Constant error of both angles of the flow."}, {}, 0),
-      .sigma = section.number(
-          {"angle_bias_sigma_deg", "1-sigma of a further constant error, drawn for each run."}, sigma, 0)};
+  node.angle_bias = read_constant(section, "angle_bias_deg", "both angles of the flow");
   node.angle_noise = section.number(
       {"angle_noise_deg", "White noise of both angles of the flow, 1-sigma of a sample."}, sigma, 0);
   node.loss = read_sample_loss(section);

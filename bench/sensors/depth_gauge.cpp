@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 
 namespace canhil::sensors {
@@ -18,16 +19,9 @@ NodeSettings read(const NodeTable& table, Section& section) {
       section.number({"surface_height_m", "Height of the water's surface above the ellipsoid."}, {}, 0);
   node.below =
       section.number({"below_m", "Place of the gauge below the IMU, along the body's z axis."}, {}, 0);
-  node.scale_factor = {
-      .value = section.number(
-          {"scale_factor_ppm", "Constant scale factor error, for example of a wrong density of the water."},
-          {}, 0),
-      .sigma = section.number(
-          {"scale_factor_sigma_ppm", "1-sigma of a further scale factor error, drawn for each run."}, sigma,
-          0)};
-  node.bias = {.value = section.number({"bias_m", "Constant error of the depth."}, {}, 0),
-               .sigma = section.number(
-                   {"bias_sigma_m", "1-sigma of a further constant error, drawn for each run."}, sigma, 0)};
+  node.scale_factor =
+      read_constant(section, "scale_factor_ppm", "the scale, such as a wrong density of the water");
+  node.bias = read_constant(section, "bias_m", "the depth");
   node.noise = section.number({"noise_m", "White noise of the depth, 1-sigma of a sample."}, sigma, 0);
   node.loss = read_sample_loss(section);
   return {table, node};

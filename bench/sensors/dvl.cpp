@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 
 namespace canhil::sensors {
@@ -17,15 +18,8 @@ NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   DvlSettings node;
   node.schedule = read_schedule(section);
-  node.scale_factor = {
-      .value = section.number({"scale_factor_ppm", "Constant scale factor error of all axes."}, {}, 0),
-      .sigma = section.number(
-          {"scale_factor_sigma_ppm", "1-sigma of a further scale factor error, drawn for each run."}, sigma,
-          0)};
-  node.bias = {
-      .value = section.three({"bias_mps", "Constant error of the velocity, body axes [x, y, z]."}),
-      .sigma = section.three(
-          {"bias_sigma_mps", "1-sigma of a further constant error, drawn for each run, body axes."}, sigma)};
+  node.scale_factor = read_constant(section, "scale_factor_ppm", "the scale of all axes");
+  node.bias = read_constants(section, "bias_mps", "the velocity, body axes [x, y, z]");
   node.noise = section.three({"noise_mps", "White noise of the velocity, 1-sigma of a sample."}, sigma);
   node.invalid_probability = section.number(
       {"invalid_percent", "Share of the samples without bottom lock. They are marked as invalid."},

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 #include "bench/world/correlated_noise.hpp"
 
@@ -27,9 +28,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
   GnssVelocitySettings node;
   node.schedule = read_schedule(section);
   node.lever_arm = section.three({"lever_arm_m", "From the IMU to the antenna, body axes [x, y, z]."});
-  node.bias = {.value = section.three({"bias_mps", "Constant error of the velocity, [N, E, D]."}),
-               .sigma = section.three(
-                   {"bias_sigma_mps", "1-sigma of a further constant error, drawn for each run."}, sigma)};
+  node.bias = read_constants(section, "bias_mps", "the velocity, [N, E, D]");
   node.noise = section.three({"noise_mps", "White noise of the velocity, 1-sigma of a sample."}, sigma);
   node.correlated = section.number(
       {"correlated_mps", "1-sigma of an error of each axis that is correlated in time (Gauss-Markov)."},

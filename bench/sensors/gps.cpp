@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 
 namespace canhil::sensors {
@@ -23,12 +24,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   GpsSettings node;
   node.schedule = read_schedule(section);
-  node.bias = {
-      .value = section.three({"bias_m", "Constant error of the position, [N, E, D]."}),
-      .sigma = section.three(
-          {"bias_sigma_m",
-           "1-sigma of a further constant error. This error is drawn for each run and added to `bias_m`."},
-          sigma)};
+  node.bias = read_constants(section, "bias_m", "the position, [N, E, D]");
   node.noise = section.three({"noise_m", "White noise of the position, 1-sigma of a fix."}, sigma);
   if (section.has("lowest_height_m"))
     node.lowest_height = section.number(

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 #include "bench/world/attitude.hpp"
 
@@ -34,16 +35,9 @@ NodeSettings read(const NodeTable& table, Section& section) {
   MagnetometerSettings node;
   node.schedule = read_schedule(section);
   node.field_n = read_field(section);
-  node.hard_iron = {
-      .value =
-          section.three({"hard_iron_ut", "Field of magnetised parts of the vehicle, body axes [x, y, z]."}),
-      .sigma = section.three(
-          {"hard_iron_sigma_ut", "1-sigma of a further such field, drawn for each run, body axes."}, sigma)};
-  node.scale_factor = {
-      .value = section.number({"scale_factor_ppm", "Constant scale factor error of all axes."}, {}, 0),
-      .sigma = section.number(
-          {"scale_factor_sigma_ppm", "1-sigma of a further scale factor error, drawn for each run."}, sigma,
-          0)};
+  node.hard_iron = read_constants(section, "hard_iron_ut",
+                                  "the field, from magnetised parts of the vehicle, body axes [x, y, z]");
+  node.scale_factor = read_constant(section, "scale_factor_ppm", "the scale of all axes");
   node.noise = section.three({"noise_ut", "White noise of the field, 1-sigma of a sample."}, sigma);
   node.loss = read_sample_loss(section);
   return {table, node};

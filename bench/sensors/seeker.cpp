@@ -1,11 +1,10 @@
 #include "bench/sensors/seeker.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <deque>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/kind.hpp"
 #include "bench/world/engagement/engagement.hpp"
 
@@ -43,19 +42,6 @@ constexpr double largest_error = 0.655;
 
 double detected(double error) { return std::clamp(error, -largest_error, largest_error); }
 
-// Reads two keys. `key` is the constant part of an error. `sigma_key` is the sigma of a further part, which
-// is drawn for each run; its name is that of `key` with _sigma before the unit.
-world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
-                                 std::string_view of, double sigma) {
-  return {
-      .value = section.number({key, fmt::format("Constant error of {}.", of)}, Limits{}, 0),
-      .sigma = section.number(
-          {sigma_key,
-           fmt::format(
-               "1-sigma of a further constant error of {}. This error is drawn for each run and added.", of)},
-          Limits::at_least(0), sigma)};
-}
-
 world::SeekerErrorModel read_errors(Section& section) {
   const Limits sigma = Limits::at_least(0);
   return {
@@ -74,22 +60,19 @@ world::SeekerErrorModel read_errors(Section& section) {
           0),
       .gyro_noise =
           section.number({"gyro_noise_mradps", "Noise of the antenna rates, 1-sigma of a sample."}, sigma, 1),
-      .gyro_bias =
-          read_constant(section, "gyro_bias_mradps", "gyro_bias_sigma_mradps", "the antenna rates", 0.5),
+      .gyro_bias = read_constant(section, "gyro_bias_mradps", "the antenna rates", 0.5),
       .accel_noise = section.number(
           {"accel_noise_mps2", "Noise of the missile's acceleration, 1-sigma of a sample."}, sigma, 0.3),
-      .accel_bias = read_constant(section, "accel_bias_mps2", "accel_bias_sigma_mps2",
-                                  "the missile's acceleration", 0.2),
+      .accel_bias = read_constant(section, "accel_bias_mps2", "the missile's acceleration", 0.2),
       .range_noise = section.number({"range_noise_m", "Noise of the range, 1-sigma of a sample."}, sigma, 5),
-      .range_bias = read_constant(section, "range_bias_m", "range_bias_sigma_m", "the range", 15),
+      .range_bias = read_constant(section, "range_bias_m", "the range", 15),
       .full_errors_beyond = section.number(
           {"range_errors_full_beyond_m",
            "Range below which the errors of the measured range become smaller, in proportion to the range."},
           Limits::above(0), 1000),
       .closing_speed_noise = section.number(
           {"closing_speed_noise_mps", "Noise of the closing speed, 1-sigma of a sample."}, sigma, 3),
-      .closing_speed_bias = read_constant(section, "closing_speed_bias_mps", "closing_speed_bias_sigma_mps",
-                                          "the closing speed", 5),
+      .closing_speed_bias = read_constant(section, "closing_speed_bias_mps", "the closing speed", 5),
       .field_of_view = section.number(
           {"field_of_view_deg",
            "Largest angle from the antenna's axis at which the seeker detects the flight target."},

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 
 namespace canhil::sensors {
@@ -47,33 +48,18 @@ NodeSettings read(const NodeTable& table, Section& section) {
   SlaveImuSettings node;
   node.schedule = read_schedule(section);
   node.errors.gyro = {
-      .bias = {.value = section.three({"gyro_bias_degph", "Constant bias of the gyros, [x, y, z]."}),
-               .sigma = section.three(
-                   {"gyro_bias_sigma_degph", "1-sigma of the bias of the gyros, drawn for each run."},
-                   sigma)},
+      .bias = read_constants(section, "gyro_bias_degph", "the gyros, [x, y, z]"),
       .noise = section.three({"gyro_noise_degprth", "Density of the white noise of the gyros."}, sigma),
-      .scale_factor = {.value = section.three(
-                           {"gyro_scale_factor_ppm", "Constant scale factor error of the gyros."}),
-                       .sigma = section.three(
-                           {"gyro_scale_factor_sigma_ppm",
-                            "1-sigma of the scale factor error of the gyros, drawn for each run."},
-                           sigma)},
+      .scale_factor = read_constants(section, "gyro_scale_factor_ppm", "the scale factor of the gyros"),
       .misalignment_sigma = section.number(
           {"gyro_misalignment_sigma_mrad", "1-sigma of each misalignment of the gyros, drawn for each run."},
           sigma, 0)};
   node.errors.accel = {
-      .bias = {.value = section.three({"accel_bias_ug", "Constant bias of the accelerometers, [x, y, z]."}),
-               .sigma = section.three(
-                   {"accel_bias_sigma_ug", "1-sigma of the bias of the accelerometers, drawn for each run."},
-                   sigma)},
+      .bias = read_constants(section, "accel_bias_ug", "the accelerometers, [x, y, z]"),
       .noise =
           section.three({"accel_noise_ugprthz", "Density of the white noise of the accelerometers."}, sigma),
-      .scale_factor = {.value = section.three(
-                           {"accel_scale_factor_ppm", "Constant scale factor error of the accelerometers."}),
-                       .sigma = section.three(
-                           {"accel_scale_factor_sigma_ppm",
-                            "1-sigma of the scale factor error of the accelerometers, drawn for each run."},
-                           sigma)},
+      .scale_factor =
+          read_constants(section, "accel_scale_factor_ppm", "the scale factor of the accelerometers"),
       .misalignment_sigma =
           section.number({"accel_misalignment_sigma_mrad",
                           "1-sigma of each misalignment of the accelerometers, drawn for each run."},

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 
 namespace canhil::sensors {
@@ -27,19 +28,9 @@ NodeSettings read(const NodeTable& table, Section& section) {
       Limits::between(-5'000, 5'000));
   node.ship_velocity =
       section.three({"ship_velocity_mps", "Velocity of the ship, [N, E, D]."}, Limits::between(-50, 50));
-  node.ship_error = {
-      .value = section.three(
-          {"ship_error_m", "Constant error of the ship's own position, as the ship reports it."}),
-      .sigma = section.three({"ship_error_sigma_m",
-                              "1-sigma of a further constant error. This error is drawn for each run and "
-                              "added to `ship_error_m`."},
-                             sigma)};
-  node.bias = {
-      .value = section.three({"bias_m", "Constant error of the vehicle's position relative to the ship."}),
-      .sigma = section.three(
-          {"bias_sigma_m",
-           "1-sigma of a further constant error. This error is drawn for each run and added to `bias_m`."},
-          sigma)};
+  node.ship_error =
+      read_constants(section, "ship_error_m", "the ship's own position, as the ship reports it");
+  node.bias = read_constants(section, "bias_m", "the vehicle's position relative to the ship");
   node.noise = section.three(
       {"noise_m", "White noise of the vehicle's position relative to the ship, 1-sigma of a fix."}, sigma);
   node.range_noise = section.number(

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 
 namespace canhil::sensors {
@@ -18,11 +19,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
   node.schedule = read_schedule(section);
   node.track = section.number({"track_m", "Distance of the left from the right wheels."},
                               Limits::above(0, 10), node.track);
-  node.scale_factor = {
-      .value = section.number({"scale_factor_ppm", "Constant error of the radius of all wheels."}, {}, 0),
-      .sigma = section.number(
-          {"scale_factor_sigma_ppm", "1-sigma of a further error of the radius, drawn for each run."}, sigma,
-          0)};
+  node.scale_factor = read_constant(section, "scale_factor_ppm", "the radius of all wheels");
   node.noise = section.number({"noise_mps", "White noise of each speed, 1-sigma of a sample."}, sigma, 0);
   node.with_sign =
       section.flag({"with_sign",

@@ -80,4 +80,7 @@ def serve(ecu, bus):
 
 
 if __name__ == "__main__":
+    if "--answers" in sys.argv:  # the id of the answers; that of the status follows
+        ATTITUDE = int(sys.argv[sys.argv.index("--answers") + 1], 0)
+        STATUS = ATTITUDE + 1
     serve(Ecu(), open_bus(sys.argv[sys.argv.index("--bus") + 1]))

@@ -1,5 +1,4 @@
-// Two ECUs on one bus, each with a DBC and a mapping of its own: docs/examples/own_ecu twice, of which the
-// second one has other ids and the same names.
+// Two ECUs on one bus, each with a DBC and a mapping of its own: docs/examples/pair.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -19,27 +18,19 @@ class Pair : public testing::Test {
  protected:
   Pair() {
     fs::remove_all(folder_);
-    fs::copy(SOURCE_DIR "/docs/examples/own_ecu", folder_);
-    std::string dbc = file("own_ecu.dbc"), mapping = file("own_ecu.mapping.toml"),
-                pair = file("own_ecu.toml");
-    replace(dbc, "BO_ 512 ", "BO_ 528 ");
-    replace(dbc, "BO_ 513 ", "BO_ 529 ");
-    replace(dbc, "\"GenMsgCycleTime\" BO_ 513", "\"GenMsgCycleTime\" BO_ 529");
-    replace(mapping, "\"own_ecu.dbc\"", "\"right.dbc\"");
-    replace(pair, "[target]\n", "[[target]]\n");
-    replace(pair, "[truth]\n", "[[target]]\nmapping = \"right.mapping.toml\"\n[truth]\n");
-    write("right.dbc", dbc);
-    write("right.mapping.toml", mapping);
-    write("pair.toml", pair);
+    fs::create_directories(folder_);
+    for (const char* example : {"pair", "own_ecu"})
+      fs::copy(fmt::format("{}/docs/examples/{}", SOURCE_DIR, example),
+               fmt::format("{}/{}", folder_, example));
   }
   static void replace(std::string& text, const std::string& one, const std::string& other) {
     const auto at = text.find(one);
     ASSERT_NE(at, std::string::npos) << one;
     text.replace(at, one.size(), other);
   }
-  [[nodiscard]] std::string file(const std::string& name) const { return read(folder_ + "/" + name); }
+  [[nodiscard]] std::string file(const std::string& name) const { return read(folder_ + "/pair/" + name); }
   void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ + "/" + name) << text;
+    std::ofstream(folder_ + "/pair/" + name) << text;
   }
   void change(const std::string& name, const std::string& one, const std::string& other) const {
     std::string text = file(name);
@@ -52,7 +43,7 @@ class Pair : public testing::Test {
                        defect, more);
   }
   [[nodiscard]] Ended fly(const std::string& left, const std::string& right, const std::string& more) const {
-    return hil_bench(fmt::format("run {}/pair.toml {} {} {} --json {}", folder_, ecu(left),
+    return hil_bench(fmt::format("run {}/pair/pair.toml {} {} {} --json {}", folder_, ecu(left),
                                  ecu(right, " --answers 0x210"), more, report()));
   }
   [[nodiscard]] std::string report() const { return folder_ + "/pair.json"; }
@@ -98,13 +89,15 @@ TEST_F(Pair, OneThatIsSilentFailsThoughTheOtherAnswers) {
 }
 
 TEST_F(Pair, OneThatIsMissingFails) {
-  const Ended ended = hil_bench(fmt::format("run {}/pair.toml {} --json {}", folder_, ecu("none"), report()));
+  const Ended ended =
+      hil_bench(fmt::format("run {}/pair/pair.toml {} --json {}", folder_, ecu("none"), report()));
   EXPECT_EQ(ended.code, 1) << ended.err;
   EXPECT_THAT(failed(), testing::Contains("answers answers of right"));
 }
 
 TEST_F(Pair, OneThatEndsIsNamed) {
-  const Ended ended = hil_bench(fmt::format("run {}/pair.toml {} --target /bin/false", folder_, ecu("none")));
+  const Ended ended =
+      hil_bench(fmt::format("run {}/pair/pair.toml {} --target /bin/false", folder_, ecu("none")));
   expect_one_line(ended, "target '/bin/false': exited with 1");
 }
 
@@ -113,20 +106,20 @@ TEST_F(Pair, WhatCannotBeOnOneBusIsOneLine) {
                            const std::string& because) {
     const std::string before = file(name);
     change(name, one, other);
-    expect_one_line(hil_bench(fmt::format("run {}/pair.toml --target none", folder_)), because);
+    expect_one_line(hil_bench(fmt::format("run {}/pair/pair.toml --target none", folder_)), because);
     write(name, before);
   };
   refused(
       "right.mapping.toml", "\"-imu.rate.z\"", "\"imu.rate.z\"",
       "right.mapping.toml: IMU_TX1 is sent to another target with other values or at other times, expected "
       "the same play in both mappings");
-  refused("pair.toml", "\"right.mapping.toml\"", "\"own_ecu.mapping.toml\"",
+  refused("pair.toml", "\"right.mapping.toml\"", "\"../own_ecu/own_ecu.mapping.toml\"",
           "key 'target[2].mapping': 'own_ecu' is the name of another [[target]] too, expected a mapping with "
           "another 'name'");
   expect_one_line(
-      hil_bench(fmt::format("run {}/pair.toml {}{}{}", folder_, ecu("none"), ecu("none"), ecu("none"))),
+      hil_bench(fmt::format("run {}/pair/pair.toml {}{}{}", folder_, ecu("none"), ecu("none"), ecu("none"))),
       "--target: is given 3 times, expected at most 2, as");
-  expect_one_line(hil_bench(fmt::format("run {}/pair.toml {}--target none", folder_, ecu("none"))),
+  expect_one_line(hil_bench(fmt::format("run {}/pair/pair.toml {}--target none", folder_, ecu("none"))),
                   "--target none: is given beside a program, expected only one of the two");
 }
 

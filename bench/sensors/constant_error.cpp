@@ -1,0 +1,37 @@
+#include "bench/sensors/constant_error.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace canhil::sensors {
+namespace {
+
+using scenario::Limits;
+
+// "bias_m" -> "bias_sigma_m".
+std::string sigma_of(std::string_view key) {
+  const std::size_t unit = key.rfind('_');
+  return fmt::format("{}_sigma{}", key.substr(0, unit), key.substr(unit));
+}
+std::string constant_of(std::string_view of) { return fmt::format("Constant error of {}.", of); }
+std::string drawn_of(std::string_view of) {
+  return fmt::format("1-sigma of a further constant error of {}, drawn for each run and added.", of);
+}
+
+}  // namespace
+
+world::RandomValue read_constant(scenario::Section& section, std::string_view key, std::string_view of,
+                                 double usual_sigma) {
+  const std::string sigma = sigma_of(key), constant = constant_of(of), drawn = drawn_of(of);
+  return {.value = section.number({key, constant}, Limits{}, 0),
+          .sigma = section.number({sigma, drawn}, Limits::at_least(0), usual_sigma)};
+}
+
+world::RandomConstant read_constants(scenario::Section& section, std::string_view key, std::string_view of) {
+  const std::string sigma = sigma_of(key), constant = constant_of(of), drawn = drawn_of(of);
+  return {.value = section.three({key, constant}),
+          .sigma = section.three({sigma, drawn}, Limits::at_least(0))};
+}
+
+}  // namespace canhil::sensors
