@@ -14,6 +14,7 @@
 #include "bench/scenario/section.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/parser/parse.hpp"
+#include "dbc/wire/frame_rules.hpp"
 #include "dbc/wire/message_places.hpp"
 
 namespace canhil::mapping {
@@ -159,6 +160,12 @@ class Reader {
     if (used != all.end() && (of_target || !has_pages || is_targets(*used)))
       section.reject(key, fmt::format("{} is already used", message.name),
                      "each message once, or each page of a multiplexed message that the bench sends");
+    // dbc::parse_leniently() accepts any size, because DBC files also describe what transport protocols
+    // carry.
+    if (message.size > 64 || !size_has_dlc(static_cast<std::uint8_t>(message.size), true))
+      section.reject(
+          key, fmt::format("{} has {} bytes, which no frame has", message.name, message.size),
+          "a message of one frame: a mapping knows no NMEA 2000 fast packet, ISO-TP or J1939 transport");
     MessageInfo info{.name = message.name,
                      .id = message.id,
                      .extended = message.extended,

@@ -36,7 +36,7 @@ FROM_PAGES = {name: block(page, f"`{name}`").encode() + b"\n" for page, name in 
 
 # (registry, an existing line in it, the line to insert after it)
 LINES = [
-    ("bench/estimators/registry.cpp", '#include "messages/canhil.hpp"', f'#include "{HERE}/baro_inertial.hpp"'),
+    ("bench/estimators/registry.cpp", '#include "bench/scenario/scenario.hpp"', f'#include "{HERE}/baro_inertial.hpp"'),
     ("bench/estimators/registry.cpp", "    &los_rate,", "    &baro_inertial,"),
     ("bench/sensors/registry.cpp", '#include "bench/sensors/registry.hpp"', '#include "bench/sensors/barometer.hpp"'),
     ("bench/sensors/registry.cpp", "    &fins,        // of the glider", block("adding-a-sensor", "## 3. The registry")),

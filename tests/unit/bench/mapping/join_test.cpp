@@ -121,5 +121,16 @@ TEST(Join, OtherValuesAreRefused) {
   }
 }
 
+// A DBC may describe what a transport protocol carries in several frames.
+TEST(ReadMapping, AMessageThatNoFrameHasIsRefused) {
+  const auto read_two =
+      read(two(dbc(201, "BO_ 2583168510 Fix: 43 Sensor\n SG_ Lat : 56|64@1- (1,0) [0|0] \"\" Device\n"),
+               mapping("right") + "[[hear]]\nmessage = \"Fix\"\n"));
+  ASSERT_FALSE(read_two);
+  EXPECT_THAT(
+      read_two.error().message,
+      HasSubstr("'hear[2].message': Fix has 43 bytes, which no frame has, expected a message of one frame"));
+}
+
 }  // namespace
 }  // namespace canhil::mapping
