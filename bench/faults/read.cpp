@@ -19,13 +19,16 @@ using scenario::FaultContext;
 using scenario::Section;
 
 // The suffixes that a key for a quantity may have, by the SI unit of the quantity.
-constexpr std::array<std::pair<std::string_view, std::array<std::string_view, 3>>, 6> endings{
+constexpr std::array<std::pair<std::string_view, std::array<std::string_view, 3>>, 9> endings{
     {{"rad/s", {"degps", "mradps", "degph"}},
      {"rad", {"deg", "mrad", ""}},
      {"m/s^2", {"mps2", "ug", "g"}},
      {"m/s", {"mps", "kmph", ""}},
      {"m", {"m", "", ""}},
-     {"s", {"s", "ms", ""}}}};
+     {"s", {"s", "ms", ""}},
+     {"Pa", {"hpa", "pa", ""}},
+     {"K", {"k", "", ""}},
+     {"T", {"ut", "t", ""}}}};
 
 std::vector<std::string> keys_of(std::string_view stem, std::string_view si) {
   std::vector<std::string> keys;

@@ -15,12 +15,14 @@ namespace canhil::scenario {
 namespace {
 
 using Endings = std::array<std::string_view, 4>;
-constexpr std::array<Endings, 6> of_one_dimension{{{"_s", "_ms", "_us"},
+constexpr std::array<Endings, 8> of_one_dimension{{{"_s", "_ms", "_us"},
                                                    {"_deg", "_rad", "_mrad"},
                                                    {"_degps", "_radps", "_mradps", "_degph"},
                                                    {"_mps", "_kmph"},
                                                    {"_mps2", "_g", "_ug"},
-                                                   {"_m"}}};
+                                                   {"_m"},
+                                                   {"_pa", "_hpa"},
+                                                   {"_t", "_ut"}}};
 
 /// The names under which a column may appear: `name`, then `name` with each other unit of the same quantity
 /// as suffix.

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "bench/nodes/registry.hpp"
+#include "bench/sensors/air_data.hpp"
 #include "bench/sensors/dvl.hpp"
 #include "bench/sensors/gps.hpp"
 #include "bench/sensors/slave_imu.hpp"
@@ -165,6 +166,8 @@ TEST(Recorded, ASensorWithoutAMessageHasColumnsToo) {
       columns_of(bound(wheels).table),
       testing::ElementsAre("t_s", "front_left_mps", "front_right_mps", "rear_left_mps", "rear_right_mps"));
   EXPECT_THAT(columns_of(bound(dvl).table), testing::Contains("velocity_validity"));
+  EXPECT_THAT(columns_of(bound(air_data).table),
+              testing::IsSupersetOf({"static_pressure_pa", "temperature_k", "angle_of_attack_rad"}));
   std::string csv = "t_s,rear_right_mps,rear_left_mps,front_right_mps,front_left_mps\n";
   for (int k = 1; k <= 100; ++k) csv += fmt::format("{},4,3,2,{}\n", 0.01 * k, k);
   const auto samples = samples_of(wheels, csv);
