@@ -59,8 +59,10 @@ class OfEstimator<Returned(Arguments...)> {
   using WithContext = Returned (*)(const void* context, Arguments...);
 
   constexpr OfEstimator() = default;
+  // NOLINTBEGIN(google-explicit-constructor): the tables of the estimators name plain functions
   constexpr OfEstimator(std::nullptr_t /*none*/) {}
   constexpr OfEstimator(Plain function) : plain_(function) {}
+  // NOLINTEND(google-explicit-constructor)
   /// `context` must outlive this object.
   constexpr OfEstimator(WithContext function, const void* context)
       : with_context_(function), context_(context) {}

@@ -49,7 +49,7 @@ quantities::Unit read_unit(scenario::Section& section, std::string_view stem, co
 
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates,
                            std::string_view meaning, const scenario::CheckContext& context) {
-  const std::string name = section.given_name({"estimator", meaning}, candidates, "");
+  std::string name = section.given_name({"estimator", meaning}, candidates, "");
   if (!name.empty() || candidates.empty()) return name;
   if (context.each == nullptr || candidates.size() == 1) return candidates.front();
   context.each->number = candidates.size();
