@@ -28,8 +28,8 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
       pairings_(conversation.mapping.hears.size()),
       virtual_time_(virtual_time) {
   const Mapping& mapping = conversation.mapping;
-  for (std::size_t i = 0; i < mapping.hears.size(); ++i) {
-    const Mapped& of = mapping.hears[i].of;
+  for (const Hear& hear : mapping.hears) {
+    const Mapped& of = hear.of;
     if (!of.protection) continue;
     seen_.from_target[of.index].has_counter = of.protection->settings().counter.has_value();
     seen_.from_target[of.index].has_checksum = of.protection->settings().checksum.has_value();
