@@ -72,7 +72,6 @@ void TargetPrograms::send_signal(int signal) {
 }
 
 TargetPrograms::End TargetPrograms::end(std::chrono::milliseconds patience) {
-  send_signal(SIGTERM);  // so that all of them end at the same time
   std::optional<ProcessEnd> first, wrong;
   bool any_killed = false;
   for (ChildProcess& one : running_) {

@@ -57,6 +57,17 @@ TEST(TargetProcess, ThatEndsAlthoughItsChildAnswersOnFails) {
   EXPECT_THAT(ended.out, ContainsRegex("\nfail: target: ended by SIGSEGV .* at t=[0-9]"));
 }
 
+// A program may take a second SIGTERM for impatience.
+TEST(TargetProcess, IsToldToEndOnce) {
+  const std::string path = script(
+      "once",
+      "trap 'ends=$((ends + 1)); sleep 0.3' TERM\n$target \"$@\" &\nwhile [ -z \"$ends\" ]; do wait; done\n"
+      "exit $((ends - 1))");
+  const Ended ended = fly(path);
+  EXPECT_EQ(ended.code, 3) << ended.out;
+  EXPECT_THAT(ended.out, testing::Not(HasSubstr("when the bench stopped it")));
+}
+
 TEST(TargetProcess, ThatExitsBeforeItIsStoppedFailsAlsoWith0) {
   const std::string quits = script("quits", "$target \"$@\" </dev/null &\nsleep 1.5\nexit 0");
   EXPECT_THAT(fly(quits, "").out, ContainsRegex("\nfail: target: exited with 0 at t=[0-9]"));
