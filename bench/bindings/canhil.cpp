@@ -48,7 +48,7 @@ struct Canhil final : scenario::Binding {
 
   [[nodiscard]] std::string_view estimator_of(const MessageInfo& message) const override {
     const auto closes_its_group = [&](std::string_view closing) {
-      return canhil::is_in_group_of(message, *std::ranges::find(messages, closing, &MessageInfo::name));
+      return is_in_group_of(message, *std::ranges::find(messages, closing, &MessageInfo::name));
     };
     for (const estimators::Estimator* one : estimators) {
       if (std::ranges::any_of(one->closing, closes_its_group)) return one->name;

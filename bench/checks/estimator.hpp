@@ -38,6 +38,8 @@ struct Truth {
 /// Answers that report the same outcome or flag.
 struct Mark {
   std::string_view name;
+  /// The mark that has the times of all answers which could report this one; empty: there is no such mark.
+  std::string_view among = "answers";
   Spool<std::int64_t> t_us{};  ///< times of their causes, ascending
 };
 

@@ -14,6 +14,7 @@
 #include "bench/checks/kinds/delay.hpp"
 #include "bench/checks/kinds/detected_within.hpp"
 #include "bench/checks/kinds/error.hpp"
+#include "bench/checks/kinds/flag.hpp"
 #include "bench/checks/kinds/heartbeat.hpp"
 #include "bench/checks/kinds/honest.hpp"
 #include "bench/checks/kinds/latency.hpp"
@@ -29,15 +30,29 @@
 namespace canhil::checks {
 namespace {
 
-constexpr std::array of_any_estimator{
-    check_kind<Error>,          check_kind<Convergence>,      check_kind<Consistency>,
-    check_kind<Sigma>,          check_kind<Answers>,          check_kind<Latency>,
-    check_kind<LatencyGrowth>,  check_kind<DelayBelow>,       check_kind<OutputPeriod>,
-    check_kind<OwnTimes>,       check_kind<Heartbeat>,        check_kind<Counters>,
-    check_kind<CountsMatch>,    check_kind<Protection>,       check_kind<BusLoad>,
-    check_kind<BusErrorLimits>, check_kind<WireResponseRule>, check_kind<DetectedWithin>,
-    check_kind<RecoversWithin>, check_kind<SigmaGrows>,       check_kind<Honest>,
-    check_kind<Answering>};
+constexpr std::array of_any_estimator{check_kind<Error>,
+                                      check_kind<Convergence>,
+                                      check_kind<Consistency>,
+                                      check_kind<Sigma>,
+                                      check_kind<Answers>,
+                                      check_kind<Latency>,
+                                      check_kind<LatencyGrowth>,
+                                      check_kind<DelayBelow>,
+                                      check_kind<OutputPeriod>,
+                                      check_kind<OwnTimes>,
+                                      check_kind<Heartbeat>,
+                                      check_kind<Counters>,
+                                      check_kind<CountsMatch>,
+                                      check_kind<Protection>,
+                                      check_kind<BusLoad>,
+                                      check_kind<BusErrorLimits>,
+                                      check_kind<WireResponseRule>,
+                                      check_kind<DetectedWithin>,
+                                      check_kind<RecoversWithin>,
+                                      check_kind<SigmaGrows>,
+                                      check_kind<Honest>,
+                                      check_kind<Answering>,
+                                      check_kind<Flag>};
 
 }  // namespace
 

@@ -243,7 +243,7 @@ Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& s
 // Checks that there is a target of the scenario for each program.
 Result<void> check_targets(const Arguments& arguments, const scenario::Scenario& scenario) {
   const std::size_t most = scenario.binding->handshake ? 1 : scenario.targets.size();
-  if (std::max(arguments.targets.size(), std::size_t{1}) > most)
+  if (arguments.targets.size() > most)
     return failure(fmt::format("--target: is given {} times, expected at most {}, as {} has {} on its bus",
                                arguments.targets.size(), most, scenario.file,
                                most == 1 ? "one target" : fmt::format("{} targets", most)));

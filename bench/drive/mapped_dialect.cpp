@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "bench/checks/judge.hpp"
@@ -47,10 +48,11 @@ class MappedWatch final : public observe::TargetWatch {
       const mapping::Hear& hear = conversation_.mapping.hears[index];
       heard_ = true;
       heard_from_.insert(hear.target);
-      if (received.frame.size != hear.of.message->size || !hear.is_owed() || !hear.echo ||
-          *hear.answers != awaited_play_)
-        continue;
-      const mapping::Sent* cause = mapping::cause_of(conversation_, hear, received.frame);
+      if (!hear.is_owed() || !hear.echo) continue;
+      // An answer with a wrong checksum is an answer too: the target has processed the sample.
+      const mapping::Receiver::Taken taken = receivers_[index].take(hear.of, received.frame);
+      if (taken.bytes.size() != hear.of.message->size || *hear.answers != awaited_play_) continue;
+      const mapping::Sent* cause = mapping::cause_of(conversation_, hear, taken.bytes);
       if (cause != nullptr && cause->valid_us == awaited_us_) waits_for_.erase(hear.of.index);
     }
   }
@@ -82,6 +84,7 @@ class MappedWatch final : public observe::TargetWatch {
   const mapping::Conversation& conversation_;
   mapping::Places places_;
   mapping::Passing passing_;
+  std::map<std::size_t, mapping::Receiver> receivers_;  // by index of Mapping::hears
   bool heard_ = false;
   std::set<std::size_t> heard_from_;
   std::size_t awaited_play_ = 0;

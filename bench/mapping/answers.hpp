@@ -24,6 +24,7 @@ struct Answers {
   using Times = TimeOrdered<std::int64_t, std::identity{}>;
 
   std::map<const ReportedSignal*, Values> values;  ///< of quantities, sigmas and correlations
+  std::map<const ReportedFlag*, Times> flags;      ///< times of the answers in which a flag is set
   /// The times of the values' causes, or the arrival times if there is no cause, by message name.
   std::map<std::string_view, Times> messages;
 };

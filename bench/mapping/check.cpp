@@ -108,7 +108,10 @@ class Remarks {
       const bool reported = std::ranges::find(hear.reported_signals, &signal, &ReportedSignal::signal) !=
                             hear.reported_signals.end();
       const bool echo = hear.echo && hear.echo->repeated == &signal;
-      if (!reported && !echo && !is_protection(hear.of, signal))
+      const bool flag = std::ranges::find(hear.flags, &signal, &ReportedFlag::signal) != hear.flags.end();
+      const bool part = hear.quaternion && std::ranges::find(hear.quaternion->parts, &signal) !=
+                                               hear.quaternion->parts.end();
+      if (!reported && !echo && !flag && !part && !is_protection(hear.of, signal))
         add(Grade::note, "unheard", name(hear.of, signal), "is not used by the bench");
     }
     if (!hear.of.protection)
@@ -146,8 +149,10 @@ double load_of(const Mapping& mapping, const wire::BitRates& rates) {
   const auto add = [&](const Mapped& of, std::int64_t period_us) {
     if (period_us == 0) return;
     const dbc::Message& message = *of.message;
-    load += wire::bus_load(message.fd ? wire::worst_case_fd_length(message.size, message.extended, true)
-                                      : wire::worst_case_length(message.size, message.extended),
+    const bool fd = message.fd && !of.fast_packet;
+    load += static_cast<double>(of.frames()) *
+            wire::bus_load(fd ? wire::worst_case_fd_length(of.frame_size(), message.extended, true)
+                              : wire::worst_case_length(of.frame_size(), message.extended),
                            1e-6 * static_cast<double>(period_us), rates);
   };
   for (const Play& play : mapping.plays) {

@@ -36,7 +36,7 @@ std::shared_ptr<const protection::Protection> Mapping::protection_of(const Messa
 }
 
 bool Mapping::is_played(const MessageInfo& message, std::span<const scenario::NodeSettings> /*nodes*/) const {
-  return estimator_of(message).empty();
+  return !is_targets(message);
 }
 
 std::string_view Mapping::estimator_of(const MessageInfo& message) const {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,9 @@ namespace canhil::mapping {
 struct Sent {
   std::int64_t valid_us = 0;
   std::int64_t due_us = 0;
-  std::vector<Frame> frames;  ///< one per message, in the order of the play
+  std::vector<std::vector<std::uint8_t>> messages{};  ///< the bytes of each message, in the order of the play
+  std::vector<Frame> frames{};                        ///< of all messages, in the order of transmission
+  std::vector<std::size_t> message_of{};              ///< for each frame: the index of its message
 };
 
 struct Conversation {
@@ -57,6 +60,7 @@ class Passing {
   struct Passed {
     std::int64_t valid_us = -1;
     std::set<std::size_t> frames;
+    std::vector<std::size_t> message_of;  // as in Sent
   };
   const Conversation& conversation_;
   std::vector<Passed> passed_;  // the newest transmission of each play
@@ -66,11 +70,12 @@ class Passing {
 
 /// The value that an answer echoes, and the value that a stimulus carries in the signal which is echoed. Both
 /// have only those bits that both signals have. Without an echo, both are 0.
-std::uint64_t echoed_by(const Hear& hear, const Frame& answer);
+std::uint64_t echoed_by(const Hear& hear, std::span<const std::uint8_t> answer);
 std::uint64_t carried_by(const Hear& hear, const Sent& stimulus);
 
-/// The latest stored stimulus that carries the value which a frame of the target echoes. Null: there is none.
-/// Whether an earlier stimulus can be the cause too: see Pairing.
-const Sent* cause_of(const Conversation& conversation, const Hear& hear, const Frame& frame);
+/// The latest stored stimulus that carries the value which a message of the target echoes. Null: there is
+/// none. Whether an earlier stimulus can be the cause too: see Pairing.
+const Sent* cause_of(const Conversation& conversation, const Hear& hear,
+                     std::span<const std::uint8_t> answer);
 
 }  // namespace canhil::mapping

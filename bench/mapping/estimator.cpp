@@ -18,14 +18,18 @@ using quantities::Track;
 using quantities::TrackPoint;
 
 // A quantity with components has the truth of its components.
-const ReferenceQuantity& reference_of(const quantities::Quantity& quantity) {
+const ReferenceQuantity& reference_of(const MappedTarget& target, const quantities::Quantity& quantity) {
+  const auto own =
+      std::ranges::find(target.own, &quantity, [](const ReferenceQuantity& one) { return one.quantity; });
+  if (own != target.own.end()) return *own;
   return *find_reference_quantity(quantity.parts.empty() ? quantity.name : quantity.parts.front()->name);
 }
 
 // The quantities that the target reports and from which a quantity comes: itself, or what it is derived from.
-std::vector<const quantities::Quantity*> sources_of(const quantities::Quantity& quantity) {
+std::vector<const quantities::Quantity*> sources_of(const MappedTarget& target,
+                                                    const quantities::Quantity& quantity) {
   if (!quantity.parts.empty()) return {quantity.parts.begin(), quantity.parts.end()};
-  const ReferenceQuantity& of = reference_of(quantity);
+  const ReferenceQuantity& of = reference_of(target, quantity);
   if (of.of.empty()) return {&quantity};
   return {of.of.begin(), of.of.end()};
 }
@@ -33,7 +37,7 @@ std::vector<const quantities::Quantity*> sources_of(const quantities::Quantity& 
 // Why the causes of the answers with a quantity are not certain; empty: they are.
 std::string ambiguous(const MappedTarget& target, const checks::Observations& seen,
                       const quantities::Quantity& quantity) {
-  for (const quantities::Quantity* source : sources_of(quantity)) {
+  for (const quantities::Quantity* source : sources_of(target, quantity)) {
     std::string why = seen.timing.answers[hear_of(target, source).of.index].ambiguous;
     if (!why.empty()) return why;
   }
@@ -48,8 +52,8 @@ Track::Kind kind_of(const quantities::Quantity& quantity) {
 void tracks_of(const MappedTarget& target, const checks::Observations& seen, const Truth& truth,
                const quantities::TrackSink& give) {
   for (const quantities::Quantity* quantity : target.quantities) {
-    const ReferenceQuantity& of = reference_of(*quantity);
-    const std::string_view message = hear_of(target, sources_of(*quantity).back()).of.message->name;
+    const ReferenceQuantity& of = reference_of(target, *quantity);
+    const std::string_view message = hear_of(target, sources_of(target, *quantity).back()).of.message->name;
     const bool ends_early = quantity->of_engagement && truth.engagement != nullptr;
     const estimators::Answering answering{
         .longest_wait_us = estimators::longest_wait_us(seen, message),
@@ -58,12 +62,14 @@ void tracks_of(const MappedTarget& target, const checks::Observations& seen, con
     Track track = answering.track(*quantity, std::string(quantity->meaning));
     track.kind = kind_of(*quantity);
     track.only_if_judged = !of.of.empty();
-    track.points = points_of(of, target, seen, truth);
+    Points points = points_of(of, target, seen, truth);
+    track.points = std::move(points.points);
+    track.without_truth = std::move(points.without_truth);
     if (track.kind == Track::Kind::error && of.of.empty()) {
       track.estimate_title = std::string(quantity->name);
       track.estimate_unit = quantity->unit;
     }
-    if (!track.points.empty()) give(std::move(track));
+    if (!track.points.empty() || !track.without_truth.empty()) give(std::move(track));
   }
 }
 
@@ -73,13 +79,13 @@ void tracks_of(const MappedTarget& target, const checks::Observations& seen, con
 // answers are not certain.
 quantities::Samples samples_of(const MappedTarget& target, const checks::Observations& seen,
                                const Truth& truth) {
-  const auto& reported = target.quantities;
+  const auto& reported = target.layout->kept;
   const bool unclear = std::ranges::any_of(
       reported, [&](const auto* quantity) { return !ambiguous(target, seen, *quantity).empty(); });
   if (unclear) return {};
   std::map<std::int64_t, std::map<std::size_t, double>> by_time;  // by quantity
   for (std::size_t i = 0; i < reported.size(); ++i) {
-    for (const TrackPoint& one : points_of(reference_of(*reported[i]), target, seen, truth))
+    for (const TrackPoint& one : points_of(reference_of(target, *reported[i]), target, seen, truth).points)
       by_time[one.t_us][i] = one.value;
   }
   quantities::Samples samples(*target.layout);
@@ -97,17 +103,27 @@ quantities::Samples samples_of(const MappedTarget& target, const checks::Observa
   return samples;
 }
 
-// The first mark is for all answers. It is followed by one mark for each message that answers a play or
-// carries a quantity.
+// The first mark is for all answers. It is followed by one mark for each message that answers a play, or
+// carries a quantity or a flag, and by the flags.
 std::vector<estimators::Mark> marks_of(const MappedTarget& target, const checks::Observations& seen) {
   Answers::Times all;
   std::vector<estimators::Mark> marks;
   for (const auto& [message, times] : seen.of<Answers>().messages) {
     const auto hear = std::ranges::find(
         target.hears, message, [](const Hear& one) -> std::string_view { return one.of.message->name; });
-    if (hear == target.hears.end() || (!hear->answers && hear->reported_signals.empty())) continue;
+    if (hear == target.hears.end() ||
+        (!hear->answers && hear->reported_signals.empty() && hear->flags.empty()))
+      continue;
     for (const std::int64_t t_us : times) all.push_back(t_us);
     marks.push_back({.name = message, .t_us = times});
+  }
+  for (const Hear& hear : target.hears) {
+    for (const ReportedFlag& flag : hear.flags) {
+      const auto set = seen.of<Answers>().flags.find(&flag);
+      marks.push_back({.name = flag.name,
+                       .among = hear.of.message->name,
+                       .t_us = set == seen.of<Answers>().flags.end() ? Answers::Times{} : set->second});
+    }
   }
   marks.insert(marks.begin(), {.name = "answers", .t_us = all});
   return marks;
@@ -119,15 +135,16 @@ std::vector<estimators::ResultLine> results_of(const MappedTarget& target, const
       delays{.name = "delay", .what = "delay against the truth"};
   tracks_of(target, seen, truth, [&](const Track& track) {
     const quantities::Quantity& quantity = *track.quantity;
-    const ReferenceQuantity& of = reference_of(quantity);
-    if (track.kind != Track::Kind::error || of.of.size() > 1) return;
+    const ReferenceQuantity& of = reference_of(target, quantity);
+    if (of.of.empty() && !of.has_truth()) return;
+    if (track.points.empty() || track.kind != Track::Kind::error || of.of.size() > 1) return;
     const std::string name(quantity.name);
     const double last = track.points.back().value;
     // A position is shown in metres, which are derived from its coordinates. The last error of a LOS rate
     // says nothing, because the rate grows beyond all bounds at the passage.
     const bool is_derived = !of.of.empty();
     const bool shown = !quantity.of_engagement &&
-                       is_derived == is_on_the_ground(is_derived ? reference_of(*of.of.front()) : of);
+                       is_derived == is_on_the_ground(is_derived ? reference_of(target, *of.of.front()) : of);
     const bool certain = ambiguous(target, seen, quantity).empty();
     if (shown && certain)
       end.add(name, last,
@@ -149,7 +166,7 @@ std::vector<estimators::ResultLine> results_of(const MappedTarget& target, const
 
 std::vector<std::string_view> closing_with(const MappedTarget& target, const quantities::Quantity& quantity) {
   std::vector<std::string_view> messages;
-  for (const quantities::Quantity* source : sources_of(quantity)) {
+  for (const quantities::Quantity* source : sources_of(target, quantity)) {
     const Hear& hear = hear_of(target, source);
     const std::string_view name = hear.of.message->name;
     if (hear.is_owed() && std::ranges::find(messages, name) == messages.end()) messages.push_back(name);
@@ -157,8 +174,9 @@ std::vector<std::string_view> closing_with(const MappedTarget& target, const qua
   return messages;
 }
 
-std::string without_truth(const scenario::Scenario& scenario, const quantities::Quantity& quantity) {
-  return why_no_truth(reference_of(quantity), scenario);
+std::string without_truth(const MappedTarget& target, const scenario::Scenario& scenario,
+                          const quantities::Quantity& quantity) {
+  return why_no_truth(reference_of(target, quantity), scenario);
 }
 
 quantities::Freshness freshness_of(const scenario::Scenario& /*scenario*/) { return {}; }
@@ -184,9 +202,9 @@ estimators::Estimator estimator_of(const MappedTarget& target) {
           .samples = {OfTarget<samples_of>::call, &target},
           .tracks = {OfTarget<tracks_of>::call, &target},
           .marks = {OfTarget<marks_of>::call, &target},
-          .plain_marks = target.heard,
+          .plain_marks = target.plain_marks,
           .results = {OfTarget<results_of>::call, &target},
-          .why_no_truth = without_truth,
+          .why_no_truth = {OfTarget<without_truth>::call, &target},
           .ambiguous = {OfTarget<ambiguous>::call, &target},
           .closing = target.closing,
           .closing_with = {OfTarget<closing_with>::call, &target},

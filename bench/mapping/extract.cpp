@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/mapping/receiver.hpp"
 #include "bench/nodes/registry.hpp"
 #include "dbc/logs/log.hpp"
 
@@ -24,9 +25,11 @@ class Group {
       const Mapped& of = play_.messages[i].of;
       const Frame& frame = entry.frame;
       if (frame.error || frame.id != of.message->id || frame.extended != of.message->extended) continue;
+      const Receiver::Taken taken = receivers_[i].take(of, frame);
+      if (taken.outcome == Receiver::Outcome::part) return;
       values_[i].resize(of.plan.signals());
-      const bool right = is_right(of, receivers_[i], frame);
-      if (right) static_cast<void>(of.plan.decode(frame.payload(), values_[i]));
+      const bool right = taken.outcome == Receiver::Outcome::whole;
+      if (right) static_cast<void>(of.plan.decode(taken.bytes, values_[i]));
       if (right && !has_page(play_.messages[i], values_[i])) return;  // of another play
       here_[i] = right;
       if (i + 1 == play_.messages.size()) close(entry.t_ns, to);
@@ -35,13 +38,6 @@ class Group {
   }
 
  private:
-  static bool is_right(const Mapped& of, protection::Receiver& receiver, const Frame& frame) {
-    if (frame.size != of.message->size) return false;
-    if (!of.protection) return true;
-    const auto check = receiver.check(*of.protection, frame.payload());
-    return check == protection::Check::ok || check == protection::Check::some_lost;
-  }
-
   // Whether a frame has the page that the play sends.
   static bool has_page(const PlayedMessage& played, const std::vector<double>& values) {
     return std::ranges::all_of(played.sources, [&](const Source& source) {
@@ -70,7 +66,7 @@ class Group {
   }
 
   const Play& play_;
-  std::vector<protection::Receiver> receivers_;
+  std::vector<Receiver> receivers_;
   std::vector<std::vector<double>> values_;  // for each message
   std::vector<bool> here_;                   // for each message: received since the last row
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bench/mapping/reading.hpp"
+#include "dbc/parser/codec.hpp"
 
 namespace canhil::mapping {
 
@@ -30,6 +31,7 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
   const Mapping& mapping = conversation.mapping;
   for (const Hear& hear : mapping.hears) {
     const Mapped& of = hear.of;
+    if (of.fast_packet) seen_.from_target[of.index].has_counter = true;  // the sequence number
     if (!of.protection) continue;
     seen_.from_target[of.index].has_counter = of.protection->settings().counter.has_value();
     seen_.from_target[of.index].has_checksum = of.protection->settings().checksum.has_value();
@@ -83,52 +85,52 @@ void Listener::received(const Received& received) {
 }
 
 void Listener::hear(const Hear& hear, const Received& received) {
-  const Frame& frame = received.frame;
+  using Outcome = Receiver::Outcome;
   const std::size_t index = hear.of.index;
   checks::Sighting& sighting = seen_.from_target[index];
-  if (frame.size != hear.of.message->size || frame.fd != hear.of.message->fd) {
-    ++sighting.wrong_size;
-    sighting.size = frame.size;
-    return;
-  }
-  if (hear.of.protection) {
-    auto& receiver = receivers_[static_cast<std::size_t>(&hear - conversation_.mapping.hears.data())];
-    switch (receiver.check(*hear.of.protection, frame.payload())) {
-      case protection::Check::wrong_checksum:
-        ++sighting.wrong_crc;
-        return;
-      case protection::Check::counter_not_allowed:
-        ++sighting.wrong_counter;
-        return;
-      case protection::Check::repeated:
-        ++sighting.repeated;
-        return;
-      case protection::Check::some_lost:
-        sighting.lost += receiver.lost();
-        break;
-      case protection::Check::ok:
-        break;
-    }
+  auto& receiver = receivers_[static_cast<std::size_t>(&hear - conversation_.mapping.hears.data())];
+  const Receiver::Taken taken = receiver.take(hear.of, received.frame);
+  sighting.lost += taken.lost;
+  switch (taken.outcome) {
+    case Outcome::part:
+      return;
+    case Outcome::wrong_size:
+      ++sighting.wrong_size;
+      sighting.size = taken.size;
+      return;
+    case Outcome::wrong_checksum:
+      ++sighting.wrong_crc;
+      return;
+    case Outcome::wrong_counter:
+      ++sighting.wrong_counter;
+      return;
+    case Outcome::repeated:
+      ++sighting.repeated;
+      return;
+    case Outcome::whole:
+      break;
   }
   ++sighting.right;
   ++seen_.answers[index];
   // Before the first play there is nothing to answer.
   if (!hear.is_owed() || conversation_.sent[*hear.answers].empty()) {
     stopwatch_.arrived(index, received);
-    if (!hear.answers && sent_any_) record(hear, frame, bench_us(received.t_ns));
-    const Sent* cause = hear.task_us > 0 ? cause_of(conversation_, hear, frame) : nullptr;
-    if (cause != nullptr) record(hear, frame, cause->valid_us);
+    if (!hear.answers && sent_any_) record(hear, taken.bytes, bench_us(received.t_ns));
+    const Sent* cause = hear.task_us > 0 ? cause_of(conversation_, hear, taken.bytes) : nullptr;
+    if (cause != nullptr) record(hear, taken.bytes, cause->valid_us);
     return;
   }
   // An echo that matches no play counts as an answer without a cause. Without an echo, an answer to a play
   // that was answered before shows that the order of the answers does not reveal their causes.
-  Paired otherwise{.answer = received, .certain = hear.echo.has_value()};
-  if (const Sent* latest = cause_of(conversation_, hear, frame)) {
+  Paired otherwise{.answer = received,
+                   .bytes = {taken.bytes.begin(), taken.bytes.end()},
+                   .certain = hear.echo.has_value()};
+  if (const Sent* latest = cause_of(conversation_, hear, taken.bytes)) {
     otherwise.cause_us = latest->valid_us;
     otherwise.owed =
         !hear.echo || !passing_.brought_in_part(*hear.answers, latest->valid_us, hear.echo->message);
   }
-  pairing_of(hear).pairing.answered(received, echoed_by(hear, frame), otherwise, settler(hear));
+  pairing_of(hear).pairing.answered(received, echoed_by(hear, taken.bytes), otherwise, settler(hear));
 }
 
 Listener::OwnPairing& Listener::pairing_of(const Hear& hear) {
@@ -153,17 +155,22 @@ void Listener::settle(const Hear& hear, const Paired& paired) {
     if (own.uncertain++ == 0) own.apart_us = paired.apart_us;
     own.apart_us = std::min(own.apart_us, paired.apart_us);
   }
-  if (paired.cause_us) record(hear, paired.answer.frame, *paired.cause_us);
+  if (paired.cause_us) record(hear, paired.bytes, *paired.cause_us);
 }
 
-void Listener::record(const Hear& hear, const Frame& frame, std::int64_t t_us) {
+void Listener::record(const Hear& hear, std::span<const std::uint8_t> bytes, std::int64_t t_us) {
   auto& answers = seen_.of<Answers>();
   answers.messages[hear.of.message->name].push_back(t_us);
-  read(hear, frame, values_, [&](const ReportedSignal& telling, double value, bool invalid) {
+  read(hear, bytes, values_, [&](const ReportedSignal& telling, double value, bool invalid) {
     // NaN is recorded too; it makes checks fail.
     if (telling.what != ReportedSignal::What::value || !invalid)
       answers.values[&telling].push_back({.t_us = t_us, .value = value});
   });
+  for (const ReportedFlag& flag : hear.flags) {
+    if (hear.of.plan.is_present(hear.of.number(*flag.signal), bytes) &&
+        flag.is_set(dbc::raw_bits(*flag.signal, bytes)))
+      answers.flags[&flag].push_back(t_us);
+  }
 }
 
 std::int64_t Listener::bench_us(std::int64_t t_ns) const {
@@ -171,7 +178,7 @@ std::int64_t Listener::bench_us(std::int64_t t_ns) const {
 }
 
 void Listener::target_restarts() {
-  receivers_ = std::vector<protection::Receiver>(receivers_.size());
+  receivers_ = std::vector<Receiver>(receivers_.size());
   for (const Hear& hear : conversation_.mapping.hears) pairing_of(hear).pairing.end(settler(hear));
 }
 

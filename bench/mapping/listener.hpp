@@ -1,11 +1,13 @@
 // Turns frames of mapped targets into observations, as protocol::Monitor does for canhil's own DBC.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "bench/mapping/answers.hpp"
 #include "bench/mapping/conversation.hpp"
 #include "bench/mapping/pairing.hpp"
+#include "bench/mapping/receiver.hpp"
 #include "bench/observe/stopwatch.hpp"
 #include "bench/observe/watcher.hpp"
 #include "dbc/wire/message_places.hpp"
@@ -34,7 +36,7 @@ class Listener final : public observe::Watcher {
 
   void hear(const Hear& hear, const Received& received);
   void settle(const Hear& hear, const Paired& paired);
-  void record(const Hear& hear, const Frame& frame, std::int64_t t_us);
+  void record(const Hear& hear, std::span<const std::uint8_t> bytes, std::int64_t t_us);
   OwnPairing& pairing_of(const Hear& hear);
   Pairing::Give settler(const Hear& hear);
   [[nodiscard]] std::int64_t bench_us(std::int64_t t_ns) const;
@@ -45,9 +47,9 @@ class Listener final : public observe::Watcher {
   observe::Stopwatch stopwatch_;
   Places places_;
   Passing passing_;
-  std::vector<double> values_;                   // signal values of one message
-  std::vector<protection::Receiver> receivers_;  // for each hear
-  std::vector<OwnPairing> pairings_;             // for each hear
+  std::vector<double> values_;        // signal values of one message
+  std::vector<Receiver> receivers_;   // for each hear
+  std::vector<OwnPairing> pairings_;  // for each hear
   bool virtual_time_ = false, sent_any_ = false;
   std::int64_t due_us_ = 0, due_ns_ = 0;  // deadline of the last play: by time base, by clock of stamps
 };

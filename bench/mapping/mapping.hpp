@@ -5,6 +5,7 @@
 // of any scenario. Several targets of a run, each with its mapping, share the plays that are equal.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -23,6 +24,7 @@
 #include "dbc/parser/database.hpp"
 #include "dbc/parser/plan.hpp"
 #include "dbc/protection/protection.hpp"
+#include "dbc/transport/fast_packet.hpp"
 #include "dbc/wire/message_places.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -36,7 +38,14 @@ struct Mapped {
   dbc::MessagePlan plan;
   std::size_t index = 0;
   std::optional<protection::Protection> protection{};
+  bool fast_packet = false;  ///< sent as a fast packet of NMEA 2000, in several frames
 
+  /// The number of frames of the message.
+  [[nodiscard]] std::size_t frames() const {
+    return fast_packet ? transport::fast_packet_frames(message->size) : 1;
+  }
+  /// The number of bytes of each frame.
+  [[nodiscard]] unsigned frame_size() const { return fast_packet ? 8 : message->size; }
   /// The index of one of the message's signals.
   [[nodiscard]] std::size_t number(const dbc::Signal& signal) const {
     return static_cast<std::size_t>(&signal - message->signals.data());
@@ -77,6 +86,28 @@ struct ReportedSignal {
   bool in_metres = false;                    ///< the sigma of a latitude or longitude is in metres
   double factor = 1;                         ///< from the signal's unit to SI
   std::optional<std::uint64_t> invalid{};    ///< raw value that means "invalid"
+  /// An angle that is computed from the quaternion of the message; null: the signal carries the value itself.
+  double world::Euler::*angle = nullptr;
+};
+
+/// The attitude as a quaternion w, x, y, z, which rotates from body axes to north, east, down (C_bn).
+struct ReportedQuaternion {
+  std::array<const dbc::Signal*, 4> parts{};
+  std::array<double, 4> factors{};
+  std::array<std::optional<std::uint64_t>, 4> invalid{};  ///< raw values that mean "invalid"
+};
+
+/// A named state of a target: raw values of a signal, or of some of its bits.
+struct ReportedFlag {
+  std::string name;
+  const dbc::Signal* signal = nullptr;
+  std::uint64_t mask = 0;                ///< of the bits of the raw value that are considered
+  std::optional<std::uint64_t> value{};  ///< the bits that set the flag; none: any but 0
+  bool is_sign = false;                  ///< the flag is a sign of trouble
+
+  [[nodiscard]] bool is_set(std::uint64_t raw) const {
+    return value ? (raw & mask) == *value : (raw & mask) != 0;
+  }
 };
 
 /// An echo: the target copies the value of a signal of its cause (`original`) into a signal of its answer
@@ -91,6 +122,8 @@ struct Hear {
   Mapped of;
   std::size_t target = 0;  ///< index of its sender in Mapping::targets
   std::vector<ReportedSignal> reported_signals;
+  std::optional<ReportedQuaternion> quaternion{};
+  std::vector<ReportedFlag> flags{};
   std::optional<std::size_t> answers{};  ///< index of the answered play; none: sent independently of plays
   std::optional<Echo> echo{};            ///< none: the cause is the latest stimulus before the message
   /// The period of the target's own task that sends the message: it answers the latest stimulus, not each. 0:
@@ -107,11 +140,12 @@ struct MappedTarget {
   std::string file;  ///< its mapping
   dbc::Database database;
   std::span<const Hear> hears{};
+  std::deque<ReferenceQuantity> own{};                    ///< quantities that its mapping defines
   std::vector<const quantities::Quantity*> quantities{};  ///< each once
   std::vector<const quantities::Quantity*> of_runs{};  ///< these, and those of which they are the components
   const quantities::Layout* layout = nullptr;
   std::vector<std::string_view> closing{};
-  std::vector<std::string_view> heard{};  ///< names of its messages, which are marks but no signs of trouble
+  std::vector<std::string_view> plain_marks{};  ///< its messages, and flags that are no signs of trouble
   std::optional<estimators::Estimator> estimator{};
 };
 
@@ -126,8 +160,7 @@ struct Mapping final : scenario::Binding {
   [[nodiscard]] Result<void> fits(const scenario::Scenario& scenario,
                                   const world::FlightRecord& flight) const override;
 
-  std::deque<MappedTarget> targets;           ///< at least one
-  std::vector<const sensors::Kind*> sensors;  ///< those with names of their own
+  std::deque<MappedTarget> targets;  ///< at least one
   std::vector<Play> plays;
   std::vector<Hear> hears;              ///< of all targets, in their order
   const MappedTarget* guide = nullptr;  ///< its answers guide the missile; null: none does

@@ -13,6 +13,7 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "dbc/ports/port.hpp"
 
@@ -20,7 +21,8 @@ namespace canhil::mapping {
 
 /// An answer and its cause.
 struct Paired {
-  Received answer{};
+  Received answer{};                  ///< its last frame
+  std::vector<std::uint8_t> bytes{};  ///< the bytes of the message
   std::optional<std::int64_t>
       cause_us{};  ///< time of validity of the (latest possible) cause; none: no cause
   bool certain = true;

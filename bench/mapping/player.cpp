@@ -60,6 +60,8 @@ Result<void> Player::check(const Mapping& mapping, const scenario::Scenario& sce
       if (node->table().sensor != kind)
         return failure(fmt::format("key 'sensor': '{}' has another kind than in {}, expected '{}'", kind->key,
                                    to_text(mapping.files), kind->of->key));
+      if (const std::string why = kind->why_no_truth ? kind->why_no_truth(*node, scenario) : ""; !why.empty())
+        return failure(fmt::format("key '{}': {}", kind->key, why));
       if (play.sensor == kind && play.period_us % node->period_us() != 0)
         return failure(
             fmt::format("key '{}.period_ms': {:g} does not divide the {:g} ms of {}, expected a "
@@ -137,23 +139,16 @@ void Player::transmit(nodes::Transmission& out) {
   send_without_sensor(now_us);
   out.clipped().add(std::exchange(clipped_, {}));
   if (due_.empty() || due_.front().sent.due_us > now_us) return;
-  Due due = std::move(due_.front());
-  due_.pop_front();
-  if (due.lost) return;
-  for (const Frame& frame : due.sent.frames) out.put(frame);
-  conversation_.add(due.play, std::move(due.sent));
+  Due& due = due_.front();
+  // A transmission with many frames is put out in parts, at the same time.
+  const std::size_t end = std::min(due.next + nodes::Transmission::most, due.sent.frames.size());
+  if (!due.lost && due.next == 0) conversation_.add(due.play, due.sent);
+  for (; !due.lost && due.next < end; ++due.next) out.put(due.sent.frames[due.next]);
+  if (due.lost || due.next == due.sent.frames.size()) due_.pop_front();
 }
 
 bool Player::listens() const {
   return std::ranges::any_of(sensors_, [](const Played& played) { return played.sensor->is_guided(); });
-}
-
-// Whether a frame has the size of its message, and the counter and checksum that the message must have.
-bool Player::passes(const Hear& hear, const Frame& frame) {
-  if (frame.size != hear.of.message->size || frame.fd != hear.of.message->fd) return false;
-  if (!hear.of.protection) return true;
-  const protection::Check check = receivers_[&hear].check(*hear.of.protection, frame.payload());
-  return check == protection::Check::ok || check == protection::Check::some_lost;
 }
 
 // The guidance takes a LOS rate when both planes answer the same sample. It holds its command while an answer
@@ -162,11 +157,13 @@ void Player::hear(const Frame& frame) {
   for (const std::size_t index : places_.hears(frame)) {
     const Hear& hear = conversation_.mapping.hears[index];
     const bool guides = &conversation_.mapping.targets[hear.target] == conversation_.mapping.guide;
-    if (!guides || !hear.answers || !passes(hear, frame)) continue;
-    const Sent* cause = cause_of(conversation_, hear, frame);
+    if (!guides || !hear.answers) continue;
+    const Receiver::Taken taken = receivers_[&hear].take(hear.of, frame);
+    if (taken.outcome != Receiver::Outcome::whole) continue;
+    const Sent* cause = cause_of(conversation_, hear, taken.bytes);
     if (cause == nullptr) continue;
     if (cause->valid_us != los_rate_.cause_us) los_rate_ = {.cause_us = cause->valid_us};
-    read(hear, frame, heard_, [&](const ReportedSignal& signal, double value, bool /*invalid*/) {
+    read(hear, taken.bytes, heard_, [&](const ReportedSignal& signal, double value, bool /*invalid*/) {
       if (signal.what != ReportedSignal::What::value || !std::isfinite(value)) return;
       if (signal.quantity->quantity == &quantities::los_rate_pitch) los_rate_.pitch = value;
       if (signal.quantity->quantity == &quantities::los_rate_yaw) los_rate_.yaw = value;
@@ -233,8 +230,29 @@ double Player::value_of(std::size_t play, const Source& source, std::int64_t sta
   return 0;
 }
 
+// Adds a message to a transmission, in one frame or in several.
+void Player::add_frames(Sent& sent, const Mapped& of, std::vector<std::uint8_t> bytes) {
+  const auto add = [&](std::span<const std::uint8_t> data) {
+    const bool fd = of.message->fd && !of.fast_packet;
+    Frame frame{.id = of.message->id,
+                .size = static_cast<std::uint8_t>(data.size()),
+                .extended = of.message->extended,
+                .fd = fd,
+                .brs = fd};
+    std::ranges::copy(data, frame.data.begin());
+    sent.frames.push_back(frame);
+    sent.message_of.push_back(sent.messages.size());
+  };
+  if (of.fast_packet) {
+    for (const auto& frame : transport::split_fast_packet(bytes, sequences_[of.message]++)) add(frame);
+  } else {
+    add(bytes);
+  }
+  sent.messages.push_back(std::move(bytes));
+}
+
 Sent Player::put_together(std::size_t index, const sensors::Sample& sample, std::int64_t due_us) {
-  Sent sent{.valid_us = sample.valid_us, .due_us = due_us, .frames = {}};
+  Sent sent{.valid_us = sample.valid_us, .due_us = due_us};
   for (const PlayedMessage& one : conversation_.mapping.plays[index].messages) {
     const dbc::Message& message = *one.of.message;
     std::vector<double> values(one.of.plan.signals(), 0.0);
@@ -247,26 +265,21 @@ Sent Player::put_together(std::size_t index, const sensors::Sample& sample, std:
       const auto [lowest, highest] = physical_range(*source.signal).value_or(std::pair(0.0, 0.0));
       clipped_.add(message.name, source.signal->name, value, {lowest, highest, source.signal->unit});
     }
-    Frame frame{.id = message.id,
-                .size = static_cast<std::uint8_t>(message.size),
-                .extended = message.extended,
-                .fd = message.fd,
-                .brs = message.fd};
-    static_cast<void>(one.of.plan.encode(values, {frame.data.data(), frame.size}));  // the sizes match
+    std::vector<std::uint8_t> bytes(message.size);
+    static_cast<void>(one.of.plan.encode(values, bytes));  // the sizes match
     for (const Source& source : one.sources) {
       const auto says_invalid = [](const auto& kept) { return !kept.second.valid; };
       const bool invalid = source.measurand != nullptr ? !values_[index][source.measurand].valid
                                                        : std::ranges::any_of(values_[index], says_invalid);
-      if (source.invalid && invalid)
-        dbc::put_raw_bits(*source.signal, *source.invalid, {frame.data.data(), frame.size});
+      if (source.invalid && invalid) dbc::put_raw_bits(*source.signal, *source.invalid, bytes);
     }
     if (one.of.protection) {
       const auto& counter = one.of.protection->settings().counter;
       const bool shared = counter && !counter->shared_as.empty();
       protection::Sender& sender = shared ? shared_[counter->shared_as] : own_[&message];
-      sender.protect(*one.of.protection, {frame.data.data(), frame.size});
+      sender.protect(*one.of.protection, bytes);
     }
-    sent.frames.push_back(frame);
+    add_frames(sent, one.of, std::move(bytes));
   }
   for (auto& [measurand, value] : values_[index])
     value = {.newest = value.newest, .rate = value.rate, .valid = value.valid};

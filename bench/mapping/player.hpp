@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/mapping/conversation.hpp"
+#include "bench/mapping/receiver.hpp"
 #include "bench/nodes/kind.hpp"
 #include "dbc/protection/protection.hpp"
 
@@ -47,6 +48,7 @@ class Player final : public nodes::Node {
     std::size_t play = 0;
     Sent sent;
     bool lost = false;
+    std::size_t next = 0;  // the frame that is put out next
   };
 
   // A play that a sample triggers.
@@ -61,13 +63,13 @@ class Player final : public nodes::Node {
     std::optional<double> pitch{}, yaw{};
   };
 
-  [[nodiscard]] bool passes(const Hear& hear, const Frame& frame);
   void sample(Played& played, std::vector<Triggered>& triggered);
   void take(const sensors::Kind& kind, const sensors::Sample& sample);
   void restart(const Play& play);
   void send_without_sensor(std::int64_t now_us);
   [[nodiscard]] std::int64_t next_without_sensor_us(std::size_t play) const;
   void insert(Due due);
+  void add_frames(Sent& sent, const Mapped& of, std::vector<std::uint8_t> bytes);
   Sent put_together(std::size_t index, const sensors::Sample& sample, std::int64_t due_us);
   double value_of(std::size_t play, const Source& source, std::int64_t stamp_us);
 
@@ -83,7 +85,8 @@ class Player final : public nodes::Node {
   Places places_;
   LosRate los_rate_;
   std::vector<double> heard_;  // signal values of one message
-  std::map<const Hear*, protection::Receiver> receivers_;
+  std::map<const Hear*, Receiver> receivers_;
+  std::map<const dbc::Message*, unsigned> sequences_;  // of fast packets
 };
 
 }  // namespace canhil::mapping

@@ -74,18 +74,24 @@ class Values {
   std::optional<Latest<Answers::Values>> latest_;
 };
 
-Spool<TrackPoint> reported(const ReferenceQuantity& of, const MappedTarget& target,
-                           const checks::Observations& seen, const Truth& truth) {
-  Spool<TrackPoint> points;
+Points reported(const ReferenceQuantity& of, const MappedTarget& target, const checks::Observations& seen,
+                const Truth& truth) {
+  Points all;
   const Answers& answers = seen.of<Answers>();
   const auto values = answers.values.find(told(target, What::value, of.quantity).signal);
-  if (values == answers.values.end()) return points;
+  if (values == answers.values.end()) return all;
   const Told sigma = told(target, What::sigma, of.quantity);
   Values sigmas(sigma, seen);
   double last_truth = 0;
   for (const TimedValue& one : values->second) {
-    const auto at = of.truth(truth, one.t_us);
-    if (!at || one.t_us > truth.duration_us) continue;
+    if (one.t_us > truth.duration_us) continue;
+    if (!of.has_truth()) {
+      all.points.push_back({.t_us = one.t_us, .value = std::nan(""), .estimate = one.value});
+      continue;
+    }
+    const auto at = truth_of(of, truth, one.t_us);
+    if (!at && truth.flight.is_known()) all.without_truth.push_back(one.t_us);
+    if (!at) continue;
     const double error = difference(of, one.value, *at);
     // The truth is unwrapped where it passes half a turn, the estimate to within half a turn of the truth.
     last_truth = of.turns ? quantities::unwrapped(*at, last_truth) : *at;
@@ -97,17 +103,17 @@ Spool<TrackPoint> reported(const ReferenceQuantity& of, const MappedTarget& targ
     if (point.sigma && sigma.signal->in_metres)
       *point.sigma /=
           of.turns ? metres_of_longitude(truth.flight, one.t_us) : metres_of_latitude(truth.flight, one.t_us);
-    points.push_back(point);
+    all.points.push_back(point);
   }
-  return points;
+  return all;
 }
 
-Spool<TrackPoint> derived(const ReferenceQuantity& of, const MappedTarget& target,
-                          const checks::Observations& seen, const Truth& truth) {
-  Spool<TrackPoint> points;
+Points derived(const ReferenceQuantity& of, const MappedTarget& target, const checks::Observations& seen,
+               const Truth& truth) {
+  Points all;
   std::vector<Spool<TrackPoint>> series;
   for (const quantities::Quantity* part : of.of)
-    series.push_back(points_of(*find_reference_quantity(part->name), target, seen, truth));
+    series.push_back(points_of(*find_reference_quantity(part->name), target, seen, truth).points);
   const std::size_t n = series.size();
   std::vector<Latest<Spool<TrackPoint>>> latest;
   std::vector<Values> correlations;  // of part i with part j at i * n + j
@@ -134,15 +140,15 @@ Spool<TrackPoint> derived(const ReferenceQuantity& of, const MappedTarget& targe
     auto point = of.derive({.parts = parts, .correlation = correlation, .flight = truth.flight});
     if (!point) continue;
     point->t_us = last.t_us;
-    points.push_back(*point);
+    all.points.push_back(*point);
   }
-  return points;
+  return all;
 }
 
 }  // namespace
 
-Spool<TrackPoint> points_of(const ReferenceQuantity& of, const MappedTarget& target,
-                            const checks::Observations& seen, const Truth& truth) {
+Points points_of(const ReferenceQuantity& of, const MappedTarget& target, const checks::Observations& seen,
+                 const Truth& truth) {
   return of.of.empty() ? reported(of, target, seen, truth) : derived(of, target, seen, truth);
 }
 

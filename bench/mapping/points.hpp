@@ -5,12 +5,17 @@
 
 namespace canhil::mapping {
 
-/// The points of a quantity, reported or derived, in order of time; none where there is no truth. A sigma or
+struct Points {
+  Spool<quantities::TrackPoint> points;
+  Spool<std::int64_t> without_truth;  ///< times of the answers at which the truth has no value
+};
+
+/// The points of a quantity, reported or derived, in order of time. A sigma or
 /// a correlation may come in another message than the value: the latest one at or before the value is used,
 /// unless its message has been silent since. A derived quantity has a point for each value of the last of its
 /// parts, with the latest values of the others.
-Spool<quantities::TrackPoint> points_of(const ReferenceQuantity& of, const MappedTarget& target,
-                                        const checks::Observations& seen, const estimators::Truth& truth);
+Points points_of(const ReferenceQuantity& of, const MappedTarget& target, const checks::Observations& seen,
+                 const estimators::Truth& truth);
 
 /// The message that carries a quantity which the target reports.
 const Hear& hear_of(const MappedTarget& target, const quantities::Quantity* quantity);

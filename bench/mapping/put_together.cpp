@@ -71,7 +71,12 @@ namespace {
 std::optional<std::string> list_quantities(MappedTarget& target) {
   const auto wrong = [&](const std::string& what) { return fmt::format("{}: {}", target.file, what); };
   auto& all = target.quantities;
+  std::set<std::string_view> flags;
   for (const Hear& hear : target.hears) {
+    for (const ReportedFlag& flag : hear.flags) {
+      if (!flags.insert(flag.name).second)
+        return wrong(fmt::format("the flag {} is reported twice, expected once", flag.name));
+    }
     for (const ReportedSignal& telling : hear.reported_signals) {
       if (telling.what != ReportedSignal::What::value) continue;
       if (std::ranges::find(all, telling.quantity->quantity) != all.end())
@@ -95,7 +100,10 @@ std::optional<std::string> list_quantities(MappedTarget& target) {
 // Presents a target as an estimator.
 void present(Mapping& mapping, MappedTarget& target) {
   for (const Hear& hear : target.hears) {
-    target.heard.push_back(hear.of.message->name);
+    target.plain_marks.push_back(hear.of.message->name);
+    for (const ReportedFlag& flag : hear.flags) {
+      if (!flag.is_sign) target.plain_marks.push_back(flag.name);
+    }
     if (hear.is_owed()) target.closing.push_back(hear.of.message->name);
   }
   if (mapping.guide == nullptr && guides(target)) mapping.guide = &target;
@@ -103,8 +111,10 @@ void present(Mapping& mapping, MappedTarget& target) {
   target.of_runs = target.quantities;
   if (mapping.guide == &target) target.of_runs.push_back(&quantities::los_rate_both);
   std::string columns;
-  for (const quantities::Quantity* one : target.quantities)
-    columns += (columns.empty() ? "" : " ") + std::string(one->name);
+  for (const quantities::Quantity* one : target.quantities) {
+    if (find_reference_quantity(one->name) != nullptr)
+      columns += (columns.empty() ? "" : " ") + std::string(one->name);
+  }
   target.layout = find_layout(columns);
   target.estimator.emplace(estimator_of(target));
   mapping.presented.push_back(&*target.estimator);

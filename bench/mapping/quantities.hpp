@@ -21,6 +21,19 @@ inline constexpr Quantity specific_force_y{
     .name = "specific_force.y", .meaning = "error of the specific force along y", .unit = mps2};
 inline constexpr Quantity specific_force_z{
     .name = "specific_force.z", .meaning = "error of the specific force along z", .unit = mps2};
+/// Velocity over ground in body axes, its horizontal magnitude, and the direction of the motion.
+inline constexpr Quantity velocity_x{
+    .name = "velocity.x", .meaning = "error of the velocity along the body's x axis", .unit = mps};
+inline constexpr Quantity velocity_y{
+    .name = "velocity.y", .meaning = "error of the velocity along the body's y axis", .unit = mps};
+inline constexpr Quantity velocity_z{
+    .name = "velocity.z", .meaning = "error of the velocity along the body's z axis", .unit = mps};
+inline constexpr Quantity ground_speed{
+    .name = "ground_speed", .meaning = "error of the horizontal speed over ground", .unit = mps};
+inline constexpr Quantity course{
+    .name = "course",
+    .meaning = "error of the course over ground, which has no truth below 0.1 m/s",
+    .unit = degrees};
 inline constexpr Quantity position_latitude{
     .name = "position.latitude", .meaning = "error of the geodetic latitude", .unit = mrad};
 inline constexpr Quantity position_longitude{

@@ -7,9 +7,13 @@
 
 #include "bench/mapping/join.hpp"
 #include "bench/mapping/mapping.hpp"
+#include "bench/mapping/own_quantities.hpp"
 #include "bench/mapping/playable.hpp"
 #include "bench/mapping/put_together.hpp"
+#include "bench/mapping/read_flags.hpp"
 #include "bench/mapping/read_protection.hpp"
+#include "bench/mapping/read_reported.hpp"
+#include "bench/mapping/signal_units.hpp"
 #include "bench/quantities/wire_unit.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/world/hash.hpp"
@@ -32,6 +36,12 @@ std::vector<std::string> names_of(const Range& range, Name name) {
   std::vector<std::string> names;
   for (const auto& one : range) names.emplace_back(std::invoke(name, one));
   return names;
+}
+
+// Whether the DBC says that a message has the format of CAN FD; the size alone does not say so.
+bool says_fd(const dbc::Message& message) {
+  const auto format = message.attributes.find("VFrameFormat");
+  return message.fd && format != message.attributes.end();
 }
 
 class Reader {
@@ -60,8 +70,10 @@ class Reader {
     mapping_->hash = world::fnv1a_64(fmt::format("{:x} {:x}", mapping_->hash, target_.database.hash));
     target_.name = root_.text("name", fs::path(target_.file).stem().stem().string());
     if (auto units = root_.optional_table("units")) read_units(*units);
+    if (auto own = root_.optional_table("quantities")) target_.own = read_own_quantities(*own);
     playable_ = Playable(root_.optional_table("sensors"));
     mapping_->sensors = playable_.named();
+    signs_ = root_.texts("signs");
     for (Section& section : tables("protection")) read_protection(section);
     for (Section& section : tables("play")) read_play(section);
     for (Section& section : root_.tables("hear")) read_hear(section);
@@ -108,36 +120,11 @@ class Reader {
     for (const std::string& key : section.keys()) {
       const auto [of, one] = signal_of(section, key, key);
       const std::string unit = section.text(key);
-      if (!unit.empty() && !quantities::wire_unit(unit))
+      if (one != nullptr && !unit.empty() && !units_.give(*one, unit))
         section.reject(key, fmt::format("'{}' is not a known unit", unit),
                        "one of: " + quantities::wire_units());
-      if (one != nullptr) units_[one] = unit;
     }
     section.finish();
-  }
-
-  // The SI unit of a signal's unit; empty: none, or unknown.
-  [[nodiscard]] std::string_view unit_of(const dbc::Signal& one) const {
-    const auto given = units_.find(&one);
-    const auto unit = quantities::wire_unit(given == units_.end() ? one.unit : given->second);
-    return unit ? unit->si : "";
-  }
-
-  // The factor from the signal's unit to SI; `si`: the SI unit of the quantity.
-  double factor(Section& section, std::string_view key, const dbc::Message& of, const dbc::Signal& one,
-                std::string_view si, std::string_view quantity) {
-    const auto given = units_.find(&one);
-    const std::string& text = given == units_.end() ? one.unit : given->second;
-    const auto unit = quantities::wire_unit(text);
-    if (!unit && !si.empty())
-      section.reject(
-          key,
-          text.empty() ? "has no unit in the DBC" : fmt::format("has the unit '{}', which is unknown", text),
-          fmt::format("[units] with \"{}.{}\" beside it", of.name, one.name));
-    if (unit && unit->si != si)
-      section.reject(key, fmt::format("is in '{}', {} is in {}", text, quantity, si.empty() ? "no unit" : si),
-                     "a signal of that unit, or [units] that say so");
-    return unit ? unit->factor : 1;
   }
 
   void read_protection(Section& section) {
@@ -162,22 +149,29 @@ class Reader {
                      "each message once, or each page of a multiplexed message that the bench sends");
     // dbc::parse_leniently() accepts any size, because DBC files also describe what transport protocols
     // carry.
-    if (message.size > 64 || !size_has_dlc(static_cast<std::uint8_t>(message.size), true))
+    const bool fast_packet =
+        transport::is_fast_packet(message.id, message.extended, message.size) && !says_fd(message);
+    if (!fast_packet && (message.size > 64 || !size_has_dlc(static_cast<std::uint8_t>(message.size), true)))
       section.reject(
           key, fmt::format("{} has {} bytes, which no frame has", message.name, message.size),
-          "a message of one frame: a mapping knows no NMEA 2000 fast packet, ISO-TP or J1939 transport");
+          "a message of one frame, or a fast packet of NMEA 2000: a mapping knows no ISO-TP and no "
+          "J1939 transport protocol");
     MessageInfo info{.name = message.name,
                      .id = message.id,
                      .extended = message.extended,
-                     .fd = message.fd,
+                     .fd = message.fd && !fast_packet,
                      .size = static_cast<std::uint8_t>(message.size),
                      .cycle_time_us = message.cycle_time_us,
                      .sender = of_target ? target_node : bench_node};
     Mapped mapped(message);
+    mapped.fast_packet = fast_packet;
     mapped.index = static_cast<std::size_t>(used - all.begin());
     if (used == all.end()) all.push_back(info);
     if (const auto own = protections_.find(&message); own != protections_.end())
       mapped.protection = own->second;
+    if (mapped.protection && fast_packet)
+      section.reject(key, fmt::format("{} is a fast packet and has a [[protection]]", message.name),
+                     "no counter and no checksum: NMEA 2000 has none");
     return mapped;
   }
 
@@ -241,8 +235,9 @@ class Reader {
     const double sign = word.starts_with('-') ? -1 : 1;
     if (sign < 0) word.erase(0, 1);
     if (word == time_word) {
-      own->sources.push_back(
-          {.signal = one, .time = true, .factor = 1 / factor(section, key, *of, *one, "s", time_word)});
+      own->sources.push_back({.signal = one,
+                              .time = true,
+                              .factor = 1 / units_.factor(section, key, *of, *one, "s", time_word)});
       return;
     }
     const sensors::Measurand* measurand = playable_.find(word);
@@ -256,14 +251,7 @@ class Reader {
     own->sources.push_back(
         {.signal = one,
          .measurand = measurand,
-         .factor = sign / factor(section, key, *of, *one, measurand->si, measurand->name)});
-  }
-
-  static void expect_bits(Section& section, const std::string& key, const dbc::Signal& signal,
-                          std::uint64_t raw) {
-    if (signal.length < 64 && raw >> signal.length != 0)
-      section.reject(key, fmt::format("{} does not fit into its {} bits", raw, signal.length),
-                     "the bits as a whole number without a sign");
+         .factor = sign / units_.factor(section, key, *of, *one, measurand->si, measurand->name)});
   }
 
   static void read_invalid(Section& section, const std::string& key, Play& play) {
@@ -303,11 +291,10 @@ class Reader {
       echo->finish();
     }
     std::optional<Section> invalid = section.optional_table("invalid");
-    if (auto signals = section.optional_table("signals")) {
-      for (const std::string& key : signals->keys()) read_telling(*signals, key, invalid, hear);
-      signals->finish();
-    }
+    if (auto signals = section.optional_table("signals"))
+      read_reported(*signals, invalid, {.own = target_.own, .units = units_}, hear);
     if (invalid) invalid->finish();
+    if (auto flags = section.optional_table("flags")) hear.flags = read_flags(*flags, *of, signs_);
     section.finish();
     mapping_->hears.push_back(std::move(hear));
   }
@@ -326,62 +313,13 @@ class Reader {
                  .original = original};
   }
 
-  // The quantity with this name that the target may report. Null: there is none, and the section has an
-  // error.
-  static const ReferenceQuantity* reported(Section& section, const std::string& key, std::string_view word) {
-    const ReferenceQuantity* quantity = find_reference_quantity(word);
-    if (quantity != nullptr && quantity->of.empty()) return quantity;
-    std::vector<std::string_view> names;
-    for (const ReferenceQuantity& one : reference_quantities()) {
-      if (one.of.empty()) names.push_back(one.quantity->name);
-    }
-    section.reject(key, fmt::format("'{}' is not a quantity with a truth", word),
-                   fmt::format("one of: {}; or one with '.sigma'; or 'correlation(ONE, OTHER)'",
-                               fmt::join(names, ", ")));
-    return nullptr;
-  }
-
-  void read_telling(Section& section, const std::string& key, std::optional<Section>& invalid, Hear& hear) {
-    using What = ReportedSignal::What;
-    constexpr std::string_view sigma = ".sigma", correlation = "correlation(";
-    const dbc::Signal* one = signal(section, key, hear.of.message, key);
-    std::string word = section.text(key);
-    if (one == nullptr || word.empty()) return;
-    ReportedSignal telling{.signal = one};
-    const double sign = word.starts_with('-') ? -1 : 1;
-    if (sign < 0) word.erase(0, 1);
-    if (word.ends_with(sigma)) {
-      telling.what = What::sigma;
-      word.erase(word.size() - sigma.size());
-    }
-    const std::size_t comma = word.find(", ");
-    if (word.starts_with(correlation) && word.ends_with(')') && comma != std::string::npos) {
-      telling.what = What::correlation;
-      const std::size_t other = comma + 2;
-      telling.other = reported(section, key, word.substr(other, word.size() - 1 - other));
-      word = word.substr(correlation.size(), comma - correlation.size());
-    }
-    telling.quantity = reported(section, key, word);
-    if (section.error()) return;
-    std::string_view si = telling.what == What::correlation ? "" : telling.quantity->si;
-    if (telling.what == What::sigma && is_on_the_ground(*telling.quantity) && unit_of(*one) == "m") {
-      telling.in_metres = true;
-      si = "m";
-    }
-    telling.factor = sign * factor(section, key, *hear.of.message, *one, si, word);
-    if (invalid && invalid->has(key)) {
-      telling.invalid = static_cast<std::uint64_t>(invalid->integer(key, 0));
-      expect_bits(*invalid, key, *one, *telling.invalid);
-    }
-    hear.reported_signals.push_back(telling);
-  }
-
   std::shared_ptr<Mapping> mapping_;
   MappedTarget& target_;
   Section root_;
   const ReadText& read_text_;
-  std::map<const dbc::Signal*, std::string> units_;
+  SignalUnits units_;
   Playable playable_;
+  std::vector<std::string> signs_;  // names of flags
   std::map<const dbc::Message*, protection::Protection> protections_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "bench/mapping/mapping.hpp"
@@ -9,17 +10,27 @@
 
 namespace canhil::mapping {
 
-/// Calls give(signal, value, invalid) for each reported signal that a frame contains, with its value in SI.
-/// NaN: the frame says that it has no value, or the value is NaN; `invalid` tells the two apart. The frame
-/// must have the size of the message. `values`: room that the caller keeps from one frame to the next.
+/// The attitude of the quaternion in a message of which all signals have been decoded; none: it is invalid,
+/// or its magnitude is below 1/2. A quaternion is normalised, because its parts are rounded.
+std::optional<world::Euler> angles_in(const Hear& hear, std::span<const std::uint8_t> data,
+                                      std::span<const double> values);
+
+/// Calls give(signal, value, invalid) for each reported signal that a message contains, with its value in SI.
+/// NaN: the message says that it has no value, or the value is NaN; `invalid` tells the two apart. `data`:
+/// the bytes of the whole message. `values`: room that the caller keeps from one frame to the next.
 template <class Give>
-void read(const Hear& hear, const Frame& frame, std::vector<double>& values, Give give) {
+void read(const Hear& hear, std::span<const std::uint8_t> data, std::vector<double>& values, Give give) {
   values.resize(hear.of.plan.signals());
-  static_cast<void>(hear.of.plan.decode(frame.payload(), values));  // the sizes match
+  static_cast<void>(hear.of.plan.decode(data, values));  // the sizes match
+  const std::optional<world::Euler> angles = hear.quaternion ? angles_in(hear, data, values) : std::nullopt;
   for (const ReportedSignal& one : hear.reported_signals) {
+    if (one.angle != nullptr) {
+      give(one, angles ? (*angles).*one.angle : std::nan(""), !angles);
+      continue;
+    }
     const std::size_t number = hear.of.number(*one.signal);
-    if (!hear.of.plan.is_present(number, frame.payload())) continue;
-    const bool invalid = one.invalid && dbc::raw_bits(*one.signal, frame.payload()) == *one.invalid;
+    if (!hear.of.plan.is_present(number, data)) continue;
+    const bool invalid = one.invalid && dbc::raw_bits(*one.signal, data) == *one.invalid;
     give(one, invalid ? std::nan("") : values[number] * one.factor, invalid);
   }
 }

@@ -15,7 +15,8 @@ namespace canhil::nodes {
 /// The frames of one transmission: at most one sample group. Remembers which values the signals clipped.
 class Transmission : public Outbox<8> {
  public:
-  using Outbox<8>::Outbox;
+  static constexpr std::size_t most = 8;  ///< frames
+  using Outbox<most>::Outbox;
 
   /// Packs, protects and appends one message. Values of a message that is marked as invalid may be clipped.
   template <class Message>

@@ -11,6 +11,7 @@
 
 #include "bench/nodes/bound_sensor.hpp"
 #include "bench/nodes/fits.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/sensors/registry.hpp"
 #include "messages/canhil.hpp"
 
@@ -51,6 +52,7 @@ const std::vector<Kind>& kinds() {
                      .period_us = is_sent ? closes->cycle_time_us : sensor->period_us,
                      .sensor = sensor,
                      .samples = sensor->samples,
+                     .only_named = sensor->only_named,
                      .read = sensor->read,
                      .aid = sensor->aid},
            .signals = is_sent ? signals_of(*closes, sensor->outputs) : signals_in_si(sensor->outputs),
@@ -84,13 +86,17 @@ const Kind& bound(const sensors::Kind& sensor) {
   Kind& own = named.emplace_back(bound(*sensor.of));
   own.table.key = sensor.key;
   own.table.sensor = &sensor;
+  if (sensor.only_named) own.signals = signals_in_si(sensor.outputs);
   return own;
 }
 
 const Kind& kind_of(const NodeTable& table) { return bound(*table.sensor); }
 
-const NodeTable& named(const NodeTable& kind, std::string_view name) {
-  return bound(sensors::named(*kind.sensor, name)).table;
+const NodeTable* named(const NodeTable& kind, std::string_view name, const scenario::Binding& binding) {
+  const auto known = std::ranges::find_if(
+      binding.sensors, [&](const sensors::Kind* one) { return one->key == name && one->of == kind.sensor; });
+  if (known != binding.sensors.end()) return &bound(**known).table;
+  return kind.only_named ? nullptr : &bound(sensors::named(*kind.sensor, name)).table;
 }
 
 std::vector<const scenario::NodeTable*> tables() {

@@ -18,8 +18,9 @@ std::span<const Kind* const> all();
 const Kind& bound(const sensors::Kind& sensor);
 /// The kind that has this table.
 const Kind& kind_of(const NodeTable& table);
-/// The table of a sensor with a name of its own. `kind`: the table of its kind.
-const NodeTable& named(const NodeTable& kind, std::string_view name);
+/// The table of a sensor with a name of its own. `kind`: the table of its kind. Null: the binding declares no
+/// sensor of this name, and the kind needs it.
+const NodeTable* named(const NodeTable& kind, std::string_view name, const scenario::Binding& binding);
 
 /// The tables of all kinds, for scenario::DbcVocabulary.
 std::vector<const scenario::NodeTable*> tables();

@@ -31,12 +31,13 @@ struct Track {
 
   const Quantity* quantity = nullptr;
   Kind kind = Kind::error;
-  Unit unit{};                   ///< unit in pictures
-  std::string title{};           ///< title of a picture of the values: "attitude error about north"
-  std::string estimate_title{};  ///< title of a picture of estimate and truth; empty: no picture
-  Unit estimate_unit{};          ///< unit in the picture of estimate and truth
-  bool only_if_judged = false;   ///< drawn only if a check has a limit for this quantity
-  Spool<TrackPoint> points{};    ///< in order of time
+  Unit unit{};                          ///< unit in pictures
+  std::string title{};                  ///< title of a picture of the values: "attitude error about north"
+  std::string estimate_title{};         ///< title of a picture of estimate and truth; empty: no picture
+  Unit estimate_unit{};                 ///< unit in the picture of estimate and truth
+  bool only_if_judged = false;          ///< drawn only if a check has a limit for this quantity
+  Spool<TrackPoint> points{};           ///< in order of time
+  Spool<std::int64_t> without_truth{};  ///< times of answers at which the truth has no value, ascending
   /// Looks for missing answers that were due between two times [us], both included. Returns a description of
   /// the place where they are missing, or an empty string if none is missing. If this function is not set,
   /// any wait longer than longest_wait_us counts as a gap.

@@ -9,6 +9,7 @@
 #include "bench/campaign/metric.hpp"
 #include "bench/drive/contract.hpp"
 #include "bench/drive/target_parameters.hpp"
+#include "bench/nodes/registry.hpp"
 #include "bench/scenario/binding.hpp"
 #include "bench/scenario/engagement.hpp"
 #include "bench/scenario/faults.hpp"
@@ -18,6 +19,7 @@
 #include "bench/scenario/section.hpp"
 #include "bench/scenario/sensor_name.hpp"
 #include "bench/scenario/truth.hpp"
+#include "bench/sensors/registry.hpp"
 
 namespace canhil::reference {
 namespace {
@@ -147,11 +149,13 @@ Part truth_part() {
 
 Part nodes_part(const scenario::DbcVocabulary& contract) {
   Part part{.title = "Nodes", .about = "Each table puts a node on the bus.", .tables = {}};
-  for (const scenario::NodeTable* node : contract.nodes)
-    part.tables.push_back(
-        {.name = fmt::format("[{}]", node->key), .about = "", .keys = keys_of([&](Section& section) {
-                                                                std::ignore = node->read(*node, section);
-                                                              })});
+  const auto keys = [](const scenario::NodeTable& node) {
+    return keys_of([&](Section& section) { std::ignore = node.read(node, section); });
+  };
+  for (const scenario::NodeTable* node : contract.nodes) {
+    if (!node->only_named)
+      part.tables.push_back({.name = fmt::format("[{}]", node->key), .about = "", .keys = keys(*node)});
+  }
   part.tables.push_back(
       {.name = "Any node that sends recorded samples",
        .about =
@@ -168,6 +172,14 @@ Part nodes_part(const scenario::DbcVocabulary& contract) {
            "other keys are those of the table of its kind.",
        .keys = keys_of(
            [&](Section& section) { std::ignore = scenario::read_sensor_name(section, contract, {}); })});
+  // Any sensor that a mapping could declare.
+  const auto all = keys(nodes::bound(sensors::declared("sensor", {{.name = "VALUE", .si = "rad"}})).table);
+  part.tables.push_back({.name = "[[sensor]] of kind `generic`",
+                         .about = "Measures what expressions compute from the truth (mapping.md).",
+                         .keys = in_table(all, "")});
+  part.tables.push_back({.name = "[sensor.values.VALUE]",
+                         .about = "A value that the mapping declares, in its SI unit.",
+                         .keys = in_table(all, "values.VALUE")});
   return part;
 }
 

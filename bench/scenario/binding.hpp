@@ -22,6 +22,10 @@ namespace canhil::protection {
 class Protection;
 }
 
+namespace canhil::sensors {
+struct Kind;
+}
+
 namespace canhil::world {
 class FlightRecord;
 }
@@ -68,6 +72,7 @@ struct Binding {
   std::span<const MessageInfo> messages{};
   /// The estimators that a target may run. Each mapped target is presented as one.
   std::span<const estimators::Estimator* const> estimators{};
+  std::vector<const sensors::Kind*> sensors{};  ///< those with names of their own that it declares
   /// The files of which it is made, as named by the user: one for each target. None: built into the program.
   std::vector<Files> files{};
   std::uint64_t hash = 0;      ///< hash of the files; 0: built in

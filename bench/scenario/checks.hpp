@@ -56,7 +56,7 @@ struct CheckContext {
   std::span<const std::string> estimators;  ///< the estimators that run
   std::span<const FaultWindow> faults{};    ///< the windows end with the run at the latest
   std::int64_t latency_us = 0;              ///< largest latency of a node, from validity to transmission
-  EachEstimator* each = nullptr;            ///< null: the key `estimator` is needed
+  EachEstimator* each = nullptr;            ///< null: only the first of the estimators is read
 };
 
 /// A rule and its subject. The subject is empty for a kind that a scenario may have only once.

@@ -42,8 +42,9 @@ struct DbcVocabulary {
   std::shared_ptr<const Binding> binding{};
   /// Reads the table of any node if the table has the key `recorded`; null: recordings are not allowed.
   NodeSettings (*read_recorded)(const NodeTable& table, Section& section, std::int64_t duration_us) = nullptr;
-  /// The table of a sensor with a name of its own; `kind`: the table of its kind.
-  const NodeTable& (*named)(const NodeTable& kind, std::string_view name) = nullptr;
+  /// The table of a sensor with a name of its own; `kind`: the table of its kind. Null: the binding declares
+  /// no sensor of this name, and the kind needs it.
+  const NodeTable* (*named)(const NodeTable& kind, std::string_view name, const Binding& binding) = nullptr;
 };
 
 /// The facts of an estimator; an unknown estimator is assumed to navigate.

@@ -42,6 +42,7 @@ struct NodeTable {
   std::int64_t period_us = 0;             ///< unless the table has the key `period_ms`
   const sensors::Kind* sensor = nullptr;  ///< what measures its samples
   TruthOf samples = TruthOf::navigation;
+  bool only_named = false;  ///< it is no table, but a [[sensor]] that a mapping declares
   /// Reads the table; unknown keys are detected afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
   std::optional<Aid> aid{};

@@ -11,6 +11,7 @@
 #include "bench/scenario/sensor_name.hpp"
 #include "bench/scenario/truth.hpp"
 #include "bench/world/hash.hpp"
+#include "bench/world/truth_values.hpp"
 #include "dbc/files/text_file.hpp"
 
 namespace canhil::scenario {
@@ -56,6 +57,10 @@ void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract
       (truth == TruthOf::glide && scenario.glide) || (truth == TruthOf::engagement && scenario.engagement);
   for (const NodeTable* node : contract.nodes) {
     if (node->samples != truth) continue;
+    if (node->only_named) {
+      if (root.has(node->key)) root.reject(node->key, "is no table", "a [[sensor]] of this kind");
+      continue;
+    }
     if (!contract.binding->any_sensor && contract.binding->closing_of(*node) == nullptr) {
       if (root.has(node->key))
         root.reject(node->key, "is given, but canhil's DBC has no message for its samples",
@@ -233,6 +238,14 @@ std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) 
 }
 
 }  // namespace
+
+std::string why_no_truth(const Scenario& scenario, world::TruthIn truth) {
+  using enum world::TruthIn;
+  if (truth == engagement) return why_no_truth(scenario, TruthOf::engagement);
+  // A glide replaces the flight of the carrier.
+  const bool glides = truth == glide || (truth == motion && scenario.glide);
+  return why_no_truth(scenario, glides ? TruthOf::glide : TruthOf::navigation);
+}
 
 // If a node of a glide or an engagement is recorded, the truth that the bench simulates is unrelated to the
 // recording.

@@ -29,6 +29,10 @@
 #include "bench/world/navigation_errors.hpp"
 #include "dbc/wire/result.hpp"
 
+namespace canhil::world {
+enum class TruthIn : std::uint8_t;
+}
+
 namespace canhil::scenario {
 
 /// An input file of a scenario other than the scenario file.
@@ -88,6 +92,7 @@ inline constexpr std::size_t most_toml_bytes = std::size_t{1} << 20U;
 
 /// Why the scenario does not know a truth; empty: the truth is known.
 std::string why_no_truth(const Scenario& scenario, TruthOf truth);
+std::string why_no_truth(const Scenario& scenario, world::TruthIn truth);
 /// Why there is no truth to compare an estimator's answers with; empty: there is a truth, or the scenario has
 /// none of the estimator's nodes.
 std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts);

@@ -324,6 +324,10 @@ bool Section::holds_text(std::string_view key) const {
   return has(key) && state_->table->get(key)->is_string();
 }
 
+bool Section::holds_table(std::string_view key) const {
+  return has(key) && state_->table->get(key)->is_table();
+}
+
 std::vector<Setting> Section::settings() {
   std::vector<Setting> all;
   if (state_->table != nullptr) add_settings(*state_->table, "", all);

@@ -89,6 +89,7 @@ class Section {
   /// The keys of the table, in the order of their lines in the file.
   [[nodiscard]] std::vector<std::string> keys() const;
   [[nodiscard]] bool holds_text(std::string_view key) const;
+  [[nodiscard]] bool holds_table(std::string_view key) const;
   /// Returns all values of this table, whatever their keys are. The caller uses them as settings for another
   /// file. Nested tables become keys with dots.
   std::vector<Setting> settings();

@@ -8,12 +8,15 @@
 
 namespace canhil::scenario {
 
-std::string why_no_name(std::string_view name, std::span<const std::string> kinds) {
-  if (std::ranges::find(kinds, name) != kinds.end()) return "is a kind";
-  const bool is_name = !name.empty() && std::ranges::all_of(name, [](char c) {
+bool is_name(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
   });
-  return is_name ? "" : "is no name";
+}
+
+std::string why_no_name(std::string_view name, std::span<const std::string> kinds) {
+  if (std::ranges::find(kinds, name) != kinds.end()) return "is a kind";
+  return is_name(name) ? "" : "is no name";
 }
 
 const NodeTable* read_sensor_name(Section& section, const DbcVocabulary& contract,
@@ -29,7 +32,12 @@ const NodeTable* read_sensor_name(Section& section, const DbcVocabulary& contrac
     why = "is the name of another sensor";
   if (!why.empty()) section.reject("name", fmt::format("'{}' {}", name, why), own_name);
   if (section.error()) return nullptr;
-  return &contract.named(**std::ranges::find(contract.nodes, kind, &NodeTable::key), name);
+  const NodeTable* table =
+      contract.named(**std::ranges::find(contract.nodes, kind, &NodeTable::key), name, *contract.binding);
+  if (table == nullptr)
+    section.reject("name", fmt::format("'{}' is no {} sensor of the mapping", name, kind),
+                   fmt::format("[sensors] there with {} = {{ VALUE = \"UNIT\" }}", name));
+  return table;
 }
 
 }  // namespace canhil::scenario

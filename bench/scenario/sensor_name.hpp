@@ -10,6 +10,8 @@
 
 namespace canhil::scenario {
 
+/// Whether a text is a name of the user's own: of a-z, 0-9 and _.
+bool is_name(std::string_view text);
 /// What is expected of the name of a sensor.
 inline constexpr std::string_view own_name = "a name of its own of a-z, 0-9 and _, such as imu_b";
 /// Why a sensor may not have this name; empty: it may.

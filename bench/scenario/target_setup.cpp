@@ -121,12 +121,6 @@ TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
 
 }  // namespace
 
-std::string to_text(const std::vector<Binding::Files>& files) {
-  std::string text;
-  for (const auto& [mapping, dbc] : files) text += (text.empty() ? "" : ", ") + mapping;
-  return text;
-}
-
 std::vector<TargetSetup> read_targets(Section& root, const DbcVocabulary& contract) {
   std::vector<TargetSetup> targets;
   for (Section& section : root.table_or_tables("target")) {

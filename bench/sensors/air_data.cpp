@@ -14,7 +14,6 @@ using world::Vector3;
 
 // ISO 2533: the air cools by `lapse` up to the tropopause; above, its temperature is constant.
 constexpr double sea_level_temperature = 288.15;  // [K]
-constexpr double sea_level_pressure = 101'325;    // [Pa]
 constexpr double lapse = 6.5e-3;                  // [K/m]
 constexpr double tropopause = 11'000;             // [m]
 constexpr double gas_constant = 287.05287;        // of dry air [J/(kg K)]
@@ -22,9 +21,7 @@ constexpr double exponent = world::units::standard_gravity / (gas_constant * lap
 constexpr double tropopause_temperature = sea_level_temperature - lapse * tropopause;
 constexpr double scale_height = gas_constant * tropopause_temperature / world::units::standard_gravity;
 
-double tropopause_pressure() {
-  return sea_level_pressure * std::pow(tropopause_temperature / sea_level_temperature, exponent);
-}
+double tropopause_pressure() { return standard_air(tropopause).pressure; }
 
 constexpr std::array<Output, 6> values{{{"static_pressure", "Pa"},
                                         {"temperature", "K"},
@@ -59,12 +56,11 @@ NodeSettings read(const NodeTable& table, Section& section) {
 
 // The height above the ellipsoid is taken for the geopotential height: the difference, the undulation of the
 // geoid and 0.03 % of the height, is an error of any device that is calibrated with such data.
-class AirData final : public Sampler<AirDataSettings> {
+class AirData final : public LossySampler<AirDataSettings> {
  public:
   AirData(const NodeSettings& node, const Run& run)
-      : Sampler(node, run),
+      : LossySampler(node, run, "air_data.loss"),
         stream_(run.stream("air_data")),
-        losses_(run.stream("air_data.loss")),
         pressure_bias_(draw(config_.pressure_bias, stream_)),
         scale_(1 + draw(config_.speed_scale, stream_)),
         angle_bias_(draw(config_.angle_bias, stream_)) {}
@@ -72,10 +68,10 @@ class AirData final : public Sampler<AirDataSettings> {
  private:
   // The flow in body axes is u = C_nb (v_eb_n - wind): air speed |u|, angle of attack atan(u_z / u_x),
   // sideslip asin(u_y / |u|) (Stevens, Lewis: Aircraft Control and Simulation, eq. (2.3-6)).
-  bool take(std::int64_t t_us, Sample& sample) override {
+  void fill(std::int64_t t_us, Sample& sample) override {
     const world::Truth truth = run_.flight.at(t_us);
     const StandardAir air = standard_air(truth.position.height);
-    const double pressure = air.pressure * config_.sea_level_pressure / sea_level_pressure + pressure_bias_ +
+    const double pressure = air.pressure * config_.sea_level_pressure / standard_pressure + pressure_bias_ +
                             config_.pressure_noise * stream_.normal();
     const Vector3 u = truth.C_bn.transpose() * (truth.v_eb_n - config_.wind);
     const double speed = u.norm(), sideslip = speed > 0 ? std::asin(u.y() / speed) : 0;
@@ -85,11 +81,9 @@ class AirData final : public Sampler<AirDataSettings> {
                      scale_ * speed + config_.speed_noise * stream_.normal(),
                      std::atan2(u.z(), u.x()) + angle_bias_ + config_.angle_noise * stream_.normal(),
                      sideslip + angle_bias_ + config_.angle_noise * stream_.normal()};
-    return !is_lost(config_.loss, t_us, losses_);
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // a separate stream: losses do not change measurements
   double pressure_bias_, scale_, angle_bias_;
 };
 
@@ -99,13 +93,13 @@ StandardAir standard_air(double height) {
   if (height > tropopause)
     return {tropopause_temperature, tropopause_pressure() * std::exp(-(height - tropopause) / scale_height)};
   const double temperature = sea_level_temperature - lapse * height;
-  return {temperature, sea_level_pressure * std::pow(temperature / sea_level_temperature, exponent)};
+  return {temperature, standard_pressure * std::pow(temperature / sea_level_temperature, exponent)};
 }
 
 double pressure_altitude(double pressure) {
   if (pressure < tropopause_pressure())
     return tropopause - scale_height * std::log(pressure / tropopause_pressure());
-  return sea_level_temperature / lapse * (1 - std::pow(pressure / sea_level_pressure, 1 / exponent));
+  return sea_level_temperature / lapse * (1 - std::pow(pressure / standard_pressure, 1 / exponent));
 }
 
 constinit const Kind air_data{.key = "air_data",

@@ -8,18 +8,21 @@
 
 namespace canhil::sensors {
 
+/// The pressure of the standard atmosphere at sea level [Pa].
+inline constexpr double standard_pressure = 101'325;
+
 /// The table [air_data].
 struct AirDataSettings {
   scenario::Schedule schedule{};
-  double sea_level_pressure = 101'325;           ///< [Pa]
-  double temperature_offset = 0;                 ///< from the standard atmosphere [K]
-  world::Vector3 wind = world::Vector3::Zero();  ///< of the air relative to the ground, NED [m/s]
-  world::RandomValue pressure_bias{};            ///< [Pa]
-  double pressure_noise = 0;                     ///< 1-sigma of a sample [Pa]
-  world::RandomValue speed_scale{};              ///< scale factor error of the air speed
-  double speed_noise = 0;                        ///< 1-sigma of a sample [m/s]
-  world::RandomValue angle_bias{};               ///< of both angles of the flow [rad]
-  double angle_noise = 0;                        ///< 1-sigma of a sample [rad]
+  double sea_level_pressure = standard_pressure;  ///< [Pa]
+  double temperature_offset = 0;                  ///< from the standard atmosphere [K]
+  world::Vector3 wind = world::Vector3::Zero();   ///< of the air relative to the ground, NED [m/s]
+  world::RandomValue pressure_bias{};             ///< [Pa]
+  double pressure_noise = 0;                      ///< 1-sigma of a sample [Pa]
+  world::RandomValue speed_scale{};               ///< scale factor error of the air speed
+  double speed_noise = 0;                         ///< 1-sigma of a sample [m/s]
+  world::RandomValue angle_bias{};                ///< of both angles of the flow [rad]
+  double angle_noise = 0;                         ///< 1-sigma of a sample [rad]
   SampleLoss loss{};
 };
 

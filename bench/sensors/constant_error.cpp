@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 namespace canhil::sensors {
@@ -9,9 +10,9 @@ namespace {
 
 using scenario::Limits;
 
-// "bias_m" -> "bias_sigma_m".
+// "bias_m" -> "bias_sigma_m", "bias" -> "bias_sigma".
 std::string sigma_of(std::string_view key) {
-  const std::size_t unit = key.rfind('_');
+  const std::size_t unit = std::min(key.rfind('_'), key.size());
   return fmt::format("{}_sigma{}", key.substr(0, unit), key.substr(unit));
 }
 std::string constant_of(std::string_view of) { return fmt::format("Constant error of {}.", of); }

@@ -27,25 +27,22 @@ NodeSettings read(const NodeTable& table, Section& section) {
   return {table, node};
 }
 
-class DepthGauge final : public Sampler<DepthGaugeSettings> {
+class DepthGauge final : public LossySampler<DepthGaugeSettings> {
  public:
   DepthGauge(const NodeSettings& node, const Run& run)
-      : Sampler(node, run),
+      : LossySampler(node, run, "depth_gauge.loss"),
         stream_(run.stream("depth_gauge")),
-        losses_(run.stream("depth_gauge.loss")),
         scale_(1 + draw(config_.scale_factor, stream_)),
         bias_(draw(config_.bias, stream_)) {}
 
  private:
-  bool take(std::int64_t t_us, Sample& sample) override {
+  void fill(std::int64_t t_us, Sample& sample) override {
     const world::Truth truth = run_.flight.at(t_us);
     const double gauge = config_.surface_height - truth.position.height + config_.below * truth.C_bn(2, 2);
     sample.values = {scale_ * gauge + bias_ + config_.noise * stream_.normal()};
-    return !is_lost(config_.loss, t_us, losses_);
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // a separate stream: losses do not change measurements
   double scale_, bias_;
 };
 

@@ -28,17 +28,16 @@ NodeSettings read(const NodeTable& table, Section& section) {
   return {table, node};
 }
 
-class Dvl final : public Sampler<DvlSettings> {
+class Dvl final : public LossySampler<DvlSettings> {
  public:
   Dvl(const NodeSettings& node, const Run& run)
-      : Sampler(node, run),
+      : LossySampler(node, run, "dvl.loss"),
         stream_(run.stream("dvl")),
-        losses_(run.stream("dvl.loss")),
         scale_(1 + draw(config_.scale_factor, stream_)),
         bias_(draw(config_.bias, stream_)) {}
 
  private:
-  bool take(std::int64_t t_us, Sample& sample) override {
+  void fill(std::int64_t t_us, Sample& sample) override {
     const world::Truth truth = run_.flight.at(t_us);
     Vector3 velocity = scale_ * (truth.C_bn.transpose() * truth.v_eb_n) + bias_ +
                        config_.noise.cwiseProduct(stream_.normal3());
@@ -46,11 +45,9 @@ class Dvl final : public Sampler<DvlSettings> {
     if (invalid) velocity.setZero();
     sample.values = {velocity.x(), velocity.y(), velocity.z()};
     sample.invalid = invalid ? 1 : 0;
-    return !is_lost(config_.loss, t_us, losses_);
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // a separate stream: losses do not change measurements
   double scale_;
   Vector3 bias_;
 };

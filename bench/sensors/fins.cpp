@@ -19,19 +19,16 @@ NodeSettings read(const NodeTable& table, Section& section) {
   return {table, node};
 }
 
-class Fins final : public Sampler<FinsSettings> {
+class Fins final : public LossySampler<FinsSettings> {
  public:
-  Fins(const NodeSettings& node, const Run& run) : Sampler(node, run), losses_(run.stream("fins.loss")) {}
+  Fins(const NodeSettings& node, const Run& run) : LossySampler(node, run, "fins.loss") {}
 
  private:
-  bool take(std::int64_t t_us, Sample& sample) override {
+  void fill(std::int64_t t_us, Sample& sample) override {
     const world::glide::Fins& at = run_.glide->at(t_us).fins;
     sample.stamp_us = t_us + config_.stamp_error_us;
     sample.values = {at.x(), at.y(), at.z()};
-    return !is_lost(config_.loss, t_us, losses_);
   }
-
-  world::Stream losses_;
 };
 
 }  // namespace

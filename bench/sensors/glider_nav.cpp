@@ -42,19 +42,18 @@ NodeSettings read(const NodeTable& table, Section& section) {
   return {table, node};
 }
 
-class GliderNav final : public Sampler<GliderNavSettings> {
+class GliderNav final : public LossySampler<GliderNavSettings> {
  public:
   GliderNav(const NodeSettings& node, const Run& run)
-      : Sampler(node, run),
+      : LossySampler(node, run, "glider_nav.loss"),
         stream_(run.stream("glider_nav")),
-        losses_(run.stream("glider_nav.loss")),
         period_s_(1e-6 * static_cast<double>(node.period_us())),
         velocity_(config_.correlated_fraction, config_.correlation_time, stream_),
         rates_(config_.correlated_fraction, config_.correlation_time, stream_),
         attitude_(config_.correlated_fraction, config_.correlation_time, stream_) {}
 
  private:
-  bool take(std::int64_t t_us, Sample& sample) override {
+  void fill(std::int64_t t_us, Sample& sample) override {
     const world::GlideTruth& truth = run_.glide->at(t_us);
     const Vector3 velocity = truth.v_eb_n + config_.velocity_noise * velocity_.next(period_s_, stream_);
     const Vector3 rates = truth.omega_nb_b + config_.rate_noise * rates_.next(period_s_, stream_);
@@ -70,11 +69,9 @@ class GliderNav final : public Sampler<GliderNavSettings> {
                      rates.y(),
                      rates.z(),
                      velocity.z()};
-    return !is_lost(config_.loss, t_us, losses_);
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // a separate stream: losses do not change measurements
   double period_s_;
   world::CorrelatedNoise velocity_;
   world::CorrelatedNoise rates_;

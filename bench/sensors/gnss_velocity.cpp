@@ -33,7 +33,8 @@ NodeSettings read(const NodeTable& table, Section& section) {
   node.correlated = section.number(
       {"correlated_mps", "1-sigma of an error of each axis that is correlated in time (Gauss-Markov)."},
       sigma, 0);
-  node.correlation_s = section.number({"correlation_s", "Its correlation time."}, Limits::above(0), 60);
+  node.correlation_s =
+      section.number({"correlation_s", "Its correlation time."}, Limits::above(0), node.correlation_s);
   node.invalid_probability = section.number(
       {"invalid_percent", "Share of the samples without a solution. They are marked as invalid."},
       Limits::between(0, 100), 0);
@@ -41,12 +42,11 @@ NodeSettings read(const NodeTable& table, Section& section) {
   return {table, node};
 }
 
-class GnssVelocity final : public Sampler<GnssVelocitySettings> {
+class GnssVelocity final : public LossySampler<GnssVelocitySettings> {
  public:
   GnssVelocity(const NodeSettings& node, const Run& run)
-      : Sampler(node, run),
+      : LossySampler(node, run, "gnss_velocity.loss"),
         stream_(run.stream("gnss_velocity")),
-        losses_(run.stream("gnss_velocity.loss")),
         bias_(draw(config_.bias, stream_)),
         correlated_(1, config_.correlation_s, stream_),
         interval_s_(1e-6 * static_cast<double>(node.period_us())) {}
@@ -54,7 +54,7 @@ class GnssVelocity final : public Sampler<GnssVelocitySettings> {
  private:
   // The velocity of the antenna: v_ea_n = v_eb_n + C_bn (omega_eb_b x l_ba_b), from the time derivative of
   // Groves (2013), eq. (2.164).
-  bool take(std::int64_t t_us, Sample& sample) override {
+  void fill(std::int64_t t_us, Sample& sample) override {
     const world::Truth truth = run_.flight.at(t_us);
     const Vector3 omega_eb_b =
         truth.omega_ib_b - truth.C_bn.transpose() * world::omega_ie_n(truth.position.latitude);
@@ -66,11 +66,9 @@ class GnssVelocity final : public Sampler<GnssVelocitySettings> {
     const double sigma = std::hypot(std::max(config_.noise.x(), config_.noise.y()), config_.correlated);
     sample.values = {v.x(), v.y(), v.z(), std::hypot(v.x(), v.y()), std::atan2(v.y(), v.x()), sigma};
     sample.invalid = invalid ? 1 : 0;
-    return !is_lost(config_.loss, t_us, losses_);
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // a separate stream: losses do not change measurements
   Vector3 bias_;
   world::CorrelatedNoise correlated_;
   double interval_s_;

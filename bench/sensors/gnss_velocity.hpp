@@ -14,7 +14,7 @@ struct GnssVelocitySettings {
   world::RandomConstant bias{};                       ///< NED [m/s]
   world::Vector3 noise = world::Vector3::Zero();      ///< white, 1-sigma of a sample, NED [m/s]
   double correlated = 0;                              ///< 1-sigma of a Gauss-Markov process per axis [m/s]
-  double correlation_s = 1;                           ///< its correlation time [s]
+  double correlation_s = 60;                          ///< its correlation time [s]
   double invalid_probability = 0;
   SampleLoss loss{};
 };

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "bench/scenario/scenario.hpp"
@@ -97,6 +98,9 @@ struct Kind {
   std::optional<scenario::Aid> aid{};
   bool at_every_epoch = false;  ///< the sensor's period defines the epochs of the flight record
   const Kind* of = nullptr;     ///< the kind of a named sensor, whose name is `key`; null: no name of its own
+  bool only_named = false;      ///< a mapping declares the name and the values of each such sensor
+  /// Why a scenario has no truth of what the sensor measures; empty: it has. Null: `samples` says it.
+  std::string (*why_no_truth)(const NodeSettings& node, const scenario::Scenario& scenario) = nullptr;
 };
 
 }  // namespace canhil::sensors

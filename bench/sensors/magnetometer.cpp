@@ -43,12 +43,11 @@ NodeSettings read(const NodeTable& table, Section& section) {
   return {table, node};
 }
 
-class Magnetometer final : public Sampler<MagnetometerSettings> {
+class Magnetometer final : public LossySampler<MagnetometerSettings> {
  public:
   Magnetometer(const NodeSettings& node, const Run& run)
-      : Sampler(node, run),
+      : LossySampler(node, run, "magnetometer.loss"),
         stream_(run.stream("magnetometer")),
-        losses_(run.stream("magnetometer.loss")),
         hard_iron_(draw(config_.hard_iron, stream_)),
         scale_(1 + draw(config_.scale_factor, stream_)) {}
 
@@ -56,7 +55,7 @@ class Magnetometer final : public Sampler<MagnetometerSettings> {
   // The magnetic heading of a compass with an ideal level: the measured field is turned by the true roll and
   // pitch, and the heading is the angle from it to the forward axis. It is the true heading less the
   // declination, and has the errors of the field. Groves (2013), eq. (6.6).
-  bool take(std::int64_t t_us, Sample& sample) override {
+  void fill(std::int64_t t_us, Sample& sample) override {
     const world::Truth truth = run_.flight.at(t_us);
     const Vector3 m = scale_ * (truth.C_bn.transpose() * config_.field_n) + hard_iron_ +
                       config_.noise.cwiseProduct(stream_.normal3());
@@ -64,11 +63,9 @@ class Magnetometer final : public Sampler<MagnetometerSettings> {
     level.heading = 0;
     const Vector3 levelled = world::C_bn_from(level) * m;
     sample.values = {m.x(), m.y(), m.z(), std::atan2(-levelled.y(), levelled.x())};
-    return !is_lost(config_.loss, t_us, losses_);
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // a separate stream: losses do not change measurements
   Vector3 hard_iron_;
   double scale_;
 };

@@ -38,13 +38,13 @@ NodeSettings read(const NodeTable& table, Section& section) {
   return {table, node};
 }
 
-class MasterIns final : public Sampler<MasterInsSettings> {
+class MasterIns final : public LossySampler<MasterInsSettings> {
  public:
   MasterIns(const NodeSettings& node, const Run& run)
-      : Sampler(node, run), stream_(run.stream("master_ins")), losses_(run.stream("master_ins.loss")) {}
+      : LossySampler(node, run, "master_ins.loss"), stream_(run.stream("master_ins")) {}
 
  private:
-  bool take(std::int64_t t_us, Sample& sample) override {
+  void fill(std::int64_t t_us, Sample& sample) override {
     const world::NavigationSolution solution = world::measure(run_.flight.at(t_us), config_.errors, stream_);
     const world::Euler angles = world::euler_from(solution.C_bn);
     sample.values = {solution.v_eb_n.x(),
@@ -56,11 +56,9 @@ class MasterIns final : public Sampler<MasterInsSettings> {
                      solution.position.height,
                      solution.position.longitude,
                      solution.v_eb_n.z()};
-    return !is_lost(config_.loss, t_us, losses_);
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // a separate stream: losses do not change measurements
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ std::vector<Measurand> all_of(const Kind& sensor) {
     if (output.si.empty()) continue;
     const bool adds_up = !output.rate.empty();
     measurands.push_back({.name = std::string(sensor.key) + "." + std::string(output.name),
-                          .si = output.si,
+                          .si = output.si == plain_number ? "" : output.si,
                           .sensor = &sensor,
                           .index = i,
                           .over = adds_up ? Over::sum : Over::newest});

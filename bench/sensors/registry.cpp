@@ -10,6 +10,7 @@
 #include "bench/sensors/depth_gauge.hpp"
 #include "bench/sensors/dvl.hpp"
 #include "bench/sensors/fins.hpp"
+#include "bench/sensors/generic.hpp"
 #include "bench/sensors/glider_nav.hpp"
 #include "bench/sensors/gnss_velocity.hpp"
 #include "bench/sensors/gps.hpp"
@@ -37,8 +38,9 @@ constexpr std::array registered{
     &depth_gauge,  // of an underwater vehicle
     &air_data,     // of an aircraft
     &magnetometer,
-    &wheels,  // of a car
-    &start,   // what somebody tells the device before it starts
+    &wheels,   // of a car
+    &generic,  // of the user's own
+    &start,    // what somebody tells the device before it starts
 };
 
 }  // namespace
@@ -59,6 +61,36 @@ const Kind& named(const Kind& kind, std::string_view name) {
   Named& own = known.emplace_back(Named{.name = std::string(name), .kind = kind});
   own.kind.key = own.name;
   own.kind.of = &kind;
+  return own.kind;
+}
+
+const Kind& declared(std::string_view name, const std::vector<DeclaredValue>& values) {
+  struct Declared {
+    std::string name;
+    std::vector<DeclaredValue> values;
+    std::vector<Output> outputs{};
+    std::vector<std::string_view> flags{};  // each value has one of its name
+    Kind kind{};
+  };
+  static std::mutex mutex;
+  static std::deque<Declared> known;
+  const std::lock_guard lock(mutex);
+  for (const Declared& one : known) {
+    if (one.name == name && one.values == values) return one.kind;
+  }
+  Declared& own = known.emplace_back(Declared{.name = std::string(name), .values = values});
+  for (std::size_t i = 0; i < own.values.size(); ++i) {
+    const DeclaredValue& value = own.values[i];
+    own.outputs.push_back({.name = value.name,
+                           .si = value.si.empty() ? plain_number : value.si,
+                           .turns = value.turns,
+                           .flags = 1U << i});
+    own.flags.push_back(value.name);
+  }
+  own.kind = generic;
+  own.kind.key = own.name;
+  own.kind.of = &generic;
+  own.kind.outputs = {.values = own.outputs, .flags = own.flags};
   return own.kind;
 }
 

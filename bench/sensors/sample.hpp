@@ -12,6 +12,9 @@ namespace canhil::sensors {
 
 inline constexpr std::int64_t never_us = std::numeric_limits<std::int64_t>::max();
 
+/// The unit of a measured plain number, such as a ratio.
+inline constexpr std::string_view plain_number = "1";
+
 /// A value of a sensor's samples.
 struct Output {
   std::string_view name;    ///< "latitude"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bench/sensors/kind.hpp"
+#include "bench/sensors/sample_loss.hpp"
 
 namespace canhil::sensors {
 
@@ -44,6 +45,27 @@ class Sampler : public Sensor {
   std::int64_t latency_us_;
   std::int64_t valid_us_;
   std::int64_t last_us_;
+};
+
+/// A Sampler whose samples are lost by chance and in outages. `Settings` has a member `loss`.
+template <class Settings>
+class LossySampler : public Sampler<Settings> {
+ public:
+  /// `losses`: name of the stream of the losses. It is a separate stream, so that losses do not change the
+  /// measurements.
+  LossySampler(const NodeSettings& node, const Run& run, std::string_view losses)
+      : Sampler<Settings>(node, run), losses_(run.stream(losses)) {}
+
+ protected:
+  world::Stream losses_;
+
+ private:
+  /// Fills in the sample that is valid at `valid_us`.
+  virtual void fill(std::int64_t valid_us, Sample& sample) = 0;
+  bool take(std::int64_t valid_us, Sample& sample) final {
+    fill(valid_us, sample);
+    return !is_lost(this->config_.loss, valid_us, losses_);
+  }
 };
 
 }  // namespace canhil::sensors

@@ -32,16 +32,15 @@ NodeSettings read(const NodeTable& table, Section& section) {
 // A wheel rolls without slip along the body's x axis. At the distance y to the right of the middle it has the
 // speed v_x - omega_z y (the velocity of a point of a rigid body). The steering angle of the front wheels is
 // neglected.
-class Wheels final : public Sampler<WheelsSettings> {
+class Wheels final : public LossySampler<WheelsSettings> {
  public:
   Wheels(const NodeSettings& node, const Run& run)
-      : Sampler(node, run),
+      : LossySampler(node, run, "wheels.loss"),
         stream_(run.stream("wheels")),
-        losses_(run.stream("wheels.loss")),
         scale_(1 + draw(config_.scale_factor, stream_)) {}
 
  private:
-  bool take(std::int64_t t_us, Sample& sample) override {
+  void fill(std::int64_t t_us, Sample& sample) override {
     const world::Truth truth = run_.flight.at(t_us);
     const double forward = (truth.C_bn.transpose() * truth.v_eb_n).x();
     const double turn = truth.omega_ib_b.z() * config_.track / 2;
@@ -50,11 +49,9 @@ class Wheels final : public Sampler<WheelsSettings> {
       const double speed = scale_ * (forward + (is_left ? turn : -turn)) + config_.noise * stream_.normal();
       sample.values[i] = config_.with_sign ? speed : std::abs(speed);
     }
-    return !is_lost(config_.loss, t_us, losses_);
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // a separate stream: losses do not change measurements
   double scale_;
 };
 

@@ -56,8 +56,7 @@ Finding Consistency::judge(const Evidence& evidence) const {
   const auto [low, high] = interval(*this, part.size());
   const std::string expected = fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(window));
   if (tracks.empty()) return no_values(*judged.quantity, expected);
-  if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
-    return {Outcome::fail, std::move(gap), expected};
+  if (auto gap = no_evidence(*tracks.front(), stretch, part, expected)) return *gap;
   double sum = 0;
   NotFinite not_finite;
   for (const std::size_t index : part) {

@@ -30,8 +30,7 @@ Finding DelayBelow::judge(const Evidence& evidence) const {
   NotFinite not_finite;
   const Stretch stretch{.window = window};
   const Places part = inside(*tracks.front(), stretch);
-  if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
-    return {Outcome::fail, std::move(gap), expected};
+  if (auto gap = no_evidence(*tracks.front(), stretch, part, expected)) return *gap;
   for (const std::size_t index : part) {
     const quantities::TrackPoint& point = tracks.front()->points[index];
     not_finite.take(point.t_us, point.estimate.value_or(0));

@@ -167,12 +167,30 @@ std::string silence(const Track& track, const Stretch& stretch, const Places& pa
       return fmt::format("answers to {} of {} samples", answered, flown);
     return "";
   }
-  if (part.empty()) return "no answers";
+  Spool<std::int64_t> times;  // of the points, and of the answers at which the truth has no value
+  auto without = track.without_truth.begin();
+  const auto take_until = [&](std::int64_t t_us) {
+    for (; without != track.without_truth.end() && *without <= t_us; ++without) {
+      if (within(stretch.window, *without)) times.push_back(*without);
+    }
+  };
+  for (const std::size_t index : part) {
+    take_until(track.points[index].t_us);
+    times.push_back(track.points[index].t_us);
+  }
+  take_until(stretch.window.to_us);
+  if (times.empty()) return "no answers";
   if (track.unanswered) return track.unanswered(stretch.window.from_us, stretch.window.to_us);
-  Spool<std::int64_t> times;
-  for (const std::size_t index : part) times.push_back(track.points[index].t_us);
   const auto silent = silent_stretch(times, stretch.window, track.answers_end_us, track.longest_wait_us);
   return silent ? "no answers " + seconds(*silent) : std::string();
+}
+
+std::optional<Finding> no_evidence(const Track& track, const Stretch& stretch, const Places& part,
+                                   const std::string& expected) {
+  if (std::string gap = silence(track, stretch, part); !gap.empty())
+    return Finding{Outcome::fail, std::move(gap), expected};
+  if (!part.empty()) return std::nullopt;
+  return Finding{Outcome::not_measured, "the truth has no value there", expected};
 }
 
 }  // namespace canhil::checks

@@ -58,4 +58,9 @@ Places inside(const quantities::Track& track, const Stretch& stretch);
 /// the track's points in the stretch.
 std::string silence(const quantities::Track& track, const Stretch& stretch, const Places& part);
 
+/// Why the track proves nothing in the stretch: answers are missing (fail), or the truth has no value there
+/// (not measured); none: it can be judged.
+std::optional<Finding> no_evidence(const quantities::Track& track, const Stretch& stretch, const Places& part,
+                                   const std::string& expected);
+
 }  // namespace canhil::checks

@@ -31,8 +31,7 @@ Finding Sigma::judge(const Evidence& evidence) const {
   if (tracks.empty()) return no_values(*judged.quantity, expected);
   const quantities::Track& track = *tracks.front();
   const Places part = inside(track, stretch);
-  if (auto gap = silence(track, stretch, part); !gap.empty())
-    return {Outcome::fail, std::move(gap), expected};
+  if (auto gap = no_evidence(track, stretch, part, expected)) return *gap;
   double least = std::numeric_limits<double>::infinity(), most = -least;
   std::size_t without = 0;
   NotFinite not_finite;

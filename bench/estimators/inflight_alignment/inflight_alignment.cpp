@@ -166,9 +166,10 @@ std::vector<Mark> marks_of(const checks::Observations& seen) {
       {.name = "answers", .t_us = times_of(answers.navigation, every_answer)},
       {.name = "coasting", .t_us = times_of(answers.navigation, &NavigationAnswer::coasting)}};
   add_marks(marks, answers.fixes, &FixAnswer::outcome, messages::enumerators<messages::FixOutcome>);
-  marks.push_back({.name = "repaired", .t_us = times_of(answers.fixes, &FixAnswer::repaired)});
-  marks.push_back({.name = "degraded", .t_us = times_of(answers.fixes, &FixAnswer::degraded)});
-  marks.push_back({.name = "handed_over", .t_us = times_of(answers.fixes, &FixAnswer::handed_over)});
+  marks.push_back({.name = "repaired", .among = {}, .t_us = times_of(answers.fixes, &FixAnswer::repaired)});
+  marks.push_back({.name = "degraded", .among = {}, .t_us = times_of(answers.fixes, &FixAnswer::degraded)});
+  marks.push_back(
+      {.name = "handed_over", .among = {}, .t_us = times_of(answers.fixes, &FixAnswer::handed_over)});
   return marks;
 }
 

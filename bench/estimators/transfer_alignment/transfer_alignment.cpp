@@ -85,10 +85,11 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {
   const TransferAnswers& answers = seen.of<TransferAnswers>();
-  return {{.name = "answers", .t_us = times_of(answers.navigation, every_answer)},
-          {.name = "coasting", .t_us = times_of(answers.navigation, &NavigationAnswer::coasting)},
-          {.name = "updates", .t_us = times_of(answers.filter, every_answer)},
-          {.name = "degraded", .t_us = times_of(answers.filter, &FilterAnswer::degraded)}};
+  return {
+      {.name = "answers", .t_us = times_of(answers.navigation, every_answer)},
+      {.name = "coasting", .t_us = times_of(answers.navigation, &NavigationAnswer::coasting)},
+      {.name = "updates", .t_us = times_of(answers.filter, every_answer)},
+      {.name = "degraded", .among = "updates", .t_us = times_of(answers.filter, &FilterAnswer::degraded)}};
 }
 
 std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,

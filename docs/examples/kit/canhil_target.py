@@ -300,6 +300,8 @@ class Target:
 
 # ---- buses ----
 
+EXTENDED, NO_DATA = 1 << 31, 3 << 29  # bits of an id in SocketCAN: 29 bits; an error frame or a remote frame
+
 class LocalBus:
     """The embedded bus local:NAME. docs/own-target.md describes the format of its datagrams."""
     stamp_clock = time.CLOCK_MONOTONIC
@@ -319,7 +321,8 @@ class LocalBus:
         self.socket.send(struct.pack("<IBB256s66s", 0x31484843, 0, 0, b"", b"kit"))
 
     def receive(self):
-        """Returns (id, data, stamp [ns]), or None if the bus has ended. The id is None if the frame is not a classic frame with an 11-bit id."""
+        """Returns (id, data, stamp [ns]), or None if the bus has ended. An id of 29 bits has the bit EXTENDED too. The id is None if the frame is not a
+        classic data frame."""
         try:
             datagram = self.socket.recv(80)
         except ConnectionResetError:
@@ -327,10 +330,10 @@ class LocalBus:
         if len(datagram) < 16:
             return None
         identifier, size, flags, _, t_ns = struct.unpack_from("<IBBHq", datagram)
-        return (identifier if flags == 0 else None), datagram[16:16 + size], t_ns
+        return (identifier | (EXTENDED if flags else 0) if flags <= 1 else None), datagram[16:16 + size], t_ns
 
     def send(self, identifier, data):
-        self.socket.send(struct.pack("<IBBHq", identifier, len(data), 0, 0, 0) + data)
+        self.socket.send(struct.pack("<IBBHq", identifier & ~EXTENDED, len(data), identifier >= EXTENDED, 0, 0) + data)
 
 
 class SocketCan:
@@ -353,7 +356,7 @@ class SocketCan:
             if kind == self.SO_TIMESTAMPNS:
                 seconds, nanoseconds = struct.unpack("qq", data)
                 stamp = seconds * 1_000_000_000 + nanoseconds
-        return (identifier if identifier < 0x800 else None), frame[8:8 + size], stamp  # flags of other kinds of frames are bits above 0x7FF
+        return (identifier if not identifier & NO_DATA else None), frame[8:8 + size], stamp
 
     def send(self, identifier, data):
         self.socket.send(struct.pack("=IB3x8s", identifier, len(data), data))

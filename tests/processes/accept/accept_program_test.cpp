@@ -83,11 +83,7 @@ class Accept : public testing::Test {
     return hil_bench(fmt::format("accept --suites {} {}", folder_, more));
   }
   void change(const std::string& file, const std::string& was, const std::string& is) const {
-    const std::string path = folder_ + "/small/" + file;
-    std::string text = read(path);
-    const auto at = text.find(was);
-    ASSERT_NE(at, std::string::npos) << was;
-    std::ofstream(path) << text.replace(at, was.size(), is);
+    edit(folder_ + "/small/" + file, was, is);
   }
 
   const std::string folder_ = scratch("suites");

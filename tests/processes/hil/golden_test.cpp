@@ -29,11 +29,7 @@ class Golden : public testing::Test {
   }
   /// Changes a line of a stored scenario, so that the bench sends other frames than in the recorded run.
   void change(const std::string& name, const std::string& line, const std::string& instead) const {
-    const std::string file = fmt::format("{}/{}.toml", folder_, name);
-    std::string text = read(file);
-    const auto at = text.find(line);
-    ASSERT_NE(at, std::string::npos);
-    std::ofstream(file) << text.replace(at, line.size(), instead);
+    edit(fmt::format("{}/{}.toml", folder_, name), line, instead);
   }
 
   const std::string folder_ = scratch("golden");

@@ -57,6 +57,13 @@ std::string read(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+void edit(const std::string& path, const std::string& text, const std::string& instead) {
+  std::string all = read(path);
+  const auto at = all.find(text);
+  ASSERT_NE(at, std::string::npos) << text;
+  std::ofstream(path) << all.replace(at, text.size(), instead);
+}
+
 nlohmann::json json_of(const std::string& text) { return nlohmann::json::parse(text); }
 nlohmann::json read_json(const std::string& path) { return json_of(read(path)); }
 

@@ -31,6 +31,8 @@ std::string scenario(const std::string& name);
 /// The path of the file `name` in a temporary folder that only this process uses.
 std::string scratch(const std::string& name);
 std::string read(const std::string& path);
+/// Replaces a text in a file, which must contain it.
+void edit(const std::string& path, const std::string& text, const std::string& instead);
 nlohmann::json read_json(const std::string& path);
 /// The value of a figure in a report: the figure `name` in the line `line` of the results of `estimator`.
 double figure(const nlohmann::json& report, const char* estimator, const char* line, const char* name);

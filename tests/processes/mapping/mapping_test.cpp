@@ -243,10 +243,7 @@ class Altered : public testing::Test {
     fs::copy(folder, copy_);
   }
   void change(const std::string& file, const std::string& text, const std::string& instead) const {
-    std::string all = read(copy_ + "/" + file);
-    const auto at = all.find(text);
-    EXPECT_NE(at, std::string::npos) << text;
-    std::ofstream(copy_ + "/" + file) << all.replace(at, text.size(), instead);
+    edit(copy_ + "/" + file, text, instead);
   }
   [[nodiscard]] Ended run_altered(const std::string& target, const std::string& more = "--lockstep") const {
     return hil_bench(fmt::format("run {}/own_ecu.toml {} {}", copy_, target, more));

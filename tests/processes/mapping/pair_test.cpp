@@ -23,20 +23,6 @@ class Pair : public testing::Test {
       fs::copy(fmt::format("{}/docs/examples/{}", SOURCE_DIR, example),
                fmt::format("{}/{}", folder_, example));
   }
-  static void replace(std::string& text, const std::string& one, const std::string& other) {
-    const auto at = text.find(one);
-    ASSERT_NE(at, std::string::npos) << one;
-    text.replace(at, one.size(), other);
-  }
-  [[nodiscard]] std::string file(const std::string& name) const { return read(folder_ + "/pair/" + name); }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ + "/pair/" + name) << text;
-  }
-  void change(const std::string& name, const std::string& one, const std::string& other) const {
-    std::string text = file(name);
-    replace(text, one, other);
-    write(name, text);
-  }
   static std::string ecu(const std::string& defect, const std::string& more = "") {
     return fmt::format("--target '/usr/bin/python3 " SOURCE_DIR
                        "/tests/processes/mapping/defective_ecu.py {}{}' ",
@@ -104,10 +90,10 @@ TEST_F(Pair, OneThatEndsIsNamed) {
 TEST_F(Pair, WhatCannotBeOnOneBusIsOneLine) {
   const auto refused = [&](const std::string& name, const std::string& one, const std::string& other,
                            const std::string& because) {
-    const std::string before = file(name);
-    change(name, one, other);
+    const std::string path = folder_ + "/pair/" + name, before = read(path);
+    edit(path, one, other);
     expect_one_line(hil_bench(fmt::format("run {}/pair/pair.toml --target none", folder_)), because);
-    write(name, before);
+    std::ofstream(path) << before;
   };
   refused(
       "right.mapping.toml", "\"-imu.rate.z\"", "\"imu.rate.z\"",

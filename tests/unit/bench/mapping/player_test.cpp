@@ -492,7 +492,7 @@ TEST(Conversation, FindsTheCauseByWhatIsRepeated) {
   const auto answer = [&](std::uint64_t repeated) {
     Frame frame{.id = 101, .size = 8};
     dbc::put_raw_bits(*hear.echo->repeated, repeated, {frame.data.data(), frame.size});
-    return cause_of(flown.conversation, hear, frame);
+    return cause_of(flown.conversation, hear, frame.payload());
   };
   // An answer repeats the lowest four bits of the sample count. The newest count whose lowest bits are 3 is
   // 35 (35 mod 16 = 3); it is the count of the 36th sample.

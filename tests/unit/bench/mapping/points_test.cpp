@@ -115,7 +115,8 @@ class Told {
   }
   [[nodiscard]] std::vector<quantities::TrackPoint> points(std::string_view quantity) const {
     const auto all = points_of(*find_reference_quantity(quantity), target(), seen_,
-                               {.flight = flight_, .duration_us = flight_.end_us()});
+                               {.flight = flight_, .duration_us = flight_.end_us()})
+                         .points;
     return {all.begin(), all.end()};
   }
   [[nodiscard]] const world::FlightRecord& flight() const { return flight_; }
@@ -248,7 +249,7 @@ TEST(Derived, OnlyWhatThePartsAllow) {
   text = mapping_text;
   text.replace(text.find("\"position.height\""), 17, "\"position.down\"");
   EXPECT_THAT(read(text).error().message,
-              testing::HasSubstr("'position.down' is not a quantity with a truth"));
+              testing::HasSubstr("'position.down' is not a quantity that a target reports"));
 }
 
 }  // namespace

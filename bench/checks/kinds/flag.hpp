@@ -1,0 +1,30 @@
+// A check that a target reports a state, such as an excluded sensor, when it should and only then.
+#pragma once
+
+#include <optional>
+
+#include "bench/checks/kinds/of_faults.hpp"
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+struct Flag {
+  static constexpr std::string_view kind = "flag";
+  static constexpr std::string_view meaning =
+      "Passes when a flag is set (or clear) in the answers of a window, and becomes set as often as it "
+      "should.";
+  std::string estimator;
+  std::string flag;
+  std::string fault;  ///< of which the window is a part; empty: none
+  scenario::Window window;
+  bool set = true;                                                ///< the state that is expected
+  double share = 1;                                               ///< of the answers, at least
+  std::optional<std::pair<std::int64_t, std::int64_t>> starts{};  ///< how often it becomes set: least, most
+
+  static Flag read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::string subject() const;
+  [[nodiscard]] std::vector<std::string> needs_answers_of() const { return {estimator}; }
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

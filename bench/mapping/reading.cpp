@@ -1,0 +1,24 @@
+#include "bench/mapping/reading.hpp"
+
+#include <Eigen/Geometry>
+
+namespace canhil::mapping {
+
+std::optional<world::Euler> angles_in(const Hear& hear, std::span<const std::uint8_t> data,
+                                      std::span<const double> values) {
+  const ReportedQuaternion& of = *hear.quaternion;
+  std::array<double, 4> q{};
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const std::size_t number = hear.of.number(*of.parts[i]);
+    const bool present = hear.of.plan.is_present(number, data);
+    if (!present || (of.invalid[i] && dbc::raw_bits(*of.parts[i], data) == *of.invalid[i]))
+      return std::nullopt;
+    q[i] = values[number] * of.factors[i];
+  }
+  const Eigen::Quaterniond quaternion(q[0], q[1], q[2], q[3]);
+  constexpr double least = 0.5;
+  if (!(quaternion.norm() > least)) return std::nullopt;
+  return world::euler_from(quaternion.normalized().toRotationMatrix());
+}
+
+}  // namespace canhil::mapping

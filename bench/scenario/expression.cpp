@@ -1,0 +1,116 @@
+#include "bench/scenario/expression.hpp"
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <deque>
+#include <mutex>
+#include <numbers>
+#include <vector>
+
+#include "bench/scenario/nearest.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/scenario/section.hpp"
+#include "bench/world/units.hpp"
+
+namespace canhil::scenario {
+namespace {
+
+constexpr std::string_view time_name = "t";
+
+// muParser assigns by '=', and gives several results for a list. Neither has a meaning here.
+bool assigns(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '=') continue;
+    if (i + 1 < text.size() && text[i + 1] == '=')
+      ++i;
+    else if (i == 0 || std::string_view("<>!").find(text[i - 1]) == std::string_view::npos)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+struct Expression::Parsed {
+  mu::Parser parser;
+  std::vector<const world::TruthValue*> uses;
+  std::deque<double> values;  // of `uses`; the parser keeps their addresses
+  double t_s = 0;
+  std::mutex mutex;  // for `values` and `t_s`
+};
+
+tl::expected<Expression, Expression::Wrong> Expression::parse(std::string_view text) {
+  if (assigns(text))
+    return tl::unexpected(Wrong{fmt::format("'{}' assigns a value", text), "== to compare two values"});
+  auto parsed = std::make_shared<Parsed>();
+  mu::Parser& parser = parsed->parser;
+  std::vector<std::string> names{std::string(time_name)};
+  for (const world::TruthValue& one : world::truth_values()) names.emplace_back(one.name);
+  try {
+    parser.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    parser.DefineConst("pi", std::numbers::pi);
+    parser.DefineConst("deg", world::units::deg);
+    parser.DefineConst("g", world::units::standard_gravity);
+    parser.DefineVar(std::string(time_name), &parsed->t_s);
+    double unused = 0;
+    for (const world::TruthValue& one : world::truth_values())
+      parser.DefineVar(std::string(one.name), &unused);
+    parser.SetExpr(std::string(text));
+    const auto used = parser.GetUsedVar();
+    for (const world::TruthValue& one : world::truth_values()) {
+      const std::string name(one.name);
+      if (!used.contains(name)) {
+        parser.RemoveVar(name);
+        continue;
+      }
+      parsed->uses.push_back(&one);
+      parser.DefineVar(name, &parsed->values.emplace_back());
+    }
+    parser.Eval();
+    if (parser.GetNumResults() != 1)
+      return tl::unexpected(
+          Wrong{fmt::format("'{}' has {} values", text, parser.GetNumResults()), "one expression"});
+  } catch (const mu::ParserError& error) {
+    if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN)
+      return tl::unexpected(Wrong{fmt::format("'{}' is no true value", error.GetToken()),
+                                  expected_instead(error.GetToken(), names)});
+    return tl::unexpected(
+        Wrong{fmt::format("'{}' is no expression: {}", text, error.GetMsg()), "such as 2 * velocity.north"});
+  }
+  return Expression(std::move(parsed));
+}
+
+std::optional<double> Expression::at(const world::Truths& truths, std::int64_t t_us) const {
+  const std::lock_guard lock(parsed_->mutex);
+  parsed_->t_s = 1e-6 * static_cast<double>(t_us);
+  for (std::size_t i = 0; i < parsed_->uses.size(); ++i) {
+    const auto value = parsed_->uses[i]->at(truths, t_us);
+    if (!value) return std::nullopt;
+    parsed_->values[i] = *value;
+  }
+  return parsed_->parser.Eval();
+}
+
+std::span<const world::TruthValue* const> Expression::uses() const { return parsed_->uses; }
+
+std::string why_no_truth(const Scenario& scenario, const Expression& expression) {
+  for (const world::TruthValue* one : expression.uses()) {
+    if (std::string why = why_no_truth(scenario, one->in); !why.empty()) return why;
+  }
+  return {};
+}
+
+std::optional<Expression> read_expression(Section& section, std::string_view key, std::string_view meaning) {
+  const std::string text = section.text({key, meaning});
+  if (text.empty()) return std::nullopt;
+  auto parsed = Expression::parse(text);
+  if (!parsed) {
+    section.reject(key, parsed.error().what, parsed.error().expected);
+    return std::nullopt;
+  }
+  return std::move(*parsed);
+}
+
+}  // namespace canhil::scenario

@@ -1,0 +1,120 @@
+#include "bench/world/truth_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/world/attitude.hpp"
+#include "bench/world/engagement/engagement.hpp"
+#include "bench/world/flight_record.hpp"
+#include "bench/world/glide/glide.hpp"
+
+namespace canhil::world {
+namespace {
+
+using Value = std::optional<double>;
+
+constexpr double slowest_on_course = 0.1;  // [m/s]; at standstill, the direction of the motion is undefined
+
+// A value from the flight record, at any time of the run.
+template <class Of>
+Value flown(const Truths& truths, std::int64_t t_us, Of of) {
+  if (!truths.flight.is_known() || t_us < 0 || t_us > truths.flight.end_us()) return std::nullopt;
+  return of(truths.flight.at(t_us));
+}
+// A value from the glide record, at the last step at or before the time.
+template <class Of>
+Value glided(const Truths& truths, std::int64_t t_us, Of of) {
+  if (truths.glide == nullptr || t_us < 0 || t_us > truths.glide->end_us()) return std::nullopt;
+  return of(truths.glide->at(t_us));
+}
+// A value from the glide record if there is one, otherwise from the flight record.
+template <class Of>
+Value moved(const Truths& truths, std::int64_t t_us, Of of) {
+  return truths.glide != nullptr ? glided(truths, t_us, of) : flown(truths, t_us, of);
+}
+
+template <double Euler::*angle>
+Value attitude(const Truths& truths, std::int64_t t_us) {
+  return moved(truths, t_us, [](const auto& at) { return euler_from(at.C_bn).*angle; });
+}
+template <int axis>
+Value velocity(const Truths& truths, std::int64_t t_us) {
+  return moved(truths, t_us, [](const auto& at) { return at.v_eb_n[axis]; });
+}
+template <int axis>
+Value velocity_in_body(const Truths& truths, std::int64_t t_us) {
+  return moved(truths, t_us, [](const auto& at) { return at.C_bn.col(axis).dot(at.v_eb_n); });
+}
+Value ground_speed(const Truths& truths, std::int64_t t_us) {
+  return moved(truths, t_us, [](const auto& at) { return std::hypot(at.v_eb_n.x(), at.v_eb_n.y()); });
+}
+Value course(const Truths& truths, std::int64_t t_us) {
+  return moved(truths, t_us, [](const auto& at) -> Value {
+    if (std::hypot(at.v_eb_n.x(), at.v_eb_n.y()) < slowest_on_course) return std::nullopt;
+    return std::atan2(at.v_eb_n.y(), at.v_eb_n.x());
+  });
+}
+template <double Position::*coordinate>
+Value position(const Truths& truths, std::int64_t t_us) {
+  return flown(truths, t_us, [](const Truth& at) { return at.position.*coordinate; });
+}
+template <int axis>
+Value rate(const Truths& truths, std::int64_t t_us) {
+  return flown(truths, t_us, [](const Truth& at) { return at.omega_ib_b[axis]; });
+}
+template <int axis>
+Value force(const Truths& truths, std::int64_t t_us) {
+  return flown(truths, t_us, [](const Truth& at) { return at.f_ib_b[axis]; });
+}
+template <int axis>
+Value wind(const Truths& truths, std::int64_t t_us) {
+  return glided(truths, t_us, [](const GlideTruth& at) { return at.wind_n[axis]; });
+}
+// A value from the engagement record, at a sample of the seeker.
+template <double Planes<double>::*plane>
+Value los_rate(const Truths& truths, std::int64_t t_us) {
+  const EngagementTruth* epoch = truths.engagement == nullptr ? nullptr : truths.engagement->at(t_us);
+  if (epoch == nullptr) return std::nullopt;
+  return epoch->los_rate.*plane;
+}
+
+using enum TruthIn;
+constexpr std::array known{
+    TruthValue{"attitude.roll", "rad", true, motion, attitude<&Euler::roll>},
+    TruthValue{"attitude.pitch", "rad", true, motion, attitude<&Euler::pitch>},
+    TruthValue{"attitude.heading", "rad", true, motion, attitude<&Euler::heading>},
+    TruthValue{"velocity.north", "m/s", false, motion, velocity<0>},
+    TruthValue{"velocity.east", "m/s", false, motion, velocity<1>},
+    TruthValue{"velocity.down", "m/s", false, motion, velocity<2>},
+    TruthValue{"velocity.x", "m/s", false, motion, velocity_in_body<0>},
+    TruthValue{"velocity.y", "m/s", false, motion, velocity_in_body<1>},
+    TruthValue{"velocity.z", "m/s", false, motion, velocity_in_body<2>},
+    TruthValue{"ground_speed", "m/s", false, motion, ground_speed},
+    TruthValue{"course", "rad", true, motion, course},
+    TruthValue{"position.latitude", "rad", false, flight, position<&Position::latitude>},
+    TruthValue{"position.longitude", "rad", true, flight, position<&Position::longitude>},
+    TruthValue{"position.height", "m", false, flight, position<&Position::height>},
+    TruthValue{"rate.x", "rad/s", false, flight, rate<0>},
+    TruthValue{"rate.y", "rad/s", false, flight, rate<1>},
+    TruthValue{"rate.z", "rad/s", false, flight, rate<2>},
+    TruthValue{"specific_force.x", "m/s^2", false, flight, force<0>},
+    TruthValue{"specific_force.y", "m/s^2", false, flight, force<1>},
+    TruthValue{"specific_force.z", "m/s^2", false, flight, force<2>},
+    TruthValue{"los.rate.pitch", "rad/s", false, engagement, los_rate<&Planes<double>::pitch>},
+    TruthValue{"los.rate.yaw", "rad/s", false, engagement, los_rate<&Planes<double>::yaw>},
+    TruthValue{"wind.north", "m/s", false, glide, wind<0>},
+    TruthValue{"wind.east", "m/s", false, glide, wind<1>},
+    TruthValue{"wind.down", "m/s", false, glide, wind<2>},
+};
+
+}  // namespace
+
+std::span<const TruthValue> truth_values() { return known; }
+
+const TruthValue* find_truth_value(std::string_view name) {
+  const auto found = std::ranges::find(known, name, &TruthValue::name);
+  return found == known.end() ? nullptr : &*found;
+}
+
+}  // namespace canhil::world

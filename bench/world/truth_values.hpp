@@ -1,0 +1,39 @@
+// The true values that can be named: what sensors measure, targets estimate and expressions use.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace canhil::world {
+
+class EngagementRecord;
+class FlightRecord;
+class GlideRecord;
+
+/// The truths of a run.
+struct Truths {
+  const FlightRecord& flight;
+  const GlideRecord* glide = nullptr;            ///< null: the run has no glide
+  const EngagementRecord* engagement = nullptr;  ///< null: the run has no engagement
+};
+
+/// The truth that contains a value. `motion`: the glide if there is one, otherwise the flight.
+enum class TruthIn : std::uint8_t { flight, motion, glide, engagement };
+
+/// A true value, in SI. Axes: north, east, down, or those of the body (forward, right, down).
+struct TruthValue {
+  std::string_view name;  ///< "attitude.heading"
+  std::string_view si;    ///< SI unit
+  bool turns = false;     ///< an angle: values that differ by a full turn are equal
+  TruthIn in = TruthIn::flight;
+  /// The value at a time [us] of the run; none: there is no truth at this time.
+  std::optional<double> (*at)(const Truths& truths, std::int64_t t_us) = nullptr;
+};
+
+std::span<const TruthValue> truth_values();
+/// The value of this name; null: there is none.
+const TruthValue* find_truth_value(std::string_view name);
+
+}  // namespace canhil::world

@@ -1,0 +1,93 @@
+// The devices of docs/examples in the style of real ones. Each passes, and each defect fails the check that
+// is there for it.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::Contains;
+using testing::IsEmpty;
+
+struct Defect {
+  std::string device, defect, fails;
+};
+// The name of a test.
+void PrintTo(const Defect& of, std::ostream* out) { *out << of.device << ' ' << of.defect; }
+
+class Device {
+ public:
+  explicit Device(std::string name) : name_(std::move(name)) {}
+  [[nodiscard]] Ended fly(const std::string& defect, const std::string& more) const {
+    return hil_bench(
+        fmt::format("run {0}/docs/examples/{1}/{1}.toml --target '/usr/bin/python3 "
+                    "{0}/docs/examples/{1}/{1}.py --defect {2}' {3} "
+                    "--json {4}",
+                    SOURCE_DIR, name_, defect, more, report_));
+  }
+  [[nodiscard]] nlohmann::json report() const { return read_json(report_); }
+  [[nodiscard]] std::vector<std::string> checks(const std::string& outcome) const {
+    std::vector<std::string> names;
+    const nlohmann::json seen = report();
+    for (const auto& check : seen["checks"]) {
+      if (check["outcome"] == outcome) names.push_back(check["name"]);
+    }
+    return names;
+  }
+
+ private:
+  std::string name_, report_ = scratch("device.json");
+};
+
+class Devices : public testing::TestWithParam<std::string> {};
+
+// Virtual time measures no times.
+TEST_P(Devices, PassInLockstep) {
+  const Device device(GetParam());
+  const Ended ended = device.fly("none", "--lockstep");
+  EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
+  EXPECT_THAT(device.checks("fail"), IsEmpty()) << ended.out;
+  EXPECT_GE(device.checks("pass").size(), 8U);
+}
+
+TEST_P(Devices, PassInRealTime) {
+  const Device device(GetParam());
+  const Ended ended = device.fly("none", "--bus " + bus());
+  ASSERT_NE(ended.code, 2) << ended.err;
+  expect_outputs_passed(ended, device.report());
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("car", "marine"),
+                         [](const auto& of) { return of.param; });
+
+class Defects : public testing::TestWithParam<Defect> {};
+
+TEST_P(Defects, FailTheirCheck) {
+  const auto& [name, defect, fails] = GetParam();
+  const Device device(name);
+  const Ended ended = device.fly(defect, "--lockstep");
+  EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
+  EXPECT_THAT(device.checks("fail"), Contains(fails)) << ended.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Defects,
+                         testing::Values(Defect{"car", "yaw_sign", "error attitude.heading"},
+                                         Defect{"car", "wheels_in_kmph", "error velocity.north"},
+                                         Defect{"car", "late", "delay attitude.heading"},
+                                         Defect{"car", "no_flag", "flag yaw_implausible at yaw rate off"},
+                                         Defect{"car", "course_as_signed", "error course rms"},
+                                         Defect{"marine", "turns_left", "error attitude.heading"},
+                                         Defect{"marine", "latitude_in_radians", "error position.horizontal"},
+                                         Defect{"marine", "lost_frame", "protection"},
+                                         Defect{"marine", "never_estimated",
+                                                "flag estimated at no GNSS position"},
+                                         Defect{"marine", "wrong_sid", "causes"}),
+                         [](const auto& of) { return of.param.device + "_" + of.param.defect; });
+
+}  // namespace
+}  // namespace canhil::test
