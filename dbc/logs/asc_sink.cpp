@@ -13,9 +13,7 @@ namespace canhil::logs {
 namespace {
 
 // The date in local time, because the format has no time zone.
-std::string date(std::int64_t s) {
-  return fmt::format("{:%a %b %d %H:%M:%S}.000 {:%Y}", fmt::localtime(s), fmt::localtime(s));
-}
+std::string date(std::int64_t s) { return fmt::format("{:%a %b %d %H:%M:%S %Y}", fmt::localtime(s)); }
 
 std::string id_of(const Frame& frame) { return fmt::format("{:X}{}", frame.id, frame.extended ? "x" : ""); }
 

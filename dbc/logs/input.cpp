@@ -135,8 +135,8 @@ Result<std::size_t> Input::fill() {
 
 Result<std::string_view> Input::peek(std::size_t most) {
   most = std::min(most, longest_peek);
+  if (most > buffer_.size()) buffer_.resize(most);
   while (end_ - begin_ < most) {
-    if (end_ == buffer_.size() && begin_ == 0) break;
     const auto got = fill();
     if (!got) return tl::unexpected(got.error());
     if (*got == 0) break;

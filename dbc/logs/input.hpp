@@ -63,12 +63,14 @@ class Input {
 
  private:
   Input(std::unique_ptr<Bytes> bytes, std::string name) : bytes_(std::move(bytes)), name_(std::move(name)) {}
+  static constexpr std::size_t usual_size = std::size_t{1} << 15U;
+
   Result<std::size_t> fill();
   Result<void> convert();
 
   std::unique_ptr<Bytes> bytes_;
   std::string name_;
-  std::vector<char> buffer_ = std::vector<char>(longest_peek);
+  std::vector<char> buffer_ = std::vector<char>(usual_size);  // grows if peek() asks for more
   std::size_t begin_ = 0, end_ = 0;
 };
 

@@ -32,7 +32,7 @@ Result<Parsed> of_socketcan(Packet packet, bool fd, LogEntry entry) {
            .error = (id & socketcan_error) != 0};
   frame.brs = frame.fd && (packet[5] & socketcan_brs) != 0;
   frame.esi = frame.fd && (packet[5] & socketcan_esi) != 0;
-  entry.remote = !frame.fd && (id & socketcan_remote) != 0;
+  entry.remote = !frame.fd && !frame.error && (id & socketcan_remote) != 0;
   if (size > Frame::max_size || (!entry.remote && size > packet.size() - header_size))
     return failure(fmt::format("{} bytes of data, expected {}", packet.size() - header_size, size));
   frame.size = static_cast<std::uint8_t>(size);
