@@ -155,7 +155,7 @@ Result<std::vector<Route>> routes_of(const ReplayArguments& arguments,
           fmt::format("--bus '{}': the frames are of {} interfaces, expected --channel with one of them, or "
                       "--channel INTERFACE=BUS for some of them",
                       arguments.bus, interfaces.size()));
-    return std::vector{Route{.bus = arguments.bus}};
+    return std::vector{Route{.interface = {}, .bus = arguments.bus}};
   }
   std::vector<Route> routes;
   for (const std::string& channel : arguments.channels) {

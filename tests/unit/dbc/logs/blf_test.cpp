@@ -19,8 +19,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::string object(std::uint32_t type, const std::string& body, std::uint64_t time = 1'500'000'000,
-                   std::uint32_t unit = 2, std::uint16_t version = 1) {
+std::string blf_object(std::uint32_t type, const std::string& body, std::uint64_t time = 1'500'000'000,
+                       std::uint32_t unit = 2, std::uint16_t version = 1) {
   const std::size_t header_size = version == 1 ? 32 : 40;
   std::string bytes = "LOBJ";
   append(bytes, static_cast<std::uint16_t>(header_size));
@@ -34,7 +34,7 @@ std::string object(std::uint32_t type, const std::string& body, std::uint64_t ti
   return bytes + body + std::string(body.size() % 4, '\0');
 }
 
-std::string container(const std::string& content, bool compressed) {
+std::string blf_container(const std::string& content, bool compressed) {
   std::string packed = content;
   if (compressed) {
     uLongf size = compressBound(content.size());
@@ -53,13 +53,13 @@ std::string container(const std::string& content, bool compressed) {
   return bytes + packed + std::string(packed.size() % 4, '\0');
 }
 
-std::string header() {
+std::string blf_header() {
   std::string bytes = "LOGG\x90\0\0\0"s;
   bytes.resize(144, '\0');
   return bytes;
 }
 
-const std::string classic = "\2\0\1\2\x23\1\0\0\xAA\xBB\0\0\0\0\0\0"s;  // channel 2, sent
+const std::string can_message_body = "\2\0\1\2\x23\1\0\0\xAA\xBB\0\0\0\0\0\0"s;  // channel 2, sent
 
 TEST(Blf, ObjectsWithFramesAreRead) {
   const std::string classic_remote = "\1\0\x80\4\x23\1\0\x80\0\0\0\0\0\0\0\0"s;
@@ -80,11 +80,13 @@ TEST(Blf, ObjectsWithFramesAreRead) {
   std::string error_of_canoe = error_ext;
   error_of_canoe[4] = 1;
   const auto read = read_log(
-      header() + object(1, classic) + object(86, classic + std::string(8, '\0'), 250'000, 1) +
-      object(1, classic_remote) + object(100, fd) + object(101, fd_64) + object(101, request) +
-      object(101, classic_64) + object(101, remote_64) + object(73, error_ext) + object(73, error_of_canoe) +
-      object(2, "\2\0\0\0\0\0\0\0"s) + object(104, "\4\0"s) + object(1, classic, 1, 2, 2) + object(71, "x") +
-      object(71, std::string(70'000, 'x')) + object(4, "x"));
+      blf_header() + blf_object(1, can_message_body) +
+      blf_object(86, can_message_body + std::string(8, '\0'), 250'000, 1) + blf_object(1, classic_remote) +
+      blf_object(100, fd) + blf_object(101, fd_64) + blf_object(101, request) + blf_object(101, classic_64) +
+      blf_object(101, remote_64) + blf_object(73, error_ext) + blf_object(73, error_of_canoe) +
+      blf_object(2, "\2\0\0\0\0\0\0\0"s) + blf_object(104, "\4\0"s) +
+      blf_object(1, can_message_body, 1, 2, 2) + blf_object(71, "x") +
+      blf_object(71, std::string(70'000, 'x')) + blf_object(4, "x"));
   EXPECT_THAT(read.error, IsEmpty());
   EXPECT_THAT(read.lines,
               ElementsAre("(1.500000) can1 123#AABB T", "(2.500000) can1 123#AABB T",
@@ -104,11 +106,11 @@ TEST(Blf, ObjectsWithFramesAreRead) {
 
 TEST(Blf, ObjectsMayExtendOverContainers) {
   std::string content;
-  for (int i = 0; i < 1000; ++i) content += object(1, classic);
+  for (int i = 0; i < 1000; ++i) content += blf_object(1, can_message_body);
   for (const bool compressed : {false, true}) {
-    std::string file = header();
+    std::string file = blf_header();
     for (std::size_t at = 0; at < content.size(); at += 1001)
-      file += container(content.substr(at, 1001), compressed);
+      file += blf_container(content.substr(at, 1001), compressed);
     EXPECT_EQ(read_log(file).lines.size(), 1000U) << compressed;
     EXPECT_THAT(read_log(file.substr(0, file.size() - 10)).error, HasSubstr("its last object is cut"))
         << compressed;
@@ -117,24 +119,26 @@ TEST(Blf, ObjectsMayExtendOverContainers) {
 
 TEST(Blf, ChannelsHaveTheNamesOfTheirNetworks) {
   std::string text = "\1\0\0\0\0\2\1\0\x0A\0\0\0\0\0\0\0a.dbc;body"s;
-  EXPECT_THAT(read_log(header() + object(65, text) + object(1, classic)).lines,
+  EXPECT_THAT(read_log(blf_header() + blf_object(65, text) + blf_object(1, can_message_body)).lines,
               ElementsAre("(1.500000) body 123#AABB T"));
 }
 
 TEST(Blf, WhatIsWrongIsSaid) {
   const auto said = [](const std::string& content) { return read_log(content).error; };
   EXPECT_THAT(said("LOGG\x90\0\0\0"s), HasSubstr("its header is wrong"));
-  EXPECT_THAT(said(header() + "not an object"), HasSubstr("expected an object, which begins with LOBJ"));
-  EXPECT_EQ(said(header() + object(1, "\1\0"s)), "log: object 1: expected an object with all of its fields");
-  EXPECT_EQ(said(header() + object(1, "\1\0\0\1\0\x08\0\0........"s)), "log: object 1: expected an id");
-  EXPECT_THAT(said(header() + object(1, classic, std::uint64_t{1} << 63U)),
+  EXPECT_THAT(said(blf_header() + "not an object"), HasSubstr("expected an object, which begins with LOBJ"));
+  EXPECT_EQ(said(blf_header() + blf_object(1, "\1\0"s)),
+            "log: object 1: expected an object with all of its fields");
+  EXPECT_EQ(said(blf_header() + blf_object(1, "\1\0\0\1\0\x08\0\0........"s)),
+            "log: object 1: expected an id");
+  EXPECT_THAT(said(blf_header() + blf_object(1, can_message_body, std::uint64_t{1} << 63U)),
               HasSubstr("expected a time of at most 1e9 s"));
-  std::string damaged = container(object(1, classic), true);
+  std::string damaged = blf_container(blf_object(1, can_message_body), true);
   damaged[34] ^= 0x55;
-  EXPECT_THAT(said(header() + damaged), HasSubstr("compressed data are damaged"));
-  std::string unknown = container(object(1, classic), true);
+  EXPECT_THAT(said(blf_header() + damaged), HasSubstr("compressed data are damaged"));
+  std::string unknown = blf_container(blf_object(1, can_message_body), true);
   unknown[16] = 7;
-  EXPECT_THAT(said(header() + unknown), HasSubstr("compression method 7, expected 0 (none) or 2 (zlib)"));
+  EXPECT_THAT(said(blf_header() + unknown), HasSubstr("compression method 7, expected 0 (none) or 2 (zlib)"));
 }
 
 TEST(Blf, OfSeveralContainersIsWrittenAndRead) {

@@ -13,10 +13,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::string classic = "\0\0\x01\x23\x02\0\0\0\xAA\xBB"s;
-const std::string remote = "\x40\0\x01\x23\x08\0\0\0"s;
-const std::string fd = "\x80\0\x01\x23\x02\x07\0\0\xAA\xBB"s;
-const std::string xl = "\0\0\0\x21\x81\x05\0\x04\0\0\0\0\xDE\xAD\xBE\xEF"s;
+const std::string classic_packet = "\0\0\x01\x23\x02\0\0\0\xAA\xBB"s;
+const std::string remote_packet = "\x40\0\x01\x23\x08\0\0\0"s;
+const std::string fd_packet = "\x80\0\x01\x23\x02\x07\0\0\xAA\xBB"s;
+const std::string xl_packet = "\0\0\0\x21\x81\x05\0\x04\0\0\0\0\xDE\xAD\xBE\xEF"s;
 
 std::string sll(char packet_type, char protocol, const std::string& frame) {
   return "\0"s + packet_type + "\x01\x18\0\0\0\0\0\0\0\0\0\0\0"s + protocol + frame;
@@ -40,7 +40,7 @@ std::string pcap(std::uint32_t link, const std::vector<std::string>& packets) {
 }
 
 TEST(Capture, OfSocketCanIsRead) {
-  const auto read = read_log(pcap(227, {classic, remote, fd, xl}));
+  const auto read = read_log(pcap(227, {classic_packet, remote_packet, fd_packet, xl_packet}));
   EXPECT_THAT(read.lines, ElementsAre("(1.500000) can0 123#AABB R", "(2.500000) can0 123#R8 R",
                                       "(3.500000) can0 00000123##7AABB R"));
   EXPECT_THAT(read.remarks,
@@ -51,23 +51,24 @@ TEST(Capture, OfSocketCanIsRead) {
 }
 
 TEST(Capture, OfAllInterfacesIsRead) {
-  EXPECT_THAT(
-      read_log(pcap(113, {sll(1, 0x0C, classic), sll(4, 0x0D, fd), sll(1, 0x0E, xl), sll(1, 0, "")})).lines,
-      ElementsAre("(1.500000) can0 123#AABB R", "(2.500000) can0 00000123##7AABB T"));
-  const auto read =
-      read_log(pcap(276, {sll2(1, 0x0C, classic), sll2(4, 0x0D, fd), sll2(1, 0x0E, xl), sll2(1, 0, "")}));
+  EXPECT_THAT(read_log(pcap(113, {sll(1, 0x0C, classic_packet), sll(4, 0x0D, fd_packet),
+                                  sll(1, 0x0E, xl_packet), sll(1, 0, "")}))
+                  .lines,
+              ElementsAre("(1.500000) can0 123#AABB R", "(2.500000) can0 00000123##7AABB T"));
+  const auto read = read_log(pcap(276, {sll2(1, 0x0C, classic_packet), sll2(4, 0x0D, fd_packet),
+                                        sll2(1, 0x0E, xl_packet), sll2(1, 0, "")}));
   EXPECT_THAT(read.lines, ElementsAre("(1.500000) if7 123#AABB R", "(2.500000) if7 00000123##7AABB T"));
   EXPECT_THAT(read.remarks,
               ElementsAre(HasSubstr("frames of CAN XL"), HasSubstr("packets of other protocols than CAN")));
 }
 
-std::string option(std::uint16_t code, const std::string& value) {
+std::string option_bytes(std::uint16_t code, const std::string& value) {
   std::string bytes;
   append(bytes, code);
   append(bytes, static_cast<std::uint16_t>(value.size()));
   return bytes + value + std::string((4 - value.size() % 4) % 4, '\0');
 }
-std::string block(std::uint32_t type, const std::string& body) {
+std::string block_bytes(std::uint32_t type, const std::string& body) {
   std::string bytes;
   append(bytes, type);
   append(bytes, static_cast<std::uint32_t>(body.size() + 12));
@@ -75,33 +76,35 @@ std::string block(std::uint32_t type, const std::string& body) {
   append(bytes, static_cast<std::uint32_t>(body.size() + 12));
   return bytes;
 }
-std::string section() {
-  return block(0x0A0D0D0A, "\x4D\x3C\x2B\x1A\1\0\0\0\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF"s);
+std::string section_block() {
+  return block_bytes(0x0A0D0D0A, "\x4D\x3C\x2B\x1A\1\0\0\0\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF"s);
 }
-std::string interface(std::uint16_t link, const std::string& options) {
+std::string interface_block(std::uint16_t link, const std::string& options) {
   std::string body;
   append(body, link);
-  return block(1, body + "\0\0\0\0\4\0"s + options);
+  return block_bytes(1, body + "\0\0\0\0\4\0"s + options);
 }
-std::string packet(std::uint32_t index, std::uint64_t time, const std::string& bytes,
-                   const std::string& options = "") {
+std::string packet_block(std::uint32_t index, std::uint64_t time, const std::string& bytes,
+                         const std::string& options = "") {
   std::string body;
   for (const auto field :
        {index, static_cast<std::uint32_t>(time >> 32U), static_cast<std::uint32_t>(time),
         static_cast<std::uint32_t>(bytes.size()), static_cast<std::uint32_t>(bytes.size())})
     append(body, field);
-  return block(6, body + bytes + std::string((4 - bytes.size() % 4) % 4, '\0') + options);
+  return block_bytes(6, body + bytes + std::string((4 - bytes.size() % 4) % 4, '\0') + options);
 }
 
 TEST(Pcapng, HasInterfacesWithNamesAndResolutionsInSections) {
-  const std::string outbound = option(2, "\2\0\0\0"s);
-  const auto read =
-      read_log(section() + interface(227, option(2, "can1")) +
-               interface(227, option(2, "vcan0") + option(9, "\x09")) + interface(1, option(2, "eth0")) +
-               packet(0, 1'500'000, classic, outbound) + packet(1, 2'000'000'001, fd) + packet(2, 0, "x") +
-               block(3, "\x0A\0\0\0"s + classic + "\0\0"s) + block(5, "") + section() +
-               interface(227, option(2, "can9") + option(9, "\x82") + option(14, "\x64\0\0\0\0\0\0\0"s)) +
-               packet(0, 7, classic));
+  const std::string outbound = option_bytes(2, "\2\0\0\0"s);
+  const auto read = read_log(
+      section_block() + interface_block(227, option_bytes(2, "can1")) +
+      interface_block(227, option_bytes(2, "vcan0") + option_bytes(9, "\x09")) +
+      interface_block(1, option_bytes(2, "eth0")) + packet_block(0, 1'500'000, classic_packet, outbound) +
+      packet_block(1, 2'000'000'001, fd_packet) + packet_block(2, 0, "x") +
+      block_bytes(3, "\x0A\0\0\0"s + classic_packet + "\0\0"s) + block_bytes(5, "") + section_block() +
+      interface_block(
+          227, option_bytes(2, "can9") + option_bytes(9, "\x82") + option_bytes(14, "\x64\0\0\0\0\0\0\0"s)) +
+      packet_block(0, 7, classic_packet));
   EXPECT_THAT(read.error, IsEmpty());
   EXPECT_THAT(read.lines, ElementsAre("(1.500000) can1 123#AABB T", "(2.000000) vcan0 00000123##7AABB R",
                                       "(101.750000) can9 123#AABB R"));
@@ -116,19 +119,20 @@ TEST(Pcapng, IsReadInBigEndian) {
       read_log("\x0A\x0D\x0D\x0A\0\0\0\x1C\x1A\x2B\x3C\x4D\0\1\0\0\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF\0\0\0\x1C"s
                "\0\0\0\x01\0\0\0\x14\0\xE3\0\0\0\0\4\0\0\0\0\x14"s
                "\0\0\0\x06\0\0\0\x2C\0\0\0\0\0\0\0\0\0\x16\xE3\x60\0\0\0\x0A\0\0\0\x0A"s +
-               classic + "\0\0\0\0\0\x2C"s)
+               classic_packet + "\0\0\0\0\0\x2C"s)
           .lines,
       ElementsAre("(1.500000) can0 123#AABB R"));
 }
 
 TEST(Pcapng, WhatIsWrongIsSaid) {
   const auto said = [](const std::string& content) { return read_log(content).error; };
-  EXPECT_THAT(said(section() + interface(1, "") + packet(0, 0, "x")), HasSubstr("is not a log"));
-  EXPECT_THAT(said(section() + packet(0, 0, classic)),
+  EXPECT_THAT(said(section_block() + interface_block(1, "") + packet_block(0, 0, "x")),
+              HasSubstr("is not a log"));
+  EXPECT_THAT(said(section_block() + packet_block(0, 0, classic_packet)),
               HasSubstr("log: packet 1: interface 0, expected one that is described"));
-  const std::string whole = section() + interface(227, "") + packet(0, 0, classic);
+  const std::string whole = section_block() + interface_block(227, "") + packet_block(0, 0, classic_packet);
   EXPECT_THAT(said(whole.substr(0, whole.size() - 6)), HasSubstr("the file is cut"));
-  EXPECT_THAT(said(section() + "\6\0\0\0\x0B\0\0\0"s), HasSubstr("a block of 11 bytes"));
+  EXPECT_THAT(said(section_block() + "\6\0\0\0\x0B\0\0\0"s), HasSubstr("a block of 11 bytes"));
 }
 
 }  // namespace

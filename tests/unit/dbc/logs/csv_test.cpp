@@ -7,14 +7,15 @@ namespace {
 using test::read_log;
 using testing::ElementsAre;
 
-const std::string head = "Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\r\n";
+const std::string csv_head = "Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\r\n";
 
 TEST(Csv, OfSavvyCanIsRead) {
   EXPECT_THAT(
-      read_log(head + "166064000,0000021A,false,Rx,0,8,FE,36,12,FE,69,05,07,AD,\r\n1490000000166064,00000123,"
-                      "true,Tx,1,1,0A,\r\n\r\n"
-                      "166064001,00000123,false,Rx,0,0,\n"
-                      "166064002,00000123,false,Rx,0,12,1,2,3,4,5,6,7,8,9,A,B,C\n")
+      read_log(csv_head +
+               "166064000,0000021A,false,Rx,0,8,FE,36,12,FE,69,05,07,AD,\r\n1490000000166064,00000123,"
+               "true,Tx,1,1,0A,\r\n\r\n"
+               "166064001,00000123,false,Rx,0,0,\n"
+               "166064002,00000123,false,Rx,0,12,1,2,3,4,5,6,7,8,9,A,B,C\n")
           .lines,
       ElementsAre("(166.064000) can0 21A#FE3612FE690507AD R", "(1490000000.166064) can1 00000123#0A T",
                   "(166.064001) can0 123# R", "(166.064002) can0 123##40102030405060708090A0B0C R"));
@@ -28,7 +29,7 @@ TEST(Csv, OfOldVersionsIsRead) {
 }
 
 TEST(Csv, WhatIsWrongIsSaid) {
-  const auto said = [](const std::string& line) { return read_log(head + line + "\n").error; };
+  const auto said = [](const std::string& line) { return read_log(csv_head + line + "\n").error; };
   EXPECT_EQ(read_log("Time Stamp,ID,Extended,Dir,LEN,D1\n").error,
             "log:1: expected a column 'bus' in the header");
   EXPECT_EQ(said("x,21A,false,Rx,0,0,"), "log:2: expected the time in microseconds");

@@ -20,9 +20,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::string one_line = "(1.000000) can0 123#05\n";
+const std::string one_frame = "(1.000000) can0 123#05\n";
 
-std::string gzip(const std::string& text) {
+std::string gzipped(const std::string& text) {
   z_stream stream{};
   constexpr int gzip_header = 16;
   EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, MAX_WBITS + gzip_header, 8, Z_DEFAULT_STRATEGY), Z_OK);
@@ -37,38 +37,38 @@ std::string gzip(const std::string& text) {
   return compressed;
 }
 
-std::string utf16(std::string_view text, bool big_endian) {
+std::string in_utf16(std::string_view text, bool big_endian) {
   std::string units;
   for (const char c : text) units += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
   return units;
 }
 
 TEST(Input, IsDecompressed) {
-  EXPECT_THAT(read_log(gzip(one_line)).lines, ElementsAre("(1.000000) can0 123#05 R"));
-  EXPECT_EQ(read_log(gzip(one_line) + gzip(one_line) + std::string(512, '\0')).lines.size(), 2U);
+  EXPECT_THAT(read_log(gzipped(one_frame)).lines, ElementsAre("(1.000000) can0 123#05 R"));
+  EXPECT_EQ(read_log(gzipped(one_frame) + gzipped(one_frame) + std::string(512, '\0')).lines.size(), 2U);
   std::string many;
-  for (int i = 0; i < 100'000; ++i) many += one_line;
-  EXPECT_EQ(read_log(gzip(many)).lines.size(), 100'000U);
-  EXPECT_THAT(read_log(gzip("\xEF\xBB\xBF" + one_line)).lines.size(), 1U);
+  for (int i = 0; i < 100'000; ++i) many += one_frame;
+  EXPECT_EQ(read_log(gzipped(many)).lines.size(), 100'000U);
+  EXPECT_THAT(read_log(gzipped("\xEF\xBB\xBF" + one_frame)).lines.size(), 1U);
 }
 
 TEST(Input, ThatIsDamagedIsAnError) {
-  const std::string whole = gzip(one_line + one_line);
+  const std::string whole = gzipped(one_frame + one_frame);
   EXPECT_THAT(read_log(whole.substr(0, whole.size() - 5)).error,
               HasSubstr("cannot read log 'log': its gzip data end too early"));
   std::string damaged = whole;
   damaged[whole.size() - 6] ^= 1;  // the check sum
   EXPECT_THAT(read_log(damaged).error, HasSubstr("its gzip data are damaged: incorrect data check"));
-  EXPECT_THAT(read_log(gzip(gzip(one_line))).error, HasSubstr("is not a log"));
+  EXPECT_THAT(read_log(gzipped(gzipped(one_frame))).error, HasSubstr("is not a log"));
 }
 
 TEST(Input, IsReadInUtf16) {
   for (const bool big_endian : {false, true}) {
     const std::string mark = big_endian ? "\xFE\xFF" : "\xFF\xFE";
-    EXPECT_EQ(read_log(mark + utf16(one_line, big_endian)).lines.size(), 1U) << big_endian;
+    EXPECT_EQ(read_log(mark + in_utf16(one_frame, big_endian)).lines.size(), 1U) << big_endian;
   }
-  EXPECT_EQ(read_log(utf16("date x\nbase hex timestamps absolute\n0.5 1 123 Rx d 0\n", false)).lines.size(),
-            1U)
+  EXPECT_EQ(
+      read_log(in_utf16("date x\nbase hex timestamps absolute\n0.5 1 123 Rx d 0\n", false)).lines.size(), 1U)
       << "without a mark";
 }
 
@@ -108,9 +108,9 @@ TEST(Input, OfAPipeIsReadWhileItIsWritten) {
   std::promise<void> read_one;
   auto written = std::async(std::launch::async, [&] {
     const int pipe = ::open(path.c_str(), O_WRONLY);
-    bool all = ::write(pipe, one_line.data(), one_line.size()) > 0;
+    bool all = ::write(pipe, one_frame.data(), one_frame.size()) > 0;
     all = read_one.get_future().wait_for(std::chrono::seconds(60)) == std::future_status::ready && all;
-    all = ::write(pipe, one_line.data(), one_line.size()) > 0 && all;
+    all = ::write(pipe, one_frame.data(), one_frame.size()) > 0 && all;
     ::close(pipe);
     return all;
   });
@@ -126,7 +126,7 @@ TEST(Input, OfAPipeIsReadWhileItIsWritten) {
 TEST(LogFile, OfAPipeIsReadTwice) {
   const std::string path = test::own_folder() + "/fifo_read_twice";
   ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
-  auto written = std::async(std::launch::async, [&] { std::ofstream(path) << one_line << one_line; });
+  auto written = std::async(std::launch::async, [&] { std::ofstream(path) << one_frame << one_frame; });
   const auto log = LogFile::open(path);
   ASSERT_TRUE(log) << log.error().message;
   for (int i = 0; i < 2; ++i) {
