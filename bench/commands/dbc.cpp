@@ -169,6 +169,7 @@ ExitCode extract(const ExtractArguments& arguments) {
   if (!mapping) return complain(mapping.error());
   const auto extracted = mapping::extract(**mapping, arguments.play, arguments.log);
   if (!extracted) return complain(extracted.error());
+  for (const std::string& remark : extracted->remarks) say(remark);
   if (extracted->incomplete > 0)
     say(fmt::format("{}: {} groups of {} were not whole and are left out, {} are there", arguments.log,
                     extracted->incomplete, arguments.play, extracted->rows));
@@ -180,7 +181,7 @@ void add_extract(command_line::Command command, int& code) {
   const auto own = command.add_subcommand(
       "extract", "a log of a bus with another DBC as the CSV of a sensor, which a scenario can send again");
   own.add_option("MAPPING", arguments->mapping, "mapping (TOML), which names the DBC").required();
-  own.add_option("LOG", arguments->log, "log: candump, pcap or ASC").required();
+  own.add_option("LOG", arguments->log, "log of the bus, in any format that is read").required();
   own.add_option("--play", arguments->play, "the play that was recorded: its last message").required();
   own.on_given([&code, arguments] { code = static_cast<int>(extract(*arguments)); });
 }

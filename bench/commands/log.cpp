@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
 #include <csignal>
 #include <memory>
@@ -29,6 +30,9 @@
 namespace canhil::commands {
 namespace {
 
+constexpr const char* log_to_read =
+    "log: candump, ASC, BLF, TRC, SavvyCAN's CSV, pcap or pcapng; may be a pipe or compressed with gzip";
+
 constexpr double slowest = 1e-3, fastest = 1e3;
 
 // The arguments as given on the command line.
@@ -37,8 +41,12 @@ struct DecodeArguments {
   std::vector<std::string> only;
   bool since_1970 = false;
 };
+struct ConvertArguments {
+  std::string from, to, format;
+};
 struct ReplayArguments {
   std::string log, bus, direction = "both";
+  std::vector<std::string> channels;
   double speed = 1;
   std::optional<std::uint64_t> loops;
   std::vector<std::string> only;
@@ -51,14 +59,22 @@ struct CheckArguments {
   Reports reports;
 };
 
-ExitCode convert(const std::string& from, const std::string& to) {
+void say_all(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) say(line);
+}
+
+ExitCode convert(const ConvertArguments& arguments) {
   CommandFiles files;
-  files.reads("FROM", from);
-  files.writes_file("TO", to);
+  files.reads("FROM", arguments.from);
+  files.writes_file("TO", arguments.to);
   if (auto fine = files.check(); !fine) return complain(fine.error());
-  const auto frames = recordings::convert(from, to);
-  if (!frames) return complain(frames.error());
-  fmt::print("{}: {} frames\n", one_line(to), *frames);
+  const auto named = log_format(arguments.format);
+  const auto format = named ? Result<LogFormat>(*named) : log_format_of_file(arguments.to);
+  if (!format) return complain(format.error());
+  const auto converted = recordings::convert(arguments.from, arguments.to, *format);
+  if (!converted) return complain(converted.error());
+  say_all(converted->remarks);
+  fmt::print("{}: {} frames\n", one_line(arguments.to), converted->frames);
   return ExitCode::pass;
 }
 
@@ -97,6 +113,7 @@ ExitCode decode(const DecodeArguments& arguments) {
   }
   if (!decoded) return complain(decoded.error());
   if (!written) return complain(written.error());
+  say_all(decoded->remarks);
   if (decoded->frames > 0)
     fmt::print(
         stderr,
@@ -120,31 +137,85 @@ Result<std::vector<std::uint32_t>> ids_of(const std::vector<std::string>& words)
   return ids;
 }
 
+// A bus by its name, and the interface of the log whose frames it carries; an empty interface: all.
+struct Route {
+  std::string interface, bus;
+};
+
+// The routes of --bus and --channel. `interfaces` are those of the log. The error states which there are.
+Result<std::vector<Route>> routes_of(const ReplayArguments& arguments,
+                                     const std::vector<std::string>& interfaces) {
+  const auto fail = [&](const std::string& what) {
+    return failure(fmt::format("{}; the log has frames of: {}", what, fmt::join(interfaces, ", ")));
+  };
+  if (arguments.channels.empty()) {
+    if (arguments.bus.empty()) return fail("--bus or --channel INTERFACE=BUS is missing");
+    if (interfaces.size() > 1)
+      return fail(
+          fmt::format("--bus '{}': the frames are of {} interfaces, expected --channel with one of them, or "
+                      "--channel INTERFACE=BUS for some of them",
+                      arguments.bus, interfaces.size()));
+    return std::vector{Route{.interface = {}, .bus = arguments.bus}};
+  }
+  std::vector<Route> routes;
+  for (const std::string& channel : arguments.channels) {
+    const std::size_t equals = channel.find('=');
+    Route route{.interface = channel.substr(0, equals),
+                .bus = equals == std::string::npos ? arguments.bus : channel.substr(equals + 1)};
+    if (std::ranges::find(interfaces, route.interface) == interfaces.end())
+      return fail(fmt::format("--channel '{}': expected an interface of the log", channel));
+    if (route.bus.empty())
+      return fail(fmt::format("--channel '{}': expected INTERFACE=BUS, or --bus", channel));
+    for (const Route& other : routes) {
+      if (other.interface == route.interface || other.bus == route.bus)
+        return fail(fmt::format(
+            "--channel '{}': is the second for this interface or bus, expected one for each", channel));
+    }
+    routes.push_back(std::move(route));
+  }
+  if (!arguments.bus.empty() && routes.size() > 1 &&
+      std::ranges::none_of(routes, [&](const Route& route) { return route.bus == arguments.bus; }))
+    return fail(fmt::format("--bus '{}': no --channel uses it, expected one without '='", arguments.bus));
+  return routes;
+}
+
 ExitCode replay(const ReplayArguments& arguments) {
   const auto ids = ids_of(arguments.only);
   if (!ids) return complain(ids.error());
-  if (auto reader = LogReader::open(arguments.log); !reader) return complain(reader.error());
-  auto port = join_or_host(arguments.bus, {.fd = arguments.fd, .node_name = "hil-bench replay"},
-                           arguments.fd ? BusFormat::fd_frames : BusFormat::classic);
-  if (!port) return complain(port.error());
+  const recordings::ReplayOptions options{.speed = arguments.speed,
+                                          .loops = arguments.loops.value_or(1),
+                                          .only = *ids,
+                                          .transmitted = arguments.direction == "both"
+                                                             ? std::nullopt
+                                                             : std::optional(arguments.direction == "sent")};
+  const auto log = LogFile::open(arguments.log);
+  if (!log) return complain(log.error());
+  const auto interfaces = recordings::interfaces_of(*log, options);
+  if (!interfaces) return complain(interfaces.error());
+  const auto routes = routes_of(arguments, *interfaces);
+  if (!routes) return complain(routes.error());
+  std::vector<std::unique_ptr<Port>> ports;
+  std::vector<recordings::ReplayBus> buses;
+  std::vector<std::string> names;
+  for (const Route& route : *routes) {
+    auto port = join_or_host(route.bus, {.fd = arguments.fd, .node_name = "hil-bench replay"},
+                             arguments.fd ? BusFormat::fd_frames : BusFormat::classic);
+    if (!port) return complain(port.error());
+    buses.push_back({.port = *ports.emplace_back(std::move(*port)), .interface = route.interface});
+    names.push_back(one_line(route.bus));
+  }
   catch_interrupts();
   const auto replayed = [&] {
     const ProgressLine line;
-    return recordings::replay(
-        **port, arguments.log,
-        {.speed = arguments.speed,
-         .loops = arguments.loops.value_or(1),
-         .only = *ids,
-         .transmitted =
-             arguments.direction == "both" ? std::nullopt : std::optional(arguments.direction == "sent")},
-        interrupted, [&](std::uint64_t frames) {
-          if (frames % 256 == 0) line.show([&] { return fmt::format("{} frames", frames); });
-        });
+    return recordings::replay(buses, *log, options, interrupted, [&](std::uint64_t frames) {
+      if (frames % 256 == 0) line.show([&] { return fmt::format("{} frames", frames); });
+    });
   }();
   if (!replayed) return complain(replayed.error());
+  say_all(replayed->remarks);
   const checks::Histogram& late = replayed->lateness;
   fmt::print("{} frames on {}; late by {:.0f} us (median), {:.0f} us (99 %), {:.0f} us (most)\n",
-             replayed->frames, one_line(arguments.bus), late.quantile_ns(0.5) / 1e3,
+             replayed->frames, fmt::join(names, ", "), late.quantile_ns(0.5) / 1e3,
              late.quantile_ns(0.99) / 1e3, static_cast<double>(late.max_ns()) / 1e3);
   return ExitCode::pass;
 }
@@ -169,21 +240,25 @@ ExitCode check(const CheckArguments& arguments) {
 }
 
 void add_convert(command_line::Command app, int& code) {
-  auto names = std::make_shared<std::pair<std::string, std::string>>();
+  auto arguments = std::make_shared<ConvertArguments>();
   const auto log = app.add_subcommand("log", "recorded frames: in another format, beside another recording");
-  const auto command = log.add_subcommand(
-      "convert", "write a log in another format: *.log (candump), *.pcap (Wireshark), *.asc (Vector)");
-  command.add_option("FROM", names->first, "log of any of these formats").required();
-  command.add_option("TO", names->second, "the new file").required();
+  const auto command = log.add_subcommand("convert", "write a log in another format");
+  command.add_option("FROM", arguments->from, log_to_read).required();
+  command.add_option("TO", arguments->to, "the new file").required();
+  command
+      .add_option(
+          "--format", arguments->format,
+          "format of TO (default: by its ending: .log, .txt or .candump for candump, .asc, .blf, .pcap)")
+      .one_of({"candump", "asc", "blf", "pcap"});
   add_log_compare(log, code);
   log.require_subcommands(1, 1);
-  command.on_given([&code, names] { code = static_cast<int>(convert(names->first, names->second)); });
+  command.on_given([&code, arguments] { code = static_cast<int>(convert(*arguments)); });
 }
 
 void add_decode(command_line::Command app, int& code) {
   auto arguments = std::make_shared<DecodeArguments>();
   const auto command = app.add_subcommand("decode", "the frames of a log as values, by a DBC file");
-  command.add_option("LOG", arguments->log, "log: candump's format, pcap or Vector ASC").required();
+  command.add_option("LOG", arguments->log, log_to_read).required();
   command.add_option("--dbc", arguments->dbc, "DBC file of the messages").required();
   command
       .add_option("--format", arguments->format,
@@ -200,8 +275,14 @@ void add_decode(command_line::Command app, int& code) {
 void add_replay(command_line::Command app, int& code) {
   auto arguments = std::make_shared<ReplayArguments>();
   const auto command = app.add_subcommand("replay", "send the frames of a log again, at their times");
-  command.add_option("LOG", arguments->log, "log: candump's format, pcap or Vector ASC").required();
-  command.add_option("--bus", arguments->bus, "can0, vcan0: SocketCAN; local:NAME: embedded bus").required();
+  command.add_option("LOG", arguments->log, log_to_read).required();
+  command.add_option("--bus", arguments->bus, "can0, vcan0: SocketCAN; local:NAME: embedded bus");
+  command
+      .add_option(
+          "--channel", arguments->channels,
+          "INTERFACE: send only the frames that the log has of this interface; INTERFACE=BUS: on this bus; "
+          "may be given again (default: the only one that the log has)")
+      .one_word_each();
   command.add_number("--speed", arguments->speed, "so many times as fast (default: 1)", slowest, fastest);
   command.add_number("--loop", arguments->loops, "how often; 0: until interrupted (default: 1)");
   command.add_option("--only", arguments->only, "id in hexadecimal digits; may be given again (default: all)")

@@ -45,8 +45,8 @@ const MessageInfo* find(std::span<const MessageInfo> messages, const Frame& fram
 // Reads the entries of a log, with a look-ahead of one.
 class Frames {
  public:
-  static Result<Frames> open(const std::string& log) {
-    auto reader = LogReader::open(log);
+  static Result<Frames> open(const LogFile& log) {
+    auto reader = log.read();
     if (!reader) return tl::unexpected(reader.error());
     Frames frames(std::move(*reader));
     if (auto read = frames.advance(); !read) return tl::unexpected(read.error());
@@ -75,8 +75,8 @@ struct Manner {
 
 // The first Sync shows whether the run was in lockstep; a CAN FD frame shows that messages were packed in
 // containers.
-Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scenario) {
-  auto reader = LogReader::open(log);
+Result<Manner> manner_of(const LogFile& log, const scenario::Scenario& scenario) {
+  auto reader = log.read();
   if (!reader) return tl::unexpected(reader.error());
   Manner manner{.format = format_of(scenario)};
   // A mapped target receives no Sync. In virtual time, its frames have the stamp of the bench's frame before.
@@ -260,9 +260,11 @@ Result<Run> judge_recording(const scenario::Scenario& scenario, const std::strin
   if (!truth) return failure(fmt::format("{}: {}", scenario.file, truth.error().message));
   auto flight = make_flight(scenario, *truth, 0);
   if (!flight) return failure(fmt::format("{}: {}", scenario.file, flight.error().message));
-  const auto manner = manner_of(log, scenario);
+  const auto file = LogFile::open(log);
+  if (!file) return tl::unexpected(file.error());
+  const auto manner = manner_of(*file, scenario);
   if (!manner) return tl::unexpected(manner.error());
-  auto frames = Frames::open(log);
+  auto frames = Frames::open(*file);
   if (!frames) return tl::unexpected(frames.error());
   Recording recording(scenario, *truth, std::move(*flight), std::move(*frames), log, *manner);
   auto flown = recording.judge();

@@ -100,6 +100,7 @@ Result<Extracted> extract(const Mapping& mapping, std::string_view name, const s
     if (!*entry) break;
     group.take(**entry, extracted);
   }
+  extracted.remarks = reader->remarks();
   if (extracted.rows == 0)
     return failure(fmt::format("{}: has no whole group of {}, expected a recording of {}", log, name,
                                to_text(mapping.files)));

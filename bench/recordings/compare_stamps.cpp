@@ -32,7 +32,7 @@ std::string content_of(const Frame& frame) {
   return content;
 }
 
-Result<std::vector<Stamped>> read_all(const std::string& log) {
+Result<std::vector<Stamped>> read_all(const std::string& log, std::vector<std::string>& remarks) {
   auto reader = LogReader::open(log);
   if (!reader) return tl::unexpected(reader.error());
   std::vector<Stamped> frames;
@@ -42,6 +42,7 @@ Result<std::vector<Stamped>> read_all(const std::string& log) {
     if (!*entry) break;
     if (!(*entry)->frame.error) frames.push_back({(*entry)->t_ns, (*entry)->frame});
   }
+  std::ranges::copy(reader->remarks(), std::back_inserter(remarks));
   if (frames.empty()) return failure(fmt::format("{}: no frame, expected a recording", log));
   std::ranges::stable_sort(frames, {}, &Stamped::t_ns);
   return frames;
@@ -99,12 +100,12 @@ class Collected {
 }  // namespace
 
 Result<StampsCompared> compare_stamps(const std::string& log_a, const std::string& log_b) {
-  const auto a = read_all(log_a);
+  StampsCompared compared;
+  const auto a = read_all(log_a, compared.remarks);
   if (!a) return tl::unexpected(a.error());
-  const auto b = read_all(log_b);
+  const auto b = read_all(log_b, compared.remarks);
   if (!b) return tl::unexpected(b.error());
 
-  StampsCompared compared;
   std::map<std::pair<std::uint32_t, bool>, Collected> messages;
   Collected all;
   const auto add_only = [&](const Frame& frame, bool in_a) {

@@ -7,27 +7,27 @@
 #include <cstring>
 
 #include "dbc/files/output_file.hpp"
-#include "dbc/logs/log.hpp"
 
 namespace canhil::recordings {
 namespace {
 
-Result<std::uint64_t> copy(LogReader& reader, LogWriter& writer) {
-  std::uint64_t frames = 0;
-  for (;; ++frames) {
+Result<Converted> copy(LogReader& reader, LogWriter& writer) {
+  Converted converted;
+  for (;; ++converted.frames) {
     const auto entry = reader.next();
     if (!entry) return tl::unexpected(entry.error());
     if (!*entry) break;
     writer.write(**entry);
   }
   if (auto closed = writer.close(); !closed) return tl::unexpected(closed.error());
-  return frames;
+  converted.remarks = reader.remarks();
+  return converted;
 }
 
 }  // namespace
 
-Result<std::uint64_t> convert(const std::string& from, const std::string& to) {
-  auto reader = LogReader::open(from);
+Result<Converted> convert(const std::string& from, const std::string& to, LogFormat format) {
+  auto reader = LogReader::open(from, RemoteFrames::kept);
   if (!reader) return tl::unexpected(reader.error());
   auto file = OutputFile::create(to);
   if (!file) return tl::unexpected(file.error());
@@ -36,12 +36,12 @@ Result<std::uint64_t> convert(const std::string& from, const std::string& to) {
   };
   std::FILE* stream = file->take_stream();
   if (stream == nullptr) return cannot_write(errno);
-  auto writer = LogWriter::create(stream, to);
-  if (!writer) return tl::unexpected(writer.error());
-  auto copied = copy(*reader, *writer);
+  auto writer = LogWriter::create(stream, to, format);
+  auto copied = copy(*reader, writer);
   if (!copied) return copied;
   const int error = file->give_name(to);
-  return error == 0 ? copied : cannot_write(error);
+  if (error != 0) return cannot_write(error);
+  return copied;
 }
 
 }  // namespace canhil::recordings

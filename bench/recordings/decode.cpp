@@ -100,14 +100,16 @@ class Decoder {
 
   // Calls take(entry, message) for each frame of a selected message.
   template <class Take>
-  Result<void> each(const std::string& log, const Take& take) {
-    auto reader = LogReader::open(log);
+  Result<void> each(Result<LogReader> reader, const Take& take) {
     if (!reader) return tl::unexpected(reader.error());
     left_out_ = {};
     for (;;) {
       auto entry = reader->next();
       if (!entry) return tl::unexpected(entry.error());
-      if (!*entry) return {};
+      if (!*entry) {
+        left_out_.remarks = reader->remarks();
+        return {};
+      }
       const Frame& frame = (*entry)->frame;
       if (!first_ns_) first_ns_ = (*entry)->t_ns;
       const auto found = by_id_.find({frame.id, frame.extended});
@@ -151,10 +153,14 @@ Result<LeftOut> decode(const std::string& log, const dbc::Database& database, co
   }
   Decoder decoder(database, options);
   std::unique_ptr<Writer> writer;
+  std::optional<LogFile> read_twice;  // a table begins with the names of its columns
   if (options.format == Format::csv) {
+    auto file = LogFile::open(log);
+    if (!file) return tl::unexpected(file.error());
+    read_twice = std::move(*file);
     std::set<const dbc::Message*> seen;
-    auto read =
-        decoder.each(log, [&](const LogEntry&, const dbc::Message& message) { seen.insert(&message); });
+    auto read = decoder.each(read_twice->read(),
+                             [&](const LogEntry&, const dbc::Message& message) { seen.insert(&message); });
     if (!read) return tl::unexpected(read.error());
     std::vector<const dbc::Message*> messages;  // the messages that occur in the log, in the order of the DBC
     for (const dbc::Message& message : database.messages) {
@@ -167,10 +173,11 @@ Result<LeftOut> decode(const std::string& log, const dbc::Database& database, co
     writer = std::make_unique<Text>();
   }
   give(writer->head());
-  auto read = decoder.each(log, [&](const LogEntry& entry, const dbc::Message& message) {
-    const auto values = dbc::decode(message, entry.frame.payload());
-    if (values) give(writer->line(entry, decoder.time_of(entry), message, *values));
-  });
+  auto read = decoder.each(read_twice ? read_twice->read() : LogReader::open(log),
+                           [&](const LogEntry& entry, const dbc::Message& message) {
+                             const auto values = dbc::decode(message, entry.frame.payload());
+                             if (values) give(writer->line(entry, decoder.time_of(entry), message, *values));
+                           });
   if (!read) return tl::unexpected(read.error());
   return decoder.left_out();
 }

@@ -28,8 +28,9 @@ struct DecodeOptions {
 /// Frames that cannot be decoded with the DBC.
 struct LeftOut {
   std::uint64_t frames = 0;
-  std::set<std::string> ids{};        ///< ids that the DBC does not have; "error frames"
-  std::uint64_t of_another_size = 0;  ///< number of frames whose size differs from that of their message
+  std::set<std::string> ids{};         ///< ids that the DBC does not have; "error frames"
+  std::uint64_t of_another_size = 0;   ///< number of frames whose size differs from that of their message
+  std::vector<std::string> remarks{};  ///< see LogReader::remarks()
 };
 
 using Sink = std::function<void(std::string_view part)>;

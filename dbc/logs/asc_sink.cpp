@@ -5,6 +5,7 @@
 #include <ctime>
 #include <vector>
 
+#include "dbc/logs/asc.hpp"
 #include "dbc/logs/formats.hpp"
 #include "dbc/wire/frame_rules.hpp"
 
@@ -12,9 +13,7 @@ namespace canhil::logs {
 namespace {
 
 // The date in local time, because the format has no time zone.
-std::string date(std::int64_t s) {
-  return fmt::format("{:%a %b %d %H:%M:%S}.000 {:%Y}", fmt::localtime(s), fmt::localtime(s));
-}
+std::string date(std::int64_t s) { return fmt::format("{:%a %b %d %H:%M:%S %Y}", fmt::localtime(s)); }
 
 std::string id_of(const Frame& frame) { return fmt::format("{:X}{}", frame.id, frame.extended ? "x" : ""); }
 
@@ -40,12 +39,15 @@ class AscSink final : public LogSink {
     if (frame.error) {
       line += fmt::format("{}  ErrorFrame", channel);
     } else if (frame.fd) {
-      constexpr unsigned edl = 1U << 12U, brs = 1U << 13U;
+      const std::uint32_t flags =
+          AscFdFlags::fd | (frame.brs ? AscFdFlags::brs : 0) | (frame.esi ? AscFdFlags::esi : 0);
       line += fmt::format(
-          "CANFD {:>3} {:<4} {:>8}  {:>32} {} 0 {:x} {:>2}{} {:>8} {:>4} {:>8X} {:>8} {:>8} {:>8} {:>8} "
+          "CANFD {:>3} {:<4} {:>8}  {:>32} {} {} {:x} {:>2}{} {:>8} {:>4} {:>8X} {:>8} {:>8} {:>8} {:>8} "
           "{:>8}",
-          channel, direction, id_of(frame), "", frame.brs ? 1 : 0, dlc_of(frame.size), frame.size,
-          bytes_of(frame), 0, 0, edl | (frame.brs ? brs : 0), 0, 0, 0, 0, 0);
+          channel, direction, id_of(frame), "", frame.brs ? 1 : 0, frame.esi ? 1 : 0, dlc_of(frame.size),
+          frame.size, bytes_of(frame), 0, 0, flags, 0, 0, 0, 0, 0);
+    } else if (entry.remote) {
+      line += fmt::format("{}  {:<15} {:<4} r {:x}", channel, id_of(frame), direction, frame.size);
     } else {
       line += fmt::format("{}  {:<15} {:<4} d {:x}{}", channel, id_of(frame), direction, frame.size,
                           bytes_of(frame));

@@ -6,14 +6,16 @@
 #include <limits>
 #include <utility>
 
+#include "dbc/logs/candump_screen.hpp"
 #include "dbc/logs/formats.hpp"
+#include "dbc/logs/words.hpp"
 #include "dbc/wire/frame_rules.hpp"
 
 namespace canhil {
 namespace {
 
 using logs::ns_per_s;
-constexpr unsigned flag_brs = 1;
+constexpr unsigned flag_brs = 1, flag_esi = 2;
 constexpr unsigned flag_fd = 4;  // Linux 6.1 and later set this flag in every FD frame, and candump shows it
 
 /// Reads a line from left to right, and stores the position of the first error.
@@ -100,34 +102,73 @@ void parse_id(Cursor& cursor, Frame& frame) {
   frame.extended = extended;
 }
 
-void parse_data(Cursor& cursor, Frame& frame) {
-  cursor.require('#', "'#' after the id");
-  if (cursor.accept('#')) {
-    const std::string_view flags =
-        cursor.run([first = true](char c) mutable { return std::exchange(first, false) && is_hex(c); });
-    cursor.expect(!flags.empty() && !frame.error,
-                  frame.error ? "no FD error frame" : "a hex digit of FD flags");
-    frame.fd = true;
-    frame.brs = !flags.empty() && (hex_value(flags[0]) & flag_brs) != 0;
-  }
-  const std::string_view digits = cursor.run(is_hex);
-  cursor.expect(digits.size() % 2 == 0, "two hex digits a byte");
-  const std::size_t size = digits.size() / 2;
-  const bool fits = size <= Frame::max_size && size_has_dlc(static_cast<std::uint8_t>(size), frame.fd);
+// The part "R" or "R8" of a remote frame, after '#'.
+void parse_request(Cursor& cursor, LogEntry& entry) {
+  entry.remote = true;
+  const std::string_view digits = cursor.run(is_digit);
+  const bool fits = digits.empty() || (digits.size() == 1 && digits[0] <= '8');
   if (!fits) cursor.back(digits.size());
-  cursor.expect(fits, frame.fd ? "0-8, 12, 16, 20, 24, 32, 48 or 64 bytes" : "0 to 8 bytes");
-  if (cursor.failed()) return;
-  frame.size = static_cast<std::uint8_t>(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    frame.data[i] = static_cast<std::uint8_t>(hex_value(digits[2 * i]) << 4U | hex_value(digits[2 * i + 1]));
-  }
+  cursor.expect(fits, "a size of 0 to 8 bytes");
+  cursor.expect(!entry.frame.error, "no remote error frame");
+  entry.frame.size = fits && !digits.empty() ? static_cast<std::uint8_t>(digits[0] - '0') : std::uint8_t{0};
 }
 
-// True for a remote frame, such as "(1.000000) can0 123#R8". A remote frame requests data and carries none. A
-// DBC does not describe remote frames.
-bool is_remote(std::string_view line) {
+// The data bytes. There may be a '.' between two bytes.
+void parse_bytes(Cursor& cursor, Frame& frame) {
+  std::size_t size = 0;
+  for (;;) {
+    const std::string_view digits = cursor.run(is_hex);
+    cursor.expect(digits.size() % 2 == 0, "two hex digits a byte");
+    const bool fits = size + digits.size() / 2 <= Frame::max_size;
+    if (!fits) cursor.back(digits.size());
+    cursor.expect(fits, frame.fd ? "0-8, 12, 16, 20, 24, 32, 48 or 64 bytes" : "0 to 8 bytes");
+    if (cursor.failed()) return;
+    for (std::size_t i = 0; i < digits.size(); i += 2)
+      frame.data[size++] = static_cast<std::uint8_t>(hex_value(digits[i]) << 4U | hex_value(digits[i + 1]));
+    if (digits.empty() || !cursor.accept('.')) break;
+  }
+  const bool fits = size_has_dlc(static_cast<std::uint8_t>(size), frame.fd);
+  if (!fits) cursor.back(2 * size);
+  cursor.expect(fits, frame.fd ? "0-8, 12, 16, 20, 24, 32, 48 or 64 bytes" : "0 to 8 bytes");
+  frame.size = static_cast<std::uint8_t>(size);
+}
+
+void parse_data(Cursor& cursor, LogEntry& entry) {
+  Frame& frame = entry.frame;
+  const auto one_hex = [first = true](char c) mutable { return std::exchange(first, false) && is_hex(c); };
+  cursor.require('#', "'#' after the id");
+  if (cursor.accept('#')) {
+    const std::string_view flags = cursor.run(one_hex);
+    cursor.expect(!flags.empty() && !frame.error,
+                  frame.error ? "no FD error frame" : "a hex digit of FD flags");
+    const unsigned value = flags.empty() ? 0 : hex_value(flags[0]);
+    frame.fd = true;
+    frame.brs = (value & flag_brs) != 0;
+    frame.esi = (value & flag_esi) != 0;
+  }
+  if (!frame.fd && cursor.accept('R'))
+    parse_request(cursor, entry);
+  else
+    parse_bytes(cursor, frame);
+  // A data length code above 8, which `candump -8` writes.
+  if (!frame.fd && cursor.accept('_'))
+    cursor.expect(!cursor.run(one_hex).empty(), "a hex digit of a length code");
+}
+
+// True for a frame of CAN XL, such as "(1.000000) can0 00321#81:05:11223344#DEADBEEF".
+bool is_xl(std::string_view line) {
   const std::size_t hash = line.find('#');
-  return hash != std::string_view::npos && line.substr(hash + 1).starts_with('R');
+  return hash != std::string_view::npos && line.find(':', hash) < line.find('#', hash + 1) &&
+         line.find('#', hash + 1) != std::string_view::npos;
+}
+
+// True if an id and a size such as [8] follow the first word of the line.
+bool is_frame_without_time(std::string_view line) {
+  logs::Words words;
+  logs::split(line, words);
+  return std::ranges::any_of(words, [](std::string_view word) {
+    return word.size() >= 3 && word.front() == '[' && word.back() == ']' && is_digit(word[1]);
+  });
 }
 
 }  // namespace
@@ -143,14 +184,24 @@ std::string format_log_line(const LogEntry& entry) {
     fmt::format_to(std::back_inserter(line), FMT_COMPILE("{:03X}#"), id);
   }
   if (frame.fd)
-    fmt::format_to(std::back_inserter(line), FMT_COMPILE("#{:X}"), flag_fd | (frame.brs ? flag_brs : 0));
-  for (const std::uint8_t byte : frame.payload())
-    fmt::format_to(std::back_inserter(line), FMT_COMPILE("{:02X}"), byte);
+    fmt::format_to(std::back_inserter(line), FMT_COMPILE("#{:X}"),
+                   flag_fd | (frame.brs ? flag_brs : 0) | (frame.esi ? flag_esi : 0));
+  if (entry.remote) {
+    line += 'R';
+    if (frame.size > 0) line += static_cast<char>('0' + frame.size);
+  } else {
+    for (const std::uint8_t byte : frame.payload())
+      fmt::format_to(std::back_inserter(line), FMT_COMPILE("{:02X}"), byte);
+  }
   line += entry.transmitted ? " T" : " R";
   return line;
 }
 
-Result<LogEntry> parse_log_line(std::string_view line, std::string_view where) {
+namespace {
+
+// `where` is called for an error only.
+template <class Where>
+Result<LogEntry> parse_line(std::string_view line, const Where& where) {
   Cursor cursor(line);
   LogEntry entry;
   entry.t_ns = parse_time(cursor);
@@ -158,14 +209,20 @@ Result<LogEntry> parse_log_line(std::string_view line, std::string_view where) {
   cursor.expect(!entry.interface.empty(), "the interface's name");
   cursor.require(' ', "a space after the interface's name");
   parse_id(cursor, entry.frame);
-  parse_data(cursor, entry.frame);
+  parse_data(cursor, entry);
   if (cursor.accept(' ')) {
     entry.transmitted = cursor.accept('T');
     cursor.expect(entry.transmitted || cursor.accept('R'), "'T' or 'R'");
   }
   cursor.expect(cursor.at_end(), "data as hex digits, then ' T', ' R' or the end of the line");
-  if (cursor.failed()) return failure(cursor.complaint(where));
+  if (cursor.failed()) return failure(cursor.complaint(where()));
   return entry;
+}
+
+}  // namespace
+
+Result<LogEntry> parse_log_line(std::string_view line, std::string_view where) {
+  return parse_line(line, [&] { return where; });
 }
 
 namespace logs {
@@ -183,36 +240,74 @@ class CandumpSink final : public LogSink {
 
 class CandumpSource final : public LogSource {
  public:
-  explicit CandumpSource(const std::string& path) : lines_(path) {}
+  explicit CandumpSource(Input input) : lines_(std::move(input)) {}
 
   Result<std::optional<LogEntry>> next() override {
     for (;;) {
       const auto line = lines_.next();
       if (!line) return tl::unexpected(line.error());
       if (!*line) return std::optional<LogEntry>();
-      const std::string_view text = (*line)->text;
-      if (is_remote(text)) continue;
-      auto entry = parse_log_line(text, lines_.where());
-      if (!entry) return tl::unexpected(entry.error());
+      text_ = (*line)->text;
+      auto parsed = parse(text_);
+      if (!parsed) return tl::unexpected(parsed.error());
       // If the recording program was killed, the last line may end between two data bytes. Such a line must
       // not be read as a shorter frame.
-      if (!(*line)->ended)
+      if (parsed->entry && !(*line)->ended)
         return failure(fmt::format("{}:{}: expected the end of the line: the log is cut", lines_.where(),
-                                   text.size() + 1));
-      return std::optional<LogEntry>(std::move(*entry));
+                                   text_.size() + 1));
+      if (parsed->entry) return std::move(parsed->entry);
+      if (!parsed->left_out.empty()) leave_out(parsed->left_out);
     }
   }
+  [[nodiscard]] std::string last() const override { return fmt::format("{}: '{}'", lines_.where(), text_); }
+  [[nodiscard]] bool recognised() const override { return recognised_; }
 
  private:
+  Result<Parsed> parse(std::string_view text) {
+    const std::size_t start = text.find_first_not_of(" \t");
+    if (start == std::string_view::npos) return Parsed{};
+    if (text[start] != '(') {
+      return Parsed{.left_out = is_frame_without_time(text)
+                                    ? "frames without a time, expected the output of candump -L or -t a"
+                                    : "lines that are not frames, such as comments"};
+    }
+    recognised_ = true;
+    if (text.find('#') == std::string_view::npos && text.find_first_of("[{") != std::string_view::npos)
+      return on_screen(text);
+    if (is_xl(text)) return Parsed{.left_out = "frames of CAN XL"};
+    auto entry = parse_line(text, [&] { return lines_.where(); });
+    if (!entry) return tl::unexpected(entry.error());
+    return Parsed{.entry = std::move(*entry)};
+  }
+  Result<Parsed> on_screen(std::string_view text) {
+    if (screen_.times() == ScreenTimes::unknown && ScreenParser::has_short_time(text)) {
+      std::string copied = std::string(text) + '\n';  // looking ahead invalidates the line
+      const auto following = lines_.following();
+      if (!following) return tl::unexpected(following.error());
+      screen_.decide_times(copied + std::string(*following));
+      text = text_ = kept_ = copied.substr(0, copied.size() - 1);
+      const bool previous = screen_.times() == ScreenTimes::from_previous;
+      remark(fmt::format("{}: times without a date are read as times since the {} frame (candump -t {})",
+                         lines_.where(), previous ? "previous" : "first", previous ? 'd' : 'z'));
+    }
+    auto parsed = screen_.line(text);
+    if (!parsed) return failure(fmt::format("{}: expected {}", lines_.where(), parsed.error().message));
+    return parsed;
+  }
+
   LineReader lines_;
+  std::string_view text_;
+  std::string kept_;
+  ScreenParser screen_;
+  bool recognised_ = false;
 };
 
 }  // namespace
 
 std::unique_ptr<LogSink> candump_sink(File file) { return std::make_unique<CandumpSink>(std::move(file)); }
 
-std::unique_ptr<LogSource> candump_source(const std::string& path) {
-  return std::make_unique<CandumpSource>(path);
+std::unique_ptr<LogSource> candump_source(Input input) {
+  return std::make_unique<CandumpSource>(std::move(input));
 }
 
 }  // namespace logs

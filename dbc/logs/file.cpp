@@ -4,8 +4,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 
 namespace canhil::logs {
 
@@ -20,37 +18,36 @@ int LineWriter::close() {
   return error_;
 }
 
-std::string LineReader::where() const { return fmt::format("{}:{}", path_, number_); }
+std::string LineReader::where() const { return fmt::format("{}:{}", input_.name(), number_); }
 
 Result<std::optional<LineReader::Line>> LineReader::next() {
-  const bool read =
-      static_cast<bool>(file_.getline(line_.data(), static_cast<std::streamsize>(line_.size())));
-  auto length = static_cast<std::size_t>(file_.gcount());
-  if (!read) {
-    if (file_.bad()) return failure(fmt::format("cannot read log '{}' after line {}", path_, number_));
-    if (length == 0) return std::optional<Line>();
-  }
+  auto text = input_.available();
+  if (!text) return tl::unexpected(text.error());
+  if (text->empty()) return std::optional<Line>();
   ++number_;
-  if (!file_.eof() && read) --length;  // gcount() counts the line end too
-  if (length > longest_line) {
+  const auto end_of = [](std::string_view in) {
+    const void* found = std::memchr(in.data(), '\n', std::min(in.size(), longest_line + 2));
+    return found == nullptr ? std::string_view::npos
+                            : static_cast<std::size_t>(static_cast<const char*>(found) - in.data());
+  };
+  std::size_t end = end_of(*text);
+  // The line is not yet complete: waits for its end, reading no more than necessary.
+  while (end == std::string_view::npos && text->size() < longest_line + 2) {
+    const std::size_t before = text->size();
+    text = input_.peek(before + 1);
+    if (!text) return tl::unexpected(text.error());
+    if (text->size() == before) break;
+    text = input_.available();
+    end = end_of(*text);
+  }
+  const bool ended = end != std::string_view::npos;
+  Line line{.text = ended ? text->substr(0, end) : *text, .ended = ended};
+  input_.take(ended ? end + 1 : line.text.size());
+  if (line.text.ends_with('\r')) line.text.remove_suffix(1);  // line end of Windows
+  if (line.text.size() > longest_line)
     return failure(
         fmt::format("{}: is longer than {} characters, expected a line of a log", where(), longest_line));
-  }
-  Line line{.text = {line_.data(), length}, .ended = !file_.eof()};
-  if (line.text.ends_with('\r')) line.text.remove_suffix(1);  // line end of Windows
   return std::optional(line);
-}
-
-Result<std::string> beginning_of(const std::string& path, std::size_t most) {
-  std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(path, ignored);  // opening a directory would succeed
-  std::ifstream file(path, std::ios::binary);
-  if (!file || is_folder)
-    return failure(fmt::format("cannot read log '{}': {}", path, std::strerror(is_folder ? EISDIR : errno)));
-  std::string text(most, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(most));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
 }
 
 }  // namespace canhil::logs

@@ -1,19 +1,17 @@
-// Access to files, used by all log formats.
+// Lines of a log: written to a file, read from an input.
 #pragma once
 
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
+#include <string_view>
 
+#include "dbc/logs/input.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::logs {
-
-inline constexpr std::int64_t ns_per_s = 1'000'000'000;
 
 struct CloseFile {
   void operator()(std::FILE* file) const { (void)std::fclose(file); }
@@ -36,30 +34,27 @@ class LineWriter {
 /// Reads lines of a limited length. The returned lines have no line end.
 class LineReader {
  public:
-  explicit LineReader(const std::string& path) : file_(path), path_(path) {}
+  explicit LineReader(Input input) : input_(std::move(input)) {}
 
   struct Line {
     std::string_view text;
     bool ended = true;  ///< false: this is the last line, and it has no line end
   };
-  /// The next line; nullopt: the file has ended. The text is valid until the next call.
+  /// The next line; nullopt: the input has ended. The text is valid until the next call.
   Result<std::optional<Line>> next();
-  /// "FILE:LINE" of the line that was read last.
+  /// "NAME:LINE" of the line that was read last.
   [[nodiscard]] std::string where() const;
+  /// The text that follows the line that was read last, up to Input::longest_peek bytes. Invalidates that
+  /// line.
+  Result<std::string_view> following() { return input_.peek(Input::longest_peek); }
 
  private:
-  /// The largest length of a line, in characters. It is generous: a line with a frame has about 200
+  /// The largest length of a line, in characters. It is generous: a line with a frame has about 400
   /// characters.
   static constexpr std::size_t longest_line = 4096;
 
-  std::ifstream file_;
-  std::string path_;
-  std::vector<char> line_ = std::vector<char>(longest_line + 2);
+  Input input_;
   std::size_t number_ = 0;
 };
-
-/// The first characters of a file, at most `most` of them. Returns an error of one line if the file cannot be
-/// read.
-Result<std::string> beginning_of(const std::string& path, std::size_t most);
 
 }  // namespace canhil::logs

@@ -1,63 +1,97 @@
 #include "dbc/logs/log.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
+#include "dbc/logs/foreign.hpp"
 #include "dbc/logs/formats.hpp"
+#include "dbc/logs/words.hpp"
 
 namespace canhil {
 namespace {
 
-using namespace std::string_view_literals;
-
-// The first bytes of captures: pcap with stamps in microseconds (little-endian, big-endian); pcap with stamps
-// in nanoseconds (little-endian, big-endian); pcapng.
-constexpr std::array captures{"\xD4\xC3\xB2\xA1"sv, "\xA1\xB2\xC3\xD4"sv, "\x4D\x3C\xB2\xA1"sv,
-                              "\xA1\xB2\x3C\x4D"sv, "\x0A\x0D\x0D\x0A"sv};
-
-bool is_capture(std::string_view beginning) {
-  return std::ranges::any_of(captures, [&](std::string_view magic) { return beginning.starts_with(magic); });
-}
-
-// The header of an ASC log begins with a comment, the date or the number base.
-bool is_asc(std::string_view beginning) {
-  return beginning.starts_with("date ") || beginning.starts_with("base ") || beginning.starts_with("//");
-}
-
 struct Format {
-  std::string_view ending;
+  LogFormat format;
+  std::string_view name;
   std::unique_ptr<LogSink> (*sink)(logs::File file);
 };
-constexpr std::array formats{Format{".log", logs::candump_sink}, Format{"", logs::candump_sink},
-                             Format{".txt", logs::candump_sink}, Format{".candump", logs::candump_sink},
-                             Format{".pcap", logs::pcap_sink},   Format{".asc", logs::asc_sink}};
+constexpr std::array formats{
+    Format{LogFormat::candump, "candump", logs::candump_sink}, Format{LogFormat::asc, "asc", logs::asc_sink},
+    Format{LogFormat::blf, "blf", logs::blf_sink}, Format{LogFormat::pcap, "pcap", logs::pcap_sink}};
 
-// The format that the ending of a file name selects; null: a format that cannot be written.
-const Format* format_of(const std::string& name) {
-  std::string ending = std::filesystem::path(name).extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto found = std::ranges::find(formats, ending, &Format::ending);
-  return found == formats.end() ? nullptr : &*found;
+constexpr std::array candump_endings{"", ".log", ".txt", ".candump"};
+
+Result<void> copy(logs::Input& input, int to) {
+  for (;;) {
+    const auto some = input.available();
+    if (!some) return tl::unexpected(some.error());
+    if (some->empty()) return {};
+    const ssize_t written = ::write(to, some->data(), some->size());
+    if (written < 0 && errno != EINTR)
+      return failure(fmt::format("cannot copy log '{}', which is a pipe and is read twice: {}", input.name(),
+                                 std::strerror(errno)));
+    if (written > 0) input.take(static_cast<std::size_t>(written));
+  }
+}
+
+int unnamed_file() {
+  const char* folder = std::getenv("TMPDIR");
+  return ::open(folder != nullptr && *folder != '\0' ? folder : "/var/tmp", O_TMPFILE | O_RDWR | O_CLOEXEC,
+                0600);
 }
 
 }  // namespace
 
+std::optional<LogFormat> log_format(std::string_view name) {
+  const auto found = std::ranges::find(formats, name, &Format::name);
+  return found == formats.end() ? std::nullopt : std::optional(found->format);
+}
+
+Result<LogFormat> log_format_of_file(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::ranges::transform(ending, ending.begin(), logs::lower);
+  if (std::ranges::find(candump_endings, ending) != candump_endings.end()) return LogFormat::candump;
+  if (const auto named = log_format(std::string_view(ending).substr(1))) return *named;
+  return failure(fmt::format(
+      "cannot write log '{}': its ending names no format that can be written, expected .log (candump), .asc, "
+      ".blf or .pcap{}",
+      file, logs::how_to_write(ending)));
+}
+
+void LogSource::leave_out(std::string_view reason) {
+  auto found = std::ranges::find(left_out_, reason, &LeftOut::reason);
+  if (found == left_out_.end())
+    found = left_out_.insert(left_out_.end(), {.reason = std::string(reason), .first = last()});
+  ++found->count;
+}
+
+std::vector<std::string> LogSource::remarks(const std::string& name) const {
+  std::vector<std::string> all = remarks_;
+  for (const LeftOut& one : left_out_)
+    all.push_back(
+        fmt::format("log '{}': {} left out: {}; the first is {}", name, one.count, one.reason, one.first));
+  return all;
+}
+
 Result<LogWriter> LogWriter::create(std::FILE* stream, std::string name) {
   logs::File file(stream);
-  const Format* format = format_of(name);
-  if (format == nullptr)
-    return failure(
-        fmt::format("cannot write log '{}': its ending names no format that can be written, expected "
-                    ".log (candump), .pcap or .asc",
-                    name));
-  return LogWriter(format->sink(std::move(file)), std::move(name));
+  const auto format = log_format_of_file(name);
+  if (!format) return tl::unexpected(format.error());
+  return create(file.release(), std::move(name), *format);
+}
+
+LogWriter LogWriter::create(std::FILE* stream, std::string name, LogFormat format) {
+  return LogWriter(std::ranges::find(formats, format, &Format::format)->sink(logs::File(stream)),
+                   std::move(name));
 }
 
 Result<void> LogWriter::close() {
@@ -66,15 +100,66 @@ Result<void> LogWriter::close() {
   return {};
 }
 
-Result<LogReader> LogReader::open(const std::string& path) {
-  const auto beginning = logs::beginning_of(path, 8);
-  if (!beginning) return tl::unexpected(beginning.error());
-  if (is_capture(*beginning)) {
-    auto source = logs::pcap_source(path);
-    if (!source) return tl::unexpected(source.error());
-    return LogReader(std::move(*source));
+Result<LogReader> LogReader::open(const std::string& path, RemoteFrames remote) {
+  auto input = logs::Input::open(path, path);
+  if (!input) return tl::unexpected(input.error());
+  auto source = logs::source_of(std::move(*input));
+  if (!source) return tl::unexpected(source.error());
+  return LogReader(std::move(*source), path, remote);
+}
+
+Result<LogReader> LogReader::of_memory(std::string_view content, const std::string& name,
+                                       RemoteFrames remote) {
+  auto input = logs::Input::of_memory(content, name);
+  if (!input) return tl::unexpected(input.error());
+  auto source = logs::source_of(std::move(*input));
+  if (!source) return tl::unexpected(source.error());
+  return LogReader(std::move(*source), name, remote);
+}
+
+Result<std::optional<LogEntry>> LogReader::next() {
+  for (;;) {
+    auto entry = source_->next();
+    if (!entry) return entry;
+    if (!*entry) {
+      if (!any_ && source_->left_something_out() && !source_->recognised())
+        return failure(
+            fmt::format("'{}': is not a log: no line of it is a frame, expected a log of CAN "
+                        "(candump, ASC, BLF, TRC, SavvyCAN's CSV, pcap or pcapng)",
+                        name_));
+      return entry;
+    }
+    any_ = true;
+    if (!(*entry)->remote || remote_ == RemoteFrames::kept) return entry;
+    source_->leave_out("remote frames");
   }
-  return LogReader(is_asc(*beginning) ? logs::asc_source(path) : logs::candump_source(path));
+}
+
+Result<LogFile> LogFile::open(const std::string& path) {
+  LogFile log(path);
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) return log;
+  auto input = logs::Input::open(path, path);
+  if (!input) return tl::unexpected(input.error());
+  log.copy_ = std::shared_ptr<const int>(new int(unnamed_file()), [](const int* descriptor) {
+    if (*descriptor >= 0) ::close(*descriptor);
+    delete descriptor;
+  });
+  if (*log.copy_ < 0)
+    return failure(fmt::format("cannot copy log '{}', which is a pipe and is read twice: {}", path,
+                               std::strerror(errno)));
+  if (auto copied = copy(*input, *log.copy_); !copied) return tl::unexpected(copied.error());
+  return log;
+}
+
+Result<LogReader> LogFile::read(RemoteFrames remote) const {
+  if (!copy_) return LogReader::open(name_, remote);
+  // Opening the copy again gives a reader a position of its own.
+  auto input = logs::Input::open(fmt::format("/proc/self/fd/{}", *copy_), name_);
+  if (!input) return tl::unexpected(input.error());
+  auto source = logs::source_of(std::move(*input));
+  if (!source) return tl::unexpected(source.error());
+  return LogReader(std::move(*source), name_, remote);
 }
 
 }  // namespace canhil

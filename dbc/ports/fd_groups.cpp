@@ -129,7 +129,7 @@ FdUnpacked::FdUnpacked(const Frame& frame) {
   if (container == nullptr) {
     Frame& alone = frames_[count_++];
     alone = frame;
-    if (frame.size <= FdContainer::slot_bytes) alone.fd = alone.brs = false;
+    if (frame.size <= FdContainer::slot_bytes) alone.fd = alone.brs = alone.esi = false;
     return;
   }
   for (std::size_t slot = 0; slot < container->count; ++slot) {

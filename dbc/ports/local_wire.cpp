@@ -25,7 +25,8 @@ void encode(const Frame& frame, Datagram& datagram) {
   datagram.size = frame.size;
   datagram.flags =
       static_cast<std::uint8_t>((frame.extended ? Datagram::extended : 0) | (frame.fd ? Datagram::fd : 0) |
-                                (frame.brs ? Datagram::brs : 0) | (frame.error ? Datagram::error : 0));
+                                (frame.brs ? Datagram::brs : 0) | (frame.error ? Datagram::error : 0) |
+                                (frame.esi ? Datagram::esi : 0));
   datagram.unused = 0;
   datagram.t_ns = 0;
   std::memcpy(datagram.data.data(), frame.data.data(), frame.size);
@@ -39,6 +40,7 @@ bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& 
   frame.extended = (datagram.flags & Datagram::extended) != 0;
   frame.fd = (datagram.flags & Datagram::fd) != 0;
   frame.brs = (datagram.flags & Datagram::brs) != 0;
+  frame.esi = (datagram.flags & Datagram::esi) != 0;
   frame.error = (datagram.flags & Datagram::error) != 0;
   std::memcpy(frame.data.data(), datagram.data.data(), frame.size);
   return can_carry(frame, fd_bus);

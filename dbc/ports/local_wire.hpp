@@ -16,7 +16,7 @@ namespace canhil::local {
 /// A frame as a datagram. It has a header and those data bytes that the frame uses: in total 24 bytes for a
 /// classic frame of 8 bytes.
 struct Datagram {
-  enum Flag : std::uint8_t { extended = 1, fd = 2, brs = 4, error = 8, own = 16 };
+  enum Flag : std::uint8_t { extended = 1, fd = 2, brs = 4, error = 8, own = 16, esi = 32 };
 
   std::uint32_t id = 0;
   std::uint8_t size = 0;

@@ -84,11 +84,13 @@ Result<std::unique_ptr<Port>> open_log_port(std::string_view bus, const PortOpti
   const auto wanted = local::id_set(options.only_ids);
   if (!wanted) return tl::unexpected(wanted.error());
   const std::string path(bus.substr(std::string_view("log:").size()));
-  auto first = LogReader::open(path);
+  const auto log = LogFile::open(path);
+  if (!log) return tl::unexpected(log.error());
+  auto first = log->read();
   if (!first) return tl::unexpected(first.error());
   if (auto checked = check(std::move(*first), options.fd, bus); !checked)
     return tl::unexpected(checked.error());
-  auto reader = LogReader::open(path);
+  auto reader = log->read();
   if (!reader) return tl::unexpected(reader.error());
   return std::make_unique<LogPort>(std::move(*reader), std::string(bus), options, *wanted);
 }

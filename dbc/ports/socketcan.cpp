@@ -34,7 +34,7 @@ canfd_frame to_kernel(const Frame& frame) {
   canfd_frame raw{};
   raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.error ? CAN_ERR_FLAG : 0U);
   raw.len = frame.size;
-  raw.flags = frame.brs ? CANFD_BRS : 0;
+  raw.flags = static_cast<std::uint8_t>((frame.brs ? CANFD_BRS : 0) | (frame.esi ? CANFD_ESI : 0));
   std::memcpy(raw.data, frame.data.data(), frame.size);
   return raw;
 }
@@ -47,6 +47,7 @@ Frame from_kernel(const canfd_frame& raw, bool fd) {
   frame.size = std::min<std::uint8_t>(raw.len, fd ? CANFD_MAX_DLEN : CAN_MAX_DLEN);
   frame.fd = fd;
   frame.brs = fd && (raw.flags & CANFD_BRS) != 0;
+  frame.esi = fd && (raw.flags & CANFD_ESI) != 0;
   std::memcpy(frame.data.data(), raw.data, frame.size);
   return frame;
 }

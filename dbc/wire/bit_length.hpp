@@ -125,7 +125,8 @@ constexpr BitLength bit_length(const Frame& frame) {
   }
   wire.put(frame.brs ? 0b101 : 0b100, 3);  // FDF, res, BRS
   const int arbitration = wire.length();
-  wire.put(data_length_code(frame.size), 5);  // ESI (0 means error active), DLC
+  wire.put(frame.esi);
+  wire.put(data_length_code(frame.size), 4);
   for (const std::uint8_t byte : frame.payload()) wire.put(byte, 8);
   // close() is not called: if a stuff bit is due after the data, the first fixed stuff bit replaces it.
   const int data = wire.length() - arbitration + fd_crc_field_bits(frame.size);

@@ -18,6 +18,7 @@ struct Frame {
   bool extended = false;  ///< 29-bit id
   bool fd = false;        ///< CAN FD format
   bool brs = false;       ///< CAN FD with bit rate switch: the data phase has the higher bit rate
+  bool esi = false;       ///< CAN FD with error state indicator: the sender was error passive
   bool error = false;     ///< error frame
   /// The scaled signals follow the payload as doubles. Such frames exist only inside one process.
   bool unrounded = false;
@@ -28,8 +29,8 @@ struct Frame {
 
   friend bool operator==(const Frame& a, const Frame& b) {
     return a.id == b.id && a.size == b.size && a.extended == b.extended && a.fd == b.fd && a.brs == b.brs &&
-           a.error == b.error && std::ranges::equal(a.payload(), b.payload()) && a.unrounded == b.unrounded &&
-           (!a.unrounded || a.data == b.data);
+           a.esi == b.esi && a.error == b.error && std::ranges::equal(a.payload(), b.payload()) &&
+           a.unrounded == b.unrounded && (!a.unrounded || a.data == b.data);
   }
 };
 

@@ -30,7 +30,7 @@ constexpr bool size_has_dlc(std::uint8_t size, bool fd) { return dlc_of(size) < 
 /// frames are classic; their id may contain any error class bits.
 constexpr bool can_carry(const Frame& frame, bool fd_bus) {
   if (frame.fd && (!fd_bus || frame.error)) return false;
-  if (frame.brs && !frame.fd) return false;
+  if ((frame.brs || frame.esi) && !frame.fd) return false;
   const bool wide_id = frame.extended || frame.error;
   return frame.id <= (wide_id ? max_extended_id : max_standard_id) && size_has_dlc(frame.size, frame.fd);
 }

@@ -1,8 +1,5 @@
 #include "target/process/replay.hpp"
 
-#include <filesystem>
-#include <system_error>
-
 #include "dbc/logs/candump.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/routes.hpp"
@@ -18,12 +15,9 @@ bool from_target(const Frame& frame) { return from_target_route(frame) != Routes
 
 // Reads the whole log, so that a malformed line is an error before anything is written. A log without frames
 // for the target is an error too: it is not the recording of a run.
-Result<void> check(const std::string& log_path) {
-  std::error_code unknown;
-  const auto status = std::filesystem::status(log_path, unknown);
-  if (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status))
-    return failure(log_path + ": is a pipe, expected a log in a file, as it is read twice");
-  auto reader = LogReader::open(log_path);
+Result<void> check(const LogFile& log) {
+  const std::string& log_path = log.name();
+  auto reader = log.read();
   if (!reader) return tl::unexpected(reader.error());
   bool empty = true, unheard = true;
   for (;;) {
@@ -41,8 +35,10 @@ Result<void> check(const std::string& log_path) {
 }  // namespace
 
 Result<void> replay(const std::string& log_path, std::FILE* out) {
-  if (auto whole = check(log_path); !whole) return whole;
-  auto opened = LogReader::open(log_path);
+  const auto log = LogFile::open(log_path);
+  if (!log) return tl::unexpected(log.error());
+  if (auto whole = check(*log); !whole) return whole;
+  auto opened = log->read();
   if (!opened) return tl::unexpected(opened.error());
   ClassicLogReader reader(std::move(*opened));
   Device device;

@@ -88,7 +88,8 @@ PREPARED = {
     ),
     "docs/report.md": tuple(f"{RUN} --json {name}.json" for name in ("run", "other", "before", "after", "a1", "a2", "a3", "a4", "b1", "b2", "b3", "b4"))
     + (f"{RUN} --log bench.log", "cp bench.log second.log"),
-    "docs/recordings.md": (f"{RUN} --log run.log --json run.json", "hil-bench log convert run.log drive.asc", "cp run.log a.log", "cp run.log b.log"),
+    "docs/recordings.md": (f"{RUN} --log run.log --json run.json", "hil-bench log convert run.log drive.asc", "cp run.log a.log", "cp run.log b.log",
+                          r"printf '(1.000000) body 123#11\n(1.010000) engine 123#22\n' >two.log"),
 }
 
 

@@ -25,6 +25,7 @@ Frame fd_frame(std::uint32_t id, std::uint8_t size, bool brs) {
   Frame frame = frame_of(id);
   frame.fd = true;
   frame.brs = brs;
+  frame.esi = !brs;
   frame.size = size;
   for (std::uint8_t i = 0; i < size; ++i) frame.data[i] = static_cast<std::uint8_t>(i * 7 + size);
   return frame;

@@ -1,6 +1,6 @@
 """Reads and writes logs with python-can and decodes values with canmatrix. Tests compare these results with those of canhil.
 
-others.py frames LOG            one line per frame: time in microseconds, id, flags, data
+others.py frames LOG            one line per frame: time in microseconds, id, flags, data (for a remote frame, the size that it requests)
 others.py copy FROM TO          converts the log with python-can
 others.py values LOG DBC        one line per frame: id, then each signal and its value
 """
@@ -17,14 +17,16 @@ def frames(path):
 
 
 def flags(message):
-    names = (("x", message.is_extended_id), ("e", message.is_error_frame), ("f", message.is_fd), ("b", message.bitrate_switch))
+    names = (("x", message.is_extended_id), ("e", message.is_error_frame), ("r", message.is_remote_frame),
+             ("f", message.is_fd), ("b", message.bitrate_switch), ("s", message.error_state_indicator))
     return "".join(letter for letter, there in names if there) or "-"
 
 
 def main(what, source, *rest):
     if what == "frames":
         for message in frames(source):
-            print(round(message.timestamp * 1e6), f"{message.arbitration_id:X}", flags(message), message.data.hex() or "-")
+            data = message.dlc if message.is_remote_frame else message.data.hex() or "-"
+            print(round(message.timestamp * 1e6), f"{message.arbitration_id:X}", flags(message), data)
     elif what == "copy":
         with can.Logger(rest[0]) as logger:
             for message in frames(source):

@@ -77,7 +77,9 @@ TEST(LogLine, OfEveryKindOfFrameIsRead) {
   fd.fd = true;
   EXPECT_EQ(parsed("7FF##00102"), fd);
   EXPECT_EQ(parsed("7FF##40102"), fd);
-  EXPECT_EQ(parsed("7FF##60102"), fd) << "the error state indicator is not a frame's";
+  fd.esi = true;
+  EXPECT_EQ(parsed("7FF##60102"), fd);
+  fd.esi = false;
   fd.brs = true;
   EXPECT_EQ(parsed("7FF##10102"), fd);
   EXPECT_EQ(parsed("7FF##50102"), fd);
@@ -103,7 +105,8 @@ TEST(LogLine, ThatIsWrongIsExplainedWithItsColumn) {
             "a.log:7:20: expected 0-8, 12, 16, 20, 24, 32, 48 or 64 bytes");
   EXPECT_EQ(complaint("(1.123456) c 001##"), "a.log:7:19: expected a hex digit of FD flags");
   EXPECT_EQ(complaint("(1.123456) c 20000001##0"), "a.log:7:25: expected no FD error frame");
-  EXPECT_EQ(complaint("(1.123456) c 001#R"),
+  EXPECT_EQ(complaint("(1.123456) c 001#R9"), "a.log:7:19: expected a size of 0 to 8 bytes");
+  EXPECT_EQ(complaint("(1.123456) c 001#Q"),
             "a.log:7:18: expected data as hex digits, then ' T', ' R' or the end of the line");
   EXPECT_EQ(complaint("(1.123456) c 001#00 X"), "a.log:7:21: expected 'T' or 'R'");
   EXPECT_EQ(complaint("(1.123456) c 001#00 T "),
@@ -111,9 +114,11 @@ TEST(LogLine, ThatIsWrongIsExplainedWithItsColumn) {
 }
 
 TEST(LogLine, WrittenIsReadBack) {
-  for (const char* line : {"(0.000000) vcan0 000# R", "(1436509052.249713) can1 1FFFFFFF#DEADBEEF T",
-                           "(1.000002) vcan1 123##5000102030405060708090A0B R",
-                           "(1.000002) vcan1 00000001##400 T", "(1.000003) c 2000000C#0000000000000000 R"}) {
+  for (const char* line :
+       {"(0.000000) vcan0 000# R", "(1436509052.249713) can1 1FFFFFFF#DEADBEEF T",
+        "(1.000002) vcan1 123##5000102030405060708090A0B R", "(1.000002) vcan1 00000001##400 T",
+        "(1.000002) vcan1 00000001##600 T", "(1.000002) vcan1 001#R R", "(1.000002) vcan1 00000001#R8 T",
+        "(1.000003) c 2000000C#0000000000000000 R"}) {
     const auto entry = parse_log_line(line, "x");
     ASSERT_TRUE(entry) << entry.error().message;
     EXPECT_EQ(format_log_line(*entry), line);

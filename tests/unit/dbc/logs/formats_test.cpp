@@ -1,4 +1,4 @@
-// The three log formats: written frames are read back unchanged, and every error is one line.
+// The log formats: written frames are read back unchanged, and every error is one line.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -40,6 +40,7 @@ std::vector<LogEntry> all_kinds() {
   fd.fd = fd.brs = true;
   add(fd, true);
   fd.brs = false;
+  fd.esi = true;
   fd.size = 0;
   add(fd, false, "vcan1");
   fd = frame_of(0x12345, 64, true);
@@ -107,6 +108,38 @@ TEST(Formats, AnAscKeepsFramesInterfacesDirectionsAndMicroseconds) {
   }
 }
 
+TEST(Formats, ABlfKeepsEverything) {
+  const std::string path = path_of("a.blf");
+  auto entries = all_kinds();
+  entries.push_back(
+      {.t_ns = start_ns + 99'000'000, .interface = "can0", .frame = {.id = 0x40, .size = 8, .error = true}});
+  write(path, entries);
+  const auto got = read(path);
+  expect_frames(got, entries);
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    EXPECT_EQ(got[i].t_ns, entries[i].t_ns) << i;
+    EXPECT_EQ(got[i].interface, entries[i].interface) << i;
+    EXPECT_EQ(got[i].transmitted, entries[i].transmitted) << i;
+  }
+}
+
+TEST(Formats, EachKeepsRemoteFrames) {
+  for (const char* name : {"remote.pcap", "remote.asc", "remote.log", "remote.blf"}) {
+    write(
+        path_of(name),
+        {{.t_ns = start_ns, .interface = "can0", .frame = {.id = 0x123, .size = 5}, .remote = true},
+         {.t_ns = start_ns, .interface = "can0", .frame = {.id = 0x123, .extended = true}, .remote = true}});
+    auto reader = LogReader::open(path_of(name), RemoteFrames::kept).value();
+    for (const int size : {5, 0}) {
+      const auto entry = reader.next().value();
+      ASSERT_TRUE(entry) << name;
+      EXPECT_TRUE(entry->remote) << name;
+      EXPECT_EQ(entry->frame.size, size) << name;
+    }
+    EXPECT_TRUE(read(path_of(name)).empty()) << name;
+  }
+}
+
 TEST(Formats, AnAscKeepsTheTimeOfAnErrorFrame) {
   const std::string path = path_of("error.asc");
   write(path, {{.t_ns = start_ns, .interface = "can0", .frame = {.id = 0x40, .size = 8, .error = true}}});
@@ -117,14 +150,14 @@ TEST(Formats, AnAscKeepsTheTimeOfAnErrorFrame) {
 }
 
 TEST(Formats, AnEmptyLogIsOne) {
-  for (const char* name : {"empty.pcap", "empty.asc", "empty.log"}) {
+  for (const char* name : {"empty.pcap", "empty.asc", "empty.log", "empty.blf"}) {
     write(path_of(name), {});
     EXPECT_TRUE(read(path_of(name)).empty()) << name;
   }
 }
 
 TEST(Formats, AFullDiskIsReportedByEach) {
-  for (const char* name : {"x.pcap", "x.asc", "x.log"}) {
+  for (const char* name : {"x.pcap", "x.asc", "x.log", "x.blf"}) {
     auto writer = test::log_writer("/dev/full", name);
     writer.write({.interface = "c", .frame = frame_of(1, 8)});
     const auto closed = writer.close();
@@ -212,27 +245,27 @@ TEST(Pcap, WhatIsWrongIsSaidInOneLine) {
   write(path, all_kinds());
   std::filesystem::copy_file(path, cut, std::filesystem::copy_options::overwrite_existing);
   std::filesystem::resize_file(cut, std::filesystem::file_size(cut) - 3);
-  EXPECT_THAT(why_not(cut), StartsWith(cut + ": packet 6: truncated dump file"));
+  EXPECT_THAT(why_not(cut), StartsWith(cut + ": packet 6: the file is cut"));
   std::string text = [&] {
     std::ifstream file(path, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(file), {});
   }();
   text[20] = 1;  // link type Ethernet
   std::ofstream(cut, std::ios::binary) << text;
-  EXPECT_THAT(why_not(cut), HasSubstr("its link type is EN10MB, expected CAN_SOCKETCAN"));
+  EXPECT_THAT(why_not(cut), HasSubstr("its link type is EN10MB, expected CAN_SOCKETCAN, LINUX_SLL"));
 }
 
 TEST(Pcap, APacketThatIsNoFrameIsRefused) {
   using Bytes = std::vector<std::uint8_t>;
   const auto said = [](const Bytes& bytes) {
-    const auto frame = logs::frame_of_packet(bytes);
+    const auto frame = logs::frame_of_packet(logs::socketcan, bytes);
     return frame ? "read" : frame.error().message;
   };
   EXPECT_EQ(said({0, 0, 0, 1, 0, 0, 0}), "7 bytes, expected a header of 8");
   EXPECT_EQ(said({0, 0, 0, 1, 2, 0, 0, 0, 9}), "1 bytes of data, expected 2");
   EXPECT_THAT(said(Bytes{0, 0, 8, 0, 0, 0, 0, 0}), HasSubstr("id 800 with 0 bytes"));
   EXPECT_EQ(said({0, 0, 0, 1, 1, 0, 0, 0, 9}), "read");
-  EXPECT_FALSE(*logs::frame_of_packet(Bytes{0x40, 0, 0, 1, 0, 0, 0, 0})) << "a remote frame";
+  EXPECT_EQ(said({0x40, 0, 0, 1, 8, 0, 0, 0}), "read") << "a remote frame has no data";
 }
 
 }  // namespace

@@ -147,7 +147,7 @@ TEST_F(LocalBus, FiltersStandardIdsAndLetsErrorFramesPass) {
 TEST_F(LocalBus, CarriesFdOnlyWhereHostedSo) {
   Frame frame = frame_of(0x10);
   frame.fd = true;
-  frame.brs = true;
+  frame.brs = frame.esi = true;
   frame.size = 64;
   frame.data.fill(0xA5);
   const auto hub = host({.fd = true});

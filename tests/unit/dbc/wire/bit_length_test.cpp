@@ -86,11 +86,14 @@ TEST(BitLength, DataLengthCodes) {
 }
 
 RC_GTEST_PROP(BitLength, LiesBetweenTheBareAndTheWorst,
-              (std::uint32_t id, bool extended, bool fd, bool brs)) {
+              (std::uint32_t id, bool extended, bool fd, bool brs, bool esi)) {
   const auto sizes = fd ? std::vector<unsigned>{0, 1, 5, 8, 12, 16, 20, 24, 32, 48, 64}
                         : std::vector<unsigned>{0, 1, 2, 3, 4, 5, 6, 7, 8};
-  Frame frame{
-      .id = extended ? id & 0x1FFF'FFFFU : id & 0x7FFU, .extended = extended, .fd = fd, .brs = fd && brs};
+  Frame frame{.id = extended ? id & 0x1FFF'FFFFU : id & 0x7FFU,
+              .extended = extended,
+              .fd = fd,
+              .brs = fd && brs,
+              .esi = fd && esi};
   frame.size = static_cast<std::uint8_t>(*rc::gen::elementOf(sizes));
   // About half of the bytes are arbitrary; the others consist of long runs of equal bits.
   for (std::size_t i = 0; i < frame.size; ++i)

@@ -1,0 +1,7 @@
+// Tests the code that reads Vector's binary logs (BLF).
+#include "tests/fuzz/whole_log.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  canhil::fuzz::read_with(data, size, canhil::logs::blf_source);
+  return 0;
+}
