@@ -74,7 +74,7 @@ SampleEncoder::SampleEncoder(const MessageInfo& closes, const std::vector<Sample
 
 void SampleEncoder::encode(const Sample& sample, Transmission& out) {
   Slot* slot = slots_.data();
-  for (const Encode encode : messages_) slot = encode(slot, sample, out);
+  for (const Encode one : messages_) slot = one(slot, sample, out);
 }
 
 void BoundSensor::transmit(Transmission& out) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bench/checks/kinds/counters.hpp"
+#include "bench/scenario/scenario.hpp"
 
 namespace canhil::checks {
 
