@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/commands/exit_code.hpp"
+#include "bench/commands/read_dbc.hpp"
 #include "bench/commands/subcommands.hpp"
 #include "bench/mapping/check.hpp"
 #include "bench/mapping/extract.hpp"
@@ -17,6 +18,7 @@
 #include "dbc/lint/lint.hpp"
 #include "dbc/parser/parse.hpp"
 #include "dbc/show/show.hpp"
+#include "dbc/wireshark/script.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -24,15 +26,19 @@ namespace {
 // The arguments as given on the command line.
 struct LintArguments {
   std::vector<std::string> files;
-  std::string sarif;
+  std::string sarif, encoding;
   bool json = false;
   bool strict = false;
 };
 
 struct ShowArguments {
   std::string file;
-  std::string message;
+  std::string message, encoding;
   bool json = false;
+};
+
+struct WiresharkArguments {
+  std::string file, encoding, out{report::to_stdout};
 };
 
 struct ExtractArguments {
@@ -68,7 +74,7 @@ ExitCode lint(const LintArguments& arguments) {
   if (const auto fine = names.check(); !fine) return complain(fine.error());
   std::vector<dbc::Linted> files;
   for (const std::string& file : arguments.files) {
-    auto linted = dbc::lint(file);
+    auto linted = dbc::lint(file, arguments.encoding);
     if (!linted) return complain(linted.error());
     files.push_back(std::move(*linted));
   }
@@ -79,28 +85,24 @@ ExitCode lint(const LintArguments& arguments) {
   return std::ranges::any_of(files, is_refused) ? ExitCode::fail : ExitCode::pass;
 }
 
-// Prints the number of warnings, because this command does not list the warnings themselves.
-void say_warnings(const dbc::Inspection& inspection, const std::string& file) {
-  const auto warnings =
-      std::ranges::count(inspection.findings, dbc::Severity::warning,
-                         [](const auto& finding) { return dbc::text_of(finding.rule).severity; });
-  if (warnings == 0) return;
-  const std::string line = fmt::format("{}: {} warning{}, which 'hil-bench dbc lint' lists", file, warnings,
-                                       warnings == 1 ? "" : "s");
-  say(line);
-}
-
 ExitCode show(const ShowArguments& arguments) {
-  auto inspection = dbc::inspect_file(arguments.file);
-  if (!inspection) return complain(inspection.error());
-  const auto database = dbc::usable(*inspection, arguments.file);
+  const auto database = read_dbc(arguments.file, arguments.encoding);
   if (!database) return complain(database.error());
-  say_warnings(*inspection, arguments.file);
   if (arguments.message.empty())
     return arguments.json ? printed(dbc::to_json(*database) + "\n") : shown(dbc::message_table(*database));
   const auto message = dbc::named_message(*database, arguments.message);
   if (!message) return complain({fmt::format("{}: {}", arguments.file, message.error().message)});
   return arguments.json ? printed(dbc::to_json(**message) + "\n") : shown(dbc::message_page(**message));
+}
+
+ExitCode wireshark(const WiresharkArguments& arguments) {
+  CommandFiles files;
+  files.reads("FILE", arguments.file);
+  files.writes("--out", arguments.out);
+  if (const auto fine = files.check(); !fine) return complain(fine.error());
+  const auto database = read_dbc(arguments.file, arguments.encoding);
+  if (!database) return complain(database.error());
+  return code_of(report::write(arguments.out, dbc::wireshark_script(*database, arguments.file)));
 }
 
 std::string text_of(const mapping::Mapping& mapping, const std::vector<mapping::Remark>& remarks) {
@@ -151,6 +153,7 @@ void add_lint(command_line::Command command, int& code) {
   own.add_flag("--json", arguments->json, "JSON instead of a line for each finding");
   own.add_option("--sarif", arguments->sarif,
                  "also as SARIF 2.1.0, to a file; -: to stdout, in place of the text");
+  own.add_option("--encoding", arguments->encoding, encoding_help);
   own.add_flag("--strict", arguments->strict, "exit code 1 with warnings too");
   own.on_given([&code, arguments] { code = static_cast<int>(lint(*arguments)); });
 }
@@ -191,8 +194,19 @@ void add_show(command_line::Command command, int& code) {
   const auto own = command.add_subcommand("show", "the messages of a DBC, or the layout of one of them");
   own.add_option("FILE", arguments->file, "the DBC").required();
   own.add_option("MESSAGE", arguments->message, "its name or id (291, 0x123)");
+  own.add_option("--encoding", arguments->encoding, encoding_help);
   own.add_flag("--json", arguments->json, "JSON instead of text");
   own.on_given([&code, arguments] { code = static_cast<int>(show(*arguments)); });
+}
+
+void add_wireshark(command_line::Command command, int& code) {
+  auto arguments = std::make_shared<WiresharkArguments>();
+  const auto own = command.add_subcommand(
+      "wireshark", "a script with which tshark and Wireshark decode the messages of a DBC");
+  own.add_option("FILE", arguments->file, "the DBC").required();
+  own.add_option("--encoding", arguments->encoding, encoding_help);
+  own.add_option("--out", arguments->out, "the script, *.lua (default: stdout)");
+  own.on_given([&code, arguments] { code = static_cast<int>(wireshark(*arguments)); });
 }
 
 }  // namespace
@@ -204,6 +218,7 @@ void add_dbc(command_line::Command app, int& code) {
   add_show(command, code);
   add_check(command, code);
   add_extract(command, code);
+  add_wireshark(command, code);
   command.add_subcommand("rules", "what lint finds, as a table in Markdown").on_given([&code] {
     code = static_cast<int>(shown(dbc::rule_table()));
   });

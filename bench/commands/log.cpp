@@ -1,10 +1,8 @@
-// hil-bench log, decode, replay, check: commands for recorded frames.
+// hil-bench log, replay, check: commands for recorded frames.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
-#include <csignal>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,11 +17,9 @@
 #include "bench/drive/inputs.hpp"
 #include "bench/drive/recording.hpp"
 #include "bench/recordings/convert.hpp"
-#include "bench/recordings/decode.hpp"
 #include "bench/recordings/replay.hpp"
 #include "bench/report/file.hpp"
 #include "dbc/files/command_files.hpp"
-#include "dbc/parser/parse.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/frame_rules.hpp"
 
@@ -36,11 +32,6 @@ constexpr const char* log_to_read =
 constexpr double slowest = 1e-3, fastest = 1e3;
 
 // The arguments as given on the command line.
-struct DecodeArguments {
-  std::string log, dbc, format = "text", out{report::to_stdout};
-  std::vector<std::string> only;
-  bool since_1970 = false;
-};
 struct ConvertArguments {
   std::string from, to, format;
 };
@@ -75,51 +66,6 @@ ExitCode convert(const ConvertArguments& arguments) {
   if (!converted) return complain(converted.error());
   say_all(converted->remarks);
   fmt::print("{}: {} frames\n", one_line(arguments.to), converted->frames);
-  return ExitCode::pass;
-}
-
-ExitCode decode(const DecodeArguments& arguments) {
-  const auto database = dbc::read_file_leniently(arguments.dbc);
-  if (!database) return complain(database.error());
-  const bool to_stdout = arguments.out == report::to_stdout;
-  CommandFiles files;
-  files.reads("LOG", arguments.log);
-  files.reads("--dbc", arguments.dbc);
-  files.writes("--out", arguments.out);
-  if (auto fine = files.check(); !fine) return complain(fine.error());
-  const recordings::DecodeOptions options{.format = arguments.format == "csv" ? recordings::Format::csv
-                                                    : arguments.format == "jsonl"
-                                                        ? recordings::Format::json_lines
-                                                        : recordings::Format::text,
-                                          .only = arguments.only,
-                                          .since_1970 = arguments.since_1970};
-  Result<recordings::LeftOut> decoded = recordings::LeftOut{};
-  Result<void> written;
-  if (to_stdout) {
-    std::signal(SIGPIPE, SIG_DFL);  // a closed pipe, as with `| head`, ends the program silently
-    std::string some;
-    decoded = recordings::decode(arguments.log, *database, options, [&](std::string_view part) {
-      constexpr std::size_t enough = 1 << 16;
-      some += part;
-      if (some.size() < enough || !written) return;
-      written = report::write_stdout(some);
-      some.clear();
-    });
-    if (written) written = report::write_stdout(some);
-  } else {
-    written = report::write_file(arguments.out, [&](const report::Sink& give) {
-      decoded = recordings::decode(arguments.log, *database, options, give);
-    });
-  }
-  if (!decoded) return complain(decoded.error());
-  if (!written) return complain(written.error());
-  say_all(decoded->remarks);
-  if (decoded->frames > 0)
-    fmt::print(
-        stderr,
-        "hil-bench: {} frames left out: {} of another size than their message, others of no message{}\n",
-        decoded->frames, decoded->of_another_size,
-        decoded->ids.empty() ? "" : fmt::format(": {}", fmt::join(decoded->ids, ", ")));
   return ExitCode::pass;
 }
 
@@ -253,23 +199,6 @@ void add_convert(command_line::Command app, int& code) {
   add_log_compare(log, code);
   log.require_subcommands(1, 1);
   command.on_given([&code, arguments] { code = static_cast<int>(convert(*arguments)); });
-}
-
-void add_decode(command_line::Command app, int& code) {
-  auto arguments = std::make_shared<DecodeArguments>();
-  const auto command = app.add_subcommand("decode", "the frames of a log as values, by a DBC file");
-  command.add_option("LOG", arguments->log, log_to_read).required();
-  command.add_option("--dbc", arguments->dbc, "DBC file of the messages").required();
-  command
-      .add_option("--format", arguments->format,
-                  "text; csv: a column a signal; jsonl: a JSON object a line (default: text)")
-      .one_of({"text", "csv", "jsonl"});
-  command.add_option("--only", arguments->only, "name of a message; may be given again (default: all)")
-      .one_word_each();
-  command.add_flag("--since-1970", arguments->since_1970,
-                   "times since 1970, UTC (default: since the first frame)");
-  command.add_option("--out", arguments->out, "file (default: stdout)");
-  command.on_given([&code, arguments] { code = static_cast<int>(decode(*arguments)); });
 }
 
 void add_replay(command_line::Command app, int& code) {

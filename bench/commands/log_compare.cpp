@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench/commands/exit_code.hpp"
+#include "bench/commands/read_dbc.hpp"
 #include "bench/commands/subcommands.hpp"
 #include "bench/recordings/compare_stamps.hpp"
 #include "bench/report/file.hpp"
@@ -29,7 +30,7 @@ ExitCode compare(const Arguments& arguments) {
   if (auto fine = files.check(); !fine) return complain(fine.error());
   std::optional<dbc::Database> database;
   if (!arguments.dbc.empty()) {
-    auto read = dbc::read_file_leniently(arguments.dbc);
+    auto read = read_dbc(arguments.dbc);
     if (!read) return complain(read.error());
     database = std::move(*read);
   }

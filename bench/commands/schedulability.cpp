@@ -41,7 +41,11 @@ ExitCode execute(const Arguments& arguments) {
   const bool fifo = arguments.queue == "fifo";
   if (fifo && arguments.errors_per_second > 0)
     return complain({"--queue fifo: there is no bound with errors, expected no --errors-per-second with it"});
-  const auto database = dbc::read_file(arguments.file);
+  auto inspection = dbc::inspect_file(arguments.file);
+  if (!inspection) return complain(inspection.error());
+  auto tolerated = schedulability::tolerated(*inspection, arguments.file);
+  if (!tolerated) return complain(tolerated.error());
+  const auto database = dbc::usable(std::move(*inspection), arguments.file);
   if (!database) return complain(database.error());
   const auto in_file = [&arguments](const Error& error) {
     return complain({fmt::format("{}: {}", arguments.file, error.message)});
@@ -55,11 +59,12 @@ ExitCode execute(const Arguments& arguments) {
       .jitter_ns = static_cast<std::int64_t>(arguments.jitter_us.value_or(0)) * 1000};
   auto streams = schedulability::streams_of(*database, assumptions, *rates);
   if (!streams) return in_file(streams.error());
-  const auto analysis = schedulability::analyse(
+  auto analysis = schedulability::analyse(
       arguments.file, std::move(*streams),
       {.rates = *rates,
        .queues = fifo ? schedulability::Queues::in_order : schedulability::Queues::by_priority,
        .errors = errors_of(arguments)});
+  analysis.tolerated = std::move(*tolerated);
   const auto shown = arguments.json ? report::write_stdout(schedulability::json(analysis))
                                     : report::show(schedulability::table(analysis));
   if (!shown) return complain(shown.error());

@@ -34,13 +34,15 @@ void add_doctor(command_line::Command app, int& code);
 /// if a message can miss its deadline.
 void add_schedulability(command_line::Command app, int& code);
 
-/// `hil-bench log|decode|replay|check`: commands for recorded frames.
+/// `hil-bench log|replay|check`: commands for recorded frames.
 void add_log(command_line::Command app, int& code);
+/// `hil-bench decode LOG --dbc FILE`: prints the values of recorded frames.
+void add_decode(command_line::Command app, int& code);
 /// `hil-bench log compare A B`: reports the differences between the time stamps of two recordings of one bus.
 void add_log_compare(command_line::Command log, int& code);
 
-/// `hil-bench dbc lint|show|check|extract|rules`: commands for DBC files of any project and for mappings.
-/// Exit code 1 if lint rejects a file or check finds a warning.
+/// `hil-bench dbc lint|show|check|extract|wireshark|rules`: commands for DBC files of any project and for
+/// mappings. Exit code 1 if lint rejects a file or check finds a warning.
 void add_dbc(command_line::Command app, int& code);
 
 }  // namespace canhil::commands

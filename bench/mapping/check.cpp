@@ -109,8 +109,8 @@ class Remarks {
                             hear.reported_signals.end();
       const bool echo = hear.echo && hear.echo->repeated == &signal;
       const bool flag = std::ranges::find(hear.flags, &signal, &ReportedFlag::signal) != hear.flags.end();
-      const bool part = hear.quaternion && std::ranges::find(hear.quaternion->parts, &signal) !=
-                                               hear.quaternion->parts.end();
+      const bool part = hear.quaternion &&
+                        std::ranges::find(hear.quaternion->parts, &signal) != hear.quaternion->parts.end();
       if (!reported && !echo && !flag && !part && !is_protection(hear.of, signal))
         add(Grade::note, "unheard", name(hear.of, signal), "is not used by the bench");
     }

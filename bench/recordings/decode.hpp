@@ -2,42 +2,37 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "bench/recordings/decoded_lines.hpp"
 #include "dbc/parser/database.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::recordings {
 
-enum class Format : std::uint8_t {
-  text,        ///< one line per frame, for people
-  csv,         ///< a column per signal, a row per frame; for PlotJuggler, pandas, spreadsheets
-  json_lines,  ///< one object per frame
-};
-
 struct DecodeOptions {
   Format format = Format::text;
   std::vector<std::string> only{};  ///< names of the messages to decode; empty: all
   bool since_1970 = false;          ///< true: times since 1970; false: times since the first frame
+  bool j1939 = false;               ///< true: all messages with 29-bit ids are parameter groups of SAE J1939
 };
 
-/// Frames that cannot be decoded with the DBC.
+/// What the output does not contain.
 struct LeftOut {
-  std::uint64_t frames = 0;
-  std::set<std::string> ids{};         ///< ids that the DBC does not have; "error frames"
-  std::uint64_t of_another_size = 0;   ///< number of frames whose size differs from that of their message
-  std::vector<std::string> remarks{};  ///< see LogReader::remarks()
+  std::uint64_t frames = 0;     ///< frames that belong to no message
+  std::set<std::string> ids{};  ///< their ids; "error frames"
+  std::uint64_t ambiguous = 0;  ///< frames of J1939 whose group has several messages for other sources
+  std::set<std::string> ambiguous_ids{};
+  std::uint64_t short_frames = 0;  ///< frames that lack signals, because they are shorter than their message
+  std::uint64_t missing = 0;       ///< the signals that these frames lack
+  std::vector<std::string> remarks{};  ///< what of the log was not read
 };
-
-using Sink = std::function<void(std::string_view part)>;
 
 /// Decodes a log and passes the resulting text to `give`, part by part. Numbers are in the units of the
-/// signals, with twelve digits. Returns an error of one line if the log cannot be read or if the DBC lacks a
-/// selected message.
+/// signals, with all their digits (dbc::DecimalConversion). Returns an error of one line if the log cannot be
+/// read, if the DBC lacks a selected message, or if J1939 is selected and the DBC has no 29-bit ids.
 Result<LeftOut> decode(const std::string& log, const dbc::Database& database, const DecodeOptions& options,
                        const Sink& give);
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "dbc/wire/arbitration.hpp"
+#include "dbc/wire/frame_rules.hpp"
 
 namespace canhil::schedulability {
 namespace {
@@ -48,6 +49,9 @@ bool switches_bit_rate(const dbc::Database& database, const dbc::Message& messag
   return label != nullptr ? *label != "0" : value == nullptr || number(value) != 0;
 }
 
+/// The size of the smallest CAN FD frame that can carry so many bytes.
+unsigned fd_frame_size(unsigned bytes) { return *std::ranges::lower_bound(size_of_dlc, bytes); }
+
 void set_period(Stream& stream, const dbc::Database& database, const dbc::Message& message,
                 const Assumptions& assumptions) {
   const std::int64_t least_ns = time_ns(database, message, "GenMsgDelayTime");
@@ -76,7 +80,7 @@ Stream stream_of(const dbc::Database& database, const dbc::Message& message, con
     stream.deadline_ns = stream.period_ns;
   const std::int64_t jitter_ns = time_ns(database, message, "GenMsgJitter");
   stream.jitter_ns = jitter_ns > 0 ? jitter_ns : assumptions.jitter_ns;
-  stream.length = message.fd ? wire::worst_case_fd_length(message.size, message.extended,
+  stream.length = message.fd ? wire::worst_case_fd_length(fd_frame_size(message.size), message.extended,
                                                           switches_bit_rate(database, message))
                              : wire::worst_case_length(message.size, message.extended);
   return stream;
@@ -89,6 +93,11 @@ Result<std::vector<Stream>> streams_of(const dbc::Database& database, const Assu
   std::vector<Stream> streams;
   for (const dbc::Message& message : database.messages) {
     if (auto checked = check_times(database, message); !checked) return tl::unexpected(checked.error());
+    if (message.j1939 && message.size > 8) {
+      return failure(
+          fmt::format("message {} has {} bytes, which SAE J1939 sends in several frames, expected at most 8",
+                      message.name, message.size));
+    }
     const Stream& stream = streams.emplace_back(stream_of(database, message, assumptions));
     if (stream.length.data > 0 && rates.data == 0) {
       return failure(

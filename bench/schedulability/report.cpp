@@ -65,6 +65,11 @@ std::string assumptions(const Analysis& analysis) {
     text += fmt::format("bus errors: {} at once, and one more every {} ms\n", errors.burst,
                         milliseconds(errors.interval_ns));
   }
+  for (const Tolerated& one : analysis.tolerated) {
+    const dbc::RuleText& rule = dbc::text_of(one.rule);
+    text += fmt::format("warning {}, {} time{}, first in line {}: {}\n  assumed: {}\n", rule.id, one.count,
+                        one.count == 1 ? "" : "s", one.first.at.line, one.first.what, rule.consequence);
+  }
   return text;
 }
 
@@ -144,6 +149,15 @@ std::string json(const Analysis& analysis) {
   Json messages = Json::array();
   for (std::size_t i = 0; i < analysis.streams.size(); ++i)
     messages.push_back(message(analysis.streams[i], analysis.responses[i]));
+  Json warnings = Json::array();
+  for (const Tolerated& one : analysis.tolerated) {
+    const dbc::RuleText& rule = dbc::text_of(one.rule);
+    warnings.push_back({{"rule", rule.id},
+                        {"count", one.count},
+                        {"first_line", one.first.at.line},
+                        {"first", one.first.what},
+                        {"assumed", rule.consequence}});
+  }
   const bool errors = bus.errors.burst > 0;
   const Json root{{"file", analysis.file},
                   {"bitrate_bps", bus.rates.nominal},
@@ -153,6 +167,7 @@ std::string json(const Analysis& analysis) {
                   {"error_interval_s", errors ? seconds(bus.errors.interval_ns) : Json(nullptr)},
                   {"utilisation", utilisation(analysis.streams, bus.rates)},
                   {"schedulable", schedulable(analysis)},
+                  {"warnings", std::move(warnings)},
                   {"messages", std::move(messages)}};
   return root.dump(2, ' ', false, Json::error_handler_t::replace) +
          "\n";  // replaces bytes of a file name that are not UTF-8

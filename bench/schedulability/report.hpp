@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench/schedulability/analysis.hpp"
+#include "bench/schedulability/tolerance.hpp"
 
 namespace canhil::schedulability {
 
@@ -14,6 +15,7 @@ struct Analysis {
   Bus bus;
   std::vector<Stream> streams;
   std::vector<Response> responses;
+  std::vector<Tolerated> tolerated{};  ///< what is odd about the DBC
 };
 
 /// Analyses the messages `streams`, which must be sorted by priority.

@@ -19,7 +19,9 @@ std::string enum_text(const EnumType& type) {
   for (std::size_t i = 0; i < type.values.size(); ++i) {
     const std::string& name = type.identifiers[i];
     const char* separator = i == 0 ? "" : ", ";
-    declared += fmt::format("{}{} = {}", separator, name, type.values[i].value);
+    // Without the U, the compiler warns about a number that only an unsigned type can hold.
+    declared += fmt::format("{}{} = {}{}", separator, name, type.values[i].value,
+                            type.values[i].value > INT64_MAX ? "U" : "");
     listed += fmt::format("{}{}::{}", separator, type.name, name);
     named += fmt::format("    case {}::{}: return {};\n", type.name, name, in_quotes(type.values[i].name));
   }

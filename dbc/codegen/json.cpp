@@ -1,5 +1,7 @@
 #include "dbc/codegen/json.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 namespace canhil::dbc {
@@ -17,7 +19,7 @@ ordered_json attributes_json(const Attributes& attributes) {
 
 ordered_json values_json(const std::vector<ValueName>& values) {
   ordered_json json = ordered_json::object();
-  for (const ValueName& value : values) json[std::to_string(value.value)] = value.name;
+  for (const ValueName& value : values) json[fmt::to_string(value.value)] = value.name;
   return json;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 
 namespace canhil::dbc {
@@ -40,7 +39,7 @@ std::vector<std::string> unique_identifiers(const std::vector<ValueName>& values
   for (const ValueName& value : values) {
     std::string name = identifier(value.name);
     if (std::ranges::find(names, name) != names.end()) {
-      name += fmt::format("_{}{}", value.value < 0 ? "minus_" : "", std::abs(value.value));
+      name += value.value < 0 ? fmt::format("_minus_{}", -value.value) : fmt::format("_{}", value.value);
     }
     names.push_back(std::move(name));
   }

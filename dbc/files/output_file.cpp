@@ -56,16 +56,25 @@ int OutputFile::give_name(const std::string& name) {
 }
 
 Result<void> write_file(const std::string& path, const std::function<void(const Sink&)>& content) {
+  return write_file_unless_failed(path, [&](const Sink& give) -> Result<void> {
+    content(give);
+    return {};
+  });
+}
+
+Result<void> write_file_unless_failed(const std::string& path,
+                                      const std::function<Result<void>(const Sink&)>& content) {
   auto output = OutputFile::create(path);
   if (!output) return tl::unexpected(output.error());
   std::FILE* file = output->take_stream();
   if (file == nullptr) return complaint(path, errno);
   // The first error is reported.
   int error = 0;
-  content([&](std::string_view part) {
+  const Result<void> complete = content([&](std::string_view part) {
     if (error == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) error = errno;
   });
   if (std::fclose(file) != 0 && error == 0) error = errno;
+  if (!complete) return complete;
   if (error == 0) error = output->give_name(path);
   return error == 0 ? Result<void>() : complaint(path, error);
 }

@@ -48,6 +48,9 @@ using Sink = std::function<void(std::string_view part)>;
 /// unchanged. `content` passes the parts of the content to the sink one by one, so a large content is never
 /// in memory as a whole.
 Result<void> write_file(const std::string& path, const std::function<void(const Sink&)>& content);
+/// Like write_file(), but `content` may fail: then its error is returned, and an existing file is unchanged.
+Result<void> write_file_unless_failed(const std::string& path,
+                                      const std::function<Result<void>(const Sink&)>& content);
 /// Writes a content that is in memory, completely or not at all.
 Result<void> write_file(const std::string& path, std::string_view content);
 

@@ -36,8 +36,8 @@ std::string file_line(const Linted& linted) {
 
 }  // namespace
 
-Result<Linted> lint(const std::string& file) {
-  auto inspection = inspect_file(file);
+Result<Linted> lint(const std::string& file, const std::string& encoding) {
+  auto inspection = inspect_file(file, encoding);
   if (!inspection) return tl::unexpected(inspection.error());
   Linted linted{file, std::move(inspection->findings), inspection->database.has_value()};
   std::ranges::stable_sort(linted.findings, {},

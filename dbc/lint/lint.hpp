@@ -19,7 +19,7 @@ struct Linted {
 };
 
 /// Inspects a DBC file. Returns an error if the file cannot be read.
-Result<Linted> lint(const std::string& file);
+Result<Linted> lint(const std::string& file, const std::string& encoding = {});
 
 /// The number of findings that have this severity.
 std::size_t count(const Linted& linted, Severity severity);

@@ -10,10 +10,10 @@ namespace {
 
 std::vector<ValueName> read_value_names(Reader& in, Draft& draft) {
   std::vector<ValueName> values;
-  std::set<std::int64_t> named;
+  std::set<RawNumber> named;
   while (!in.at_section_end()) {
     const Position at = in.peek().at;
-    const std::int64_t value = in.integer("';' or a value");
+    const RawNumber value = in.raw_number("';' or a value");
     std::string name = in.string("the name of the value");
     if (named.insert(value).second) {
       values.push_back({value, std::move(name)});
@@ -63,6 +63,7 @@ void read_value_table(Reader& in, Draft& draft) {
 void read_variable(Reader& in, Draft& draft) {
   const Position at = in.peek().at;
   EnvironmentVariable variable;
+  variable.at = at;
   variable.name = in.word("the name of the environment variable");
   auto& variables = draft.database.variables;
   if (draft.variables.contains(variable.name)) {

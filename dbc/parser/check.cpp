@@ -66,6 +66,18 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
+/// Whether the frames of a message are those of SAE J1939. The format of the message itself has precedence
+/// over the protocol of the network, and this over the default of the format.
+bool is_j1939(const Defaults& defaults, const Database& database, const Message& message) {
+  if (!message.extended) return false;
+  const auto format =
+      attribute_or<std::string>(defaults, message.attributes, Owner::message, "VFrameFormat", {});
+  if (message.attributes.contains("VFrameFormat")) return format.starts_with("J1939");
+  const auto protocol =
+      attribute_or<std::string>(defaults, database.attributes, Owner::network, "ProtocolType", {});
+  return protocol.starts_with("J1939") || format.starts_with("J1939");
+}
+
 void read_message_attributes(const Defaults& defaults, Findings& findings, Message& message) {
   const auto number = [&](std::string_view name) {
     return number_or_zero(defaults, message.attributes, Owner::message, name);
@@ -164,12 +176,10 @@ void check_values(Findings& findings, const Message& message, const Signal& sign
                              full_name(message, signal)));
   }
   const unsigned n = signal.length;
+  const RawNumber end = RawNumber{1} << (signal.is_signed() ? n - 1 : n);
+  const RawNumber first = signal.is_signed() ? -end : 0;
   for (const ValueName& value : signal.values) {
-    const bool fits = signal.is_signed()
-                          ? n == 64 || (value.value >= -(std::int64_t{1} << (n - 1)) &&
-                                        value.value < (std::int64_t{1} << (n - 1)))
-                          : value.value >= 0 && (n >= 63 || value.value < (std::int64_t{1} << n));
-    if (!fits) {
+    if (value.value < first || value.value >= end) {
       findings.add(
           Rule::value_beyond_bits, signal.at,
           fmt::format("value {} \"{}\" of {} does not fit, expected one of {} {} bits", value.value,
@@ -249,9 +259,11 @@ std::string full_name(const Message& message, const Signal& signal) {
 
 void finish(Draft& draft) {
   leave_out_messages(draft);
+  use_long_symbols(draft.findings, draft.database);
   const Defaults defaults(draft.database);
   for (Message& message : draft.database.messages) {
     read_message_attributes(defaults, draft.findings, message);
+    message.j1939 = is_j1939(defaults, draft.database, message);
     check_size(draft.findings, message);
     LeftOut left_out(message.signals.size());
     for (std::size_t i = 0; i < message.signals.size(); ++i) {

@@ -14,6 +14,10 @@ using LeftOut = std::vector<bool>;
 /// "Message.signal"
 std::string full_name(const Message& message, const Signal& signal);
 
+/// Gives the objects with a long symbol (an attribute such as SystemSignalLongSymbol) this name, and changes
+/// all references to them. Defined in long_symbols.cpp.
+void use_long_symbols(Findings& findings, Database& database);
+
 /// Assigns the multiplexor of the message to each multiplexed signal for which the text names no multiplexor.
 /// If the message has no multiplexor or several, leaves these signals out. Defined in multiplexing.cpp, like
 /// the next two functions.

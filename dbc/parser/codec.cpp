@@ -41,7 +41,8 @@ std::uint64_t to_raw(const Signal& signal, double value) {
 }
 
 std::string_view value_name(const Signal& signal, std::uint64_t raw) {
-  const std::int64_t value = Conversion(signal).sign_extended(raw);
+  const RawNumber value =
+      signal.is_signed() ? RawNumber{Conversion(signal).sign_extended(raw)} : RawNumber{raw};
   const auto found = std::ranges::find(signal.values, value, &ValueName::value);
   return found == signal.values.end() ? std::string_view{} : found->name;
 }

@@ -1,4 +1,5 @@
-// The content of a DBC file after all checks. parse() returns a Database; the codec and dbcgen use it.
+// The content of a DBC file after all checks. parse() returns a Database; the codec and dbcgen use it. An
+// object with a long symbol (such as SystemSignalLongSymbol) has this name, not the short name of the text.
 #pragma once
 
 #include <cstdint>
@@ -50,9 +51,13 @@ struct AttributeDefinition {
   std::optional<AttributeValue> initial;
 };
 
+/// A raw value as a number. It has more than 64 bits, because it must hold the values of signed and of
+/// unsigned signals of 64 bits.
+using RawNumber = __int128;
+
 /// The name of one raw value.
 struct ValueName {
-  std::int64_t value = 0;
+  RawNumber value = 0;
   std::string name;
   friend bool operator==(const ValueName&, const ValueName&) = default;
 };
@@ -68,6 +73,7 @@ struct Node {
   std::string name;
   std::string comment;
   Attributes attributes;
+  Position at;
 };
 
 /// The byte order of a signal: Intel (little-endian) or Motorola (big-endian).
@@ -140,6 +146,9 @@ struct Message {
   /// The values of the attributes VFrameFormat, GenMsgCycleTime, E2eDataId, SampleGroup, Answers and
   /// Estimators.
   bool fd = false;
+  /// The id is that of a parameter group of SAE J1939: VFrameFormat is J1939PG, or the attribute ProtocolType
+  /// of the network is J1939.
+  bool j1939 = false;
   std::int64_t cycle_time_us = 0;
   std::uint16_t e2e_data_id = 0;
   std::string sample_group;
@@ -160,6 +169,7 @@ struct EnvironmentVariable {
   std::vector<std::string> nodes;
   std::vector<ValueName> values;
   Attributes attributes;
+  Position at;
 };
 
 /// An attribute of the relation between a node and a message, a signal or an environment variable.

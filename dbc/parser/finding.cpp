@@ -14,14 +14,18 @@ using enum Severity;
 constexpr std::array texts{
     RuleText{Rule::not_a_dbc, "not-a-dbc", error, "the text contains no section of a DBC",
              "the file is refused"},
-    RuleText{Rule::unfinished_string, "unfinished-string", error,
-             "a quoted string has no closing quote, so it extends to the end of the file",
-             "the file is refused"},
-    RuleText{Rule::unreadable_message, "unreadable-message", error,
-             "a message or signal (BO_, SG_) is malformed", "the file is refused"},
-    RuleText{Rule::too_many_findings, "too-many-findings", error, "the file has 10,000 findings",
-             "the rest of the file is not read; the file is refused"},
+    RuleText{Rule::unfinished_string, "unfinished-string", warning, "a quoted string has no closing quote",
+             "the string ends before the next line that begins a section"},
+    RuleText{Rule::unreadable_message, "unreadable-message", warning,
+             "the first line of a message (BO_) is malformed", "the message is left out"},
+    RuleText{Rule::unreadable_signal, "unreadable-signal", warning,
+             "a signal (SG_) is malformed, or does not follow a message", "the signal is left out"},
+    RuleText{Rule::too_many_findings, "too-many-findings", warning, "the file has more than 10,000 findings",
+             "the other findings are not listed"},
     RuleText{Rule::windows_1252, "windows-1252", note, "the text is not UTF-8", "it is read as Windows-1252"},
+    RuleText{Rule::text_encoding, "text-encoding", warning,
+             "the text has bytes that are no character of its encoding",
+             "each is read as U+FFFD; `--encoding` selects the encoding"},
     RuleText{Rule::independent_signals, "independent-signals", note,
              "the message VECTOR__INDEPENDENT_SIG_MSG, id 0xC0000000, contains signals that no frame carries",
              "the message is left out"},
@@ -152,6 +156,11 @@ constexpr std::array texts{
              "the default of an attribute is given twice", "the first one is used"},
     RuleText{Rule::duplicate_attribute, "duplicate-attribute", warning,
              "an attribute is assigned twice to the same object", "the first value is used"},
+    RuleText{
+        Rule::long_symbol, "long-symbol", warning,
+        "the long symbol of an object (SystemSignalLongSymbol and the like) is not a name, or is the name "
+        "of another object",
+        "the short name is used"},
 };
 
 constexpr bool in_order() {
@@ -160,7 +169,7 @@ constexpr bool in_order() {
   }
   return true;
 }
-static_assert(in_order() && texts.back().rule == Rule::duplicate_attribute);
+static_assert(in_order() && texts.back().rule == Rule::long_symbol);
 
 // Replaces control characters by blanks. A finding must be one line, but text that it quotes may contain line
 // ends.
@@ -182,10 +191,16 @@ std::string_view name_of(Severity severity) {
 }
 
 void Findings::add(Rule rule, Position at, std::string what) {
-  all_.push_back({rule, at, on_one_line(std::move(what))});
-  if (all_.size() < most_findings) return;
-  all_.push_back({Rule::too_many_findings, at, "10,000 findings, expected a DBC file"});
-  throw Abandoned{};
+  if (all_.size() > most_findings) return;
+  if (all_.size() == most_findings) {
+    rule = Rule::too_many_findings;
+    what = "more than 10,000 findings, expected a DBC file";
+  }
+  all_.push_back({.rule = rule,
+                  .at = at,
+                  .what = on_one_line(std::move(what)),
+                  .attribute = attribute_.value_or(""),
+                  .in_attribute_section = attribute_.has_value()});
 }
 
 void Findings::add_once(Rule rule, Position at, const std::string& name, std::string what) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -24,8 +25,10 @@ enum class Rule : std::uint8_t {
   not_a_dbc,
   unfinished_string,
   unreadable_message,
+  unreadable_signal,
   too_many_findings,
   windows_1252,
+  text_encoding,
   independent_signals,
   unreadable_section,
   unknown_section,
@@ -83,6 +86,7 @@ enum class Rule : std::uint8_t {
   attribute_label,
   duplicate_default,
   duplicate_attribute,
+  long_symbol,
 };
 
 /// The text of a rule.
@@ -106,18 +110,23 @@ struct Finding {
   Rule rule;
   Position at;
   std::string what;  ///< one line that states what was found and what was expected
+  /// The attribute that the section (BA_ and the like) defines or assigns; empty: the finding is not in such
+  /// a section, or its attribute could not be read.
+  std::string attribute{};
+  bool in_attribute_section = false;
 };
 
-/// Collects the findings about a text, at most 10,000 of them.
+/// Collects the findings about a text. Keeps the first 10,000 of them, and one that states that there are
+/// more.
 class Findings {
  public:
-  struct Abandoned {};
-
-  /// Adds a finding. Throws Abandoned if there are 10,000 findings.
+  /// Adds a finding.
   void add(Rule rule, Position at, std::string what);
   /// Adds a finding, except if there is already one with the same rule and name: an undeclared node may occur
   /// a thousand times in a text.
   void add_once(Rule rule, Position at, const std::string& name, std::string what);
+  /// All findings until the next call are in a section about this attribute; nullopt: in another section.
+  void set_attribute_section(std::optional<std::string> attribute) { attribute_ = std::move(attribute); }
 
   /// The findings so far.
   [[nodiscard]] const std::vector<Finding>& all() const { return all_; }
@@ -125,6 +134,7 @@ class Findings {
   [[nodiscard]] std::vector<Finding> take() { return std::move(all_); }
 
  private:
+  std::optional<std::string> attribute_;
   std::vector<Finding> all_;
   std::set<std::pair<Rule, std::string>> named_;
 };

@@ -1,11 +1,26 @@
 #include "dbc/parser/lexer.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cstdint>
 #include <utility>
 
 namespace canhil::dbc {
 namespace {
+
+constexpr std::array<std::string_view, 27> keywords{"VERSION",      "NS_",
+                                                    "BS_",          "BU_",
+                                                    "BO_",          "SG_",
+                                                    "BO_TX_BU_",    "EV_",
+                                                    "ENVVAR_DATA_", "CM_",
+                                                    "BA_DEF_",      "BA_",
+                                                    "BA_DEF_DEF_",  "BA_DEF_REL_",
+                                                    "BA_REL_",      "BA_DEF_DEF_REL_",
+                                                    "VAL_",         "VAL_TABLE_",
+                                                    "SIG_GROUP_",   "SIG_VALTYPE_",
+                                                    "SG_MUL_VAL_",  "SIGTYPE_VALTYPE_",
+                                                    "SGTYPE_",      "SIG_TYPE_REF_",
+                                                    "BU_SG_REL_",   "BU_BO_REL_",
+                                                    "BU_EV_REL_"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
@@ -15,7 +30,13 @@ bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) ==
 
 class Lexer {
  public:
-  Lexer(std::string_view text, Findings& findings) : text_(text), findings_(findings) {}
+  /// `bounded`: a string also ends before a line that begins with a keyword. This finds the end of a string
+  /// that lacks its closing quote; but a comment may contain such a line.
+  Lexer(std::string_view text, Findings& findings, bool bounded)
+      : text_(text), findings_(findings), bounded_(bounded) {}
+
+  /// Whether a string had no end.
+  [[nodiscard]] bool unfinished() const { return unfinished_; }
 
   Token next() {
     skip_space();
@@ -117,93 +138,55 @@ class Lexer {
   std::string string(Position start) {
     std::string text;
     take();
-    while (!at_end() && peek() != '"') {
+    while (!at_end() && peek() != '"' && !(bounded_ && keyword_follows())) {
       char c = take();
       if (c == '\r') continue;
       if (c == '\\' && (peek() == '"' || peek() == '\\')) c = take();
       text += c;
     }
-    if (at_end()) {
-      findings_.add(Rule::unfinished_string, start,
-                    "string without end, expected '\"' before the end of the file");
-    } else {
+    if (peek() == '"') {
       take();
+    } else {
+      unfinished_ = true;
+      findings_.add(Rule::unfinished_string, start,
+                    "string without end, expected '\"' before the next section");
     }
     return text;
+  }
+  /// True at the end of a line if the next line begins with a keyword.
+  [[nodiscard]] bool keyword_follows() const {
+    if (peek() != '\n') return false;
+    std::string_view line = text_.substr(index_ + 1);
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    const auto end = std::ranges::find_if(line, [](char c) { return !is_letter(c); });
+    return is_keyword(line.substr(0, static_cast<std::size_t>(end - line.begin())));
   }
 
   std::string_view text_;
   Findings& findings_;
+  bool bounded_;
+  bool unfinished_ = false;
   std::size_t index_ = 0;
   Position at_;
 };
 
-/// The length of the UTF-8 sequence with which `text` begins; 0: `text` does not begin with a valid sequence.
-std::size_t utf8_length(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text[0]);
-  const std::size_t length = lead < 0x80                     ? 1
-                             : (lead >= 0xC2 && lead < 0xE0) ? 2
-                             : (lead & 0xF0U) == 0xE0        ? 3
-                             : (lead >= 0xF0 && lead < 0xF5) ? 4
-                                                             : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if (!is_continuation(text[i])) return 0;
-  }
-  return length;
-}
-
-void append_utf8(std::string& out, std::uint32_t code) {
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xC0U | (code >> 6U));
-    out += static_cast<char>(0x80U | (code & 0x3FU));
-  } else {
-    out += static_cast<char>(0xE0U | (code >> 12U));
-    out += static_cast<char>(0x80U | ((code >> 6U) & 0x3FU));
-    out += static_cast<char>(0x80U | (code & 0x3FU));
-  }
-}
-
-// The characters of the bytes 0x80..0x9F in Windows-1252; all other bytes are as in Latin-1. A byte that has
-// no character becomes U+FFFD.
-constexpr std::array<std::uint16_t, 32> cp1252_high{
-    0x20AC, 0xFFFD, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
-    0x2039, 0x0152, 0xFFFD, 0x017D, 0xFFFD, 0xFFFD, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
-    0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0xFFFD, 0x017E, 0x0178};
-
 }  // namespace
 
+bool is_keyword(std::string_view word) { return std::ranges::find(keywords, word) != keywords.end(); }
+
 std::vector<Token> tokens_of(std::string_view text, Findings& findings) {
-  Lexer lexer(text, findings);
   std::vector<Token> tokens;
-  do {
-    tokens.push_back(lexer.next());
-  } while (tokens.back().kind != TokenKind::end);
+  const Findings before = findings;
+  for (const bool bounded : {false, true}) {
+    tokens.clear();
+    findings = before;
+    Lexer lexer(text, findings, bounded);
+    do {
+      tokens.push_back(lexer.next());
+    } while (tokens.back().kind != TokenKind::end);
+    if (!lexer.unfinished()) break;
+  }
   return tokens;
-}
-
-std::string to_utf8(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  if (!first_not_utf8(text)) return std::string(text);
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    append_utf8(out, byte >= 0x80 && byte < 0xA0 ? cp1252_high[byte - 0x80U] : byte);
-  }
-  return out;
-}
-
-std::optional<Position> first_not_utf8(std::string_view text) {
-  Position at;
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    if (length == 0) return at;
-    at = text[0] == '\n' ? Position{at.line + 1, 1} : Position{at.line, at.column + 1};
-    text.remove_prefix(length);
-  }
-  return std::nullopt;
 }
 
 }  // namespace canhil::dbc

@@ -1,7 +1,6 @@
 // Splits the text of a DBC into tokens. This header is internal to the parser.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,16 +30,11 @@ struct Token {
   Position at;
 };
 
+/// Whether a word is a keyword of the format, such as BO_.
+bool is_keyword(std::string_view word);
+
 /// The tokens of a UTF-8 text; the last token has the kind `end`. An unexpected character becomes a token of
-/// the kind `mark`.
+/// the kind `mark`. If a string has no end, a string ends before the next line that begins with a keyword.
 std::vector<Token> tokens_of(std::string_view text, Findings& findings);
-
-/// Returns the text as UTF-8, without a byte order mark. If the text is not valid UTF-8, converts it from
-/// Windows-1252.
-std::string to_utf8(std::string_view text);
-
-/// The position of the first byte that is not part of a valid UTF-8 character; nullopt: there is no such
-/// byte.
-std::optional<Position> first_not_utf8(std::string_view text);
 
 }  // namespace canhil::dbc

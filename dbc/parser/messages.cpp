@@ -115,6 +115,12 @@ void read_sender(Reader& in, Draft& draft, Message& message) {
   }
 }
 
+bool is_after_signals(const Reader& in) { return in.at_section() || in.peek().kind == TokenKind::end; }
+
+void skip_to_next_signal(Reader& in) {
+  while (!in.at_word("SG_") && !is_after_signals(in)) in.take();
+}
+
 /// Reads a signal of the current message. If the signal is unreadable, skips the tokens before the next
 /// signal or section.
 void read_next_signal(Reader& in, Draft& draft) {
@@ -122,9 +128,8 @@ void read_next_signal(Reader& in, Draft& draft) {
   try {
     signal = read_signal(in, draft);
   } catch (const SectionFailure& failure) {
-    draft.findings.add(Rule::unreadable_message, failure.at, failure.what);
-    while (!in.at_word("SG_") && !in.at_section() && in.peek().kind != TokenKind::end) in.take();
-    return;
+    draft.findings.add(Rule::unreadable_signal, failure.at, failure.what);
+    return skip_to_next_signal(in);
   }
   Message& message = draft.database.messages.back();
   if (!draft.signals.back().emplace(signal.name, message.signals.size()).second) {
@@ -164,9 +169,14 @@ void read_message(Reader& in, Draft& draft) {
   draft.left_out.push_back(!is_kept || !is_new || message.size > largest_size);
   draft.database.messages.push_back(std::move(message));
   draft.signals.emplace_back();
-  while (in.at_word("SG_")) {
-    in.take();
-    read_next_signal(in, draft);
+  while (!is_after_signals(in)) {
+    if (in.at_word("SG_")) {
+      in.take();
+      read_next_signal(in, draft);
+    } else {  // a line between the signals of a message does not cost the signals that follow it
+      in.report(Rule::unknown_section, "a section such as BO_, CM_ or BA_");
+      skip_to_next_signal(in);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "dbc/files/text_file.hpp"
+#include "dbc/parser/encoding.hpp"
 #include "dbc/parser/reader.hpp"
 
 namespace canhil::dbc {
@@ -44,7 +45,7 @@ void read_nodes(Reader& in, Draft& draft) {
     }
     if (name == nobody) continue;
     draft.nodes.emplace(name, nodes.size());
-    nodes.push_back({name, {}, {}});
+    nodes.push_back({.name = name, .comment = {}, .attributes = {}, .at = at});
   }
 }
 
@@ -82,20 +83,30 @@ void skip_section(Reader& in) {
   in.take_mark_if(';');
 }
 
+/// The attribute of a section whose keyword has been taken; nullopt: the section is not about an attribute.
+std::optional<std::string> attribute_of_section(const Reader& in, std::string_view keyword) {
+  if (!keyword.starts_with("BA_")) return std::nullopt;
+  for (const std::size_t ahead : {0U, 1U}) {  // the kind of object may precede the name
+    if (in.peek(ahead).kind == TokenKind::string) return in.peek(ahead).text;
+  }
+  return "";
+}
+
 /// Reads the section that begins with the next token. False: the next token begins neither a section nor an
-/// SG_.
+/// SG_. A malformed section costs only itself, so that one typing error does not cost the whole file.
 bool read_section(Reader& in, Draft& draft) {
   const Token first = in.peek();
   const auto section = std::ranges::find(sections, first.text, &Section::keyword);
   if (first.kind != TokenKind::word || section == sections.end()) {
     const bool is_signal = first.kind == TokenKind::word && first.text == "SG_";
-    in.report(is_signal ? Rule::unreadable_message : Rule::unknown_section,
+    in.report(is_signal ? Rule::unreadable_signal : Rule::unknown_section,
               "a section such as BO_, CM_ or BA_");
     in.take();
     skip_section(in);
     return is_signal;
   }
   in.take();
+  draft.findings.set_attribute_section(attribute_of_section(in, first.text));
   try {
     section->read(in, draft);
   } catch (const SectionFailure& failure) {
@@ -103,6 +114,7 @@ bool read_section(Reader& in, Draft& draft) {
     draft.findings.add(in_message ? Rule::unreadable_message : failure.rule, failure.at, failure.what);
     skip_section(in);
   }
+  draft.findings.set_attribute_section(std::nullopt);
   return true;
 }
 
@@ -128,26 +140,20 @@ Result<Database> database_unless(Inspection inspection, Severity refused, std::s
   return std::move(*inspection.database);
 }
 
-Result<Database> read_file_unless(const std::string& path, Severity refused) {
-  auto inspection = inspect_file(path);
+Result<Database> read_file_unless(const std::string& path, Severity refused,
+                                  const std::string& encoding = {}) {
+  auto inspection = inspect_file(path, encoding);
   if (!inspection) return tl::unexpected(inspection.error());
   return database_unless(std::move(*inspection), refused, path);
 }
 
-}  // namespace
-
-Inspection inspect(std::string_view text) {
+Inspection inspect_in_encoding(std::string_view text, const std::string& encoding) {
   Findings findings;
   Draft draft(findings);
-  try {
-    if (const auto at = first_not_utf8(text))
-      findings.add(Rule::windows_1252, *at, "the text is not UTF-8, expected UTF-8");
-    Reader in(tokens_of(to_utf8(text), findings), findings);
-    if (!read_sections(in, draft))  // the text is not a DBC: other findings would not help
-      return {{}, {{Rule::not_a_dbc, {}, "no section of a DBC file, expected one such as BO_"}}};
-    finish(draft);
-  } catch (const Findings::Abandoned&) {  // the last finding states that there are too many
-  }
+  Reader in(tokens_of(to_utf8(text, encoding, findings), findings), findings);
+  if (!read_sections(in, draft))  // the text is not a DBC: other findings would not help
+    return {{}, {{Rule::not_a_dbc, {}, "no section of a DBC file, expected one such as BO_"}}};
+  finish(draft);
   Inspection inspection{std::nullopt, findings.take()};
   if (std::ranges::count(inspection.findings, Severity::error, severity_of) == 0) {
     draft.database.hash = hash(text);
@@ -156,11 +162,33 @@ Inspection inspect(std::string_view text) {
   return inspection;
 }
 
-Result<Inspection> inspect_file(const std::string& path) {
+}  // namespace
+
+Inspection inspect(std::string_view text, const std::string& encoding) {
+  Inspection inspection = inspect_in_encoding(text, encoding);
+  const bool is_utf8 = std::ranges::none_of(inspection.findings, [](const Finding& finding) {
+    return finding.rule == Rule::windows_1252 || finding.rule == Rule::text_encoding;
+  });
+  if (!encoding.empty() || is_utf8) return inspection;
+  // A backslash before a quote may be an escape, or the second half of a character. The wrong choice moves
+  // the ends of all following strings, which causes many findings.
+  const std::string other_text = with_two_byte_characters(text);
+  if (other_text == text) return inspection;
+  Inspection other = inspect_in_encoding(other_text, encoding);
+  if (other.findings.size() >= inspection.findings.size()) return inspection;
+  if (other.database) other.database->hash = hash(text);
+  return other;
+}
+
+Result<Inspection> inspect_file(const std::string& path, const std::string& encoding) {
+  if (!encoding.empty() && !is_encoding(encoding)) {
+    return failure(fmt::format(
+        "--encoding '{}': expected the name of an encoding, such as those that 'iconv -l' lists", encoding));
+  }
   // The size is limited, because a token needs up to about twenty times the memory of its text.
   const auto text = read_text_file(path, "a DBC file", 16 * mebibyte);
   if (!text) return tl::unexpected(text.error());
-  return inspect(*text);
+  return inspect(*text, encoding);
 }
 
 Result<Database> parse(std::string_view text, std::string_view file_name) {
@@ -177,8 +205,8 @@ Result<Database> parse_leniently(std::string_view text, std::string_view file_na
 
 Result<Database> read_file(const std::string& path) { return read_file_unless(path, Severity::warning); }
 
-Result<Database> read_file_leniently(const std::string& path) {
-  return read_file_unless(path, Severity::error);
+Result<Database> read_file_leniently(const std::string& path, const std::string& encoding) {
+  return read_file_unless(path, Severity::error, encoding);
 }
 
 std::uint64_t hash(std::string_view text) {

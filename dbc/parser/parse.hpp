@@ -21,12 +21,14 @@ struct Inspection {
   std::vector<Finding> findings;     ///< in the order in which they were found
 };
 
-/// Reads a DBC text. Returns the database, and all findings about the text.
-Inspection inspect(std::string_view text);
+/// Reads a DBC text. Returns the database, and all findings about the text. With an empty `encoding`, the
+/// text is read as UTF-8 (or UTF-16 with a byte order mark), and as Windows-1252 if it is not UTF-8;
+/// otherwise `encoding` must be a name that iconv knows, such as "shift_jis".
+Inspection inspect(std::string_view text, const std::string& encoding = {});
 
-/// Calls inspect() with the content of a file. Returns an error if the file cannot be read, or is larger than
-/// 16 MiB.
-Result<Inspection> inspect_file(const std::string& path);
+/// Calls inspect() with the content of a file. Returns an error if the file cannot be read or is larger than
+/// 16 MiB, or if iconv does not know the encoding.
+Result<Inspection> inspect_file(const std::string& path, const std::string& encoding = {});
 
 /// The database of an inspection. If the inspection found errors, returns the first of them as one line
 /// `file_name:line:column: what, expected ...`.
@@ -44,8 +46,8 @@ Result<Database> parse_leniently(std::string_view text, std::string_view file_na
 /// than 16 MiB.
 Result<Database> read_file(const std::string& path);
 /// Calls parse_leniently() with the content of a file. Returns an error also if the file cannot be read, or
-/// is larger than 16 MiB.
-Result<Database> read_file_leniently(const std::string& path);
+/// is larger than 16 MiB, or if iconv does not know the encoding (see inspect()).
+Result<Database> read_file_leniently(const std::string& path, const std::string& encoding = {});
 
 /// The 64-bit FNV-1a hash of the text without its carriage returns. So the hash does not depend on the line
 /// ends that a git checkout uses.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -37,24 +36,7 @@ bool read_all(std::string_view text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-constexpr std::array<std::string_view, 27> keywords{"VERSION",      "NS_",
-                                                    "BS_",          "BU_",
-                                                    "BO_",          "SG_",
-                                                    "BO_TX_BU_",    "EV_",
-                                                    "ENVVAR_DATA_", "CM_",
-                                                    "BA_DEF_",      "BA_",
-                                                    "BA_DEF_DEF_",  "BA_DEF_REL_",
-                                                    "BA_REL_",      "BA_DEF_DEF_REL_",
-                                                    "VAL_",         "VAL_TABLE_",
-                                                    "SIG_GROUP_",   "SIG_VALTYPE_",
-                                                    "SG_MUL_VAL_",  "SIGTYPE_VALTYPE_",
-                                                    "SGTYPE_",      "SIG_TYPE_REF_",
-                                                    "BU_SG_REL_",   "BU_BO_REL_",
-                                                    "BU_EV_REL_"};
-
 }  // namespace
-
-bool is_keyword(std::string_view word) { return std::ranges::find(keywords, word) != keywords.end(); }
 
 void Reader::fail(const std::string& expected) const {
   throw SectionFailure{peek().at, unexpected(peek(), expected)};
@@ -124,6 +106,24 @@ std::int64_t Reader::integer(std::string_view what) {
     fail(fmt::format("{}, an integer", what));
   take();
   return value;
+}
+
+RawNumber Reader::raw_number(std::string_view what) {
+  const std::string_view text = peek().text;
+  const bool is_negative = text.starts_with('-');
+  const std::string_view digits = text.substr(is_negative || text.starts_with('+') ? 1 : 0);
+  if (peek().kind != TokenKind::number || digits.find_first_not_of("0123456789") != std::string_view::npos)
+    fail(fmt::format("{}, an integer", what));
+  RawNumber value = 0;
+  for (const char digit : digits) {
+    if (__builtin_mul_overflow(value, 10, &value) || __builtin_add_overflow(value, digit - '0', &value)) {
+      constexpr auto largest = static_cast<RawNumber>(~static_cast<unsigned __int128>(0) >> 1U);
+      value = largest;
+      break;
+    }
+  }
+  take();
+  return is_negative ? -value : value;
 }
 
 std::uint64_t Reader::natural(std::string_view what, std::uint64_t maximum) {

@@ -13,8 +13,6 @@
 
 namespace canhil::dbc {
 
-bool is_keyword(std::string_view word);
-
 class Reader {
  public:
   Reader(std::vector<Token> tokens, Findings& findings) : tokens_(std::move(tokens)), findings_(findings) {}
@@ -47,6 +45,8 @@ class Reader {
   std::string string(std::string_view what);
   double real(std::string_view what);
   std::int64_t integer(std::string_view what);
+  /// Reads a raw value. A number outside of RawNumber becomes the nearest limit of it.
+  RawNumber raw_number(std::string_view what);
   std::uint64_t natural(std::string_view what, std::uint64_t maximum);
   /// Works like natural(), but does not reject a number above the maximum: for such a number, adds a finding
   /// and returns maximum + 1.

@@ -5,8 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "dbc/parser/decimal.hpp"
 #include "dbc/parser/parse.hpp"
 #include "dbc/parser/plan.hpp"
+#include "dbc/wire/bits.hpp"
 
 namespace {
 
@@ -23,6 +25,11 @@ void expect_usable(const Database& database) {
     std::vector<std::uint8_t> data(plan.size(), 0xFF);
     std::vector<double> values(plan.signals());
     if (!plan.decode(data, values) || !plan.encode(values, data)) std::abort();
+    for (const Signal& signal : message.signals) {
+      const DecimalConversion conversion(signal);
+      if (conversion.text(0).empty() || conversion.text(canhil::wire::mask(signal.length)).empty())
+        std::abort();
+    }
   }
 }
 
@@ -36,5 +43,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!lenient) expect_one_line(lenient.error());
   if (strict && !lenient) std::abort();
   if (lenient) expect_usable(*lenient);
+  if (const Inspection other = inspect(text, "shift_jis"); other.database) expect_usable(*other.database);
   return 0;
 }

@@ -21,6 +21,7 @@ build_packages=(
 test_packages=(
   clang-format
   python3 python3-can python3-canmatrix tshark # independent programs for comparison: a CAN node, a DBC reader, a reader of captures
+  python3-pandas # an example of docs/recordings.md
   python3-yaml # reads the pipelines in docs/examples
   can-utils iproute2 kmod busybox user-mode-linux # for tests on vcan; user-mode Linux provides vcan if the machine's kernel has no vcan
 )

@@ -24,7 +24,7 @@ std::string odd_file() {
 
 std::string refused_file() {
   std::string path = scratch("refused.dbc");
-  std::ofstream(path) << "BU_: A\nBO_ 291 : 2 A\n";
+  std::ofstream(path) << "A page\nof prose.\n";
   return path;
 }
 
@@ -53,9 +53,8 @@ TEST(DbcLint, ExitCodeSaysWhetherEveryFileIsTaken) {
   EXPECT_EQ(hil_bench(fmt::format("dbc lint --strict {} '{}'", canhil_dbc, odd_file())).code, 1);
   const Ended refused = hil_bench(fmt::format("dbc lint {} '{}'", refused_file(), odd_file()));
   EXPECT_EQ(refused.code, 1);
-  EXPECT_THAT(refused.out,
-              HasSubstr("error unreadable-message: unexpected ':', expected the name of the message; "
-                        "the file is refused\n"));
+  EXPECT_THAT(refused.out, HasSubstr("error not-a-dbc: no section of a DBC file, expected one such as BO_; "
+                                     "the file is refused\n"));
   EXPECT_THAT(refused.out, HasSubstr("refused.dbc: refused, 1 error\n"));
   // The next file is checked too.
   EXPECT_THAT(refused.out, HasSubstr("1 message, 1 signal, 2 warnings, 1 note\n"));
@@ -156,9 +155,25 @@ TEST(DbcShow, SaysThatThereAreWarnings) {
   const std::string file = odd_file();
   const Ended ended = hil_bench(fmt::format("dbc show '{}' Motion", file));
   EXPECT_EQ(ended.code, 0);
-  EXPECT_EQ(ended.err, fmt::format("hil-bench: {}: 2 warnings, which 'hil-bench dbc lint' lists\n", file));
+  EXPECT_EQ(ended.err, fmt::format("hil-bench: {}: 2 warnings, which 'hil-bench dbc lint' lists; the first: "
+                                   "line 2: no node 'C', expected one "
+                                   "listed in BU_\n",
+                                   file));
   EXPECT_THAT(ended.out, HasSubstr("\nA  speed"));
   EXPECT_THAT(ended.out, Not(HasSubstr("beyond")));
+}
+
+TEST(DbcShow, ReadsTheEncodingThatIsGiven) {
+  const std::string path = scratch("japanese.dbc");
+  std::ofstream(path) << "BU_: A\nBO_ 291 M: 2 A\n SG_ s : 0|12@1+ (1,0) [0|0] \"\x94\x5C\" A\n";
+  EXPECT_THAT(hil_bench(fmt::format("dbc show {} M --encoding shift_jis", path)).out,
+              HasSubstr("\xE8\x83\xBD"));
+  EXPECT_THAT(hil_bench(fmt::format("dbc lint {} --encoding shift_jis", path)).out,
+              HasSubstr("1 message, 1 signal\n"));
+  EXPECT_EQ(hil_bench(fmt::format("dbc show {} M", path)).code, 0);
+  for (const char* command : {"show", "lint"})
+    expect_one_line(hil_bench(fmt::format("dbc {} {} --encoding nonsense", command, path)),
+                    "--encoding 'nonsense': expected the name of an encoding");
 }
 
 TEST(DbcShow, BadInputIsOneLine) {
@@ -168,7 +183,7 @@ TEST(DbcShow, BadInputIsOneLine) {
       "multiplexed.dbc: no message 'Nobody', expected the name or the id of one of the 2 messages");
   expect_one_line(hil_bench(fmt::format("dbc show {} 0xZ", multiplexed_dbc)), "no message '0xZ'");
   expect_one_line(hil_bench(fmt::format("dbc show {}", refused_file())),
-                  "refused.dbc:2:9: unexpected ':', expected the name of the message");
+                  "refused.dbc:1:1: no section of a DBC file, expected one such as BO_");
   expect_one_line(hil_bench("dbc show " SOURCE_DIR "/README.md"), "README.md:1:1: no section of a DBC file");
 }
 

@@ -110,8 +110,8 @@ TEST(Generic, WalksAtRandom) {
     EXPECT_NEAR(mean_square(ends) / (0.01 * t), 1, 3 * std::sqrt(2.0 / 100));
 }
 
-// A lag of the first order follows a ramp late by T = 1 / (2 pi f), once it has settled. The input is taken as constant
-// between two samples, dt apart: dt / (e^(dt / T) - 1) = T - dt / 2 + dt^2 / (12 T) - ...
+// A lag of the first order follows a ramp late by T = 1 / (2 pi f), once it has settled. The input is taken
+// as constant between two samples, dt apart: dt / (e^(dt / T) - 1) = T - dt / 2 + dt^2 / (12 T) - ...
 TEST(Generic, Lags) {
   GenericValue value = value_of("5 * t");
   value.bandwidth = 2;

@@ -40,7 +40,7 @@ const Wrong wrong[] = {
      "7:1: unexpected \"a b\", expected a section such as BO_, CM_ or BA_"},
     {"character", "BO_ 2 N: 8 A %",
      "7:14: unexpected character '%', expected a keyword, a name, a number, a string or punctuation"},
-    {"string_end", "CM_ \"x", "7:5: string without end, expected '\"' before the end of the file"},
+    {"string_end", "CM_ \"x", "7:5: string without end, expected '\"' before the next section"},
     {"section", "XY_ 1", "7:1: unexpected 'XY_', expected a section such as BO_, CM_ or BA_"},
     {"section_string", "\"x\"", "7:1: unexpected \"x\", expected a section such as BO_, CM_ or BA_"},
     {"file_end", "BO_ 2", "7:6: unexpected the end of the file, expected the name of the message"},

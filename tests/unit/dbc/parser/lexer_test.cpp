@@ -33,13 +33,5 @@ TEST(Lexer, CountsLinesAndCharacters) {
   EXPECT_EQ(tokens[2].at.column, 7);  // the umlaut is one character
 }
 
-TEST(ToUtf8, LeavesUtf8AndReadsTheRestAsWindows1252) {
-  EXPECT_EQ(to_utf8("\xEF\xBB\xBF\xC2\xB0"), "\xC2\xB0");
-  EXPECT_EQ(to_utf8("\xB0\x80\x96"), "\xC2\xB0\xE2\x82\xAC\xE2\x80\x93");
-  EXPECT_EQ(to_utf8("\x81"), "\xEF\xBF\xBD");
-  EXPECT_EQ(to_utf8("\xC2"), "\xC3\x82");                  // an incomplete sequence is not UTF-8
-  EXPECT_EQ(to_utf8("\xC0\x80"), "\xC3\x80\xE2\x82\xAC");  // an overlong sequence is not UTF-8 either
-}
-
 }  // namespace
 }  // namespace canhil::dbc
