@@ -89,7 +89,7 @@ ExitCode execute(const Arguments& arguments) {
 void add_decode(command_line::Command app, int& code) {
   auto arguments = std::make_shared<Arguments>();
   const auto command = app.add_subcommand("decode", "the frames of a log as values, by a DBC file");
-  command.add_option("LOG", arguments->log, "log: candump's format, pcap or Vector ASC").required();
+  command.add_option("LOG", arguments->log, log_to_read).required();
   command.add_option("--dbc", arguments->dbc, "DBC file of the messages").required();
   command.add_option("--encoding", arguments->encoding, encoding_help);
   command

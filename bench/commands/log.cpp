@@ -26,9 +26,6 @@
 namespace canhil::commands {
 namespace {
 
-constexpr const char* log_to_read =
-    "log: candump, ASC, BLF, TRC, SavvyCAN's CSV, pcap or pcapng; may be a pipe or compressed with gzip";
-
 constexpr double slowest = 1e-3, fastest = 1e3;
 
 // The arguments as given on the command line.

@@ -6,6 +6,10 @@
 
 namespace canhil::commands {
 
+/// The description of an argument that is a log.
+inline constexpr const char* log_to_read =
+    "log: candump, ASC, BLF, TRC, SavvyCAN's CSV, pcap or pcapng; may be a pipe or compressed with gzip";
+
 /// `hil-bench run SCENARIO`: one run and its verdict.
 void add_run(command_line::Command app, int& code);
 

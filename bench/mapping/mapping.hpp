@@ -25,6 +25,7 @@
 #include "dbc/parser/plan.hpp"
 #include "dbc/protection/protection.hpp"
 #include "dbc/transport/fast_packet.hpp"
+#include "dbc/wire/j1939.hpp"
 #include "dbc/wire/message_places.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -38,14 +39,13 @@ struct Mapped {
   dbc::MessagePlan plan;
   std::size_t index = 0;
   std::optional<protection::Protection> protection{};
-  bool fast_packet = false;  ///< sent as a fast packet of NMEA 2000, in several frames
 
   /// The number of frames of the message.
   [[nodiscard]] std::size_t frames() const {
-    return fast_packet ? transport::fast_packet_frames(message->size) : 1;
+    return message->fast_packet ? transport::fast_packet_frames(message->size) : 1;
   }
   /// The number of bytes of each frame.
-  [[nodiscard]] unsigned frame_size() const { return fast_packet ? 8 : message->size; }
+  [[nodiscard]] unsigned frame_size() const { return message->fast_packet ? 8 : message->size; }
   /// The index of one of the message's signals.
   [[nodiscard]] std::size_t number(const dbc::Signal& signal) const {
     return static_cast<std::size_t>(&signal - message->signals.data());
@@ -179,14 +179,6 @@ using ReadText = std::function<Result<std::string>(const std::string& file)>;
 /// Reads a file from the disk.
 Result<std::string> read_from_disk(const std::string& file);
 
-/// The parameter group of a J1939 id (SAE J1939-21, 5.2): the id without the priority and the source address.
-/// If the message has a destination (PDU format below 240), the destination is left out too.
-constexpr std::uint32_t j1939_group(std::uint32_t id) {
-  constexpr std::uint32_t first_broadcast = 240;
-  const std::uint32_t group = (id >> 8U) & 0x3FFFFU;
-  return ((group >> 8U) & 0xFFU) < first_broadcast ? group & 0x3FF00U : group;
-}
-
 /// Finds the messages that a frame is.
 class Places {
  public:
@@ -196,7 +188,7 @@ class Places {
   [[nodiscard]] std::size_t operator()(const Frame& frame) const {
     const std::size_t index = by_id_(frame);
     if (index != MessagePlaces::nowhere || !frame.extended || frame.error) return index;
-    const auto found = by_group_.find(j1939_group(frame.id));
+    const auto found = by_group_.find(wire::j1939_group(frame.id));
     return found == by_group_.end() ? MessagePlaces::nowhere : found->second;
   }
   /// The messages of targets that a frame is, as indices of Mapping::hears.

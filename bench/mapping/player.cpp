@@ -233,7 +233,7 @@ double Player::value_of(std::size_t play, const Source& source, std::int64_t sta
 // Adds a message to a transmission, in one frame or in several.
 void Player::add_frames(Sent& sent, const Mapped& of, std::vector<std::uint8_t> bytes) {
   const auto add = [&](std::span<const std::uint8_t> data) {
-    const bool fd = of.message->fd && !of.fast_packet;
+    const bool fd = of.message->fd;
     Frame frame{.id = of.message->id,
                 .size = static_cast<std::uint8_t>(data.size()),
                 .extended = of.message->extended,
@@ -243,7 +243,7 @@ void Player::add_frames(Sent& sent, const Mapped& of, std::vector<std::uint8_t> 
     sent.frames.push_back(frame);
     sent.message_of.push_back(sent.messages.size());
   };
-  if (of.fast_packet) {
+  if (of.message->fast_packet) {
     for (const auto& frame : transport::split_fast_packet(bytes, sequences_[of.message]++)) add(frame);
   } else {
     add(bytes);

@@ -38,12 +38,6 @@ std::vector<std::string> names_of(const Range& range, Name name) {
   return names;
 }
 
-// Whether the DBC says that a message has the format of CAN FD; the size alone does not say so.
-bool says_fd(const dbc::Message& message) {
-  const auto format = message.attributes.find("VFrameFormat");
-  return message.fd && format != message.attributes.end();
-}
-
 class Reader {
  public:
   Reader(const std::string& file, std::string_view text, const ReadText& read_text)
@@ -149,9 +143,8 @@ class Reader {
                      "each message once, or each page of a multiplexed message that the bench sends");
     // dbc::parse_leniently() accepts any size, because DBC files also describe what transport protocols
     // carry.
-    const bool fast_packet =
-        transport::is_fast_packet(message.id, message.extended, message.size) && !says_fd(message);
-    if (!fast_packet && (message.size > 64 || !size_has_dlc(static_cast<std::uint8_t>(message.size), true)))
+    if (!message.fast_packet &&
+        (message.size > 64 || !size_has_dlc(static_cast<std::uint8_t>(message.size), true)))
       section.reject(
           key, fmt::format("{} has {} bytes, which no frame has", message.name, message.size),
           "a message of one frame, or a fast packet of NMEA 2000: a mapping knows no ISO-TP and no "
@@ -159,17 +152,16 @@ class Reader {
     MessageInfo info{.name = message.name,
                      .id = message.id,
                      .extended = message.extended,
-                     .fd = message.fd && !fast_packet,
+                     .fd = message.fd,
                      .size = static_cast<std::uint8_t>(message.size),
                      .cycle_time_us = message.cycle_time_us,
                      .sender = of_target ? target_node : bench_node};
     Mapped mapped(message);
-    mapped.fast_packet = fast_packet;
     mapped.index = static_cast<std::size_t>(used - all.begin());
     if (used == all.end()) all.push_back(info);
     if (const auto own = protections_.find(&message); own != protections_.end())
       mapped.protection = own->second;
-    if (mapped.protection && fast_packet)
+    if (mapped.protection && message.fast_packet)
       section.reject(key, fmt::format("{} is a fast packet and has a [[protection]]", message.name),
                      "no counter and no checksum: NMEA 2000 has none");
     return mapped;
@@ -273,7 +265,7 @@ class Reader {
       if (!of->extended)
         section.reject("any_source", "is for J1939, whose ids have 29 bits",
                        fmt::format("another message than {}", of->name));
-      mapping_->by_group[j1939_group(of->id)] = hear.of.index;
+      mapping_->by_group[wire::j1939_group(of->id)] = hear.of.index;
     }
     if (section.has("answers")) {
       const std::string name = section.one_of("answers", names_of(mapping_->plays, &Play::name));

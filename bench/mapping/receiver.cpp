@@ -3,9 +3,9 @@
 namespace canhil::mapping {
 
 Receiver::Taken Receiver::take(const Mapped& of, const Frame& frame) {
-  if (frame.size != of.frame_size() || frame.fd != (of.message->fd && !of.fast_packet))
+  if (frame.size != of.frame_size() || frame.fd != of.message->fd)
     return {.outcome = Outcome::wrong_size, .size = frame.size};
-  if (of.fast_packet) return put_together(of, frame);
+  if (of.message->fast_packet) return put_together(of, frame);
   Taken taken{.outcome = Outcome::whole, .bytes = frame.payload()};
   if (!of.protection) return taken;
   switch (protection_.check(*of.protection, frame.payload())) {

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
+#include <map>
 #include <optional>
 
 #include "bench/recordings/message_finder.hpp"
 #include "dbc/logs/log.hpp"
+#include "dbc/transport/fast_packet.hpp"
 
 namespace canhil::recordings {
 namespace {
@@ -39,7 +42,13 @@ class Decoder {
       ++left_out_.ambiguous;
       left_out_.ambiguous_ids.insert(id_text(frame));
     } else if (is_selected(*message)) {
-      const std::vector<SignalValue> values = decoder_.decode(*message, frame);
+      std::span<const std::uint8_t> bytes = frame.payload();
+      if (message->fast_packet && !frame.fd) {
+        const auto whole = fast_packets_[frame.id].take(bytes);
+        if (!whole) return;
+        bytes = *whole;
+      }
+      const std::vector<SignalValue> values = decoder_.decode(*message, bytes);
       const auto missing = std::ranges::count_if(values, [](const SignalValue& v) { return v.text.empty(); });
       left_out_.short_frames += missing > 0 ? 1 : 0;
       left_out_.missing += static_cast<std::uint64_t>(missing);
@@ -50,6 +59,9 @@ class Decoder {
   }
   LeftOut finish() {
     writer_->finish();
+    std::uint64_t lost = 0;
+    for (const auto& [id, receiver] : fast_packets_) lost += receiver.lost();
+    if (lost > 0) left_out_.remarks.push_back(fmt::format("{} fast packets lack a frame", lost));
     return std::move(left_out_);
   }
   [[nodiscard]] bool any_group() const { return finder_.any_group(); }
@@ -65,6 +77,7 @@ class Decoder {
   const DecodeOptions& options_;
   MessageFinder finder_;
   FrameDecoder decoder_;
+  std::map<std::uint32_t, transport::FastPacketReceiver> fast_packets_;  // by id
   std::unique_ptr<LineWriter> writer_;
   std::optional<std::int64_t> first_ns_;  // the time that is written as 0
   LeftOut left_out_;
@@ -91,7 +104,7 @@ Result<LeftOut> decode(const std::string& log, const dbc::Database& database, co
       continue;
     }
     LeftOut left_out = decoder.finish();
-    left_out.remarks = reader->remarks();
+    std::ranges::copy(reader->remarks(), std::back_inserter(left_out.remarks));
     return left_out;
   }
 }

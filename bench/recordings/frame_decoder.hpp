@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +11,6 @@
 #include "dbc/parser/database.hpp"
 #include "dbc/parser/decimal.hpp"
 #include "dbc/parser/plan.hpp"
-#include "dbc/wire/frame.hpp"
 
 namespace canhil::recordings {
 
@@ -27,8 +27,9 @@ struct SignalValue {
 /// are missing. Signals that the multiplexors do not select, or whose multiplexor is missing, are left out.
 class FrameDecoder {
  public:
-  /// Decodes a frame of `message`, which must outlive this object. The values are in the order of the DBC.
-  std::vector<SignalValue> decode(const dbc::Message& message, const Frame& frame);
+  /// Decodes the bytes of a frame, or of a fast packet, of `message`, which must outlive this object. The
+  /// values are in the order of the DBC.
+  std::vector<SignalValue> decode(const dbc::Message& message, std::span<const std::uint8_t> bytes);
 
  private:
   struct Step {

@@ -93,10 +93,10 @@ Result<std::vector<Stream>> streams_of(const dbc::Database& database, const Assu
   std::vector<Stream> streams;
   for (const dbc::Message& message : database.messages) {
     if (auto checked = check_times(database, message); !checked) return tl::unexpected(checked.error());
-    if (message.j1939 && message.size > 8) {
+    if ((message.j1939 || message.fast_packet) && message.size > 8) {
       return failure(
-          fmt::format("message {} has {} bytes, which SAE J1939 sends in several frames, expected at most 8",
-                      message.name, message.size));
+          fmt::format("message {} has {} bytes, which {} sends in several frames, expected at most 8",
+                      message.name, message.size, message.fast_packet ? "NMEA 2000" : "SAE J1939"));
     }
     const Stream& stream = streams.emplace_back(stream_of(database, message, assumptions));
     if (stream.length.data > 0 && rates.data == 0) {

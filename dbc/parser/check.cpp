@@ -13,6 +13,7 @@
 #include "dbc/parser/check.hpp"
 #include "dbc/parser/reader.hpp"
 #include "dbc/wire/bits.hpp"
+#include "dbc/wire/j1939.hpp"
 
 namespace canhil::dbc {
 namespace {
@@ -124,6 +125,10 @@ void read_signal_attributes(const Defaults& defaults, Signal& signal) {
 void check_size(Findings& findings, Message& message) {
   constexpr std::array fd_sizes{12U, 16U, 20U, 24U, 32U, 48U, 64U};
   if (message.size <= 8) return;
+  if (!message.fd && wire::is_fast_packet(message.id, message.extended, message.size)) {
+    message.fast_packet = true;
+    return;
+  }
   if (!message.fd) {
     findings.add(Rule::fd_format_missing, message.at,
                  fmt::format("message {} has {} bytes, expected at most 8, or VFrameFormat StandardCAN_FD or "

@@ -149,6 +149,8 @@ struct Message {
   /// The id is that of a parameter group of SAE J1939: VFrameFormat is J1939PG, or the attribute ProtocolType
   /// of the network is J1939.
   bool j1939 = false;
+  bool fast_packet =
+      false;  ///< NMEA 2000 sends the message in several classic frames (wire::is_fast_packet())
   std::int64_t cycle_time_us = 0;
   std::uint16_t e2e_data_id = 0;
   std::string sample_group;

@@ -10,13 +10,6 @@ constexpr std::uint8_t unused = 0xFF;
 
 }  // namespace
 
-bool is_fast_packet(std::uint32_t id, bool extended, std::size_t size) {
-  constexpr std::uint32_t first_group = 126208, last_group = 131071;
-  const std::uint32_t group = (id >> 8U) & 0x3FFFFU;
-  return extended && size >= fewest_fast_packet_bytes && size <= most_fast_packet_bytes &&
-         group >= first_group && group <= last_group;
-}
-
 std::vector<FastPacketFrame> split_fast_packet(std::span<const std::uint8_t> message, unsigned sequence) {
   std::vector<FastPacketFrame> frames(fast_packet_frames(message.size()));
   std::size_t done = 0;

@@ -16,10 +16,6 @@ namespace canhil::transport {
 
 inline constexpr std::size_t fewest_fast_packet_bytes = 9, most_fast_packet_bytes = 223;
 
-/// Whether NMEA 2000 sends messages of this id and size [byte] as fast packets: the id has 29 bits and a
-/// parameter group of data page 1 (126208 to 131071), and a single frame cannot hold the message.
-bool is_fast_packet(std::uint32_t id, bool extended, std::size_t size);
-
 /// The number of frames of a message of 9 to 223 bytes.
 constexpr std::size_t fast_packet_frames(std::size_t bytes) {
   constexpr std::size_t in_first = 6, in_others = 7;

@@ -464,10 +464,10 @@ TEST(Listener, ATaskOfItsOwnAnswersTheLatestSample) {
 }
 
 TEST(J1939, GroupsAreKnownWithoutPrioritySourceAndDestination) {
-  EXPECT_EQ(j1939_group(0x18FEF100), 0xFEF1U) << "a broadcast";
-  EXPECT_EQ(j1939_group(0x0CFEF1FF), 0xFEF1U);
-  EXPECT_EQ(j1939_group(0x18EA2100), 0xEA00U) << "to the destination 0x21";
-  EXPECT_EQ(j1939_group(0x19FEF100), 0x1FEF1U) << "of data page 1";
+  EXPECT_EQ(wire::j1939_group(0x18FEF100), 0xFEF1U) << "a broadcast";
+  EXPECT_EQ(wire::j1939_group(0x0CFEF1FF), 0xFEF1U);
+  EXPECT_EQ(wire::j1939_group(0x18EA2100), 0xEA00U) << "to the destination 0x21";
+  EXPECT_EQ(wire::j1939_group(0x19FEF100), 0x1FEF1U) << "of data page 1";
   const auto scenario = read(
       "",
       mapping_with(

@@ -6,6 +6,8 @@
 #include <array>
 #include <numeric>
 
+#include "dbc/wire/j1939.hpp"
+
 namespace canhil::transport {
 namespace {
 
@@ -77,11 +79,11 @@ TEST(FastPacket, OfAWrongLengthIsLost) {
 }
 
 TEST(FastPacket, IsAMessageOfDataPageOne) {
-  EXPECT_TRUE(is_fast_packet(0x19F80500, true, 43));    // PGN 129029
-  EXPECT_FALSE(is_fast_packet(0x19F80500, false, 43));  // 11 bits
-  EXPECT_FALSE(is_fast_packet(0x09F11200, true, 8));    // PGN 127250, vessel heading: one frame
-  EXPECT_FALSE(is_fast_packet(0x18FECA00, true, 20));   // PGN 65226, J1939 DM1: transport protocol
-  EXPECT_FALSE(is_fast_packet(0x19F80500, true, 224));
+  EXPECT_TRUE(wire::is_fast_packet(0x19F80500, true, 43));    // PGN 129029
+  EXPECT_FALSE(wire::is_fast_packet(0x19F80500, false, 43));  // 11 bits
+  EXPECT_FALSE(wire::is_fast_packet(0x09F11200, true, 8));    // PGN 127250, vessel heading: one frame
+  EXPECT_FALSE(wire::is_fast_packet(0x18FECA00, true, 20));   // PGN 65226, J1939 DM1: transport protocol
+  EXPECT_FALSE(wire::is_fast_packet(0x19F80500, true, 224));
 }
 
 }  // namespace
