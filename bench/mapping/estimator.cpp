@@ -106,23 +106,26 @@ quantities::Samples samples_of(const MappedTarget& target, const checks::Observa
 // The first mark is for all answers. It is followed by one mark for each message that answers a play, or
 // carries a quantity or a flag, and by the flags.
 std::vector<estimators::Mark> marks_of(const MappedTarget& target, const checks::Observations& seen) {
+  const Answers& answers = seen.of<Answers>();
   Answers::Times all;
+  std::map<std::string_view, Answers::Times> by_message;
+  for (const Hear& hear : target.hears) {
+    if (!hear.answers && hear.reported_signals.empty() && hear.flags.empty()) continue;
+    const std::string_view message = hear.of.message->name;
+    const auto times = answers.messages.find(message);
+    by_message[message] = times == answers.messages.end() ? Answers::Times{} : times->second;
+  }
   std::vector<estimators::Mark> marks;
-  for (const auto& [message, times] : seen.of<Answers>().messages) {
-    const auto hear = std::ranges::find(
-        target.hears, message, [](const Hear& one) -> std::string_view { return one.of.message->name; });
-    if (hear == target.hears.end() ||
-        (!hear->answers && hear->reported_signals.empty() && hear->flags.empty()))
-      continue;
+  for (const auto& [message, times] : by_message) {
     for (const std::int64_t t_us : times) all.push_back(t_us);
-    marks.push_back({.name = message, .t_us = times});
+    marks.push_back({.name = message, .among = {}, .t_us = times});
   }
   for (const Hear& hear : target.hears) {
     for (const ReportedFlag& flag : hear.flags) {
-      const auto set = seen.of<Answers>().flags.find(&flag);
+      const auto set = answers.flags.find(&flag);
       marks.push_back({.name = flag.name,
                        .among = hear.of.message->name,
-                       .t_us = set == seen.of<Answers>().flags.end() ? Answers::Times{} : set->second});
+                       .t_us = set == answers.flags.end() ? Answers::Times{} : set->second});
     }
   }
   marks.insert(marks.begin(), {.name = "answers", .t_us = all});

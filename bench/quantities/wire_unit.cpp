@@ -15,7 +15,7 @@ using world::units::standard_gravity;
 
 constexpr double knot = 1852.0 / 3600;  // [m/s]
 
-constexpr std::array<std::pair<std::string_view, WireUnit>, 30> known{{
+constexpr std::array<std::pair<std::string_view, WireUnit>, 32> known{{
     {"rad", {"rad", 1}},
     {"mrad", {"rad", 1e-3}},
     {"deg", {"rad", deg}},
@@ -26,6 +26,8 @@ constexpr std::array<std::pair<std::string_view, WireUnit>, 30> known{{
     {"g", {"m/s^2", standard_gravity}},
     {"mg", {"m/s^2", 1e-3 * standard_gravity}},
     {"m/s", {"m/s", 1}},
+    {"cm/s", {"m/s", 1e-2}},
+    {"mm/s", {"m/s", 1e-3}},
     {"km/h", {"m/s", kmph}},
     {"kn", {"m/s", knot}},
     {"m", {"m", 1}},

@@ -4,6 +4,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <mutex>
 #include <numbers>
@@ -90,7 +91,8 @@ std::optional<double> Expression::at(const world::Truths& truths, std::int64_t t
     if (!value) return std::nullopt;
     parsed_->values[i] = *value;
   }
-  return parsed_->parser.Eval();
+  const double value = parsed_->parser.Eval();
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 std::span<const world::TruthValue* const> Expression::uses() const { return parsed_->uses; }

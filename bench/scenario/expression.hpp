@@ -30,7 +30,8 @@ class Expression {
   /// Error: the syntax, or a name that is no true value.
   static tl::expected<Expression, Wrong> parse(std::string_view text);
 
-  /// The value at a time [us] of the run; none: one of the true values has no truth at this time.
+  /// The value at a time [us] of the run; none: one of the true values has no truth at this
+  /// time, or the result is not finite.
   [[nodiscard]] std::optional<double> at(const world::Truths& truths, std::int64_t t_us) const;
   /// The true values in the expression.
   [[nodiscard]] std::span<const world::TruthValue* const> uses() const;

@@ -99,17 +99,18 @@ Flag Flag::read(scenario::Section& section, const scenario::CheckContext& contex
                                            std::vector<std::string>{"set", "clear"}, "set");
   rule.set = state == "set";
   read_window_of(section, context, rule);
-  const bool counts = section.has("starts");
-  if (counts) {
+  if (section.has("starts")) {
     const auto [least, most] = section.interval(
         {"starts", "How often the flag becomes set in the window: least and most."}, Limits::at_least(0));
     rule.starts = {static_cast<std::int64_t>(least), static_cast<std::int64_t>(most)};
   }
   section.optional("starts");
-  rule.share = section.number({"share_percent",
-                               "Least share of the answers that have the state; with "
-                               "`starts` 0, otherwise 100."},
-                              Limits::between(0, 100), counts ? 0.0 : 100.0);
+  rule.share = section
+                   .optional_number({"share_percent",
+                                     "Least share of the answers that have the state. Default: 100, and 0 "
+                                     "beside `starts`."},
+                                    Limits::between(0, 100))
+                   .value_or(rule.starts ? 0 : 1);
   return rule;
 }
 

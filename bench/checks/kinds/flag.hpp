@@ -13,10 +13,10 @@ struct Flag {
   static constexpr std::string_view meaning =
       "Passes when a flag is set (or clear) in the answers of a window, and becomes set as often as it "
       "should.";
-  std::string estimator;
-  std::string flag;
-  std::string fault;  ///< of which the window is a part; empty: none
-  scenario::Window window;
+  std::string estimator{};
+  std::string flag{};
+  std::string fault{};  ///< of which the window is a part; empty: none
+  scenario::Window window{};
   bool set = true;                                                ///< the state that is expected
   double share = 1;                                               ///< of the answers, at least
   std::optional<std::pair<std::int64_t, std::int64_t>> starts{};  ///< how often it becomes set: least, most

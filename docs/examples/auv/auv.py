@@ -14,9 +14,9 @@ from canhil_target import open_bus  # SocketCAN or the bench's embedded bus
 
 RATES, FORCE, DVL, DEPTH, COMPASS, RELATIVE, SHIP, GPS = 0x80, 0x81, 0x90, 0xA0, 0xA1, 0xB0, 0xB1, 0xC0
 ATTITUDE, VELOCITY, POSITION, HEIGHT = 0x200, 0x201, 0x202, 0x203
-DT, EVERY, DECLINATION, EARTH, NONE = 0.02, 5, math.radians(3), 6_378_137.0, -2**31
+DT, EVERY, DECLINATION, EARTH, NONE = 0.02, 5, math.radians(5), 6_378_137.0, -2**31
 SSBL_LATENCY, WITHOUT_DVL = 5, 20  # samples
-DEFECTS = ("none", "dvl_to_port", "inverse_quaternion", "no_declination", "depth_upwards", "says_dvl")
+DEFECTS = ("none", "dvl_backwards", "inverse_quaternion", "no_declination", "depth_upwards", "says_dvl")
 
 
 def product(p, q):
@@ -53,7 +53,7 @@ class Navigation:
         elif identifier == DVL:
             x, y, z, lock = struct.unpack("<hhhB", data)
             if lock and self.q is not None:
-                self.velocity, self.dvl_at = turned(self.q, (x * 1e-3, y * (-1e-3 if self.defect == "dvl_to_port" else 1e-3), z * 1e-3)), self.samples
+                self.velocity, self.dvl_at = turned(self.q, (x * (-1e-3 if self.defect == "dvl_backwards" else 1e-3), y * 1e-3, z * 1e-3)), self.samples
         elif identifier == DEPTH:
             self.depth = struct.unpack("<i", data)[0] * 1e-3
         elif identifier == COMPASS:
@@ -81,7 +81,7 @@ class Navigation:
         north, east, down = turned(q, force)
         heading = math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] ** 2 + q[3] ** 2))
         gain = 1.0 if self.samples < 100 else 0.05
-        q = product(small((gain * DT * east / 9.81, -gain * DT * north / 9.81, 2 * gain * DT * math.remainder(self.compass - heading, 2 * math.pi))), q)
+        q = product(small((-gain * DT * east / 9.81, gain * DT * north / 9.81, 2 * gain * DT * math.remainder(self.compass - heading, 2 * math.pi))), q)
         size = math.sqrt(sum(one * one for one in q))
         self.q = tuple(one / size for one in q)
         if self.position is not None:

@@ -62,7 +62,7 @@ TEST_P(Devices, PassInRealTime) {
   expect_outputs_passed(ended, device.report());
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("car", "marine"),
+INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("auv", "car", "marine"),
                          [](const auto& of) { return of.param; });
 
 class Defects : public testing::TestWithParam<Defect> {};
@@ -76,7 +76,12 @@ TEST_P(Defects, FailTheirCheck) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, Defects,
-                         testing::Values(Defect{"car", "yaw_sign", "error attitude.heading"},
+                         testing::Values(Defect{"auv", "dvl_backwards", "error velocity.norm"},
+                                         Defect{"auv", "inverse_quaternion", "error attitude.heading"},
+                                         Defect{"auv", "no_declination", "error attitude.heading"},
+                                         Defect{"auv", "depth_upwards", "error position.down"},
+                                         Defect{"auv", "says_dvl", "detected_within no bottom lock"},
+                                         Defect{"car", "yaw_sign", "error attitude.heading"},
                                          Defect{"car", "wheels_in_kmph", "error velocity.north"},
                                          Defect{"car", "late", "delay attitude.heading"},
                                          Defect{"car", "no_flag", "flag yaw_implausible at yaw rate off"},

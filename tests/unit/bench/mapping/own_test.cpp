@@ -7,6 +7,8 @@
 #include <string>
 
 #include "bench/mapping/mapping.hpp"
+#include "bench/mapping/reading.hpp"
+#include "bench/mapping/receiver.hpp"
 #include "bench/sensors/generic.hpp"
 #include "bench/sensors/registry.hpp"
 #include "tests/unit/bench/mapping/read_mapped.hpp"
@@ -121,7 +123,7 @@ TEST(Own, FlagsAreBitsOrValuesOfASignal) {
   std::vector<std::string> marks;
   for (const auto& mark : (*all)->estimators.front()->marks(checks::Observations((*all)->messages)))
     marks.emplace_back(mark.name);
-  EXPECT_THAT(marks, ElementsAre("answers", "a_out", "b_out", "seven", "bad", "good"));
+  EXPECT_THAT(marks, ElementsAre("answers", "Out", "a_out", "b_out", "seven", "bad", "good"));
 }
 
 TEST(Own, ErrorsSayWhatIsExpected) {
@@ -139,6 +141,119 @@ TEST(Own, ErrorsSayWhatIsExpected) {
   EXPECT_THAT(error("\"GOOD\"", "\"GOD\""), HasSubstr("expected 'GOOD'"));
   EXPECT_THAT(error("bad = \"BAD\"", "seven = \"BAD\""), HasSubstr("seven is reported twice"));
   EXPECT_THAT(error("Word = {", "Wort = {"), HasSubstr("has no signal 'Wort'"));
+}
+
+// The parts are Euler's: C_bn turns about z, then y, then x. The numbers are computed by hand for the angles
+// 90, 0 and 0 deg, and for the half turn about the diagonal of x and y.
+TEST(Own, QuaternionGivesTheThreeAngles) {
+  const std::string text = R"(VERSION ""
+NS_ :
+BS_:
+BU_: Sensor Device
+BO_ 100 In: 8 Sensor
+ SG_ Angle : 0|16@1- (0.01,0) [0|0] "deg" Device
+BO_ 200 Out: 8 Device
+ SG_ W : 0|16@1- (0.0001,0) [0|0] "" Sensor
+ SG_ X : 16|16@1- (0.0001,0) [0|0] "" Sensor
+ SG_ Y : 32|16@1- (0.0001,0) [0|0] "" Sensor
+ SG_ Z : 48|16@1- (0.0001,0) [0|0] "" Sensor
+)";
+  const std::string of = R"(dbc = "ecu.dbc"
+[[play]]
+messages = ["In"]
+every_ms = 20
+[play.signals]
+"In.Angle" = "gps.latitude"
+[[hear]]
+message = "Out"
+answers = "In"
+signals = { W = "attitude.quaternion.w", X = "attitude.quaternion.x", Y = "attitude.quaternion.y", Z = "-attitude.quaternion.z" }
+invalid = { W = 0x8000 }
+)";
+  const auto read_with = [&](const std::string& mapping_text) {
+    const std::map<std::string, std::string> files{{"ecu.mapping.toml", mapping_text}, {"ecu.dbc", text}};
+    return read_mapping("ecu.mapping.toml",
+                        [&](const std::string& file) -> Result<std::string> { return files.at(file); });
+  };
+  const auto all = read_with(of);
+  ASSERT_TRUE(all) << all.error().message;
+  const Hear& hear = (*all)->hears.front();
+  const auto angles = [&](std::array<std::int16_t, 4> parts) {
+    std::array<std::uint8_t, 8> bytes{};
+    for (std::size_t i = 0; i < 8; ++i)
+      bytes[i] = static_cast<std::uint8_t>(static_cast<std::uint16_t>(parts[i / 2]) >> (8 * (i % 2)));
+    std::vector<double> values;
+    std::map<std::string_view, double> told;
+    mapping::read(hear, bytes, values, [&](const ReportedSignal& signal, double value, bool /*invalid*/) {
+      told[signal.quantity->quantity->name] = value / (3.14159265358979 / 180);
+    });
+    return std::vector{told["attitude.roll"], told["attitude.pitch"], told["attitude.heading"]};
+  };
+  const auto near = [](double value) { return testing::DoubleNear(value, 0.02); };
+  EXPECT_THAT(angles({7071, 0, 0, -7071}), ElementsAre(near(0), near(0), near(90)));
+  EXPECT_THAT(angles({7071, 7071, 0, 0}), ElementsAre(near(90), near(0), near(0)));
+  EXPECT_THAT(angles({7071, 0, 7071, 0}), ElementsAre(testing::_, near(90), testing::_));
+  EXPECT_THAT(angles({9000, 0, 0, -9000}), ElementsAre(near(0), near(0), near(90))) << "it is normalised";
+  EXPECT_TRUE(std::isnan(angles({-32768, 0, 0, 0})[0])) << "invalid";
+  EXPECT_TRUE(std::isnan(angles({0, 0, 0, 0})[2])) << "no rotation";
+  const auto without = [&](const std::string& line, const std::string& other) {
+    std::string changed = of;
+    changed.replace(changed.find(line), line.size(), other);
+    const auto wrong = read_with(changed);
+    return wrong ? "" : wrong.error().message;
+  };
+  EXPECT_THAT(without(", Y = \"attitude.quaternion.y\"", ""), HasSubstr("without attitude.quaternion.y"));
+  EXPECT_THAT(without("\"attitude.quaternion.y\"", "\"attitude.quaternion.x\""), HasSubstr("each part once"));
+  EXPECT_THAT(without("Y = \"attitude.quaternion.y\"", "Y = \"attitude.roll\""), HasSubstr("Y"));
+}
+
+// A message of 20 bytes of NMEA 2000 is sent in three frames and received from three frames.
+TEST(Own, FastPacketsAreSentAndReceived) {
+  const std::string text = R"(VERSION ""
+NS_ :
+BS_:
+BU_: Sensor Device
+BO_ 2583167266 In: 20 Sensor
+ SG_ Latitude : 56|64@1- (1E-16,0) [-90|90] "deg" Device
+BO_ 2583167268 Out: 20 Device
+ SG_ Height : 120|32@1- (0.01,0) [0|0] "m" Sensor
+)";
+  const std::string of = R"(dbc = "ecu.dbc"
+[[play]]
+messages = ["In"]
+every_ms = 20
+[play.signals]
+"In.Latitude" = "gps.latitude"
+[[hear]]
+message = "Out"
+any_source = true
+signals = { Height = "position.height" }
+)";
+  const std::map<std::string, std::string> files{{"ecu.mapping.toml", of}, {"ecu.dbc", text}};
+  const auto all = read_mapping(
+      "ecu.mapping.toml", [&](const std::string& file) -> Result<std::string> { return files.at(file); });
+  ASSERT_TRUE(all) << all.error().message;
+  EXPECT_FALSE((*all)->messages.front().fd);
+  EXPECT_EQ((*all)->plays.front().messages.front().of.frames(), 3U);
+  const Hear& hear = (*all)->hears.front();
+  Receiver receiver;
+  std::vector<std::uint8_t> bytes(20);
+  bytes[15] = 0xD2;  // 1234 = 0x4D2
+  bytes[16] = 0x04;
+  std::size_t whole = 0;
+  for (const auto& part : transport::split_fast_packet(bytes, 6)) {
+    Frame frame{.id = hear.of.message->id, .size = 8, .extended = true};
+    std::ranges::copy(part, frame.data.begin());
+    const auto taken = receiver.take(hear.of, frame);
+    if (taken.outcome != Receiver::Outcome::whole) continue;
+    ++whole;
+    std::vector<double> values;
+    mapping::read(hear, taken.bytes, values,
+                  [](const ReportedSignal&, double value, bool) { EXPECT_DOUBLE_EQ(value, 12.34); });
+  }
+  EXPECT_EQ(whole, 1U);
+  EXPECT_EQ(receiver.take(hear.of, {.id = hear.of.message->id, .size = 7, .extended = true}).outcome,
+            Receiver::Outcome::wrong_size);
 }
 
 constexpr const char* scenario = R"(title = "a"

@@ -50,6 +50,7 @@ TEST(Expression, HasTimeConstantsAndConditions) {
 }
 
 TEST(Expression, HasNoValueWithoutTruth) {
+  EXPECT_EQ(value("1 / (t - t)"), std::nullopt);
   EXPECT_EQ(value("wind.north + 1"), std::nullopt);              // the run has no glide
   EXPECT_EQ(value("velocity.north", 20'000'001), std::nullopt);  // after the flight
 }
