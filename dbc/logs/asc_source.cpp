@@ -174,7 +174,8 @@ std::optional<Parsed> AscParser::header(std::string_view text) {
     const std::size_t colon = text.find(": ");
     if (colon == std::string_view::npos) return Parsed{};
     const auto number = number_of<unsigned>(text.substr(channel.size(), colon - channel.size()));
-    if (number && *number <= last_channel) names_[*number] = text.substr(colon + 2);
+    if (number && *number <= last_channel && colon + 2 < text.size())
+      names_[*number] = interface_name(text.substr(colon + 2));
     return Parsed{};
   }
   const std::string_view first = words_[0];

@@ -120,7 +120,7 @@ class BlfSource final : public LogSource {
     text = text.substr(0, text.find('\0'));
     const std::size_t semicolon = text.find(';');
     if (semicolon != std::string_view::npos && semicolon + 1 < text.size())
-      names_[details >> 8U & 0xFFU] = text.substr(semicolon + 1);
+      names_[details >> 8U & 0xFFU] = interface_name(text.substr(semicolon + 1));
   }
 
   const std::string& interface_of(unsigned channel) {

@@ -93,7 +93,7 @@ Result<Parsed> ScreenParser::line(std::string_view text) {
   if (!t_ns) return failure("the time of candump in parentheses");
   entry.t_ns = *t_ns;
   if (at_ >= words_.size()) return failure("the interface's name after the time");
-  entry.interface = words_[at_++];
+  entry.interface = interface_name(words_[at_++]);
   return frame(std::move(entry));
 }
 

@@ -105,7 +105,7 @@ TEST(Asc, KeepsTheErrorStateIndicatorAndRemoteFramesThroughTheWriter) {
   EXPECT_THAT(read_log(asc_head + line).lines, ElementsAre("(0.100000) can0 125##70506 R"));
 }
 
-TEST(Log, ThatIsNoneIsRefused) {
+TEST(NotALog, IsRefused) {
   for (const char* text :
        {"// a note of somebody\nint main() { return 0; }\n", "Dear reader,\nhello\n", "; a comment\nhello\n"})
     EXPECT_THAT(read_log(text).error, HasSubstr("'log': is not a log")) << text;

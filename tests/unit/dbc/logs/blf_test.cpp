@@ -118,9 +118,9 @@ TEST(Blf, ObjectsMayExtendOverContainers) {
 }
 
 TEST(Blf, ChannelsHaveTheNamesOfTheirNetworks) {
-  std::string text = "\1\0\0\0\0\2\1\0\x0A\0\0\0\0\0\0\0a.dbc;body"s;
+  std::string text = "\1\0\0\0\0\2\1\0\x0A\0\0\0\0\0\0\0a.dbc;bo y"s;
   EXPECT_THAT(read_log(blf_header() + blf_object(65, text) + blf_object(1, can_message_body)).lines,
-              ElementsAre("(1.500000) body 123#AABB T"));
+              ElementsAre("(1.500000) bo_y 123#AABB T"));
 }
 
 TEST(Blf, WhatIsWrongIsSaid) {
