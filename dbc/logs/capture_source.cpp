@@ -57,7 +57,7 @@ class CaptureSource : public LogSource {
     const auto begins = input_.available();
     if (!begins) return tl::unexpected(begins.error());
     if (begins->empty() && size > 0) return false;
-    const auto whole = input_.read({reinterpret_cast<char*>(bytes_.data()), size});
+    auto whole = input_.read({reinterpret_cast<char*>(bytes_.data()), size});
     if (!whole) return whole;
     if (!*whole) return at_packet("the file is cut, expected the rest of the packet");
     return true;
