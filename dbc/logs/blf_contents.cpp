@@ -113,7 +113,7 @@ class Contents final : public Bytes {
 
 Result<std::optional<Header>> next_header(Input& input) {
   constexpr std::size_t most_padding = 7;
-  for (std::size_t padding = 0;; ++padding) {
+  for (std::size_t padding = 0;;) {
     const auto head = input.peek(base_header_size);
     if (!head) return tl::unexpected(head.error());
     if (head->starts_with(signature)) {
@@ -131,7 +131,9 @@ Result<std::optional<Header>> next_header(Input& input) {
       input.take(head->size());
       return std::optional<Header>();
     }
-    if (padding == most_padding) return failure("expected an object, which begins with LOBJ");
+    // Any number of zeros may fill a container.
+    if (head->front() != '\0' && ++padding > most_padding)
+      return failure("expected an object, which begins with LOBJ");
     input.take(1);
   }
 }

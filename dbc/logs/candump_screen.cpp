@@ -45,8 +45,7 @@ std::optional<std::int64_t> local_date(std::string_view date, std::string_view c
 
 bool ScreenParser::has_short_time(std::string_view text) {
   const std::string_view stamp = stamp_of(text);
-  const std::size_t point = stamp.find('.');
-  return point != std::string_view::npos && point <= short_seconds && time_of(stamp).has_value();
+  return stamp.find('.') <= short_seconds && time_of(stamp).has_value();
 }
 
 void ScreenParser::decide_times(std::string_view lines) {
