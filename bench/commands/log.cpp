@@ -62,6 +62,7 @@ ExitCode convert(const ConvertArguments& arguments) {
   const auto converted = recordings::convert(arguments.from, arguments.to, *format);
   if (!converted) return complain(converted.error());
   say_all(converted->remarks);
+  if (converted->frames == 0) say(fmt::format("log '{}': has no frame", arguments.from));
   fmt::print("{}: {} frames\n", one_line(arguments.to), converted->frames);
   return ExitCode::pass;
 }

@@ -59,7 +59,7 @@ Result<Parsed> AscParser::classic(Rest words, LogEntry entry) const {
   if (!is_id(words[0])) return Parsed{.left_out = "frames with a name in place of the id"};
   if (!read_id(words[0], entry.frame)) return failure("an id");
   entry.transmitted = same(words[1], "tx");
-  constexpr std::uint8_t none = 16;  // of the length codes 0 to 15
+  constexpr std::uint8_t none = 255, last_code = 15;
   const std::uint8_t code = words.size() > 3 ? number_of<std::uint8_t>(words[3], 16).value_or(none) : none;
   entry.remote = same(words[2], "r");
   if (entry.remote) {  // the length code may be missing
@@ -67,9 +67,11 @@ Result<Parsed> AscParser::classic(Rest words, LogEntry entry) const {
     return Parsed{.entry = std::move(entry)};
   }
   if (!same(words[2], "d")) return failure("'d' or 'r' after the direction");
-  if (code >= none) return failure("a data length code");
-  if (auto read = read_data(words.subspan(4), std::min<std::size_t>(code, 8), entry.frame); !read)
-    return tl::unexpected(read.error());
+  // Old versions of python-can write a frame of CAN FD like this, with its size in place of the length code.
+  entry.frame.fd = code > last_code && code <= Frame::max_size && size_has_dlc(code, true);
+  if (code > last_code && !entry.frame.fd) return failure("a data length code");
+  const std::size_t size = entry.frame.fd ? code : std::min<std::size_t>(code, 8);
+  if (auto read = read_data(words.subspan(4), size, entry.frame); !read) return tl::unexpected(read.error());
   return Parsed{.entry = std::move(entry)};
 }
 
@@ -174,7 +176,8 @@ std::optional<Parsed> AscParser::header(std::string_view text) {
     const std::size_t colon = text.find(": ");
     if (colon == std::string_view::npos) return Parsed{};
     const auto number = number_of<unsigned>(text.substr(channel.size(), colon - channel.size()));
-    if (number && *number <= last_channel) names_[*number] = text.substr(colon + 2);
+    if (number && *number <= last_channel && colon + 2 < text.size())
+      names_[*number] = interface_name(text.substr(colon + 2));
     return Parsed{};
   }
   const std::string_view first = words_[0];

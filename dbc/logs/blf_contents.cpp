@@ -37,7 +37,7 @@ class Contents final : public Bytes {
       if (!some) return tl::unexpected(some.error());
       if (some->empty() && rest_ > 0) return failure("its last object is cut");
       const std::string_view from = some->substr(0, std::min<std::size_t>(rest_, some->size()));
-      const auto got = inflating_ ? inflate_some(from, to) : copy(from, to);
+      auto got = inflating_ ? inflate_some(from, to) : copy(from, to);
       if (!got || *got > 0) return got;
     }
   }
@@ -53,9 +53,9 @@ class Contents final : public Bytes {
     if ((*header)->type != log_container) return true;
     std::array<char, container_header_size> fields{};
     const bool complete = rest_ >= (*header)->size + fields.size();
-    const auto skipped = complete ? input_.skip((*header)->size) : Result<bool>(false);
+    auto skipped = complete ? input_.skip((*header)->size) : Result<bool>(false);
     if (!skipped) return skipped;
-    const auto got = *skipped ? input_.read(fields) : Result<bool>(false);
+    auto got = *skipped ? input_.read(fields) : Result<bool>(false);
     if (!got) return got;
     if (!*got) return failure("its last object is cut");
     rest_ -= (*header)->size + fields.size();
@@ -113,7 +113,7 @@ class Contents final : public Bytes {
 
 Result<std::optional<Header>> next_header(Input& input) {
   constexpr std::size_t most_padding = 7;
-  for (std::size_t padding = 0;; ++padding) {
+  for (std::size_t padding = 0;;) {
     const auto head = input.peek(base_header_size);
     if (!head) return tl::unexpected(head.error());
     if (head->starts_with(signature)) {
@@ -131,7 +131,9 @@ Result<std::optional<Header>> next_header(Input& input) {
       input.take(head->size());
       return std::optional<Header>();
     }
-    if (padding == most_padding) return failure("expected an object, which begins with LOBJ");
+    // Any number of zeros may fill a container.
+    if (head->front() != '\0' && ++padding > most_padding)
+      return failure("expected an object, which begins with LOBJ");
     input.take(1);
   }
 }

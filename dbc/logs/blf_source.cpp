@@ -74,7 +74,10 @@ class BlfSource final : public LogSource {
       if (!got) return tl::unexpected(got.error());
       if (!*got) return at_object({"its last object is cut"});
       auto parsed = parse(**header);
-      if (!parsed) return at_object({"expected " + parsed.error().message});
+      if (!parsed) {  // the next object begins where the header says, so only this one is lost
+        leave_out("objects that are not valid, expected " + parsed.error().message);
+        continue;
+      }
       if (parsed->entry) return std::move(parsed->entry);
       if (!parsed->left_out.empty()) leave_out(parsed->left_out);
     }
@@ -120,7 +123,7 @@ class BlfSource final : public LogSource {
     text = text.substr(0, text.find('\0'));
     const std::size_t semicolon = text.find(';');
     if (semicolon != std::string_view::npos && semicolon + 1 < text.size())
-      names_[details >> 8U & 0xFFU] = text.substr(semicolon + 1);
+      names_[details >> 8U & 0xFFU] = interface_name(text.substr(semicolon + 1));
   }
 
   const std::string& interface_of(unsigned channel) {

@@ -45,8 +45,7 @@ std::optional<std::int64_t> local_date(std::string_view date, std::string_view c
 
 bool ScreenParser::has_short_time(std::string_view text) {
   const std::string_view stamp = stamp_of(text);
-  const std::size_t point = stamp.find('.');
-  return point != std::string_view::npos && point <= short_seconds && time_of(stamp).has_value();
+  return stamp.find('.') <= short_seconds && time_of(stamp).has_value();
 }
 
 void ScreenParser::decide_times(std::string_view lines) {
@@ -93,7 +92,7 @@ Result<Parsed> ScreenParser::line(std::string_view text) {
   if (!t_ns) return failure("the time of candump in parentheses");
   entry.t_ns = *t_ns;
   if (at_ >= words_.size()) return failure("the interface's name after the time");
-  entry.interface = words_[at_++];
+  entry.interface = interface_name(words_[at_++]);
   return frame(std::move(entry));
 }
 

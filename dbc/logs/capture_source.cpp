@@ -57,7 +57,7 @@ class CaptureSource : public LogSource {
     const auto begins = input_.available();
     if (!begins) return tl::unexpected(begins.error());
     if (begins->empty() && size > 0) return false;
-    const auto whole = input_.read({reinterpret_cast<char*>(bytes_.data()), size});
+    auto whole = input_.read({reinterpret_cast<char*>(bytes_.data()), size});
     if (!whole) return whole;
     if (!*whole) return at_packet("the file is cut, expected the rest of the packet");
     return true;
@@ -247,8 +247,10 @@ class PcapngSource final : public CaptureSource {
     options(std::span<const std::uint8_t>(bytes_).subspan(header_size),
             [&](std::uint32_t code, std::span<const std::uint8_t> value) {
               constexpr std::uint32_t name = 2, resolution = 9, offset = 14;
-              if (code == name && !value.empty() && value[0] != 0)
-                interface.name.assign(value.begin(), std::find(value.begin(), value.end(), 0));
+              if (code == name && !value.empty() && value[0] != 0) {
+                const std::string_view text(reinterpret_cast<const char*>(value.data()), value.size());
+                interface.name = interface_name(text.substr(0, text.find('\0')));
+              }
               if (code == resolution && value.size() == 1) set_resolution(interface, value[0]);
               if (code == offset && value.size() == 8)
                 interface.offset_s = static_cast<std::int64_t>(fields_.u64(value, 0));

@@ -25,7 +25,7 @@ class Gunzip final : public Bytes {
     stream_.avail_out = static_cast<uInt>(to.size());
     while (stream_.avail_out == to.size()) {
       if (stream_.avail_in == 0) {
-        const auto got = from_->read(compressed_);
+        auto got = from_->read(compressed_);
         if (!got) return got;
         if (*got == 0) {
           if (between_members_) return std::size_t{0};
@@ -74,7 +74,7 @@ class Utf8OfUtf16 final : public Bytes {
     while (taken_ == ready_.size()) {
       ready_.clear();
       taken_ = 0;
-      const auto got = from_->read(units_);
+      auto got = from_->read(units_);
       if (!got) return got;
       if (*got == 0) {
         if (!high_ && !odd_) return std::size_t{0};

@@ -40,7 +40,7 @@ bool is_trc(std::string_view text) {
 Result<std::string_view> beginning_of(Input& input) {
   constexpr std::size_t longest_magic = 4;
   for (std::size_t most = longest_magic; most < beginning_size; ++most) {
-    const auto text = input.peek(most);
+    auto text = input.peek(most);
     if (!text || text->size() < most || text->find('\n') != std::string_view::npos) return text;
   }
   return input.peek(beginning_size);

@@ -127,7 +127,7 @@ Result<std::size_t> Input::fill() {
     end_ -= begin_;
     begin_ = 0;
   }
-  const auto got = bytes_->read(std::span(buffer_).subspan(end_));
+  auto got = bytes_->read(std::span(buffer_).subspan(end_));
   if (!got) return failure(fmt::format("cannot read log '{}': {}", name_, got.error().message));
   end_ += *got;
   return got;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -74,11 +75,16 @@ void LogSource::leave_out(std::string_view reason) {
   ++found->count;
 }
 
+std::vector<std::string> LogSource::left_out() const {
+  std::vector<std::string> all;
+  for (const LeftOut& one : left_out_)
+    all.push_back(fmt::format("{} left out: {}; the first is {}", one.count, one.reason, one.first));
+  return all;
+}
+
 std::vector<std::string> LogSource::remarks(const std::string& name) const {
   std::vector<std::string> all = remarks_;
-  for (const LeftOut& one : left_out_)
-    all.push_back(
-        fmt::format("log '{}': {} left out: {}; the first is {}", name, one.count, one.reason, one.first));
+  for (const std::string& one : left_out()) all.push_back(fmt::format("log '{}': {}", name, one));
   return all;
 }
 
@@ -124,9 +130,9 @@ Result<std::optional<LogEntry>> LogReader::next() {
     if (!*entry) {
       if (!any_ && source_->left_something_out() && !source_->recognised())
         return failure(
-            fmt::format("'{}': is not a log: no line of it is a frame, expected a log of CAN "
-                        "(candump, ASC, BLF, TRC, SavvyCAN's CSV, pcap or pcapng)",
-                        name_));
+            fmt::format("'{}': is not a log of CAN, expected candump, ASC, BLF, TRC, SavvyCAN's CSV, "
+                        "pcap or pcapng: {}",
+                        name_, fmt::join(source_->left_out(), "; ")));
       return entry;
     }
     any_ = true;

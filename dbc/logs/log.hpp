@@ -74,6 +74,8 @@ class LogSource {
   void leave_out(std::string_view reason);
   /// See LogReader::remarks().
   [[nodiscard]] std::vector<std::string> remarks(const std::string& name) const;
+  /// One line for each reason for which lines or records were left out.
+  [[nodiscard]] std::vector<std::string> left_out() const;
   [[nodiscard]] bool left_something_out() const { return !left_out_.empty(); }
 
  protected:

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -62,6 +63,15 @@ constexpr std::optional<std::int64_t> time_of(std::string_view word, std::int64_
   for (std::int64_t digit_ns = unit_ns / 10; is_digit(); ++at, digit_ns /= 10)
     ns += (word[at] - '0') * digit_ns;
   return at == word.size() ? std::optional(ns) : std::nullopt;
+}
+
+/// The name of an interface as one word of printable ASCII characters, which every format can store: each
+/// other character becomes '_'.
+inline std::string interface_name(std::string_view name) {
+  std::string word(name);
+  std::ranges::replace_if(
+      word, [](char c) { return c <= ' ' || c > '~'; }, '_');
+  return word;
 }
 
 }  // namespace canhil::logs

@@ -2,6 +2,7 @@
 // message one line.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -19,6 +20,7 @@ inline void expect_one_line(const std::string& message) {
 inline void expect_frame(const LogEntry& entry) {
   const Frame& frame = entry.frame;
   if (!can_carry(frame, true) || entry.t_ns < 0 || entry.interface.empty()) std::abort();
+  if (!std::ranges::all_of(entry.interface, [](char c) { return c > ' ' && c <= '~'; })) std::abort();
   if (entry.remote && (frame.fd || frame.error)) std::abort();
 }
 

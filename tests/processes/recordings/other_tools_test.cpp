@@ -50,6 +50,16 @@ TEST(Pipe, WithANameIsDecodedAndConverted) {
   EXPECT_EQ(read(scratch("of_fifo.log")), "(1.000000) can0 123#0500000000000000 R\n");
 }
 
+TEST(Pipe, IsReplayedToTheDevice) {
+  const std::string log = scratch("los.log");
+  hil_bench(fmt::format("run {} --lockstep --log {}", scenario("los_quick"), log));
+  const Ended of_file = hil_target("--replay " + log);
+  ASSERT_EQ(of_file.code, 0) << of_file.err;
+  const Ended of_pipe = shell(fmt::format("gzip -c {} | {} --replay /dev/stdin", log, HIL_TARGET));
+  EXPECT_EQ(of_pipe.code, 0) << of_pipe.err;
+  EXPECT_EQ(of_pipe.out, of_file.out);
+}
+
 TEST(Convert, SaysWhatItLeavesOut) {
   const std::string log =
       file("mixed.log", "# engine off\n" + frame + "(1.100000) can0 00321#81:05:11223344#DEADBEEF\n");

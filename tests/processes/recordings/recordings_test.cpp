@@ -400,7 +400,7 @@ TEST(Replay, BadInputIsOneLine) {
   expect_one_line(hil_bench(fmt::format("replay {} --bus local:x --only 7FE", recorded())),
                   "has no frame to send");
   expect_one_line(hil_bench("replay none.log --bus local:x"), "cannot read log 'none.log'");
-  expect_one_line(hil_bench(fmt::format("replay {} --bus local:x", all_kinds())),
+  expect_one_line(hil_bench(fmt::format("replay {} --bus local:x --channel can0", all_kinds())),
                   "cannot carry a frame with id 123");
   expect_one_line(hil_bench(fmt::format("replay {} --bus none0", recorded())), "none0");
   expect_one_line(hil_bench(fmt::format("replay {} --bus local:x --speed 0", recorded())), "--speed");

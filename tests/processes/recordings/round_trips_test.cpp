@@ -48,14 +48,15 @@ std::string written_log() {
     const std::uint32_t kind = below(10);
     Frame& frame = entry.frame;
     frame = {.size = static_cast<std::uint8_t>(below(9)), .extended = below(2) == 1};
-    frame.id = below(frame.extended ? max_extended_id + 1 : max_standard_id + 1);
+    // Not 0: Wireshark knows another protocol for this id.
+    frame.id = 1 + below(frame.extended ? max_extended_id : max_standard_id);
     entry.interface = fmt::format("can{}", below(2));
     entry.transmitted = below(2) == 1;
     entry.remote = kind == 0;
     if (kind == 1) {
       frame = {.id = 0x80U | below(0x80), .size = 8, .error = true};
       entry.transmitted = false;
-    } else if (kind < 6) {
+    } else if (kind > 1 && kind < 6) {
       frame.fd = true;
       frame.brs = below(2) == 1;
       frame.esi = below(2) == 1;

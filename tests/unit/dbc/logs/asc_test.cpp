@@ -47,6 +47,11 @@ TEST(Asc, ReadsRemoteFrames) {
       ElementsAre("(0.100000) can0 123#R R", "(0.200000) can0 00000123#R8 T", "(0.300000) can0 123#R R"));
 }
 
+TEST(Asc, ReadsFramesOfCanFdOfOldVersionsOfPythonCan) {
+  EXPECT_THAT(lines_of_events("0.1 1  123x Rx d 10 00 01 02 03 04 05 06 07 08 09 0A 0B 0C 0D 0E 0F\n"),
+              ElementsAre("(0.100000) can0 00000123##4000102030405060708090A0B0C0D0E0F R"));
+}
+
 TEST(Asc, ReadsADecimalComma) {
   EXPECT_THAT(lines_of_events("0,040000 1  123 Rx d 1 05\n"), ElementsAre("(0.040000) can0 123#05 R"));
 }
@@ -105,7 +110,7 @@ TEST(Asc, KeepsTheErrorStateIndicatorAndRemoteFramesThroughTheWriter) {
   EXPECT_THAT(read_log(asc_head + line).lines, ElementsAre("(0.100000) can0 125##70506 R"));
 }
 
-TEST(Log, ThatIsNoneIsRefused) {
+TEST(NotALog, IsRefused) {
   for (const char* text :
        {"// a note of somebody\nint main() { return 0; }\n", "Dear reader,\nhello\n", "; a comment\nhello\n"})
     EXPECT_THAT(read_log(text).error, HasSubstr("'log': is not a log")) << text;
