@@ -70,7 +70,7 @@ Result<void> write_file_unless_failed(const std::string& path,
   if (file == nullptr) return complaint(path, errno);
   // The first error is reported.
   int error = 0;
-  const Result<void> complete = content([&](std::string_view part) {
+  Result<void> complete = content([&](std::string_view part) {
     if (error == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) error = errno;
   });
   if (std::fclose(file) != 0 && error == 0) error = errno;

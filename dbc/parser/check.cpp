@@ -76,7 +76,7 @@ bool is_j1939(const Defaults& defaults, const Database& database, const Message&
   if (message.attributes.contains("VFrameFormat")) return format.starts_with("J1939");
   const auto protocol =
       attribute_or<std::string>(defaults, database.attributes, Owner::network, "ProtocolType", {});
-  return protocol.starts_with("J1939") || format.starts_with("J1939");
+  return protocol.find("J1939") != std::string::npos || format.starts_with("J1939");
 }
 
 void read_message_attributes(const Defaults& defaults, Findings& findings, Message& message) {

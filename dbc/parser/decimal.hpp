@@ -22,6 +22,7 @@ Decimal shortest_decimal(double value);
 /// Converts raw bits of a signal to text.
 class DecimalConversion {
  public:
+  /// The conversion of a signal.
   explicit DecimalConversion(const Signal& signal);
 
   /// The physical value raw * scale + offset, in the unit of the signal. `raw` are right-aligned bits. An

@@ -29,10 +29,9 @@ class Converter {
   /// Converts as many bytes of `text` as possible, removes them from `text`, and appends their characters to
   /// `out`. True: `text` is empty now; false: it begins with bytes that are no character.
   bool convert(std::string_view& text, std::string& out) {
-    char* in = const_cast<char*>(
-        text.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast): iconv does not write there
+    char* in = const_cast<char*>(text.data());  // iconv does not write there
     std::size_t left = text.size();
-    std::array<char, 1 << 14> part;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled by iconv
+    std::array<char, 1 << 14> part;
     std::size_t result = 0;
     do {
       char* next = part.data();

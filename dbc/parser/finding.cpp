@@ -25,7 +25,7 @@ constexpr std::array texts{
     RuleText{Rule::windows_1252, "windows-1252", note, "the text is not UTF-8", "it is read as Windows-1252"},
     RuleText{Rule::text_encoding, "text-encoding", warning,
              "the text has bytes that are no character of its encoding",
-             "each is read as U+FFFD; `--encoding` selects the encoding"},
+             "each of them is read as U+FFFD; the option --encoding selects the encoding"},
     RuleText{Rule::independent_signals, "independent-signals", note,
              "the message VECTOR__INDEPENDENT_SIG_MSG, id 0xC0000000, contains signals that no frame carries",
              "the message is left out"},

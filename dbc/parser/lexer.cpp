@@ -30,13 +30,10 @@ bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) ==
 
 class Lexer {
  public:
-  /// `bounded`: a string also ends before a line that begins with a keyword. This finds the end of a string
-  /// that lacks its closing quote; but a comment may contain such a line.
-  Lexer(std::string_view text, Findings& findings, bool bounded)
-      : text_(text), findings_(findings), bounded_(bounded) {}
+  Lexer(std::string_view text, Findings& findings, StringEnd end)
+      : text_(text), findings_(findings), end_(end) {}
 
-  /// Whether a string had no end.
-  [[nodiscard]] bool unfinished() const { return unfinished_; }
+  [[nodiscard]] bool string_spans_section() const { return string_spans_section_; }
 
   Token next() {
     skip_space();
@@ -138,7 +135,11 @@ class Lexer {
   std::string string(Position start) {
     std::string text;
     take();
-    while (!at_end() && peek() != '"' && !(bounded_ && keyword_follows())) {
+    while (!at_end() && peek() != '"') {
+      if (keyword_follows()) {
+        string_spans_section_ = true;
+        if (end_ == StringEnd::quote_or_section) break;
+      }
       char c = take();
       if (c == '\r') continue;
       if (c == '\\' && (peek() == '"' || peek() == '\\')) c = take();
@@ -147,7 +148,7 @@ class Lexer {
     if (peek() == '"') {
       take();
     } else {
-      unfinished_ = true;
+      string_spans_section_ = true;
       findings_.add(Rule::unfinished_string, start,
                     "string without end, expected '\"' before the next section");
     }
@@ -164,8 +165,8 @@ class Lexer {
 
   std::string_view text_;
   Findings& findings_;
-  bool bounded_;
-  bool unfinished_ = false;
+  StringEnd end_;
+  bool string_spans_section_ = false;
   std::size_t index_ = 0;
   Position at_;
 };
@@ -174,18 +175,13 @@ class Lexer {
 
 bool is_keyword(std::string_view word) { return std::ranges::find(keywords, word) != keywords.end(); }
 
-std::vector<Token> tokens_of(std::string_view text, Findings& findings) {
-  std::vector<Token> tokens;
-  const Findings before = findings;
-  for (const bool bounded : {false, true}) {
-    tokens.clear();
-    findings = before;
-    Lexer lexer(text, findings, bounded);
-    do {
-      tokens.push_back(lexer.next());
-    } while (tokens.back().kind != TokenKind::end);
-    if (!lexer.unfinished()) break;
-  }
+Tokens tokens_of(std::string_view text, Findings& findings, StringEnd end) {
+  Lexer lexer(text, findings, end);
+  Tokens tokens;
+  do {
+    tokens.all.push_back(lexer.next());
+  } while (tokens.all.back().kind != TokenKind::end);
+  tokens.string_spans_section = lexer.string_spans_section();
   return tokens;
 }
 

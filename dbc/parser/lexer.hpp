@@ -33,8 +33,17 @@ struct Token {
 /// Whether a word is a keyword of the format, such as BO_.
 bool is_keyword(std::string_view word);
 
-/// The tokens of a UTF-8 text; the last token has the kind `end`. An unexpected character becomes a token of
-/// the kind `mark`. If a string has no end, a string ends before the next line that begins with a keyword.
-std::vector<Token> tokens_of(std::string_view text, Findings& findings);
+/// Where a string ends: at its closing quote, or also before a line that begins with a keyword. The second
+/// finds the end of a string that lacks its closing quote; but a comment may contain such a line.
+enum class StringEnd : unsigned char { quote, quote_or_section };
+
+struct Tokens {
+  std::vector<Token> all;  ///< the last token has the kind `end`
+  /// A string has no end, or contains a line that begins with a keyword.
+  bool string_spans_section = false;
+};
+
+/// The tokens of a UTF-8 text. An unexpected character becomes a token of the kind `mark`.
+Tokens tokens_of(std::string_view text, Findings& findings, StringEnd end = StringEnd::quote);
 
 }  // namespace canhil::dbc

@@ -147,37 +147,65 @@ Result<Database> read_file_unless(const std::string& path, Severity refused,
   return database_unless(std::move(*inspection), refused, path);
 }
 
-Inspection inspect_in_encoding(std::string_view text, const std::string& encoding) {
-  Findings findings;
+struct Reading {
+  Inspection inspection;
+  bool string_spans_section = false;
+};
+
+/// Reads a UTF-8 text. `findings`: those about its encoding.
+Reading read(std::string_view text, Findings findings, StringEnd end) {
   Draft draft(findings);
-  Reader in(tokens_of(to_utf8(text, encoding, findings), findings), findings);
-  if (!read_sections(in, draft))  // the text is not a DBC: other findings would not help
-    return {{}, {{Rule::not_a_dbc, {}, "no section of a DBC file, expected one such as BO_"}}};
-  finish(draft);
-  Inspection inspection{std::nullopt, findings.take()};
-  if (std::ranges::count(inspection.findings, Severity::error, severity_of) == 0) {
-    draft.database.hash = hash(text);
-    inspection.database = std::move(draft.database);
+  Tokens tokens = tokens_of(text, findings, end);
+  Reader in(std::move(tokens.all), findings);
+  if (!read_sections(in, draft)) {  // the text is not a DBC: other findings would not help
+    return {{{}, {{Rule::not_a_dbc, {}, "no section of a DBC file, expected one such as BO_"}}}, false};
   }
-  return inspection;
+  finish(draft);
+  Reading reading{{std::move(draft.database), findings.take()}, tokens.string_spans_section};
+  if (std::ranges::count(reading.inspection.findings, Severity::error, severity_of) > 0)
+    reading.inspection.database.reset();
+  return reading;
+}
+
+/// The number of sections, messages and signals that could not be read.
+std::ptrdiff_t unread(const Inspection& inspection) {
+  constexpr std::array rules{Rule::unreadable_section, Rule::unreadable_message, Rule::unreadable_signal,
+                             Rule::unknown_section, Rule::not_a_dbc};
+  return std::ranges::count_if(inspection.findings, [&](const Finding& finding) {
+    return std::ranges::find(rules, finding.rule) != rules.end();
+  });
+}
+
+/// Reads a UTF-8 text. If a quote seems to be missing, a second reading ends the strings before the next
+/// section; the reading that loses less is taken.
+Inspection best_reading(std::string_view text, const Findings& findings) {
+  Reading reading = read(text, findings, StringEnd::quote);
+  if (!reading.string_spans_section) return std::move(reading.inspection);
+  const bool is_unfinished = std::ranges::find(reading.inspection.findings, Rule::unfinished_string,
+                                               &Finding::rule) != reading.inspection.findings.end();
+  Reading other = read(text, findings, StringEnd::quote_or_section);
+  const bool is_better = is_unfinished || unread(other.inspection) < unread(reading.inspection);
+  return std::move((is_better ? other : reading).inspection);
 }
 
 }  // namespace
 
 Inspection inspect(std::string_view text, const std::string& encoding) {
-  Inspection inspection = inspect_in_encoding(text, encoding);
-  const bool is_utf8 = std::ranges::none_of(inspection.findings, [](const Finding& finding) {
-    return finding.rule == Rule::windows_1252 || finding.rule == Rule::text_encoding;
-  });
-  if (!encoding.empty() || is_utf8) return inspection;
-  // A backslash before a quote may be an escape, or the second half of a character. The wrong choice moves
-  // the ends of all following strings, which causes many findings.
-  const std::string other_text = with_two_byte_characters(text);
-  if (other_text == text) return inspection;
-  Inspection other = inspect_in_encoding(other_text, encoding);
-  if (other.findings.size() >= inspection.findings.size()) return inspection;
-  if (other.database) other.database->hash = hash(text);
-  return other;
+  Findings findings;
+  const std::string utf8 = to_utf8(text, encoding, findings);
+  Inspection inspection = best_reading(utf8, findings);
+  if (encoding.empty() && !findings.all().empty()) {
+    // The encoding is a guess. A backslash before a quote may be an escape, or the second half of a
+    // character. The wrong choice moves the ends of all following strings.
+    if (const std::string other_text = with_two_byte_characters(text); other_text != text) {
+      Findings same;
+      Inspection other = best_reading(to_utf8(other_text, encoding, same), findings);
+      const auto badness = [](const Inspection& one) { return std::pair(unread(one), one.findings.size()); };
+      if (badness(other) < badness(inspection)) inspection = std::move(other);
+    }
+  }
+  if (inspection.database) inspection.database->hash = hash(text);
+  return inspection;
 }
 
 Result<Inspection> inspect_file(const std::string& path, const std::string& encoding) {

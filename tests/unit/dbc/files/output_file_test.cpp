@@ -35,6 +35,18 @@ TEST_F(OutputFiles, HaveNamesThatNobodyForesees) {
   EXPECT_THAT(one->temporary_name(), Not(HasSubstr("." + std::to_string(getpid()) + ".")));
 }
 
+TEST_F(OutputFiles, OfAFailedContentLeaveTheOldFile) {
+  std::ofstream(in("old")) << "mine";
+  const auto written = write_file_unless_failed(in("old"), [](const Sink& give) -> Result<void> {
+    give("half");
+    return failure("the content failed");
+  });
+  EXPECT_EQ(message_of(written), "the content failed");
+  std::ifstream file(in("old"));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
 TEST_F(OutputFiles, AreThereOnlyUnderTheirName) {
   {
     auto kept = OutputFile::create(in("kept")), lost = OutputFile::create(in("lost"));

@@ -52,9 +52,11 @@ TEST(ToUtf8, SaysWhereTheFirstBadBytesAre) {
 // escape this quote.
 TEST(Inspect, ReadsStringsThatEndWithABackslashOfTwoByteCharacters) {
   const std::string text =
-      "BO_ 1 M: 8 A\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" A\nCM_ SG_ 1 s \"\x90\xAB\x94\x5C\";\nCM_ \"x\";\n";
+      "BU_: A\nBO_ 1 M: 8 A\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" A\nCM_ SG_ 1 s \"\x90\xAB\x94\x5C\";\nCM_ "
+      "\"x\";\n";
   const Inspection guessed = inspect(text);
   ASSERT_TRUE(guessed.database);
+  EXPECT_EQ(guessed.findings.size(), 1U) << "of the encoding";
   EXPECT_EQ(guessed.database->comment, "x");
   EXPECT_EQ(guessed.database->hash, hash(text));
   const Inspection told = inspect(text, "shift_jis");

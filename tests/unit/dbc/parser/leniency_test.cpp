@@ -330,6 +330,20 @@ TEST(LenientReader, KeepsTheMessagesAroundWhatItCannotRead) {
   EXPECT_EQ(inspection.database->messages[0].signals.size(), 2U);
 }
 
+// Two missing quotes make one long string, which would hide the message between them.
+TEST(LenientReader, FindsMessagesBetweenMissingQuotes) {
+  const Inspection inspection = inspect(
+      "BU_: A\nCM_ \"x;\nBO_ 2 N: 8 A\n SG_ a : 0|8@1+ (1,0) [0|0] \"\" A\nCM_ BO_ 2 \"y;\nBO_ 3 O: 8 A\n");
+  EXPECT_EQ(places_of(inspection.findings),
+            "2:5 unfinished-string, 5:11 unfinished-string, 3:1 missing-semicolon, 6:1 missing-semicolon");
+  ASSERT_TRUE(inspection.database);
+  EXPECT_EQ(inspection.database->messages.size(), 2U);
+  // A comment may contain the text of a section.
+  const Inspection comment = inspect("BU_: A\nBO_ 2 N: 8 A\nCM_ BO_ 2 \"before:\nBO_ 2 N: 4 A\n\";\n");
+  EXPECT_TRUE(comment.findings.empty());
+  EXPECT_EQ(comment.database->messages[0].comment, "before:\nBO_ 2 N: 4 A\n");
+}
+
 TEST(LenientReader, ListsTenThousandFindingsAndReadsOn) {
   const Inspection inspection = inspect("BU_: A\n" + std::string(20'000, '%') + "\nBO_ 3 O: 8 A\n");
   ASSERT_TRUE(inspection.database);

@@ -9,7 +9,8 @@ std::vector<Token> tokens_of(std::string_view text) {
   Findings findings;
   auto tokens = dbc::tokens_of(text, findings);
   EXPECT_TRUE(findings.all().empty());
-  return tokens;
+  EXPECT_FALSE(tokens.string_spans_section);
+  return tokens.all;
 }
 
 TEST(Lexer, ASignIsOfTheNumberOnlyBeforeADigit) {
