@@ -41,7 +41,7 @@ LINES = [
     ("bench/sensors/registry.cpp", '#include "bench/sensors/registry.hpp"', '#include "bench/sensors/barometer.hpp"'),
     ("bench/sensors/registry.cpp", "    &fins,        // of the glider", block("adding-a-sensor", "## 3. The registry")),
     ("bench/checks/kinds.cpp", '#include "bench/checks/kinds/sigma_grows.hpp"', '#include "bench/checks/kinds/spread.hpp"'),
-    ("bench/checks/kinds.cpp", "constexpr std::array of_any_estimator{", block("adding-a-check", "## 2. The registry")),
+    ("bench/checks/kinds.cpp", "                                      check_kind<Convergence>,", block("adding-a-check", "## 2. The registry")),
     ("target/device/adapters.hpp", "std::unique_ptr<Adapter> make_wind_adapter();",
      "std::unique_ptr<Adapter> make_baro_inertial_adapter();"),
     ("target/device/adapters.hpp", "  adapters.push_back(make_wind_adapter());",
