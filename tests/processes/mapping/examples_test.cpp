@@ -14,11 +14,11 @@ namespace {
 using testing::Contains;
 using testing::IsEmpty;
 
-struct Defect {
+struct DeviceDefect {
   std::string device, defect, fails;
 };
 // The name of a test.
-void PrintTo(const Defect& of, std::ostream* out) { *out << of.device << ' ' << of.defect; }
+void PrintTo(const DeviceDefect& of, std::ostream* out) { *out << of.device << ' ' << of.defect; }
 
 class Device {
  public:
@@ -65,9 +65,9 @@ TEST_P(Devices, PassInRealTime) {
 INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("auv", "car", "marine"),
                          [](const auto& of) { return of.param; });
 
-class Defects : public testing::TestWithParam<Defect> {};
+class DeviceDefects : public testing::TestWithParam<DeviceDefect> {};
 
-TEST_P(Defects, FailTheirCheck) {
+TEST_P(DeviceDefects, FailTheirCheck) {
   const auto& [name, defect, fails] = GetParam();
   const Device device(name);
   const Ended ended = device.fly(defect, "--lockstep");
@@ -75,24 +75,24 @@ TEST_P(Defects, FailTheirCheck) {
   EXPECT_THAT(device.checks("fail"), Contains(fails)) << ended.out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Defects,
-                         testing::Values(Defect{"auv", "dvl_backwards", "error velocity.norm"},
-                                         Defect{"auv", "inverse_quaternion", "error attitude.heading"},
-                                         Defect{"auv", "no_declination", "error attitude.heading"},
-                                         Defect{"auv", "depth_upwards", "error position.down"},
-                                         Defect{"auv", "says_dvl", "detected_within no bottom lock"},
-                                         Defect{"car", "yaw_sign", "error attitude.heading"},
-                                         Defect{"car", "wheels_in_kmph", "error velocity.north"},
-                                         Defect{"car", "late", "delay attitude.heading"},
-                                         Defect{"car", "no_flag", "flag yaw_implausible at yaw rate off"},
-                                         Defect{"car", "course_as_signed", "error course rms"},
-                                         Defect{"marine", "turns_left", "error attitude.heading"},
-                                         Defect{"marine", "latitude_in_radians", "error position.horizontal"},
-                                         Defect{"marine", "lost_frame", "protection"},
-                                         Defect{"marine", "never_estimated",
-                                                "flag estimated at no GNSS position"},
-                                         Defect{"marine", "wrong_sid", "causes"}),
-                         [](const auto& of) { return of.param.device + "_" + of.param.defect; });
+INSTANTIATE_TEST_SUITE_P(
+    Each, Defects,
+    testing::Values(DeviceDefect{"auv", "dvl_backwards", "error velocity.norm"},
+                    DeviceDefect{"auv", "inverse_quaternion", "error attitude.heading"},
+                    DeviceDefect{"auv", "no_declination", "error attitude.heading"},
+                    DeviceDefect{"auv", "depth_upwards", "error position.down"},
+                    DeviceDefect{"auv", "says_dvl", "detected_within no bottom lock"},
+                    DeviceDefect{"car", "yaw_sign", "error attitude.heading"},
+                    DeviceDefect{"car", "wheels_in_kmph", "error velocity.north"},
+                    DeviceDefect{"car", "late", "delay attitude.heading"},
+                    DeviceDefect{"car", "no_flag", "flag yaw_implausible at yaw rate off"},
+                    DeviceDefect{"car", "course_as_signed", "error course rms"},
+                    DeviceDefect{"marine", "turns_left", "error attitude.heading"},
+                    DeviceDefect{"marine", "latitude_in_radians", "error position.horizontal"},
+                    DeviceDefect{"marine", "lost_frame", "protection"},
+                    DeviceDefect{"marine", "never_estimated", "flag estimated at no GNSS position"},
+                    DeviceDefect{"marine", "wrong_sid", "causes"}),
+    [](const auto& of) { return of.param.device + "_" + of.param.defect; });
 
 }  // namespace
 }  // namespace canhil::test
