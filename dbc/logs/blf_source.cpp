@@ -20,7 +20,7 @@ constexpr std::uint64_t longest_since_start_ns = 1'000'000'000ULL * ns_per_s;
 // are skipped.
 constexpr std::uint32_t largest_object = 1 << 16;
 
-bool is_read(std::uint32_t type) {
+bool is_read_object(std::uint32_t type) {
   using enum blf::Type;
   return type == can_message || type == can_message_2 || type == can_error || type == can_error_ext ||
          type == can_fd_message || type == can_fd_message_64 || type == can_fd_error_64 || type == app_text;
@@ -62,7 +62,7 @@ class BlfSource final : public LogSource {
       if (!*header) return std::optional<LogEntry>();
       type_ = (*header)->type;
       const std::uint32_t size = (*header)->object_size;
-      if (!is_read(type_) || size > largest_object) {
+      if (!is_read_object(type_) || size > largest_object) {
         leave_out(type_ == 4 ? "bus statistics" : "objects other than frames of CAN");
         const auto skipped = objects_.skip(size);
         if (!skipped) return tl::unexpected(skipped.error());

@@ -76,7 +76,7 @@ TEST_P(DeviceDefects, FailTheirCheck) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Each, Defects,
+    Each, DeviceDefects,
     testing::Values(DeviceDefect{"auv", "dvl_backwards", "error velocity.norm"},
                     DeviceDefect{"auv", "inverse_quaternion", "error attitude.heading"},
                     DeviceDefect{"auv", "no_declination", "error attitude.heading"},

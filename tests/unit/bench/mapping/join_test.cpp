@@ -124,7 +124,7 @@ TEST(Join, OtherValuesAreRefused) {
 // A DBC may describe what a transport protocol carries in several frames.
 TEST(ReadMapping, AMessageThatNoFrameHasIsRefused) {
   const auto read_two =
-      read(two(dbc(201, "BO_ 2583168510 Fix: 43 Sensor\n SG_ Lat : 56|64@1- (1,0) [0|0] \"\" Device\n"),
+      read(two(dbc(201, "BO_ 2566835710 Fix: 43 Sensor\n SG_ Lat : 56|64@1- (1,0) [0|0] \"\" Device\n"),
                mapping("right") + "[[hear]]\nmessage = \"Fix\"\n"));
   ASSERT_FALSE(read_two);
   EXPECT_THAT(

@@ -276,6 +276,8 @@ truth = "t"
 [sensor.values.share]
 truth = "0.5"
 noise = 0.1
+[[check]]
+kind = "protection"
 )";
 
 TEST(Own, ScenarioSaysWhatTheSensorMeasures) {
