@@ -144,7 +144,10 @@ Result<std::optional<LogEntry>> LogReader::next() {
 Result<LogFile> LogFile::open(const std::string& path) {
   LogFile log(path);
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) return log;
+  // Only what ends and cannot be read again is copied: the copy of a device such as /dev/zero would fill the
+  // disk.
+  if (::stat(path.c_str(), &status) != 0 || (!S_ISFIFO(status.st_mode) && !S_ISSOCK(status.st_mode)))
+    return log;
   auto input = logs::Input::open(path, path);
   if (!input) return tl::unexpected(input.error());
   log.copy_ = std::shared_ptr<const int>(new int(unnamed_file()), [](const int* descriptor) {

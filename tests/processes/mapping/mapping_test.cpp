@@ -287,7 +287,7 @@ TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
   expect_refused(mapping, "-imu.rate.z", "imu.specific_force.z",
                  "is in '°/s', imu.specific_force.z is in m/s^2");
   expect_refused(mapping, "\"attitude.roll\"", "\"attitude.rol\"",
-                 "'attitude.rol' is not a quantity with a truth");
+                 "'attitude.rol' is not a quantity that a target reports");
   expect_refused(mapping, "\"IMU_TX3.TX3_Counter\"", "\"ECU_Status.STS_State\"",
                  "is not part of the play that it answers");
   expect_refused(mapping, "CRC-8/SAE-J1850", "CRC-8/NOBODY", "CRC-8/NOBODY");
