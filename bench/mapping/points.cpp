@@ -153,7 +153,7 @@ Points points_of(const ReferenceQuantity& of, const MappedTarget& target, const 
 }
 
 const Hear& hear_of(const MappedTarget& target, const quantities::Quantity* quantity) {
-  return *told(target, What::value, quantity).in;
+  return *told(target, What::value, quantity).in;  // NOLINT(clang-analyzer-core.uninitialized.UndefReturn)
 }
 
 }  // namespace canhil::mapping

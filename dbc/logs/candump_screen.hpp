@@ -20,6 +20,7 @@ namespace canhil::logs {
 /// How a time without a date counts.
 enum class ScreenTimes : std::uint8_t { unknown, from_first, from_previous };
 
+/// Parses the lines that candump prints on a screen.
 class ScreenParser {
  public:
   /// The frame in a line. The error states what was expected.
@@ -30,6 +31,7 @@ class ScreenParser {
   /// one if, among these lines of the log, the time of a frame is less than that of the frame before, or if
   /// all times after the first are equal.
   void decide_times(std::string_view lines);
+  /// How times without a date count, once it is decided.
   [[nodiscard]] ScreenTimes times() const { return times_; }
 
  private:

@@ -59,6 +59,7 @@ class Input {
   /// Reads and discards bytes; false: the input ends before.
   Result<bool> skip(std::uint64_t bytes);
 
+  /// The name of the log, for messages.
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:

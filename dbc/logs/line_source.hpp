@@ -15,6 +15,7 @@ namespace canhil::logs {
 template <class Parser>
 class LineSource : public LogSource {
  public:
+  /// Reads the lines of `input`.
   explicit LineSource(Input input) : lines_(std::move(input)) {}
 
   Result<std::optional<LogEntry>> next() override {

@@ -76,6 +76,7 @@ class LogSource {
   [[nodiscard]] std::vector<std::string> remarks(const std::string& name) const;
   /// One line for each reason for which lines or records were left out.
   [[nodiscard]] std::vector<std::string> left_out() const;
+  /// Whether lines or records were left out.
   [[nodiscard]] bool left_something_out() const { return !left_out_.empty(); }
 
  protected:
@@ -154,6 +155,7 @@ class LogFile {
   static Result<LogFile> open(const std::string& path);
   /// A reader that begins at the beginning of the log.
   [[nodiscard]] Result<LogReader> read(RemoteFrames remote = RemoteFrames::left_out) const;
+  /// The path of the log.
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:

@@ -34,7 +34,8 @@ canfd_frame to_kernel(const Frame& frame) {
   canfd_frame raw{};
   raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.error ? CAN_ERR_FLAG : 0U);
   raw.len = frame.size;
-  raw.flags = static_cast<std::uint8_t>((frame.brs ? CANFD_BRS : 0) | (frame.esi ? CANFD_ESI : 0));
+  if (frame.fd)
+    raw.flags = static_cast<std::uint8_t>((frame.brs ? CANFD_BRS : 0) | (frame.esi ? CANFD_ESI : 0));
   std::memcpy(raw.data, frame.data.data(), frame.size);
   return raw;
 }

@@ -217,6 +217,7 @@ std::vector<Frame> mixed_frames(int count) {
     Frame frame = fd_frame(u * 7 % 0x800, static_cast<std::uint8_t>(u % 9), false);
     frame.fd = n % 3 == 0;
     frame.brs = frame.fd && n % 2 == 0;
+    frame.esi = frame.fd && n % 2 != 0;
     if (frame.fd && n % 5 == 0) frame.size = long_sizes[u / 15 % long_sizes.size()];
     if (n % 4 == 1) frame.id = u * 0x1234567 & 0x1FFF'FFFF;
     frame.extended = n % 4 == 1;
