@@ -8,7 +8,7 @@
 
 namespace canhil::world {
 
-class EngagementRecord;
+struct EngagementRecord;
 class FlightRecord;
 class GlideRecord;
 
