@@ -201,11 +201,11 @@ address_sanitizer() {
   # Tests that are not run with this sanitizer, and why:
   local left_out=(
     '[.]Documentation[.]' # these compare the documentation with the DBC, and the DBC of this copy has one more estimator
-    ThePapersFlight 'Ecu[.]PassesInRealTime' # these long flights in real time run the same code as the quick flights
+    ThePapersFlight 'Ecu[.]PassesInRealTime' 'Devices[.]PassInRealTime' # these long flights in real time run the same code as the quick flights
     # These run code many times that other tests run once, so they find no further memory errors.
     '[.]Bits[./]' 'ClassicAndFdAgree.*all_four' ScenarioFiles Defective 'Killed[.]' 'Divided.*/[(]([17]|3, 1)' 'Acceptance[.]' 'Slurm[.]' 'Suites[.]'
     'Faults[.](WhatIsKnown|Shards|AViolation)' 'IsJudgedAsItWasFlown/.(all_four|inflight)' 'OfScenario[.].*/.?inflight_(gps|ssbl_180)'
-    'LogFlownAgain.*all_four'
+    'LogFlownAgain.*all_four' 'RoundTrip[.]'
     'kit_in_Python|/Python$' # the target of these tests is a Python program, so it is not instrumented
     'interruptions[.]' # these send a signal a fixed time after the start, when a program with the sanitizer has not yet begun to fly
     # These test which files are written, how a program ends, and what a busy host does. Other tests read and write the same files.
