@@ -149,10 +149,9 @@ double load_of(const Mapping& mapping, const wire::BitRates& rates) {
   const auto add = [&](const Mapped& of, std::int64_t period_us) {
     if (period_us == 0) return;
     const dbc::Message& message = *of.message;
-    const bool fd = message.fd;
     load += static_cast<double>(of.frames()) *
-            wire::bus_load(fd ? wire::worst_case_fd_length(of.frame_size(), message.extended, true)
-                              : wire::worst_case_length(of.frame_size(), message.extended),
+            wire::bus_load(message.fd ? wire::worst_case_fd_length(of.frame_size(), message.extended, true)
+                                      : wire::worst_case_length(of.frame_size(), message.extended),
                            1e-6 * static_cast<double>(period_us), rates);
   };
   for (const Play& play : mapping.plays) {

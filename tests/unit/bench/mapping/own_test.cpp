@@ -55,8 +55,8 @@ Word = { a_out = { bit = 0 }, b_out = { bit = 5 }, seven = 7 }
 Mode = { good = "GOOD", bad = "BAD" }
 )";
 
-Result<std::shared_ptr<const Mapping>> read(const std::string& text) {
-  const std::map<std::string, std::string> files{{"ecu.mapping.toml", text}, {"ecu.dbc", dbc}};
+Result<std::shared_ptr<const Mapping>> read(const std::string& text, const std::string& of_dbc = dbc) {
+  const std::map<std::string, std::string> files{{"ecu.mapping.toml", text}, {"ecu.dbc", of_dbc}};
   return read_mapping("ecu.mapping.toml",
                       [&](const std::string& file) -> Result<std::string> { return files.at(file); });
 }
@@ -170,12 +170,7 @@ answers = "In"
 signals = { W = "attitude.quaternion.w", X = "attitude.quaternion.x", Y = "attitude.quaternion.y", Z = "-attitude.quaternion.z" }
 invalid = { W = 0x8000 }
 )";
-  const auto read_with = [&](const std::string& mapping_text) {
-    const std::map<std::string, std::string> files{{"ecu.mapping.toml", mapping_text}, {"ecu.dbc", text}};
-    return read_mapping("ecu.mapping.toml",
-                        [&](const std::string& file) -> Result<std::string> { return files.at(file); });
-  };
-  const auto all = read_with(of);
+  const auto all = read(of, text);
   ASSERT_TRUE(all) << all.error().message;
   const Hear& hear = (*all)->hears.front();
   const auto angles = [&](std::array<std::int16_t, 4> parts) {
@@ -199,7 +194,7 @@ invalid = { W = 0x8000 }
   const auto without = [&](const std::string& line, const std::string& other) {
     std::string changed = of;
     changed.replace(changed.find(line), line.size(), other);
-    const auto wrong = read_with(changed);
+    const auto wrong = read(changed, text);
     return wrong ? "" : wrong.error().message;
   };
   EXPECT_THAT(without(", Y = \"attitude.quaternion.y\"", ""), HasSubstr("without attitude.quaternion.y"));
@@ -229,9 +224,7 @@ message = "Out"
 any_source = true
 signals = { Height = "position.height" }
 )";
-  const std::map<std::string, std::string> files{{"ecu.mapping.toml", of}, {"ecu.dbc", text}};
-  const auto all = read_mapping(
-      "ecu.mapping.toml", [&](const std::string& file) -> Result<std::string> { return files.at(file); });
+  const auto all = read(of, text);
   ASSERT_TRUE(all) << all.error().message;
   EXPECT_FALSE((*all)->messages.front().fd);
   EXPECT_EQ((*all)->plays.front().messages.front().of.frames(), 3U);
