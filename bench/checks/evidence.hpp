@@ -55,9 +55,9 @@ struct Times {
   std::uint64_t outside = 0;   ///< number of values that came and are beyond the limit
   const Histogram& bench_off;  ///< how far the bench itself was off, for each stimulus in the window
 };
-/// Like unless_target_delayed(), for the disturbances of the host together. Each kind alone may be too rare
-/// to matter at the quantile. If the values beyond the limit would be few enough without those that the host
-/// can have spoiled, a failure is not measured.
+/// Like unless_target_delayed(), for the disturbances of the host together, counted one by one. If the values
+/// beyond the limit would be few enough without those that the host can have spoiled, a failure is not
+/// measured. If they are too many even so, it stands.
 Finding unless_host_disturbed(const Evidence& evidence, double quantile, double bar_s, const Times& times,
                               Finding finding);
 

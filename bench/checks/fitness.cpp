@@ -90,7 +90,6 @@ Finding unless_target_delayed(const Evidence& evidence, double quantile, double 
 
 Finding unless_host_disturbed(const Evidence& evidence, double quantile, double bar_s, const Times& times,
                               Finding finding) {
-  finding = unless_target_delayed(evidence, quantile, bar_s, std::move(finding));
   if (finding.outcome != Outcome::fail) return finding;
   const double most_s = lateness_share * bar_s;
   const auto& [waits, stalls] = evidence.delays;
@@ -100,6 +99,8 @@ Finding unless_host_disturbed(const Evidence& evidence, double quantile, double 
       spoiled_by(stalls, most_s, times.nominal_s);
   const auto permitted = times.count - nearest_rank(quantile, times.count) - times.missing;
   if (late + delayed == 0 || times.outside > permitted + late + delayed) return finding;
+  finding = unless_target_delayed(evidence, quantile, bar_s, std::move(finding));
+  if (finding.outcome != Outcome::fail) return finding;
   finding.outcome = Outcome::not_measured;
   finding.measured += fmt::format(
       "; {} of {} are beyond the limit, and this host can have caused {}: {} of the bench's stimuli were "

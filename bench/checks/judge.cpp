@@ -9,6 +9,7 @@
 
 #include "bench/checks/answer_faults.hpp"
 #include "bench/checks/answered.hpp"
+#include "bench/checks/events.hpp"
 #include "bench/checks/finding.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
@@ -213,6 +214,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
                               .measured = std::move(finding.measured),
                               .expected = std::move(finding.expected)});
   }
+  std::ranges::move(judge_events(scenario.events, evidence), std::back_inserter(verdict.checks));
   std::ranges::move(of_every_run(scenario, evidence.seen), std::back_inserter(verdict.checks));
   conclude(verdict, evidence.ended_early);
   return verdict;

@@ -14,6 +14,7 @@
 
 #include "bench/checks/bus.hpp"
 #include "bench/checks/complaints.hpp"
+#include "bench/checks/exchange.hpp"
 #include "bench/checks/host.hpp"
 #include "bench/checks/loss_counts.hpp"
 #include "bench/checks/sighting.hpp"
@@ -87,6 +88,7 @@ struct Observations {
                                                      ///< heartbeat came
   Complaints complaints;              ///< errors that the target reported in addition to its answers
   TargetReports reports;              ///< what the target reported about its own state
+  std::vector<Exchange> exchanges{};  ///< requests of events, in the order in which they were sent
   std::vector<FaultRecord> faults{};  ///< the faults of the scenario
   std::optional<std::int64_t> longest_input_gap_us{};  ///< see protocol::ReceiverModel::longest_gap_us; none:
                                                        ///< no model observed the run

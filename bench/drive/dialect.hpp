@@ -34,6 +34,7 @@ struct Setting {
   Rounding rounding = Rounding::as_on_the_bus;
   BusFormat format = BusFormat::classic;
   WireFacts wire{};
+  bool of_log = false;       ///< a log says what the target answers: nobody talks to it
   std::size_t programs = 0;  ///< number of targets that the bench starts
   /// The number of other nodes on the bus; none: the bench does not host the bus.
   std::shared_ptr<const std::optional<std::size_t>> others{};
@@ -59,6 +60,10 @@ class Dialect {
                                  const std::function<std::optional<std::string>()>& gone) = 0;
   /// Stops the target after the run.
   virtual void stop(Link& link, nodes::Transmission& out) = 0;
+  /// What follows the requests of events and their answers in a log; null: nothing.
+  virtual observe::Observer* dialogue() { return nullptr; }
+  /// The requests so far and their answers.
+  [[nodiscard]] virtual std::vector<checks::Exchange> exchanges() const { return {}; }
   /// In real time, a target that is silent for longer than this time counts as gone.
   [[nodiscard]] virtual std::int64_t silence_limit_ns() const = 0;
 };

@@ -35,17 +35,23 @@ Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch,
                 fmt::format("the bus took no frame at t={:.3f} s", static_cast<double>(t_us) * 1e-6)};
       }
     }
-    if (!closes_step) continue;
+    // An answer to an event takes no virtual time, unless the bench must send a frame before it.
+    const auto awaits_answer = [&] { return schedule.awaits() && schedule.due_us() > t_us; };
+    if (!closes_step && !awaits_answer()) continue;
     std::int64_t deadline_ns = 0;  // set at the first wait; a target in this process has already answered
-    while (!watch.step_done()) {
+    while (!watch.step_done() || awaits_answer()) {
       if (link.drain() == LinkState::down) {
         return {Ending::Kind::bus_down, t_us, "the bus is gone"};
       }
-      if (watch.step_done()) break;
+      if (watch.step_done() && !awaits_answer()) break;
       if (stop) return {Ending::Kind::interrupted, t_us, "interrupted"};
       if (const auto why = gone()) return gone_at(t_us, *why);
       const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
       if (deadline_ns == 0) deadline_ns = now + step_limit_ns;
+      if (now > deadline_ns && watch.step_done()) {
+        schedule.give_up();
+        break;
+      }
       if (now > deadline_ns) {
         return {Ending::Kind::target_silent, t_us,
                 fmt::format("target silent since t={:.3f} s: {} was not answered",

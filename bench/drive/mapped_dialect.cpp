@@ -13,6 +13,7 @@
 
 #include "bench/checks/judge.hpp"
 #include "bench/drive/dialect.hpp"
+#include "bench/mapping/event_sender.hpp"
 #include "bench/mapping/listener.hpp"
 #include "bench/mapping/player.hpp"
 #include "dbc/text/escape.hpp"
@@ -133,7 +134,8 @@ class MappedDialect final : public Dialect {
       : of_(setting),
         start_(longest_of(setting.scenario.targets)),
         conversation_(mapping),
-        places_(mapping) {}
+        places_(mapping),
+        dialogue_(mapping, setting.scenario.events) {}
 
   std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) override {
     std::vector<std::unique_ptr<nodes::Node>> players;
@@ -146,6 +148,7 @@ class MappedDialect final : public Dialect {
                    .engagement =
                        of_.flight.per_run_truth.engagement ? &*of_.flight.per_run_truth.engagement : nullptr,
                    .faults = faults.get()}));
+    if (!of_.of_log) players.push_back(talker(mapping::Phase::during));
     return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
                                       Rounding::as_on_the_bus, std::move(faults));
   }
@@ -172,7 +175,9 @@ class MappedDialect final : public Dialect {
       if (!hear.answers) speakers.insert(hear.target);
     }
     const auto is_there = [&] { return std::ranges::includes(watch.heard_from(), speakers); };
+    if (!following_) following_.emplace(link, dialogue_);
     const std::int64_t settled_ns = link.now_ns() + start_.settle_us * 1000;
+    if (auto talked = talk_before(link, settled_ns, gone); !talked) return talked;
     const std::int64_t limit_ns = std::max(settled_ns, link.now_ns() + find_limit_ns);
     while (link.now_ns() < settled_ns || !is_there() || absent()) {
       if (link.drain() == LinkState::down)
@@ -185,10 +190,67 @@ class MappedDialect final : public Dialect {
     }
     return {};
   }
-  void stop(Link& /*link*/, nodes::Transmission& /*out*/) override {}
+  void stop(Link& link, nodes::Transmission& /*out*/) override {
+    static_cast<void>(talk(link, mapping::Phase::after, [] { return std::nullopt; }));
+  }
+  observe::Observer* dialogue() override { return of_.scenario.events.empty() ? nullptr : &dialogue_; }
+  [[nodiscard]] std::vector<checks::Exchange> exchanges() const override { return dialogue_.exchanges(); }
   [[nodiscard]] std::int64_t silence_limit_ns() const override { return start_.silence_us * 1000; }
 
  private:
+  using Gone = std::function<std::optional<std::string>()>;
+
+  std::unique_ptr<mapping::EventSender> talker(mapping::Phase phase) {
+    const PerRunTruth& own = of_.flight.per_run_truth;
+    return std::make_unique<mapping::EventSender>(
+        conversation_.mapping, of_.scenario.events, phase, dialogue_, counters_,
+        world::Truths{.flight = of_.truth,
+                      .glide = own.glide ? &*own.glide : nullptr,
+                      .engagement = own.engagement ? &*own.engagement : nullptr},
+        of_.truth.end_us());
+  }
+
+  // A target may be silent until an event has configured it. The events begin when the settling time is over
+  // and the processes that the bench started have joined the bus.
+  Result<void> talk_before(Link& link, std::int64_t settled_ns, const Gone& gone) {
+    const bool talks = std::ranges::any_of(of_.scenario.events, [](const scenario::Event& one) {
+      return one.when == scenario::Event::When::start;
+    });
+    if (!talks) return {};
+    const std::int64_t limit_ns = std::max(settled_ns, link.now_ns() + find_limit_ns);
+    while (link.now_ns() < settled_ns || absent()) {
+      if (link.drain() == LinkState::down || gone() || link.now_ns() >= limit_ns)
+        return {};  // found again below
+      link.wait_until(link.now_ns() + poll_ns);
+    }
+    return talk(link, mapping::Phase::before, gone);
+  }
+
+  // Sends the events of a phase that has no schedule.
+  Result<void> talk(Link& link, mapping::Phase phase, const Gone& gone) {
+    const std::int64_t start_ns = link.now_ns();
+    const auto now_us = [&] { return (link.now_ns() - start_ns) / 1000; };
+    Schedule schedule({}, talker(phase));
+    schedule.set_clock(now_us);
+    const Attached attached(link, schedule);
+    while (schedule.due_us() != nodes::never_us) {
+      if (link.drain() == LinkState::down)
+        return failure(fmt::format("bus '{}': gone before the run", link.port().name()));
+      if (const auto why = gone()) return failure(fmt::format("{} before the run", *why));
+      const std::int64_t due_us = schedule.due_us();
+      if (due_us == nodes::never_us) break;
+      if (now_us() < due_us) {
+        link.wait_until(std::min(start_ns + due_us * 1000, link.now_ns() + poll_ns));
+        continue;
+      }
+      for (const Frame& frame : schedule.take()) {
+        if (link.send(frame, find_limit_ns) != LinkState::up)
+          return failure(fmt::format("bus '{}': takes no frame", link.port().name()));
+      }
+    }
+    return {};
+  }
+
   [[nodiscard]] bool absent() const { return *of_.others && **of_.others < of_.programs; }
   [[nodiscard]] bool joined() const { return of_.programs > 0 && *of_.others && !absent(); }
   [[nodiscard]] std::string complaint(const Link& link, const MappedWatch& watch,
@@ -207,6 +269,9 @@ class MappedDialect final : public Dialect {
   scenario::OwnStart start_;
   mapping::Conversation conversation_;
   mapping::Places places_;
+  mapping::Dialogue dialogue_;
+  mapping::Counters counters_;
+  std::optional<Attached> following_;  // the dialogue, from the configuration on
 };
 
 }  // namespace

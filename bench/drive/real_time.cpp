@@ -51,10 +51,10 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
                               static_cast<double>(since_us) * 1e-6)};
   };
   // Receives frames until `deadline_ns`; if the run is over, returns the reason.
-  const auto receive_until = [&](std::int64_t deadline_ns) -> std::optional<Ending> {
+  const auto receive_until = [&](const auto& deadline) -> std::optional<Ending> {
     for (;;) {
       const LinkState state = link.drain();
-      const std::int64_t now = link.now_ns();
+      const std::int64_t now = link.now_ns(), deadline_ns = deadline();
       if (state == LinkState::down) return Ending{Ending::Kind::bus_down, bench_us(now), "the bus is gone"};
       if (stop) return Ending{Ending::Kind::interrupted, bench_us(now), "interrupted"};
       if (auto fault = watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), *fault};
@@ -66,11 +66,14 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
       if (!heard && link.now_ns() >= deadline_ns) return std::nullopt;  // on time, nothing to process
     }
   };
+  // A frame that arrives may make the next transmission due earlier.
+  const auto next_due_ns = [&] { return start_ns + schedule.due_us() * ns_per_us; };
+  schedule.set_clock([&] { return bench_us(link.now_ns()); });
 
   while (schedule.due_us() != nodes::never_us) {
+    if (auto ending = receive_until(next_due_ns)) return *ending;
     const std::int64_t due_us = schedule.due_us();
     const std::int64_t due_ns = start_ns + due_us * ns_per_us;
-    if (auto ending = receive_until(due_ns)) return *ending;
     for (const Frame& frame : schedule.take()) {
       LinkState state = link.send(frame, silence_limit_ns, due_ns);
       while (state != LinkState::up && bus.outage() && !stop && !link.port().closed()) {
@@ -96,8 +99,9 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
       progress_due_us = due_us + progress_period_us;
     }
   }
+  schedule.set_clock({});
   const std::int64_t end_ns = link.now_ns();
-  if (auto ending = receive_until(end_ns + last_answers_ns)) return *ending;
+  if (auto ending = receive_until([&] { return end_ns + last_answers_ns; })) return *ending;
   return {Ending::Kind::completed, bench_us(end_ns), ""};
 }
 

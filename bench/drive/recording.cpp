@@ -91,6 +91,7 @@ Result<Manner> manner_of(const LogFile& log, const scenario::Scenario& scenario)
     }
     if (!scenario.binding->time_base) {
       const MessageInfo* message = find(scenario.binding->messages, (*entry)->frame);
+      if (message != nullptr && scenario.binding->is_of_events(*message)) continue;
       const bool target = message != nullptr && is_targets(*message);
       at_once = at_once && (!target || last_ns.value_or((*entry)->t_ns) == (*entry)->t_ns);
       last_ns = (*entry)->t_ns;
@@ -130,7 +131,8 @@ class Recording {
                                  .truth = truth_,
                                  .flight = flight_,
                                  .virtual_time = manner_.lockstep,
-                                 .format = manner_.format});
+                                 .format = manner_.format,
+                                 .of_log = true});
     if (!dialect) return tl::unexpected(dialect.error());
     dialect_ = std::move(*dialect);
     schedule_ = dialect_->schedule(
@@ -143,12 +145,14 @@ class Recording {
     watcher_ = dialect_->watcher(true);
     target_ = dialect_->target_watch(true);
     observers_ = {watcher_.get(), target_.get(), &load_};
+    dialogue_ = dialect_->dialogue();
     auto ending = replay();
     if (!ending) return tl::unexpected(ending.error());
     schedule_->end();
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
     seen.clipped = schedule_->outbox().clipped().to_text();
     seen.length_by_second = load_.lengths();
+    seen.exchanges = dialect_->exchanges();
     return Collected{.ending = std::move(*ending),
                      .seen = std::move(seen),
                      .per_run_truth = std::move(flight_.per_run_truth),
@@ -191,6 +195,11 @@ class Recording {
       const LogEntry& entry = *frames_.next();
       const MessageInfo* message = find(scenario_.binding->messages, entry.frame);
       const bool target = message != nullptr && is_targets(*message);
+      if (message != nullptr && scenario_.binding->is_of_events(*message)) {
+        hear_event(entry, target);
+        if (auto read = frames_.advance(); !read) return tl::unexpected(read.error());
+        continue;
+      }
       const bool handshake =
           message != nullptr && !target && scenario_.binding->handshake && message->cycle_time_us == 0;
       if (!target && !handshake && (message != nullptr || entry.transmitted)) return {};
@@ -199,6 +208,18 @@ class Recording {
       if (auto read = frames_.advance(); !read) return tl::unexpected(read.error());
     }
     return {};
+  }
+  // What an event sends depends on the target, so the log alone says what it sent, and when. Events may come
+  // before the flight and after it.
+  void hear_event(const LogEntry& entry, bool target) {
+    for (observe::Observer* observer :
+         {dialogue_, begun_ && !over_ ? static_cast<observe::Observer*>(&load_) : nullptr}) {
+      if (observer == nullptr) continue;
+      if (target)
+        observer->received({.frame = entry.frame, .t_ns = entry.t_ns});
+      else
+        observer->transmitted(entry.frame, entry.t_ns, 0);
+    }
   }
   void hear(const LogEntry& entry) {
     const Received received{.frame = entry.frame, .t_ns = entry.t_ns};
@@ -244,6 +265,7 @@ class Recording {
   std::unique_ptr<Schedule> schedule_;
   std::unique_ptr<observe::Watcher> watcher_;
   std::unique_ptr<observe::TargetWatch> target_;
+  observe::Observer* dialogue_ = nullptr;
   observe::LoadMeter load_;
   std::vector<observe::Observer*> observers_;
   bool begun_ = false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -26,8 +27,8 @@ class Schedule final : public observe::Observer {
       : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)) {
     nodes_.push_back(std::move(keeper));
     for (const auto& node : nodes_) {
+      if (node->listens()) listeners_.push_back(due_us_.size());
       due_us_.push_back(node->due_us());
-      if (node->listens()) listeners_.push_back(node.get());
     }
     if (faults_) injectors_ = faults_->injectors();
     find_next();
@@ -40,7 +41,7 @@ class Schedule final : public observe::Observer {
 
   /// Makes the next transmission; the returned frames are valid until the next call.
   std::span<const Frame> take() {
-    const std::int64_t t_us = due_us();
+    const std::int64_t t_us = taken_us_ = due_us();
     std::size_t injected = 0;  // index of the first injector whose apply() is called below
     if (injected_us_ == t_us) {
       frames_.clear();
@@ -71,7 +72,26 @@ class Schedule final : public observe::Observer {
   /// Passes frames of other senders to the nodes that listen.
   void received(const Received& received) override {
     if (received.own || received.frame.error) return;
-    for (nodes::Node* node : listeners_) node->hear(received.frame);
+    const std::int64_t now_us = clock_ ? clock_() : taken_us_;
+    for (const std::size_t i : listeners_) {
+      if (!nodes_[i]->hear(received.frame, now_us)) continue;
+      due_us_[i] = nodes_[i]->due_us();
+      find_next();
+    }
+  }
+  /// The clock of the time base, in real time. Without it, it is the time of the last transmission.
+  void set_clock(std::function<std::int64_t()> clock) { clock_ = std::move(clock); }
+  /// Whether a node waits for an answer that takes no virtual time.
+  [[nodiscard]] bool awaits() const {
+    return std::ranges::any_of(listeners_, [&](std::size_t i) { return nodes_[i]->awaits(); });
+  }
+  /// Lets these nodes wait no longer.
+  void give_up() {
+    for (const std::size_t i : listeners_) {
+      nodes_[i]->give_up(taken_us_);
+      due_us_[i] = nodes_[i]->due_us();
+    }
+    find_next();
   }
 
   /// To be called at the end of every run: the faults release the frames and resources that they hold.
@@ -95,8 +115,10 @@ class Schedule final : public observe::Observer {
   }
 
   std::vector<std::unique_ptr<nodes::Node>> nodes_;
-  std::vector<std::int64_t> due_us_;  // for each node
-  std::vector<nodes::Node*> listeners_;
+  std::vector<std::int64_t> due_us_;    // for each node
+  std::vector<std::size_t> listeners_;  // indices of nodes
+  std::function<std::int64_t()> clock_;
+  std::int64_t taken_us_ = 0;
   std::size_t next_ = 0;
   nodes::Transmission out_;
   std::vector<Frame> frames_;

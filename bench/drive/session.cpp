@@ -147,6 +147,7 @@ class Session {
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
     seen.clipped = schedule_->outbox().clipped().to_text();
+    seen.exchanges = dialect_->exchanges();
     if (options_.for_verdict) add_watched(seen);
     end_target(ended_before, seen.bus.notes);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);

@@ -10,6 +10,7 @@ Result<void> check_stimuli(const scenario::Scenario& scenario, const world::Flig
   if (scenario.engagement && scenario.engagement->guidance == world::Guidance::target) return {};
   scenario::Scenario undisturbed = scenario;
   undisturbed.faults.clear();
+  undisturbed.events.clear();
   auto flight = make_flight(undisturbed, truth, run_index);
   if (!flight) return tl::unexpected(flight.error());
   const auto dialect =

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -9,6 +11,7 @@
 #include "bench/scenario/scenario.hpp"
 #include "bench/scenario/section.hpp"
 #include "dbc/files/text_file.hpp"
+#include "dbc/parser/codec.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -43,6 +46,28 @@ std::string_view Mapping::estimator_of(const MessageInfo& message) const {
   const auto index = static_cast<std::size_t>(&message - messages.data());
   const auto hear = std::ranges::find(hears, index, [](const Hear& one) { return one.of.index; });
   return hear == hears.end() ? std::string_view() : targets[hear->target].name;
+}
+
+Result<std::vector<std::uint8_t>> Mapping::encoded(
+    std::size_t channel, std::span<const std::pair<std::string, double>> values) const {
+  const EventChannel& of = event_channels[channel];
+  if (of.transport != EventChannel::Transport::frame)
+    return failure("are for a channel that sends one frame, and this one has a transport protocol");
+  std::vector<dbc::NamedValue> named;
+  for (const auto& [name, value] : values) {
+    const dbc::Signal* signal = dbc::find_signal(*of.request.message, name);
+    if (signal != nullptr && !dbc::holds(*signal, value))
+      return failure(fmt::format("are wrong: {:g} does not fit into {}", value, name));
+    named.push_back({name, value});
+  }
+  return dbc::encode(*of.request.message, named);
+}
+
+bool Mapping::is_of_events(const MessageInfo& message) const {
+  const auto index = static_cast<std::size_t>(&message - messages.data());
+  return std::ranges::any_of(event_channels, [&](const EventChannel& one) {
+    return one.request.index == index || (one.response && one.response->index == index);
+  });
 }
 
 Result<void> Mapping::fits(const scenario::Scenario& scenario, const world::FlightRecord& /*flight*/) const {

@@ -65,6 +65,14 @@ class Joining {
       if (hear.answers) hear.answers = play_of_[*hear.answers];
       all_.hears.push_back(std::move(hear));
     }
+    for (EventChannel& channel : further_.event_channels) {
+      channel.request.index = place_of_[channel.request.index];
+      if (channel.response) channel.response->index = place_of_[channel.response->index];
+      if (std::ranges::find(all_.event_channels, channel.name, &EventChannel::name) !=
+          all_.event_channels.end())
+        channel.name = fmt::format("{}.{}", target_.name, channel.name);
+      all_.event_channels.push_back(std::move(channel));
+    }
     for (const auto& [group, index] : further_.by_group) all_.by_group.emplace(group, place_of_[index]);
     for (const sensors::Kind* one : further_.sensors) {
       if (std::ranges::find(all_.sensors, one) == all_.sensors.end()) all_.sensors.push_back(one);

@@ -25,6 +25,7 @@
 #include "dbc/parser/plan.hpp"
 #include "dbc/protection/protection.hpp"
 #include "dbc/transport/fast_packet.hpp"
+#include "dbc/transport/iso_tp.hpp"
 #include "dbc/wire/j1939.hpp"
 #include "dbc/wire/message_places.hpp"
 #include "dbc/wire/result.hpp"
@@ -134,6 +135,16 @@ struct Hear {
   [[nodiscard]] bool is_owed() const { return answers && task_us == 0; }
 };
 
+/// What events of a scenario send to a target, and what the target answers.
+struct EventChannel {
+  enum class Transport : std::uint8_t { frame, iso_tp };
+  std::string name;
+  Mapped request;
+  std::optional<Mapped> response{};
+  Transport transport = Transport::frame;
+  transport::IsoTpSettings settings{};
+};
+
 /// One target: what it sends and how it is presented as an estimator of the bench.
 struct MappedTarget {
   std::string name;  ///< name of its estimator
@@ -157,13 +168,17 @@ struct Mapping final : scenario::Binding {
   [[nodiscard]] bool is_played(const MessageInfo& message,
                                std::span<const scenario::NodeSettings> nodes) const override;
   [[nodiscard]] std::string_view estimator_of(const MessageInfo& message) const override;
+  [[nodiscard]] Result<std::vector<std::uint8_t>> encoded(
+      std::size_t channel, std::span<const std::pair<std::string, double>> values) const override;
+  [[nodiscard]] bool is_of_events(const MessageInfo& message) const override;
   [[nodiscard]] Result<void> fits(const scenario::Scenario& scenario,
                                   const world::FlightRecord& flight) const override;
 
   std::deque<MappedTarget> targets;  ///< at least one
   std::vector<Play> plays;
-  std::vector<Hear> hears;              ///< of all targets, in their order
-  const MappedTarget* guide = nullptr;  ///< its answers guide the missile; null: none does
+  std::vector<Hear> hears;                   ///< of all targets, in their order
+  std::vector<EventChannel> event_channels;  ///< in the order of Binding::channels
+  const MappedTarget* guide = nullptr;       ///< its answers guide the missile; null: none does
   /// For J1939: the index of each message by its parameter group, because any source address and any priority
   /// is accepted.
   std::map<std::uint32_t, std::size_t> by_group;

@@ -153,7 +153,7 @@ bool Player::listens() const {
 
 // The guidance takes a LOS rate when both planes answer the same sample. It holds its command while an answer
 // has no value.
-void Player::hear(const Frame& frame) {
+bool Player::hear(const Frame& frame, std::int64_t /*now_us*/) {
   for (const std::size_t index : places_.hears(frame)) {
     const Hear& hear = conversation_.mapping.hears[index];
     const bool guides = &conversation_.mapping.targets[hear.target] == conversation_.mapping.guide;
@@ -176,6 +176,7 @@ void Player::hear(const Frame& frame) {
     }
     los_rate_ = {};
   }
+  return false;
 }
 
 void Player::sample(Played& played, std::vector<Triggered>& triggered) {

@@ -28,7 +28,7 @@ class Player final : public nodes::Node {
   void transmit(nodes::Transmission& out) override;
   /// Whether the target's answers guide the vehicle of a sensor.
   [[nodiscard]] bool listens() const override;
-  void hear(const Frame& frame) override;
+  bool hear(const Frame& frame, std::int64_t now_us) override;
 
  private:
   // A sensor whose samples are played.

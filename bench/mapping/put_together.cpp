@@ -160,6 +160,15 @@ std::optional<std::string> put_together(Mapping& mapping) {
     if (auto error = list_quantities(target)) return error;
     present(mapping, target);
   }
+  for (const EventChannel& one : mapping.event_channels)
+    mapping.channels.push_back({.name = one.name,
+                                .answers = one.response.has_value(),
+                                .most_bytes = one.transport == EventChannel::Transport::frame
+                                                  ? one.request.message->size
+                                                  : transport::most_iso_tp_bytes});
+  for (const Hear& hear : mapping.hears) {
+    for (const ReportedFlag& flag : hear.flags) mapping.flags.push_back(flag.name);
+  }
   mapping.closes_loop = mapping.guide != nullptr;
   mapping.estimators = mapping.presented;
   mapping.messages = mapping.infos;

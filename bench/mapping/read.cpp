@@ -71,6 +71,7 @@ class Reader {
     for (Section& section : tables("protection")) read_protection(section);
     for (Section& section : tables("play")) read_play(section);
     for (Section& section : root_.tables("hear")) read_hear(section);
+    if (auto channels = root_.optional_table("channels")) read_channels(*channels);
     root_.finish();
     if (const auto error = root_.error()) return tl::unexpected(*error);
     return mapping_;
@@ -289,6 +290,31 @@ class Reader {
     if (auto flags = section.optional_table("flags")) hear.flags = read_flags(*flags, *of, signs_);
     section.finish();
     mapping_->hears.push_back(std::move(hear));
+  }
+
+  void read_channels(Section& section) {
+    static const std::vector<std::string> transports{"frame", "iso_tp"};
+    for (const std::string& name : section.keys()) {
+      Section own = section.table(name);
+      const dbc::Message* request = message(own, "request", own.text("request"));
+      const std::string answer = own.text("response", "");
+      const dbc::Message* response = answer.empty() ? nullptr : message(own, "response", answer);
+      const bool iso_tp = own.one_of("transport", transports) == "iso_tp";
+      if (iso_tp && answer.empty())
+        own.missing("response", "the message of the answers, with which the target also paces requests");
+      const std::int64_t padding =
+          own.optional_integer("padding", 0).value_or(transport::IsoTpSettings{}.padding);
+      if (padding > 0xFF) own.reject("padding", fmt::format("is {}", padding), "a byte");
+      if (own.error() || request == nullptr) return;
+      EventChannel channel{.name = name, .request = mapped(own, "request", *request, false)};
+      if (response != nullptr) channel.response = mapped(own, "response", *response, true);
+      if (iso_tp) channel.transport = EventChannel::Transport::iso_tp;
+      channel.settings = {.frame_bytes = std::max<unsigned>(request->size, 8),
+                          .padding = static_cast<std::uint8_t>(padding)};
+      own.finish();
+      mapping_->event_channels.push_back(std::move(channel));
+    }
+    section.finish();
   }
 
   void read_echo(Section& section, Hear& hear) {

@@ -16,9 +16,9 @@ using What = ReportedSignal::What;
 constexpr std::array<std::string_view, 4> quaternion_parts{"attitude.quaternion.w", "attitude.quaternion.x",
                                                            "attitude.quaternion.y", "attitude.quaternion.z"};
 
-class Reader {
+class SignalReader {
  public:
-  Reader(Section& signals, std::optional<Section>& invalid, const Known& known, Hear& hear)
+  SignalReader(Section& signals, std::optional<Section>& invalid, const Known& known, Hear& hear)
       : signals_(signals), invalid_(invalid), known_(known), hear_(hear) {}
 
   void read() {
@@ -138,7 +138,7 @@ class Reader {
 }  // namespace
 
 void read_reported(Section& signals, std::optional<Section>& invalid, const Known& known, Hear& hear) {
-  Reader(signals, invalid, known, hear).read();
+  SignalReader(signals, invalid, known, hear).read();
 }
 
 void expect_bits(Section& section, const std::string& key, const dbc::Signal& signal, std::uint64_t raw) {

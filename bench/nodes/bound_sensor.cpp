@@ -86,8 +86,9 @@ void BoundSensor::transmit(Transmission& out) {
     out.clear();  // the counters advance, so the receiver detects the gap
 }
 
-void BoundSensor::hear(const Frame& frame) {
+bool BoundSensor::hear(const Frame& frame, std::int64_t /*now_us*/) {
   if (const auto answer = answer_.take(frame, valid_us_)) sensor_->guide(*answer);
+  return false;
 }
 
 }  // namespace canhil::nodes

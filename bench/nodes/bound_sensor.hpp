@@ -52,7 +52,7 @@ class BoundSensor final : public Node {
   [[nodiscard]] std::int64_t due_us() const override { return sensor_->due_us(); }
   void transmit(Transmission& out) override;
   [[nodiscard]] bool listens() const override { return sensor_->is_guided(); }
-  void hear(const Frame& frame) override;
+  bool hear(const Frame& frame, std::int64_t now_us) override;
 
  private:
   std::unique_ptr<sensors::Sensor> sensor_;

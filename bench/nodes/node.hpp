@@ -56,8 +56,13 @@ class Node {
 
   /// Whether the node wants to receive frames of other nodes.
   [[nodiscard]] virtual bool listens() const { return false; }
-  /// A frame from another node, valid or not.
-  virtual void hear(const Frame& /*frame*/) {}
+  /// A frame from another node, valid or not. Returns whether due_us() may have changed.
+  virtual bool hear(const Frame& /*frame*/, std::int64_t /*now_us*/) { return false; }
+
+  /// Whether the node waits for an answer to its last frame. In virtual time, an answer takes no time.
+  [[nodiscard]] virtual bool awaits() const { return false; }
+  /// Waits no longer.
+  virtual void give_up(std::int64_t /*now_us*/) {}
 };
 
 }  // namespace canhil::nodes

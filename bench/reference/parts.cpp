@@ -12,6 +12,7 @@
 #include "bench/nodes/registry.hpp"
 #include "bench/scenario/binding.hpp"
 #include "bench/scenario/engagement.hpp"
+#include "bench/scenario/events.hpp"
 #include "bench/scenario/faults.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/node.hpp"
@@ -26,7 +27,11 @@ namespace {
 
 // A target with a DBC of its own, of which nothing is known.
 struct AnyBinding final : scenario::Binding {
-  AnyBinding() { any_sensor = true; }
+  AnyBinding() {
+    any_sensor = true;
+    channels.push_back({.name = "CHANNEL", .answers = true});
+    flags.emplace_back("FLAG");
+  }
 };
 
 using scenario::Section;
@@ -216,6 +221,23 @@ Part faults_part(const scenario::DbcVocabulary& contract) {
   return part;
 }
 
+Part events_part() {
+  const AnyBinding binding;
+  const auto keys = explore(
+      [&](std::string_view text) {
+        Section root = Section::parse(text, file);
+        scenario::read_events(root, binding, longest_run_us);
+      },
+      "[[event]]\n", Depth::as_it_is);
+  return {
+      .title = "Events",
+      .about =
+          "A scenario of a target with a mapping may have any number of `[[event]]` tables: what the bench "
+          "says beside its samples (scenarios.md). An event has one of the keys `at`, `at_s`, `when`, "
+          "`flag_set`, `flag_clear`, `after`.",
+      .tables = {{.name = "[[event]]", .about = "", .keys = in_table(keys, "event[1]")}}};
+}
+
 Part checks_part(const scenario::DbcVocabulary& contract) {
   scenario::DbcVocabulary mapped = contract;
   mapped.binding = std::make_shared<const AnyBinding>();
@@ -304,6 +326,7 @@ std::vector<Part> parts() {
           truth_part(),
           nodes_part(contract),
           faults_part(contract),
+          events_part(),
           checks_part(contract),
           campaign_part()};
 }

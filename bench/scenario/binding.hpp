@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "dbc/wire/message_info.hpp"
@@ -41,6 +42,13 @@ struct Binding {
     std::string mapping, dbc;
   };
 
+  /// What events of a scenario may send.
+  struct Channel {
+    std::string name;
+    bool answers = false;        ///< the target may answer
+    std::size_t most_bytes = 8;  ///< of a request
+  };
+
   Binding() = default;
   Binding(const Binding&) = delete;
   Binding& operator=(const Binding&) = delete;
@@ -59,6 +67,14 @@ struct Binding {
                                        std::span<const NodeSettings> /*nodes*/) const {
     return false;
   }
+  /// The bytes of the message of one of `channels`, from values of its signals in their units; the others are
+  /// 0. Error: one phrase.
+  [[nodiscard]] virtual Result<std::vector<std::uint8_t>> encoded(
+      std::size_t /*channel*/, std::span<const std::pair<std::string, double>> /*values*/) const {
+    return failure("belong to no channel");
+  }
+  /// Whether a message belongs to events of a scenario alone: a request or its answer.
+  [[nodiscard]] virtual bool is_of_events(const MessageInfo& /*message*/) const { return false; }
   /// The only estimator whose targets send a message; empty: every target sends it, or none does.
   [[nodiscard]] virtual std::string_view estimator_of(const MessageInfo& /*message*/) const { return ""; }
   /// Error, one line: the scenario has no sensor for a message, or its messages cannot carry the values of
@@ -73,6 +89,8 @@ struct Binding {
   /// The estimators that a target may run. Each mapped target is presented as one.
   std::span<const estimators::Estimator* const> estimators{};
   std::vector<const sensors::Kind*> sensors{};  ///< those with names of their own that it declares
+  std::vector<Channel> channels{};
+  std::vector<std::string> flags{};  ///< of the targets
   /// The files of which it is made, as named by the user: one for each target. None: built into the program.
   std::vector<Files> files{};
   std::uint64_t hash = 0;      ///< hash of the files; 0: built in

@@ -311,6 +311,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
       root.reject("engagement", "is missing", fmt::format("a table beside [{}]", node.table().key));
   }
   if (!scenario.truth_is_known()) refuse_errors_of_start(root, scenario);
+  scenario.events = read_events(root, *contract.binding, scenario.duration_us);
   read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},
               scenario.faults);
   scenario.checks = read_checks(root, scenario, contract);

@@ -19,6 +19,7 @@
 
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/contract.hpp"
+#include "bench/scenario/events.hpp"
 #include "bench/scenario/faults.hpp"
 #include "bench/scenario/glide.hpp"
 #include "bench/scenario/node.hpp"
@@ -59,6 +60,7 @@ struct Scenario {
   std::optional<Glide> glide;  ///< truth of a glider, in addition to `truth`
   std::optional<world::EngagementPlan> engagement;
   std::vector<NodeSettings> nodes;  ///< the nodes on the bus
+  std::vector<Event> events;
   std::vector<Fault> faults;
   std::vector<Check> checks;
 

@@ -23,7 +23,6 @@ struct Flag {
 
   static Flag read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const;
-  [[nodiscard]] std::vector<std::string> needs_answers_of() const { return {estimator}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -62,7 +64,30 @@ TEST_P(Devices, PassInRealTime) {
   expect_outputs_passed(ended, device.report());
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("auv", "car", "marine"),
+// What events sent, and when, depends on the device: the log alone says it. In a log, no times are judged.
+TEST(DeviceLog, HasTheAnswersToEvents) {
+  for (const char* const manner : {"--lockstep", ""}) {
+    const std::string log = scratch("odometer.log"), report = scratch("odometer.json");
+    const Device device("odometer");
+    ASSERT_NE(device.fly("no_code", fmt::format("{} --log {}", manner, log)).code, 2);
+    const Ended ended = hil_bench(
+        fmt::format("check {} {}/docs/examples/odometer/odometer.toml --json {}", log, SOURCE_DIR, report));
+    EXPECT_EQ(ended.code, 1) << ended.err;
+    for (const auto& [name, outcome] : std::map<std::string, std::string>{{"measures", "pass"},
+                                                                          {"serial number", "pass"},
+                                                                          {"no trouble code", "pass"},
+                                                                          {"trouble code", "fail"},
+                                                                          {"cleared", "pass"}}) {
+      const nlohmann::json seen = read_json(report);
+      const auto& checks = seen["checks"];
+      const auto found = std::ranges::find_if(checks, [&](const auto& one) { return one["name"] == name; });
+      ASSERT_NE(found, checks.end()) << name;
+      EXPECT_EQ((*found)["outcome"], outcome) << name << ": " << (*found)["measured"];
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("auv", "car", "marine", "odometer"),
                          [](const auto& of) { return of.param; });
 
 class DeviceDefects : public testing::TestWithParam<DeviceDefect> {};
@@ -91,7 +116,12 @@ INSTANTIATE_TEST_SUITE_P(
                     DeviceDefect{"marine", "latitude_in_radians", "error position.horizontal"},
                     DeviceDefect{"marine", "lost_frame", "protection"},
                     DeviceDefect{"marine", "never_estimated", "flag estimated at no GNSS position"},
-                    DeviceDefect{"marine", "wrong_sid", "causes"}),
+                    DeviceDefect{"marine", "wrong_sid", "causes"},
+                    DeviceDefect{"odometer", "own_measures", "error ground_speed"},
+                    DeviceDefect{"odometer", "no_code", "trouble code"},
+                    DeviceDefect{"odometer", "lost_frame", "serial number"},
+                    DeviceDefect{"odometer", "keeps_code", "cleared"},
+                    DeviceDefect{"odometer", "knows_all", "unknown identifier"}),
     [](const auto& of) { return of.param.device + "_" + of.param.defect; });
 
 }  // namespace

@@ -72,17 +72,18 @@ std::int64_t disturbing(const std::vector<std::int64_t>& times_ns, double bar_s)
   return std::ranges::count_if(times_ns, [&](std::int64_t ns) { return bucket_us(ns) * 1e-6 > 0.5 * bar_s; });
 }
 
-// Like unless_waited(). Nor does the target fail if `outside` of `count` values are beyond the limit, and
-// those that the host did not spoil would pass. `off_ns`: how far the bench was off, for each stimulus. A
-// wait shorter than the period spoils two values.
+// The target does not fail if `outside` of `count` values are beyond the limit, and those that the host did
+// not spoil would pass. `off_ns`: how far the bench was off, for each stimulus. A wait shorter than the
+// period spoils two values.
 Judged unless_disturbed(const Drawn& run, double q, double bar_s, Judged verdict, std::int64_t outside,
                         std::int64_t count, std::int64_t missing, const std::vector<std::int64_t>& off_ns) {
-  verdict = unless_waited(run, q, bar_s, std::move(verdict));
   const std::int64_t late = disturbing(off_ns, bar_s), waited = disturbing(waits(run), bar_s);
   const std::int64_t spoiled = std::min(outside, late + 2 * waited);
   const double good = std::max(1.0, std::ceil(q * static_cast<double>(count)));
   const bool enough_good = static_cast<double>(count - missing - outside + spoiled) >= good;
   if (verdict.outcome != Outcome::fail || spoiled == 0 || !enough_good) return verdict;
+  verdict = unless_waited(run, q, bar_s, std::move(verdict));
+  if (verdict.outcome != Outcome::fail) return verdict;
   return not_measured(fmt::format(
       "{}; {} of {} are beyond the limit, and this host can have caused {}: {} of the bench's stimuli were "
       "off, and the target had no CPU {} times, each by more than 50 % of the limit",

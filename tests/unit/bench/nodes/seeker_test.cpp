@@ -83,7 +83,7 @@ class Bench {
                                 .cause_time_us = wrap_us(cause_us)});
     for (Frame frame : answers_.frames()) {
       if (spoilt) frame.data[3] ^= 1U;
-      node_->hear(frame);
+      node_->hear(frame, 0);
     }
   }
 

@@ -1,0 +1,131 @@
+#include "bench/checks/events.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace canhil::checks {
+namespace {
+
+using scenario::Event;
+
+// Negative response codes (ISO 14229-1, table A.1).
+constexpr std::array<std::pair<std::uint8_t, std::string_view>, 18> refusals{
+    {{0x10, "general reject"},
+     {0x11, "service not supported"},
+     {0x12, "sub-function not supported"},
+     {0x13, "incorrect message length or invalid format"},
+     {0x14, "response too long"},
+     {0x21, "busy, repeat request"},
+     {0x22, "conditions not correct"},
+     {0x24, "request sequence error"},
+     {0x31, "request out of range"},
+     {0x33, "security access denied"},
+     {0x35, "invalid key"},
+     {0x36, "exceeded number of attempts"},
+     {0x37, "required time delay not expired"},
+     {0x70, "upload or download not accepted"},
+     {0x72, "general programming failure"},
+     {0x78, "response pending"},
+     {0x7E, "sub-function not supported in active session"},
+     {0x7F, "service not supported in active session"}}};
+
+std::string shown(const Exchange& one) {
+  const auto& answer = *one.answer;
+  std::string text = scenario::to_text(answer);
+  if (answer.size() != 3 || answer[0] != 0x7F || one.request.empty() || answer[1] != one.request[0])
+    return text;
+  const auto found =
+      std::ranges::find(refusals, answer[2], [](const auto& refusal) { return refusal.first; });
+  return found == refusals.end() ? text : fmt::format("{} ({})", text, found->second);
+}
+
+std::string why_not_sent(const Event& event, std::span<const Event> events) {
+  switch (event.when) {
+    case Event::When::truth:
+      return "not sent: its condition held at no time";
+    case Event::When::flag:
+      return fmt::format("not sent: no answer had the flag {} {}", event.flag,
+                         event.flag_set ? "set" : "clear");
+    case Event::When::answered:
+      return fmt::format("not sent: '{}' had no answer", events[event.after].name);
+    default:
+      return "its request did not reach the bus";
+  }
+}
+
+// The limits of an event, as text.
+std::string expected_of(const Event& event) {
+  std::string text = event.expected ? event.expected->to_text() : "a request";
+  if (event.within_us) text += fmt::format(" within {:g} ms", 1e-3 * static_cast<double>(*event.within_us));
+  return text;
+}
+
+Finding judge_exchange(const Event& event, const Exchange& one, const Evidence& evidence) {
+  const std::string expected = expected_of(event);
+  if (!one.answer) {
+    const std::int64_t left_us = (evidence.seen.last_ns - one.sent_ns) / 1000;
+    const bool in_run = event.when != Event::When::start && event.when != Event::When::end;
+    if (in_run && left_us < event.patience_us())
+      return {Outcome::not_measured, "no answer before the end of the run", expected};
+    if (!one.broken.empty()) return {Outcome::fail, "the answer is broken: " + one.broken, expected};
+    return {Outcome::fail,
+            fmt::format("no answer within {:g} s", 1e-6 * static_cast<double>(event.patience_us())),
+            expected};
+  }
+  if (!event.expected->matches(*one.answer)) return {Outcome::fail, shown(one), expected};
+  if (!evidence.timing_unfit.empty()) {
+    if (event.within_us)
+      return {Outcome::not_measured, fmt::format("{}, its time: {}", shown(one), evidence.timing_unfit),
+              expected};
+    return {Outcome::pass, shown(one), expected};
+  }
+  const std::int64_t after_ns = one.answered_ns - one.sent_ns;
+  Finding finding{Outcome::pass,
+                  fmt::format("{} after {:.3g} ms", shown(one), 1e-6 * static_cast<double>(after_ns)),
+                  expected};
+  if (!event.within_us || after_ns <= *event.within_us * 1000) return finding;
+  finding.outcome = Outcome::fail;
+  return unless_target_delayed(evidence, 1, 1e-6 * static_cast<double>(*event.within_us), finding);
+}
+
+// The worst of an event's exchanges.
+Finding judge_event(const Event& event, const std::vector<const Exchange*>& own, const Evidence& evidence) {
+  std::optional<Finding> worst;
+  for (const Exchange* one : own) {
+    Finding finding = judge_exchange(event, *one, evidence);
+    const bool worse = !worst || (finding.outcome == Outcome::fail && worst->outcome != Outcome::fail) ||
+                       (finding.outcome == Outcome::not_measured && worst->outcome == Outcome::pass);
+    if (worse) worst = std::move(finding);
+  }
+  return *worst;
+}
+
+}  // namespace
+
+std::vector<CheckResult> judge_events(std::span<const Event> events, const Evidence& evidence) {
+  std::vector<CheckResult> results;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const Event& event = events[i];
+    std::vector<const Exchange*> own;
+    for (const Exchange& one : evidence.seen.exchanges) {
+      if (one.event == i) own.push_back(&one);
+    }
+    if (!own.empty() && !event.expected) continue;
+    Finding finding = own.empty()
+                          ? Finding{Outcome::not_measured, why_not_sent(event, events), expected_of(event)}
+                          : judge_event(event, own, evidence);
+    if (!evidence.ended_early.empty())
+      finding = {Outcome::not_measured, "the run ended early", std::move(finding.expected)};
+    results.push_back({.name = event.name,
+                       .kind = std::string(event_kind),
+                       .requirement = event.requirement,
+                       .outcome = finding.outcome,
+                       .measured = std::move(finding.measured),
+                       .expected = std::move(finding.expected)});
+  }
+  return results;
+}
+
+}  // namespace canhil::checks
