@@ -114,9 +114,15 @@ std::string text_of(const mapping::Mapping& mapping, const std::vector<mapping::
                         one.subject, one.what);
   }
   text += fmt::format(
-      "{}: {} messages played, {} heard, {} quantities reported; bus load", target.file,
-      std::ranges::count_if(mapping.messages, [](const MessageInfo& m) { return !is_targets(m); }),
-      mapping.hears.size(), target.quantities.size());
+      "{}: {} messages played, {} heard, {} quantities reported{}; bus load", target.file,
+      std::ranges::count_if(mapping.messages,
+                            [&](const MessageInfo& m) { return !is_targets(m) && !mapping.is_of_events(m); }),
+      mapping.hears.size(), target.quantities.size(),
+      mapping.channels.empty()
+          ? ""
+          : fmt::format(", {} for events", mapping.channels.size() == 1
+                                               ? "1 channel"
+                                               : fmt::format("{} channels", mapping.channels.size())));
   std::string_view separator;
   for (const std::int64_t kbitps : {125, 250, 500, 1000}) {
     const double load = mapping::load_of(mapping, {.nominal = kbitps * 1000, .data = 4000 * kbitps});

@@ -247,6 +247,11 @@ Result<void> check_targets(const Arguments& arguments, const scenario::Scenario&
     return failure(fmt::format("--target: is given {} times, expected at most {}, as {} has {} on its bus",
                                arguments.targets.size(), most, scenario.file,
                                most == 1 ? "one target" : fmt::format("{} targets", most)));
+  if (arguments.targets.empty() && !scenario.binding->handshake)
+    return failure(
+        fmt::format("--target: is missing, and the target of {} is not hil-target, expected its program, or "
+                    "none if it runs elsewhere",
+                    scenario.file));
   if (arguments.targets.size() > 1 && std::ranges::find(arguments.targets, "none") != arguments.targets.end())
     return failure("--target none: is given beside a program, expected only one of the two");
   return {};

@@ -80,7 +80,11 @@ std::optional<std::string> list_quantities(MappedTarget& target) {
     for (const ReportedSignal& telling : hear.reported_signals) {
       if (telling.what != ReportedSignal::What::value) continue;
       if (std::ranges::find(all, telling.quantity->quantity) != all.end())
-        return wrong(fmt::format("{} is reported twice, expected once", telling.quantity->quantity->name));
+        return wrong(fmt::format(
+            "{} is reported twice, by {} too, expected once; a second report can be a quantity of your own: "
+            "[quantities] \"{}.2\" = {{ unit = \"{}\", truth = \"{}\" }}",
+            telling.quantity->quantity->name, hear.of.message->name, telling.quantity->quantity->name,
+            telling.quantity->si, telling.quantity->quantity->name));
       all.push_back(telling.quantity->quantity);
     }
   }

@@ -269,7 +269,17 @@ class Reader {
       mapping_->by_group[wire::j1939_group(of->id)] = hear.of.index;
     }
     if (section.has("answers")) {
-      const std::string name = section.one_of("answers", names_of(mapping_->plays, &Play::name));
+      // A play has the name of its last message. Another of its messages means it too, but is not what is
+      // answered.
+      std::string name = section.text("answers");
+      for (const Play& one : mapping_->plays) {
+        const auto part =
+            std::ranges::find(one.messages, name, [](const auto& of) { return of.of.message->name; });
+        if (name != one.name && part != one.messages.end())
+          section.reject("answers", fmt::format("{} is not the last message of its play", name),
+                         fmt::format("'{}'", one.name));
+      }
+      name = section.one_of("answers", names_of(mapping_->plays, &Play::name));
       const auto play = std::ranges::find(mapping_->plays, name, &Play::name);
       if (play != mapping_->plays.end())
         hear.answers = static_cast<std::size_t>(play - mapping_->plays.begin());

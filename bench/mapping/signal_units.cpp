@@ -27,15 +27,19 @@ std::string_view SignalUnits::si_of(const dbc::Signal& signal) const {
 double SignalUnits::factor(scenario::Section& section, std::string_view key, const dbc::Message& of,
                            const dbc::Signal& signal, std::string_view si, std::string_view quantity) const {
   const std::string& text = text_of(signal);
-  const auto unit = quantities::wire_unit(text);
+  const auto unit = quantities::wire_unit(text, si);
+  const auto expected = [&] {
+    return fmt::format("[units] with \"{}.{}\" = one of: {}", of.name, signal.name,
+                       quantities::wire_units(si));
+  };
   if (!unit && !si.empty())
     section.reject(
         key,
         text.empty() ? "has no unit in the DBC" : fmt::format("has the unit '{}', which is unknown", text),
-        fmt::format("[units] with \"{}.{}\" beside it", of.name, signal.name));
+        expected());
   if (unit && unit->si != si)
     section.reject(key, fmt::format("is in '{}', {} is in {}", text, quantity, si.empty() ? "no unit" : si),
-                   "a signal of that unit, or [units] that say so");
+                   expected());
   return unit ? unit->factor : 1;
 }
 

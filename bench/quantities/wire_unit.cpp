@@ -14,14 +14,16 @@ using world::units::kmph;
 using world::units::standard_gravity;
 
 constexpr double knot = 1852.0 / 3600;  // [m/s]
+constexpr double gauss = 1e-4;          // [T]
 
-constexpr std::array<std::pair<std::string_view, WireUnit>, 32> known{{
+constexpr std::array<std::pair<std::string_view, WireUnit>, 35> known{{
     {"rad", {"rad", 1}},
     {"mrad", {"rad", 1e-3}},
     {"deg", {"rad", deg}},
     {"rad/s", {"rad/s", 1}},
     {"mrad/s", {"rad/s", 1e-3}},
     {"deg/s", {"rad/s", deg}},
+    {"dps", {"rad/s", deg}},
     {"m/s^2", {"m/s^2", 1}},
     {"g", {"m/s^2", standard_gravity}},
     {"mg", {"m/s^2", 1e-3 * standard_gravity}},
@@ -47,6 +49,8 @@ constexpr std::array<std::pair<std::string_view, WireUnit>, 32> known{{
     {"t", {"T", 1}},
     {"ut", {"T", 1e-6}},
     {"nt", {"T", 1e-9}},
+    {"gauss", {"T", gauss}},
+    {"mgauss", {"T", 1e-3 * gauss}},
     {"1", {"", 1}},
 }};
 
@@ -78,17 +82,20 @@ std::string plain(std::string_view text) {
 
 }  // namespace
 
-std::optional<WireUnit> wire_unit(std::string_view text) {
-  const std::string unit = plain(text);
+std::optional<WireUnit> wire_unit(std::string_view text, std::string_view si) {
+  std::string unit = plain(text);
+  if (si == "T" && (unit == "g" || unit == "mg")) unit += "auss";
   const auto found =
       std::ranges::find(known, std::string_view(unit), &std::pair<std::string_view, WireUnit>::first);
   if (found == known.end()) return std::nullopt;
   return found->second;
 }
 
-std::string wire_units() {
+std::string wire_units(std::optional<std::string_view> si) {
   std::string all;
-  for (const auto& [name, unit] : known) all += (all.empty() ? "" : ", ") + std::string(name);
+  for (const auto& [name, unit] : known) {
+    if (!si || unit.si == *si) all += (all.empty() ? "" : ", ") + std::string(name);
+  }
   return all;
 }
 

@@ -12,10 +12,11 @@ struct WireUnit {
   double factor = 1;    ///< to SI
 };
 
-/// The meaning of a DBC's unit ("deg/s", "°/s", "g", "km/h", ...); none: unknown.
-std::optional<WireUnit> wire_unit(std::string_view text);
+/// The meaning of a DBC's unit ("deg/s", "°/s", "g", "km/h", ...); none: unknown. `si`: the unit that is
+/// expected, because "G" is gauss or gravity.
+std::optional<WireUnit> wire_unit(std::string_view text, std::string_view si = "");
 
-/// All known units, as a list for error messages: "deg, rad, ...".
-std::string wire_units();
+/// The known units, or those of an SI unit, as a list for error messages: "deg, rad, ...".
+std::string wire_units(std::optional<std::string_view> si = {});
 
 }  // namespace canhil::quantities

@@ -511,7 +511,7 @@ TEST(Mapping, SaysWhatIsWrongInOneLine) {
   };
   EXPECT_EQ(refused("\"Answer.Roll\" = \"deg\"", ""),
             "ecu.mapping.toml:18: key 'hear[1].signals.Roll': has no unit in the DBC, expected [units] with "
-            "\"Answer.Roll\" beside it");
+            "\"Answer.Roll\" = one of: rad, mrad, deg");
   EXPECT_EQ(refused("every_ms = 20", ""),
             "ecu.mapping.toml:5: key 'play[1].every_ms': is missing, expected a number above 0");
   EXPECT_EQ(refused("message = \"Answer\"", "message = \"Rates\""),

@@ -30,6 +30,9 @@ TEST(WireUnits, AreKnownInTheSpellingsOfDbcFiles) {
   EXPECT_EQ(wire_unit("µs")->factor, 1e-6);
   EXPECT_EQ(wire_unit("mm")->factor, 1e-3);
   EXPECT_EQ(wire_unit("hPa")->si, "Pa");
+  EXPECT_DOUBLE_EQ(wire_unit("mG", "T")->factor, 1e-7);  // milligauss
+  EXPECT_DOUBLE_EQ(wire_unit("Gauss")->factor, 1e-4);
+  EXPECT_EQ(wire_unit("dps")->factor, wire_unit("deg/s")->factor);
   EXPECT_EQ(wire_unit("mbar")->factor, 100);
   EXPECT_EQ(wire_unit("kPa")->factor, 1000);
   EXPECT_EQ(wire_unit("uT")->factor, 1e-6);
