@@ -62,7 +62,7 @@ TEST_P(Devices, PassInRealTime) {
   expect_outputs_passed(ended, device.report());
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("auv", "car", "marine"),
+INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("auv", "car", "marine", "uav"),
                          [](const auto& of) { return of.param; });
 
 class DeviceDefects : public testing::TestWithParam<DeviceDefect> {};
@@ -91,7 +91,13 @@ INSTANTIATE_TEST_SUITE_P(
                     DeviceDefect{"marine", "latitude_in_radians", "error position.horizontal"},
                     DeviceDefect{"marine", "lost_frame", "protection"},
                     DeviceDefect{"marine", "never_estimated", "flag estimated at no GNSS position"},
-                    DeviceDefect{"marine", "wrong_sid", "causes"}),
+                    DeviceDefect{"marine", "wrong_sid", "causes"},
+                    DeviceDefect{"uav", "never_excludes", "flag imu_b_out at gyro of IMU B off"},
+                    DeviceDefect{"uav", "excludes_the_other", "flag no imu_a_out"},
+                    DeviceDefect{"uav", "inverse_quaternion", "error attitude.heading"},
+                    DeviceDefect{"uav", "late", "delay rate.z"},
+                    DeviceDefect{"uav", "ignores_qnh", "error position.height"},
+                    DeviceDefect{"uav", "counter_stuck", "protection"}),
     [](const auto& of) { return of.param.device + "_" + of.param.defect; });
 
 }  // namespace
