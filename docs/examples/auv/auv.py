@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "kit"))
-from canhil_target import open_bus  # SocketCAN or the bench's embedded bus
+from device import serve
 
 RATES, FORCE, DVL, DEPTH, COMPASS, RELATIVE, SHIP, GPS = 0x80, 0x81, 0x90, 0xA0, 0xA1, 0xB0, 0xB1, 0xC0
 ATTITUDE, VELOCITY, POSITION, HEIGHT = 0x200, 0x201, 0x202, 0x203
@@ -111,8 +111,4 @@ class Navigation:
 
 
 if __name__ == "__main__":
-    bus = open_bus(sys.argv[sys.argv.index("--bus") + 1])
-    navigation = Navigation(sys.argv[sys.argv.index("--defect") + 1] if "--defect" in sys.argv else "none")
-    while (received := bus.receive()) is not None:
-        for answer in navigation.receive(*received[:2]):
-            bus.send(*answer)
+    serve(Navigation, DEFECTS)

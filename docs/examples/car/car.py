@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "kit"))
-from canhil_target import open_bus  # SocketCAN or the bench's embedded bus
+from device import serve
 
 IMU_RATES, IMU_ACCEL, GNSS_POSITION, GNSS_VELOCITY, WHEELS, STEERING = 0x100, 0x101, 0x120, 0x121, 0x130, 0x140
 ATTITUDE, VELOCITY, POSITION, STATUS = 0x200, 0x201, 0x202, 0x203
@@ -125,8 +125,4 @@ class Ins:
 
 
 if __name__ == "__main__":
-    bus = open_bus(sys.argv[sys.argv.index("--bus") + 1])
-    ins = Ins(sys.argv[sys.argv.index("--defect") + 1] if "--defect" in sys.argv else "none")
-    while (received := bus.receive()) is not None:
-        for answer in ins.receive(*received[:2]):
-            bus.send(*answer)
+    serve(Ins, DEFECTS)

@@ -302,11 +302,14 @@ class Target:
 
 EXTENDED, NO_DATA = 1 << 31, 3 << 29  # bits of an id in SocketCAN: 29 bits; an error frame or a remote frame
 
+
 class LocalBus:
     """The embedded bus local:NAME. docs/own-target.md describes the format of its datagrams."""
     stamp_clock = time.CLOCK_MONOTONIC
+    FD, BIT_RATE_SWITCH, ERROR_PASSIVE = 2, 4, 32  # flags of a datagram, beside 1 for 29 bits
 
-    def __init__(self, name):
+    def __init__(self, name, fd):
+        self.format = self.FD if fd else 0
         name = name.split("?")[0]  # settings after '?' are for the host of the bus
         runtime = os.environ.get("XDG_RUNTIME_DIR", "")
         try:
@@ -316,13 +319,13 @@ class LocalBus:
             private = False
         folder = f"{runtime}/canhil" if private else f"/tmp/canhil-uid-{os.geteuid()}"
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        self.socket.connect(f"{folder}/{name}.classic")
+        self.socket.connect(f"{folder}/{name}.{'fd' if fd else 'classic'}")
         # The fields: the magic "CHH1"; whether own frames are echoed; whether only some ids are wanted; a bit for each wanted id; node name.
         self.socket.send(struct.pack("<IBB256s66s", 0x31484843, 0, 0, b"", b"kit"))
 
     def receive(self):
         """Returns (id, data, stamp [ns]), or None if the bus has ended. An id of 29 bits has the bit EXTENDED too. The id is None if the frame is not a
-        classic data frame."""
+        data frame of this bus's format."""
         try:
             datagram = self.socket.recv(80)
         except ConnectionResetError:
@@ -330,24 +333,29 @@ class LocalBus:
         if len(datagram) < 16:
             return None
         identifier, size, flags, _, t_ns = struct.unpack_from("<IBBHq", datagram)
-        return (identifier | (EXTENDED if flags else 0) if flags <= 1 else None), datagram[16:16 + size], t_ns
+        known = flags & ~(self.BIT_RATE_SWITCH | self.ERROR_PASSIVE) in (self.format, self.format | 1)
+        return (identifier | (EXTENDED if flags & 1 else 0) if known else None), datagram[16:16 + size], t_ns
 
     def send(self, identifier, data):
-        self.socket.send(struct.pack("<IBBHq", identifier & ~EXTENDED, len(data), identifier >= EXTENDED, 0, 0) + data)
+        flags = (identifier >= EXTENDED) | (self.format and self.FD | self.BIT_RATE_SWITCH)
+        self.socket.send(struct.pack("<IBBHq", identifier & ~EXTENDED, len(data), flags, 0, 0) + data)
 
 
 class SocketCan:
     """can0, vcan0."""
     stamp_clock = time.CLOCK_REALTIME
-    SO_TIMESTAMPNS = 35
+    SO_TIMESTAMPNS, BIT_RATE_SWITCH = 35, 1
 
-    def __init__(self, name):
+    def __init__(self, name, fd):
+        self.layout = "=IBB2x64s" if fd else "=IBB2x8s"  # canfd_frame, can_frame: id, size, flags, data
+        self.flags = self.BIT_RATE_SWITCH if fd else 0
         self.socket = socket.socket(socket.PF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
+        self.socket.setsockopt(socket.SOL_CAN_RAW, socket.CAN_RAW_FD_FRAMES, fd)
         self.socket.setsockopt(socket.SOL_SOCKET, self.SO_TIMESTAMPNS, 1)
         self.socket.bind((name,))
 
     def receive(self):
-        frame, ancillary, _, _ = self.socket.recvmsg(16, 64)
+        frame, ancillary, _, _ = self.socket.recvmsg(72, 64)
         if len(frame) < 16:
             return None
         identifier, size = struct.unpack_from("=IB", frame)
@@ -356,14 +364,16 @@ class SocketCan:
             if kind == self.SO_TIMESTAMPNS:
                 seconds, nanoseconds = struct.unpack("qq", data)
                 stamp = seconds * 1_000_000_000 + nanoseconds
-        return (identifier if not identifier & NO_DATA else None), frame[8:8 + size], stamp
+        known = not identifier & NO_DATA and len(frame) == struct.calcsize(self.layout)
+        return (identifier if known else None), frame[8:8 + size], stamp
 
     def send(self, identifier, data):
-        self.socket.send(struct.pack("=IB3x8s", identifier, len(data), data))
+        self.socket.send(struct.pack(self.layout, identifier, len(data), self.flags, data))
 
 
-def open_bus(name):
-    return LocalBus(name[len("local:"):]) if name.startswith("local:") else SocketCan(name)
+def open_bus(name, fd=False):
+    """Joins a bus. fd: its frames are those of CAN FD, otherwise those of classic CAN."""
+    return LocalBus(name[len("local:"):], fd) if name.startswith("local:") else SocketCan(name, fd)
 
 
 # ---- the process ----

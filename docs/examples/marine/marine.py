@@ -10,7 +10,8 @@ import sys
 from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "kit"))
-from canhil_target import EXTENDED, open_bus  # SocketCAN or the bench's embedded bus
+from canhil_target import EXTENDED
+from device import serve
 
 RATE, COURSE, GNSS, HEADING, POSITION = (EXTENDED | one for one in (0x09F11323, 0x09F80222, 0x0DF80522, 0x09F11224, 0x0DF80524))
 DT, EARTH, OUTAGE = 0.1, 6_378_137.0, 20  # OUTAGE: samples without a position until the position counts as estimated
@@ -104,8 +105,4 @@ class Navigator:
 
 
 if __name__ == "__main__":
-    bus = open_bus(sys.argv[sys.argv.index("--bus") + 1])
-    navigator = Navigator(sys.argv[sys.argv.index("--defect") + 1] if "--defect" in sys.argv else "none")
-    while (received := bus.receive()) is not None:
-        for answer in navigator.receive(*received[:2]):
-            bus.send(*answer)
+    serve(Navigator, DEFECTS)

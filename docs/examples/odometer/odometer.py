@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "kit"))
-from canhil_target import open_bus  # SocketCAN or the bench's embedded bus
+from device import serve
 
 PULSES, MOTION, REQUEST, RESPONSE = 0x130, 0x210, 0x7A0, 0x7A8
 DEFECTS = ("none", "own_measures", "no_code", "lost_frame", "keeps_code", "knows_all")
@@ -107,8 +107,4 @@ class Odometer:
 
 
 if __name__ == "__main__":
-    bus = open_bus(sys.argv[sys.argv.index("--bus") + 1])
-    odometer = Odometer(sys.argv[sys.argv.index("--defect") + 1] if "--defect" in sys.argv else "none")
-    while (received := bus.receive()) is not None:
-        for answer in odometer.receive(*received[:2]):
-            bus.send(*answer)
+    serve(Odometer, DEFECTS)

@@ -87,7 +87,7 @@ TEST(DeviceLog, HasTheAnswersToEvents) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("auv", "car", "marine", "odometer"),
+INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("auv", "car", "marine", "odometer", "uav"),
                          [](const auto& of) { return of.param; });
 
 class DeviceDefects : public testing::TestWithParam<DeviceDefect> {};
@@ -121,7 +121,13 @@ INSTANTIATE_TEST_SUITE_P(
                     DeviceDefect{"odometer", "no_code", "trouble code"},
                     DeviceDefect{"odometer", "lost_frame", "serial number"},
                     DeviceDefect{"odometer", "keeps_code", "cleared"},
-                    DeviceDefect{"odometer", "knows_all", "unknown identifier"}),
+                    DeviceDefect{"odometer", "knows_all", "unknown identifier"},
+                    DeviceDefect{"uav", "never_excludes", "flag imu_b_out at gyro of IMU B off"},
+                    DeviceDefect{"uav", "excludes_the_other", "flag no imu_a_out"},
+                    DeviceDefect{"uav", "inverse_quaternion", "error attitude.heading"},
+                    DeviceDefect{"uav", "late", "delay rate.z"},
+                    DeviceDefect{"uav", "ignores_qnh", "error position.height"},
+                    DeviceDefect{"uav", "counter_stuck", "protection"}),
     [](const auto& of) { return of.param.device + "_" + of.param.defect; });
 
 }  // namespace
