@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,6 +11,8 @@
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/read_dbc.hpp"
 #include "bench/commands/subcommands.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/stimuli.hpp"
 #include "bench/mapping/check.hpp"
 #include "bench/mapping/extract.hpp"
 #include "bench/report/file.hpp"
@@ -46,7 +49,7 @@ struct ExtractArguments {
 };
 
 struct CheckArguments {
-  std::string file;
+  std::string file, scenario;
   bool json = false;
 };
 
@@ -132,10 +135,34 @@ std::string text_of(const mapping::Mapping& mapping, const std::vector<mapping::
   return text + "\n";
 }
 
+// The mapping of a scenario, and the values that its flight plays.
+Result<mapping::FlownValues> flown_with(const std::string& file, const std::string& mapping,
+                                        std::shared_ptr<const mapping::Mapping>& of_scenario) {
+  const auto scenario = drive::read_scenario(file);
+  if (!scenario) return tl::unexpected(scenario.error());
+  of_scenario = std::dynamic_pointer_cast<const mapping::Mapping>(scenario->binding);
+  const bool is_own = std::ranges::any_of(scenario->binding->files, [&](const scenario::Binding::Files& one) {
+    std::error_code unknown;
+    return std::filesystem::equivalent(one.mapping, mapping, unknown);
+  });
+  if (of_scenario == nullptr || !is_own)
+    return failure(fmt::format(
+        "--scenario '{}': has no target with the mapping {}, expected a scenario of it", file, mapping));
+  auto flown = drive::flown_values(*scenario, *of_scenario);
+  if (!flown) return failure(fmt::format("{}: {}", file, flown.error().message));
+  return flown;
+}
+
 ExitCode check(const CheckArguments& arguments) {
-  const auto mapping = mapping::read_mapping(arguments.file);
+  auto mapping = mapping::read_mapping(arguments.file);
   if (!mapping) return complain(mapping.error());
-  const auto remarks = mapping::remarks_on(**mapping);
+  mapping::FlownValues values;
+  if (!arguments.scenario.empty()) {
+    auto flown = flown_with(arguments.scenario, arguments.file, *mapping);
+    if (!flown) return complain(flown.error());
+    values = std::move(*flown);
+  }
+  const auto remarks = mapping::remarks_on(**mapping, values);
   const bool warned = std::ranges::any_of(
       remarks, [](const mapping::Remark& one) { return one.grade == mapping::Remark::Grade::warning; });
   std::string text = text_of(**mapping, remarks);
@@ -169,6 +196,8 @@ void add_check(command_line::Command command, int& code) {
   const auto own =
       command.add_subcommand("check", "what a mapping leaves out, and what its signals cannot carry");
   own.add_option("MAPPING", arguments->file, "mapping (TOML), which names its DBC").required();
+  own.add_option("--scenario", arguments->scenario,
+                 "a scenario of the mapping: also say which of its values the signals cut off or round away");
   own.add_flag("--json", arguments->json, "JSON instead of a line for each remark");
   own.on_given([&code, arguments] { code = static_cast<int>(check(*arguments)); });
 }

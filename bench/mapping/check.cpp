@@ -7,7 +7,6 @@
 #include <set>
 
 #include "bench/mapping/range.hpp"
-#include "bench/nodes/registry.hpp"
 #include "dbc/parser/database.hpp"
 
 namespace canhil::mapping {
@@ -19,7 +18,7 @@ constexpr double most_of_sensor_noise = 0.25;  // limit of step / sqrt(12), as a
 
 class Remarks {
  public:
-  explicit Remarks(const Mapping& mapping) : mapping_(mapping) {}
+  Remarks(const Mapping& mapping, const FlownValues& flown) : mapping_(mapping), flown_(flown) {}
 
   std::vector<Remark> all() {
     for (const Play& play : mapping_.plays) on(play);
@@ -64,7 +63,7 @@ class Remarks {
       if (!one.of.protection)
         add(Grade::note, "unprotected", one.of.message->name, "has neither counter nor checksum here");
       for (const Source& source : one.sources) {
-        if (source.measurand != nullptr) on(one.of, source, play);
+        if (const auto found = flown_.find(&source); found != flown_.end()) on(one.of, source, found->second);
       }
     }
     const dbc::Message& last = *play.messages.back().of.message;
@@ -75,32 +74,19 @@ class Remarks {
                       1e-3 * static_cast<double>(last.cycle_time_us)));
   }
 
-  void on(const Mapped& of, const Source& source, const Play& play) {
+  void on(const Mapped& of, const Source& source, const PlayedValues& values) {
     const dbc::Signal& signal = *source.signal;
-    const nodes::SampleSignal& own = nodes::carrier(*source.measurand);
-    // Converts from the unit of the node to the unit of the signal. A rate is an increment divided by its
-    // interval; the shortest interval is the period of the play.
-    const bool rate = source.measurand->over == sensors::Over::rate;
-    const double interval_s = rate ? 1e-6 * static_cast<double>(play.period_us) : 1;
-    const double factor = std::abs(source.factor * own.factor) / interval_s;
     if (signal.is_float()) return;
-    const double step = std::abs(signal.scale), sigma = own.info.sensor_sigma * factor;
-    if (sigma > 0 && step / std::sqrt(12.0) > most_of_sensor_noise * sigma)
+    const double step = std::abs(signal.scale), rounding = step / std::sqrt(12.0);
+    if (values.noise > 0 && rounding > most_of_sensor_noise * values.noise)
       add(Grade::warning, "coarse", name(of, signal),
           fmt::format("its step of {:g} {} adds {:.2g} of rounding noise to the sensor's noise of {:.2g}",
-                      step, signal.unit, step / std::sqrt(12.0), sigma));
-    const auto range = physical_range(signal);
-    if (!range || !std::isfinite(own.info.maximum)) return;
-    const auto [low, high] = *range;
-    // An angle is sent as the equal angle that the signal can hold.
-    const double turn = 360 * std::abs(source.factor * own.factor);
-    if (source.measurand->output().turns && high - low >= turn - std::abs(signal.scale)) return;
-    const double least = std::min(std::abs(low), std::abs(high));
-    const double most = std::max(std::abs(own.info.minimum), std::abs(own.info.maximum)) * factor;
-    if (std::max(std::abs(low), std::abs(high)) < most || (own.info.minimum < 0 && low >= 0) || least < most)
-      add(Grade::note, "saturates", name(of, signal),
-          fmt::format("holds {:g} to {:g} {}; the node may send {:g} to either side", low, high, signal.unit,
-                      most));
+                      step, signal.unit, rounding, values.noise));
+    if (dbc::holds(signal, values.lowest) && dbc::holds(signal, values.highest)) return;
+    const auto [low, high] = physical_range(signal).value_or(std::pair(0.0, 0.0));
+    add(Grade::warning, "clipped", name(of, signal),
+        fmt::format("holds {:g} to {:g} {}; the flight's values are {:g} to {:g}", low, high, signal.unit,
+                    values.lowest, values.highest));
   }
 
   void on(const Hear& hear) {
@@ -137,12 +123,15 @@ class Remarks {
   }
 
   const Mapping& mapping_;
+  const FlownValues& flown_;
   std::vector<Remark> remarks_;
 };
 
 }  // namespace
 
-std::vector<Remark> remarks_on(const Mapping& mapping) { return Remarks(mapping).all(); }
+std::vector<Remark> remarks_on(const Mapping& mapping, const FlownValues& flown) {
+  return Remarks(mapping, flown).all();
+}
 
 double load_of(const Mapping& mapping, const wire::BitRates& rates) {
   double load = 0;

@@ -2,6 +2,8 @@
 // carry.
 #pragma once
 
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,15 +21,24 @@ struct Remark {
   std::string what;     ///< one line
 };
 
+/// What a flight plays in a signal, in the unit of the signal.
+struct PlayedValues {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  double noise = 0;  ///< 1-sigma of the error that is white from sample to sample
+};
+using FlownValues = std::map<const Source*, PlayedValues>;
+
 /// Remarks in the order of the plays (messages to the target) and then the hears (messages of the target),
 /// about:
 /// - signals without a mapped value, or with a value that is not used;
-/// - signals whose range does not include all values of the node, and signals whose steps are coarse compared
-///   with the noise of the node's sensor (limits and SensorSigma of canhil's DBC);
+/// - if the values of a flight are given: signals that cannot hold all of them, and signals whose steps are
+/// coarse
+///   compared with the noise;
 /// - periods that differ from the DBC's cycle times;
 /// - messages of the target that are not mapped;
 /// - messages without protection, and answers that do not name their cause.
-std::vector<Remark> remarks_on(const Mapping& mapping);
+std::vector<Remark> remarks_on(const Mapping& mapping, const FlownValues& flown = {});
 
 /// The bus load of the mapping's messages, if every frame has its greatest possible length. Messages without
 /// a cycle time are not included.

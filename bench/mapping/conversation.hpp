@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -37,6 +38,9 @@ struct Conversation {
 
   const Mapping& mapping;
   std::vector<std::deque<Sent>> sent;  ///< transmissions of each play, the newest last
+  /// Receives each value that is played, in the unit of its signal, before it is encoded; null: nobody wants
+  /// it.
+  std::function<void(const Source& source, double value)> on_value{};
 };
 
 /// Follows frames of the bench on their way to the bus. If a fault drops or changes a frame of a play, the

@@ -262,6 +262,7 @@ Sent Player::put_together(std::size_t index, const sensors::Sample& sample, std:
       double& value = values[one.of.number(*source.signal)];
       value =
           constant ? source.value : held(source, value_of(index, source, sample.stamp_us) * source.factor);
+      if (conversation_.on_value) conversation_.on_value(source, value);
       if (dbc::holds(*source.signal, value)) continue;
       const auto [lowest, highest] = physical_range(*source.signal).value_or(std::pair(0.0, 0.0));
       clipped_.add(message.name, source.signal->name, value, {lowest, highest, source.signal->unit});

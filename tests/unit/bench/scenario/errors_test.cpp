@@ -34,7 +34,7 @@ std::string keys_of_a_file() {
   };
   return "title, duration_s, dbc, seed, target, engagement, glide, wind, airframe, " +
          nodes_of(TruthOf::glide) + "truth, initial_error, " + nodes_of(TruthOf::navigation) +
-         nodes_of(TruthOf::engagement) + "fault, check";
+         nodes_of(TruthOf::engagement) + "event, fault, check";
 }
 
 const std::string sigma =
