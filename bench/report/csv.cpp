@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/report/flags.hpp"
 #include "bench/report/series.hpp"
 #include "dbc/text/escape.hpp"
 
@@ -25,6 +26,11 @@ void csv(const scenario::Scenario& scenario, const drive::Run& run, const Sink& 
       give(fmt::format("{:.6f},{},{},{},{},{}\n", static_cast<double>(point.t_us) * 1e-6, of, field(estimate),
                        field(point.truth), field(error), field(point.sigma)));
     }
+  });
+  give_flags(scenario, run, [&](std::string_view estimator, std::string_view flag, const auto& changes) {
+    for (const auto& [t_us, is_set] : changes)
+      give(fmt::format("{:.6f},{},{},flag,{},,,\n", static_cast<double>(t_us) * 1e-6, for_csv(estimator),
+                       for_csv(flag), is_set ? 1 : 0));
   });
 }
 

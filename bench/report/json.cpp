@@ -9,6 +9,7 @@
 
 #include "bench/checks/answered.hpp"
 #include "bench/checks/bus_load.hpp"
+#include "bench/report/flags.hpp"
 #include "bench/report/json_timing.hpp"
 #include "bench/report/provenance.hpp"
 #include "bench/report/rounded.hpp"
@@ -85,6 +86,8 @@ Json object(const realtime::Standing& host, std::int64_t spin_ns) {
 
 // Indexed by Series::Kind.
 constexpr std::array<std::string_view, 4> kind_names{"estimate", "error", "innovation", "statistic"};
+
+constexpr std::size_t most_changes = 1000;  // of a flag
 
 Json object(const Series& series) {
   Json json{{"estimator", series.estimator},
@@ -286,6 +289,16 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
   page["bus_load_line"] = load_line(run.seen, load_rates(run)[0]);
   page["series"] = Json::array();
   for (const Series& one : series(scenario, run)) page["series"].push_back(object(one));
+  page["flags"] = Json::array();
+  give_flags(scenario, run, [&](std::string_view estimator, std::string_view flag, const auto& changes) {
+    Json shown = Json::array();
+    for (std::size_t i = 0; i < std::min(changes.size(), most_changes); ++i)
+      shown.push_back({static_cast<double>(changes[i].first) * 1e-6, changes[i].second});
+    page["flags"].push_back({{"estimator", estimator},
+                             {"name", flag},
+                             {"change_count", changes.size()},
+                             {"changes", std::move(shown)}});
+  });
   return page;
 }
 

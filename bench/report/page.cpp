@@ -47,16 +47,20 @@ std::string estimates_section(const Json& report) {
   if (report.at("series").empty()) return "";
   std::string out = "<section id=\"estimates\"><h2>Estimates against the truth</h2>\n";
   std::string estimator;
+  const auto end_of = [&](const std::string& of) {
+    return of.empty() ? ""
+                      : flags(report.at("flags"), of, report.at("duration_s").get<double>()) + "</div>\n";
+  };
   for (const Json& series : report.at("series")) {
     const std::string own = series.at("estimator").get<std::string>();
     if (own != estimator) {
-      if (!estimator.empty()) out += "</div>\n";
+      out += end_of(estimator);
       out += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(own));
       estimator = own;
     }
     out += estimate(series);
   }
-  return out + "</div></section>\n";
+  return out + end_of(estimator) + "</section>\n";
 }
 
 std::string page_of(const Json& report) {

@@ -54,6 +54,9 @@ std::string from_zero(const std::string& title, const std::string& unit, double 
 /// second picture shows that part of the run.
 std::string estimate(const Json& series);
 
+/// When the flags of an estimator were set; flags that never were are left out.
+std::string flags(const Json& all, const std::string& estimator, double end_s);
+
 // The sections.
 
 std::string checks_section(const Json& report);

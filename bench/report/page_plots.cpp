@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bench/checks/histogram.hpp"
@@ -190,6 +191,34 @@ std::string course(const std::string& title, const Json& line) {
   const double stretch_s = line.at("stretch_s").get<double>();
   return figure(title, from_zero(title, "ms", stretch_s, line.at("largest_s"), 1e3),
                 fmt::format("the largest of each {:g} ms", stretch_s * 1e3));
+}
+
+std::string flags(const Json& all, const std::string& estimator, double end_s) {
+  constexpr std::size_t most_rows = 8;
+  std::string out;
+  FlagPlot plot{.title = "Flags", .rows = {}, .end_s = end_s};
+  const auto show = [&] {
+    if (!plot.rows.empty()) out += figure("Flags", svg(plot), "bars: set");
+    plot.rows.clear();
+  };
+  for (const Json& flag : all) {
+    if (flag.at("estimator").get<std::string>() != estimator) continue;
+    FlagPlot::Row row{.label = flag.at("name").get<std::string>(), .set_s = {}};
+    std::optional<double> since_s;
+    for (const Json& change : flag.at("changes")) {
+      const double t_s = change.at(0).get<double>();
+      if (change.at(1).get<bool>())
+        since_s = t_s;
+      else if (since_s)
+        row.set_s.emplace_back(*std::exchange(since_s, std::nullopt), t_s);
+    }
+    if (since_s) row.set_s.emplace_back(*since_s, end_s);
+    if (row.set_s.empty()) continue;
+    plot.rows.push_back(std::move(row));
+    if (plot.rows.size() == most_rows) show();
+  }
+  show();
+  return out;
 }
 
 std::string estimate(const Json& series) {

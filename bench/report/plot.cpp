@@ -88,6 +88,18 @@ std::vector<Stretch> stretches(std::size_t size, There there) {
   return found;
 }
 
+// The labels of the time axis, in s.
+std::string time_marks(const Axis& x) {
+  std::string out;
+  const std::vector<double> columns = round_values(x.from, x.to, 6);
+  const std::vector<std::string> labels = mark_labels(columns);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    out += line("tick", x(columns[i]), bottom, x(columns[i]), bottom + 5);
+    out += text_at(x(columns[i]), bottom + 19, "middle", labels[i]);
+  }
+  return out + text_at((left + right) / 2, bottom + 35, "middle", "s");
+}
+
 constexpr double limit_room = 2.5;  // limits up to this multiple of the largest value are shown
 constexpr double bar_room = 6;      // the same factor for the limits of checks, which matter most
 
@@ -253,12 +265,7 @@ std::string svg(const LinePlot& plot) {
     out += line(rows[i] == 0 ? "zero" : "rule", left, y(rows[i]), right, y(rows[i]));
     out += text_at(left - 6, y(rows[i]) + 4, "end", row_labels[i]);
   }
-  const std::vector<double> columns = round_values(x.from, x.to, 6);
-  const std::vector<std::string> column_labels = mark_labels(columns);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    out += line("tick", x(columns[i]), bottom, x(columns[i]), bottom + 5);
-    out += text_at(x(columns[i]), bottom + 19, "middle", column_labels[i]);
-  }
+  out += time_marks(x);
   out += area(plot, x, y);
   if (plot.limit.size() == plot.t_s.size()) {
     for (const double sign : {1.0, -1.0})
@@ -274,8 +281,26 @@ std::string svg(const LinePlot& plot) {
   }
   out += frame();
   out += text_at(left - 6, top - 9, "end", plot.unit);
-  out += text_at((left + right) / 2, bottom + 35, "middle", "s");
   return out + "</svg>";
+}
+
+std::string svg(const FlagPlot& plot) {
+  if (plot.rows.empty()) return "<p class=\"note\">nothing to show</p>";
+  const Axis x{0, std::max(plot.end_s, 1e-3), left, right};
+  std::string out = begin(plot.title);
+  const double height_of_row = (bottom - top) / static_cast<double>(plot.rows.size());
+  for (std::size_t i = 0; i < plot.rows.size(); ++i) {
+    const double at = top + height_of_row * (static_cast<double>(i) + 0.5),
+                 half = std::min(0.2 * height_of_row, 7.0);
+    out += line("rule", left, at + half, right, at + half);
+    out += text_at(left + 2, at - half - 2, "start", plot.rows[i].label);
+    std::string bars;
+    for (const auto& [from_s, to_s] : plot.rows[i].set_s)
+      bars += fmt::format("M{:.1f} {:.1f}V{:.1f}H{:.1f}V{:.1f}Z", x(from_s), at + half, at - half,
+                          std::max(x(to_s), x(from_s) + 0.5), at + half);
+    if (!bars.empty()) out += fmt::format("<path class=\"bars\" d=\"{}\"/>", bars);
+  }
+  return out + time_marks(x) + frame() + "</svg>";
 }
 
 }  // namespace canhil::report

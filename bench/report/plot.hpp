@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace canhil::report {
@@ -57,6 +58,19 @@ struct LinePlot {
   bool begins_at_first = false;   ///< the time axis begins at the first time instead of 0
 };
 std::string svg(const LinePlot& plot);
+
+/// When flags were set: a row for each, with a bar for each stretch of time.
+struct FlagPlot {
+  struct Row {
+    std::string label;
+    std::vector<std::pair<double, double>>
+        set_s;  ///< from the first answer in which it is set to the next without
+  };
+  std::string title;
+  std::vector<Row> rows;
+  double end_s = 0;
+};
+std::string svg(const FlagPlot& plot);
 
 /// The range of the picture. It includes `limit` and `bars` unless they are so large that they would hide the
 /// quantity, as the sigma of the first instants may be.

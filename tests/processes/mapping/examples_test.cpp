@@ -64,6 +64,26 @@ TEST_P(Devices, PassInRealTime) {
   expect_outputs_passed(ended, device.report());
 }
 
+// A flag in the CSV, the JSON and the page: its first answer, and each change.
+TEST(DeviceReports, ShowWhenFlagsWereSet) {
+  const std::string csv = scratch("uav.csv"), page = scratch("uav.html");
+  const Device device("uav");
+  ASSERT_EQ(device.fly("none", fmt::format("--lockstep --csv {} --html {}", csv, page)).code, 3);
+  const nlohmann::json report = device.report();
+  const auto& flags = report["flags"];
+  const auto found = std::ranges::find_if(flags, [](const auto& one) { return one["name"] == "imu_b_out"; });
+  ASSERT_NE(found, flags.end());
+  EXPECT_EQ((*found)["change_count"], 3);
+  const auto& changes = (*found)["changes"];
+  EXPECT_EQ(changes[0][1], false);
+  EXPECT_NEAR(changes[1][0].get<double>(), 20.25, 0.25) << "the fault begins at 20 s";
+  EXPECT_NEAR(changes[2][0].get<double>(), 26, 1) << "and ends at 25 s";
+  const std::string rows = read(csv);
+  EXPECT_EQ(rows.find(",imu_a_out,flag,1"), std::string::npos);
+  EXPECT_NE(rows.find(",imu_b_out,flag,1"), std::string::npos);
+  EXPECT_NE(read(page).find("aria-label=\"Flags\""), std::string::npos);
+}
+
 // What events sent, and when, depends on the device: the log alone says it. In a log, no times are judged.
 TEST(DeviceLog, HasTheAnswersToEvents) {
   for (const char* const manner : {"--lockstep", ""}) {
