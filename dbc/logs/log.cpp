@@ -15,6 +15,7 @@
 
 #include "dbc/logs/foreign.hpp"
 #include "dbc/logs/formats.hpp"
+#include "dbc/logs/remarks.hpp"
 #include "dbc/logs/words.hpp"
 
 namespace canhil {
@@ -82,6 +83,12 @@ std::vector<std::string> LogSource::left_out() const {
   return all;
 }
 
+std::uint64_t LogSource::left_out_count() const {
+  std::uint64_t all = 0;
+  for (const LeftOut& one : left_out_) all += one.count;
+  return all;
+}
+
 std::vector<std::string> LogSource::remarks(const std::string& name) const {
   std::vector<std::string> all = remarks_;
   for (const std::string& one : left_out()) all.push_back(fmt::format("log '{}': {}", name, one));
@@ -106,6 +113,11 @@ Result<void> LogWriter::close() {
   return {};
 }
 
+void LogReader::End::operator()(LogSource* source) const {
+  if (!refused) LogRemarks::hand_over(name, source->left_out_count(), source->remarks(name));
+  delete source;
+}
+
 Result<LogReader> LogReader::open(const std::string& path, RemoteFrames remote) {
   auto input = logs::Input::open(path, path);
   if (!input) return tl::unexpected(input.error());
@@ -128,11 +140,13 @@ Result<std::optional<LogEntry>> LogReader::next() {
     auto entry = source_->next();
     if (!entry) return entry;
     if (!*entry) {
-      if (!any_ && source_->left_something_out() && !source_->recognised())
+      if (!any_ && source_->left_out_count() > 0 && !source_->recognised()) {
+        source_.get_deleter().refused = true;
         return failure(
             fmt::format("'{}': is not a log of CAN, expected candump, ASC, BLF, TRC, SavvyCAN's CSV, "
                         "pcap or pcapng: {}",
-                        name_, fmt::join(source_->left_out(), "; ")));
+                        name(), fmt::join(source_->left_out(), "; ")));
+      }
       return entry;
     }
     any_ = true;
