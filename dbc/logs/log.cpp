@@ -71,8 +71,12 @@ Result<LogFormat> log_format_of_file(const std::string& file) {
 
 void LogSource::leave_out(std::string_view reason) {
   auto found = std::ranges::find(left_out_, reason, &LeftOut::reason);
-  if (found == left_out_.end())
-    found = left_out_.insert(left_out_.end(), {.reason = std::string(reason), .first = last()});
+  if (found == left_out_.end()) {
+    constexpr std::size_t most_shown = 200;
+    std::string first = last();
+    if (first.size() > most_shown) first = first.substr(0, most_shown) + "...";
+    found = left_out_.insert(left_out_.end(), {.reason = std::string(reason), .first = std::move(first)});
+  }
   ++found->count;
 }
 
@@ -138,6 +142,7 @@ Result<LogReader> LogReader::of_memory(std::string_view content, const std::stri
 Result<std::optional<LogEntry>> LogReader::next() {
   for (;;) {
     auto entry = source_->next();
+    if (!entry && !any_ && !source_->recognised()) source_.get_deleter().refused = true;
     if (!entry) return entry;
     if (!*entry) {
       if (!any_ && source_->left_out_count() > 0 && !source_->recognised()) {

@@ -141,7 +141,7 @@ class LogReader {
   // Ends the reading of a log.
   struct End {
     std::string name;      // of the log
-    bool refused = false;  // the error says what was left out
+    bool refused = false;  // the file is no log; an error says so
     void operator()(LogSource* source) const;
   };
 
