@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dbc/command_line/command_line.hpp"
+#include "dbc/logs/remarks.hpp"
 #include "dbc/realtime/command_line.hpp"
 #include "dbc/text/escape.hpp"
 #include "dbc/version/version.hpp"
@@ -75,7 +76,11 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return canhil::command_line::finish("hil-target", run(argc, argv));
+    const canhil::LogRemarks remarks;
+    const int code = run(argc, argv);
+    for (const std::string& line : remarks.lines())
+      std::fprintf(stderr, "hil-target: %s\n", canhil::one_line(line).c_str());
+    return canhil::command_line::finish("hil-target", code);
   } catch (const std::exception& error) {  // for example std::bad_alloc
     std::fprintf(stderr, "hil-target: %s\n", canhil::one_line(error.what()).c_str());
     return exit_usage;

@@ -207,7 +207,6 @@ ExitCode extract(const ExtractArguments& arguments) {
   if (!mapping) return complain(mapping.error());
   const auto extracted = mapping::extract(**mapping, arguments.play, arguments.log);
   if (!extracted) return complain(extracted.error());
-  for (const std::string& remark : extracted->remarks) say(remark);
   if (extracted->incomplete > 0)
     say(fmt::format("{}: {} groups of {} were not whole and are left out, {} are there", arguments.log,
                     extracted->incomplete, arguments.play, extracted->rows));

@@ -35,13 +35,14 @@ std::string counted(std::uint64_t count, std::string_view what) {
 }
 
 void say_left_out(const recordings::LeftOut& left_out) {
-  for (const std::string& remark : left_out.remarks) say(remark);
   if (left_out.frames > 0)
     say(fmt::format("{} left out, of no message: {}", counted(left_out.frames, "frame"),
                     fmt::join(left_out.ids, ", ")));
   if (left_out.ambiguous > 0)
     say(fmt::format("{} left out, whose parameter group the DBC has only for several other sources: {}",
                     counted(left_out.ambiguous, "frame"), fmt::join(left_out.ambiguous_ids, ", ")));
+  if (left_out.incomplete > 0)
+    say(fmt::format("{} of several frames left out, a frame lacks", counted(left_out.incomplete, "message")));
   if (left_out.short_frames > 0)
     say(fmt::format("{} shorter than the message, {} missing", counted(left_out.short_frames, "frame"),
                     counted(left_out.missing, "signal")));

@@ -47,10 +47,6 @@ struct CheckArguments {
   Reports reports;
 };
 
-void say_all(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) say(line);
-}
-
 ExitCode convert(const ConvertArguments& arguments) {
   CommandFiles files;
   files.reads("FROM", arguments.from);
@@ -61,9 +57,8 @@ ExitCode convert(const ConvertArguments& arguments) {
   if (!format) return complain(format.error());
   const auto converted = recordings::convert(arguments.from, arguments.to, *format);
   if (!converted) return complain(converted.error());
-  say_all(converted->remarks);
-  if (converted->frames == 0) say(fmt::format("log '{}': has no frame", arguments.from));
-  fmt::print("{}: {} frames\n", one_line(arguments.to), converted->frames);
+  if (*converted == 0) say(fmt::format("log '{}': has no frame", arguments.from));
+  fmt::print("{}: {} frames\n", one_line(arguments.to), *converted);
   return ExitCode::pass;
 }
 
@@ -156,7 +151,6 @@ ExitCode replay(const ReplayArguments& arguments) {
     });
   }();
   if (!replayed) return complain(replayed.error());
-  say_all(replayed->remarks);
   const checks::Histogram& late = replayed->lateness;
   fmt::print("{} frames on {}; late by {:.0f} us (median), {:.0f} us (99 %), {:.0f} us (most)\n",
              replayed->frames, fmt::join(names, ", "), late.quantile_ns(0.5) / 1e3,

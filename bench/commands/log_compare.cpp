@@ -41,7 +41,6 @@ ExitCode compare(const Arguments& arguments) {
   };
   const auto compared = recordings::compare_stamps(arguments.a, arguments.b);
   if (!compared) return complain(compared.error());
-  for (const std::string& remark : compared->remarks) say(remark);
   if (!arguments.json.empty()) {
     if (auto written = report::write(arguments.json, recordings::to_json(*compared, name)); !written)
       return complain(written.error());

@@ -16,6 +16,7 @@
 
 #include "bench/commands/exit_code.hpp"
 #include "bench/scenario/nearest.hpp"
+#include "dbc/logs/remarks.hpp"
 #include "dbc/version/version.hpp"
 #include "messages/canhil.hpp"
 
@@ -96,7 +97,10 @@ int guarded(const std::function<int()>& run) {
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   try {
-    return command_line::finish("hil-bench", run());
+    const LogRemarks remarks;
+    const int code = run();
+    for (const std::string& line : remarks.lines()) say(line);
+    return command_line::finish("hil-bench", code);
   } catch (const std::exception& error) {
     return static_cast<int>(complain({error.what()}));
   }

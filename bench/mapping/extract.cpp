@@ -59,7 +59,7 @@ class Group {
         if (source.measurand == nullptr) continue;
         const double si = values_[i][play_.messages[i].of.number(*source.signal)] / source.factor;
         const bool rate = source.measurand->over == sensors::Over::rate;
-        to.csv += fmt::format(",{:.12g}", rate ? si : si / nodes::carrier(*source.measurand).factor);
+        to.csv += fmt::format(",{}", rate ? si : si / nodes::carrier(*source.measurand).factor);
       }
     }
     to.csv += '\n';
@@ -100,7 +100,6 @@ Result<Extracted> extract(const Mapping& mapping, std::string_view name, const s
     if (!*entry) break;
     group.take(**entry, extracted);
   }
-  extracted.remarks = reader->remarks();
   if (extracted.rows == 0)
     return failure(fmt::format("{}: has no whole group of {}, expected a recording of {}", log, name,
                                to_text(mapping.files)));

@@ -11,8 +11,7 @@ namespace canhil::mapping {
 struct Extracted {
   std::string csv;
   std::size_t rows = 0;
-  std::size_t incomplete = 0;          ///< groups left out: a message is missing or its protection fails
-  std::vector<std::string> remarks{};  ///< see LogReader::remarks()
+  std::size_t incomplete = 0;  ///< groups left out: a message is missing or its protection fails
 };
 
 /// Extracts the transmissions of a play from a log, with one row for each transmission. t_s is the

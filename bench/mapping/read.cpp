@@ -144,8 +144,8 @@ class Reader {
                      "each message once, or each page of a multiplexed message that the bench sends");
     // dbc::parse_leniently() accepts any size, because DBC files also describe what transport protocols
     // carry.
-    if (!message.fast_packet &&
-        (message.size > 64 || !size_has_dlc(static_cast<std::uint8_t>(message.size), true)))
+    if (!message.fast_packet && (message.j1939_transport() || message.size > 64 ||
+                                 !size_has_dlc(static_cast<std::uint8_t>(message.size), true)))
       section.reject(
           key, fmt::format("{} has {} bytes, which no frame has", message.name, message.size),
           "a message of one frame, or a fast packet of NMEA 2000: a mapping knows no ISO-TP and no "

@@ -32,7 +32,7 @@ std::string content_of(const Frame& frame) {
   return content;
 }
 
-Result<std::vector<Stamped>> read_all(const std::string& log, std::vector<std::string>& remarks) {
+Result<std::vector<Stamped>> read_all(const std::string& log) {
   auto reader = LogReader::open(log);
   if (!reader) return tl::unexpected(reader.error());
   std::vector<Stamped> frames;
@@ -42,7 +42,6 @@ Result<std::vector<Stamped>> read_all(const std::string& log, std::vector<std::s
     if (!*entry) break;
     if (!(*entry)->frame.error) frames.push_back({(*entry)->t_ns, (*entry)->frame});
   }
-  std::ranges::copy(reader->remarks(), std::back_inserter(remarks));
   if (frames.empty()) return failure(fmt::format("{}: no frame, expected a recording", log));
   std::ranges::stable_sort(frames, {}, &Stamped::t_ns);
   return frames;
@@ -101,9 +100,9 @@ class Collected {
 
 Result<StampsCompared> compare_stamps(const std::string& log_a, const std::string& log_b) {
   StampsCompared compared;
-  const auto a = read_all(log_a, compared.remarks);
+  const auto a = read_all(log_a);
   if (!a) return tl::unexpected(a.error());
-  const auto b = read_all(log_b, compared.remarks);
+  const auto b = read_all(log_b);
   if (!b) return tl::unexpected(b.error());
 
   std::map<std::pair<std::uint32_t, bool>, Collected> messages;

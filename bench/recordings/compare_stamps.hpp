@@ -25,7 +25,6 @@ struct StampsCompared {
   StampDifference all;
   /// The number of frames of one log that were recorded while the other log did not record.
   std::uint64_t outside = 0;
-  std::vector<std::string> remarks{};  ///< see LogReader::remarks(); of both logs
 };
 
 /// Two frames count as the same one if they have the same id and content and their stamps, corrected for the

@@ -11,22 +11,22 @@
 namespace canhil::recordings {
 namespace {
 
-Result<Converted> copy(LogReader& reader, LogWriter& writer) {
-  Converted converted;
-  for (;; ++converted.frames) {
+Result<std::uint64_t> copy(LogReader& reader, LogWriter& writer) {
+  for (std::uint64_t frames = 0;; ++frames) {
     const auto entry = reader.next();
     if (!entry) return tl::unexpected(entry.error());
-    if (!*entry) break;
-    writer.write(**entry);
+    if (*entry) {
+      writer.write(**entry);
+      continue;
+    }
+    if (auto closed = writer.close(); !closed) return tl::unexpected(closed.error());
+    return frames;
   }
-  if (auto closed = writer.close(); !closed) return tl::unexpected(closed.error());
-  converted.remarks = reader.remarks();
-  return converted;
 }
 
 }  // namespace
 
-Result<Converted> convert(const std::string& from, const std::string& to, LogFormat format) {
+Result<std::uint64_t> convert(const std::string& from, const std::string& to, LogFormat format) {
   auto reader = LogReader::open(from, RemoteFrames::kept);
   if (!reader) return tl::unexpected(reader.error());
   auto file = OutputFile::create(to);

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <iterator>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "bench/recordings/message_finder.hpp"
 #include "dbc/logs/log.hpp"
 #include "dbc/transport/fast_packet.hpp"
+#include "dbc/transport/j1939.hpp"
 
 namespace canhil::recordings {
 namespace {
@@ -33,8 +34,32 @@ class Decoder {
 
   void take(const LogEntry& entry) {
     if (!first_ns_) first_ns_ = options_.since_1970 ? 0 : entry.t_ns;
+    const bool carries = finder_.any_group() && transport::J1939Receiver::carries(entry.frame);
+    const auto found = finder_.find(entry.frame);
+    // The DBC may also have the frames of the transport protocol as messages.
+    if (!carries || found.match == MessageFinder::Match::found) take(entry, found, entry.frame.payload());
+    if (!carries) return;
+    if (const auto whole = transports_[entry.interface].take(entry.frame)) {
+      LogEntry of = entry;
+      of.frame = {.id = whole->id, .extended = true};
+      take(of, finder_.find(of.frame), whole->bytes);
+    }
+  }
+  LeftOut finish() {
+    writer_->finish();
+    for (const auto& [id, receiver] : fast_packets_)
+      left_out_.incomplete += receiver.lost() + receiver.open();
+    for (const auto& [interface, receiver] : transports_)
+      left_out_.incomplete += receiver.lost() + receiver.open();
+    return std::move(left_out_);
+  }
+  [[nodiscard]] bool any_group() const { return finder_.any_group(); }
+
+ private:
+  // `bytes`: of the frame, or of a message that J1939 sent in several frames.
+  void take(const LogEntry& entry, const MessageFinder::Found& found, std::span<const std::uint8_t> bytes) {
     const Frame& frame = entry.frame;
-    const auto [match, message, is_group] = finder_.find(frame);
+    const auto [match, message, is_group] = found;
     if (match == MessageFinder::Match::none) {
       ++left_out_.frames;
       left_out_.ids.insert(frame.error ? "error frames" : id_text(frame));
@@ -42,9 +67,8 @@ class Decoder {
       ++left_out_.ambiguous;
       left_out_.ambiguous_ids.insert(id_text(frame));
     } else if (is_selected(*message)) {
-      std::span<const std::uint8_t> bytes = frame.payload();
       if (message->fast_packet && !frame.fd) {
-        const auto whole = fast_packets_[frame.id].take(bytes);
+        const auto whole = fast_packets_[{entry.interface, frame.id}].take(bytes);
         if (!whole) return;
         bytes = *whole;
       }
@@ -57,16 +81,6 @@ class Decoder {
           {.entry = entry, .message = *message, .is_group = is_group, .t_s = t_s, .values = values});
     }
   }
-  LeftOut finish() {
-    writer_->finish();
-    std::uint64_t lost = 0;
-    for (const auto& [id, receiver] : fast_packets_) lost += receiver.lost();
-    if (lost > 0) left_out_.remarks.push_back(fmt::format("{} fast packets lack a frame", lost));
-    return std::move(left_out_);
-  }
-  [[nodiscard]] bool any_group() const { return finder_.any_group(); }
-
- private:
   static std::string id_text(const Frame& frame) {
     return fmt::format("{:0{}X}", frame.id, frame.extended ? 8 : 3);
   }
@@ -77,7 +91,9 @@ class Decoder {
   const DecodeOptions& options_;
   MessageFinder finder_;
   FrameDecoder decoder_;
-  std::map<std::uint32_t, transport::FastPacketReceiver> fast_packets_;  // by id
+  std::map<std::pair<std::string, std::uint32_t>, transport::FastPacketReceiver>
+      fast_packets_;                                            // by interface and id
+  std::map<std::string, transport::J1939Receiver> transports_;  // by interface
   std::unique_ptr<LineWriter> writer_;
   std::optional<std::int64_t> first_ns_;  // the time that is written as 0
   LeftOut left_out_;
@@ -99,13 +115,8 @@ Result<LeftOut> decode(const std::string& log, const dbc::Database& database, co
   for (;;) {
     const auto entry = reader->next();
     if (!entry) return tl::unexpected(entry.error());
-    if (*entry) {
-      decoder.take(**entry);
-      continue;
-    }
-    LeftOut left_out = decoder.finish();
-    std::ranges::copy(reader->remarks(), std::back_inserter(left_out.remarks));
-    return left_out;
+    if (!*entry) return decoder.finish();
+    decoder.take(**entry);
   }
 }
 

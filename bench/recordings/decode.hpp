@@ -27,7 +27,7 @@ struct LeftOut {
   std::set<std::string> ambiguous_ids{};
   std::uint64_t short_frames = 0;  ///< frames that lack signals, because they are shorter than their message
   std::uint64_t missing = 0;       ///< the signals that these frames lack
-  std::vector<std::string> remarks{};  ///< what of the log was not read
+  std::uint64_t incomplete = 0;    ///< messages of several frames that lack a frame
 };
 
 /// Decodes a log and passes the resulting text to `give`, part by part. Numbers are in the units of the

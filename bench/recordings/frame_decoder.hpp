@@ -1,6 +1,8 @@
 // Decodes single frames for output: the values as text, and the signals that a short frame lacks.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -11,6 +13,7 @@
 #include "dbc/parser/database.hpp"
 #include "dbc/parser/decimal.hpp"
 #include "dbc/parser/plan.hpp"
+#include "dbc/transport/j1939.hpp"
 
 namespace canhil::recordings {
 
@@ -27,8 +30,8 @@ struct SignalValue {
 /// are missing. Signals that the multiplexors do not select, or whose multiplexor is missing, are left out.
 class FrameDecoder {
  public:
-  /// Decodes the bytes of a frame, or of a fast packet, of `message`, which must outlive this object. The
-  /// values are in the order of the DBC.
+  /// Decodes the bytes of a frame, or of several frames put together, of `message`, which must outlive this
+  /// object. The values are in the order of the DBC.
   std::vector<SignalValue> decode(const dbc::Message& message, std::span<const std::uint8_t> bytes);
 
  private:
@@ -44,6 +47,8 @@ class FrameDecoder {
     std::vector<Step> steps;
   };
   std::map<const dbc::Message*, Layout> layouts_;
+  std::array<std::uint8_t, transport::most_j1939_bytes> data_{};  // the message, then zeros
+  std::size_t used_ = 0;
 };
 
 }  // namespace canhil::recordings

@@ -66,7 +66,6 @@ class Replay {
       if (!wait_until(start_ns + std::llround(since_ns))) return {};
       if (auto sent = send(*port, (*entry)->frame, start_ns + std::llround(since_ns)); !sent) return sent;
     }
-    done_.remarks = reader->remarks();
     return {};
   }
 

@@ -31,9 +31,8 @@ struct ReplayBus {
 
 struct Replayed {
   std::uint64_t frames = 0;
-  std::uint64_t loops = 0;             ///< number of repetitions that have begun
-  checks::Histogram lateness{};        ///< transmission time minus deadline, for each frame
-  std::vector<std::string> remarks{};  ///< see LogReader::remarks()
+  std::uint64_t loops = 0;       ///< number of repetitions that have begun
+  checks::Histogram lateness{};  ///< transmission time minus deadline, for each frame
 };
 
 /// The interfaces of the frames that the options select, in the order of their first frames. Returns an error

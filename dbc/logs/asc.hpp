@@ -38,6 +38,12 @@ class AscParser {
   Result<Parsed> event();
   Result<Parsed> classic(Rest words, LogEntry entry) const;
   Result<Parsed> fd(Rest words, LogEntry entry) const;
+  // The columns of a frame of CAN FD: the place of BRS, and the values of DLC and SIZE.
+  struct FdColumns {
+    std::size_t flags_at = 0;
+    std::optional<std::size_t> dlc{}, size{};
+  };
+  static FdColumns after_name(Rest words);
   Result<void> read_fd(Rest words, LogEntry& entry) const;
   Result<void> read_fd_of_old_tools(Rest words, LogEntry& entry) const;
   Result<void> read_data(Rest words, std::size_t size, Frame& frame) const;

@@ -75,23 +75,31 @@ Result<Parsed> AscParser::classic(Rest words, LogEntry entry) const {
   return Parsed{.entry = std::move(entry)};
 }
 
+// Finds the columns BRS ESI DLC SIZE after a name, which may have blanks.
+AscParser::FdColumns AscParser::after_name(Rest words) {
+  constexpr std::size_t most_words_of_name = 8;
+  const auto is_flag = [](std::string_view word) { return word == "0" || word == "1"; };
+  for (std::size_t at = 0; at <= most_words_of_name && at + 3 < words.size(); ++at) {
+    if (!is_flag(words[at]) || !is_flag(words[at + 1])) continue;
+    const auto dlc = number_of<std::size_t>(words[at + 2], 16), size = number_of<std::size_t>(words[at + 3]);
+    if (dlc && size) return {at, dlc, size};
+  }
+  return {};
+}
+
 // DIRECTION ID [NAME] BRS ESI DLC SIZE BYTES... DURATION LENGTH FLAGS... The flags state whether the frame is
 // one of CAN FD: tools write classic frames in this form too. Without flags it is one of CAN FD.
 Result<void> AscParser::read_fd(Rest words, LogEntry& entry) const {
   Frame& frame = entry.frame;
   entry.transmitted = same(words[0], "tx");
   if (!read_id(words[1], frame)) return failure("an id");
-  const auto is_flag = [](std::string_view word) { return word == "0" || word == "1"; };
-  std::size_t at = 2;
-  if (words.size() > at + 1 && !(is_flag(words[at]) && is_flag(words[at + 1]))) ++at;
-  const auto dlc = words.size() > at + 3 ? number_of<std::size_t>(words[at + 2], 16) : std::nullopt;
-  const auto size = words.size() > at + 3 ? number_of<std::size_t>(words[at + 3]) : std::nullopt;
-  if (!size || !dlc || !is_flag(words[at]) || !is_flag(words[at + 1]))
-    return failure("BRS, ESI, data length code and size");
+  const auto [flags_at, dlc, size] = after_name(words.subspan(2));
+  if (!size || !dlc) return failure("BRS, ESI, data length code and size");
+  const Rest columns = words.subspan(2 + flags_at);
   frame.fd = true;
-  frame.brs = words[at] == "1";
-  frame.esi = words[at + 1] == "1";
-  const Rest data = words.subspan(at + 4);
+  frame.brs = columns[0] == "1";
+  frame.esi = columns[1] == "1";
+  const Rest data = columns.subspan(4);
   if (data.size() > *size + 2) {
     const auto flags = number_of<std::uint32_t>(data[*size + 2], 16);
     const bool classic = flags && (*flags & AscFdFlags::fd) == 0 && *size <= 8;

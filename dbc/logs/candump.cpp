@@ -266,25 +266,36 @@ class CandumpSource final : public LogSource {
   Result<Parsed> parse(std::string_view text) {
     const std::size_t start = text.find_first_not_of(" \t");
     if (start == std::string_view::npos) return Parsed{};
+    if (text[start] == '\x1b') return coloured(text);
     if (text[start] != '(') {
       return Parsed{.left_out = is_frame_without_time(text)
                                     ? "frames without a time, expected the output of candump -L or -t a"
                                     : "lines that are not frames, such as comments"};
     }
     recognised_ = true;
-    if (text.find('#') == std::string_view::npos && text.find_first_of("[{") != std::string_view::npos)
+    // On the screen, the data may follow as characters, which may contain '#'.
+    const std::string_view before_data = text.substr(0, text.find('#'));
+    if (before_data.find('[') != std::string_view::npos || before_data.find('{') != std::string_view::npos)
       return on_screen(text);
     if (is_xl(text)) return Parsed{.left_out = "frames of CAN XL"};
     auto entry = parse_line(text, [&] { return lines_.where(); });
     if (!entry) return tl::unexpected(entry.error());
     return Parsed{.entry = std::move(*entry)};
   }
+  Result<Parsed> coloured(std::string_view text) {
+    std::string plain = without_colours(text);
+    if (plain.size() == text.size()) return Parsed{.left_out = "lines that are not frames, such as comments"};
+    kept_ = std::move(plain);
+    text_ = kept_;
+    return parse(text_);
+  }
   Result<Parsed> on_screen(std::string_view text) {
+    if (text.find("\x1b[") != std::string_view::npos) return coloured(text);
     if (screen_.times() == ScreenTimes::unknown && ScreenParser::has_short_time(text)) {
       std::string copied = std::string(text) + '\n';  // looking ahead invalidates the line
       const auto following = lines_.following();
       if (!following) return tl::unexpected(following.error());
-      screen_.decide_times(copied + std::string(*following));
+      screen_.decide_times(copied + without_colours(*following));
       text = text_ = kept_ = copied.substr(0, copied.size() - 1);
       const bool previous = screen_.times() == ScreenTimes::from_previous;
       remark(fmt::format("{}: times without a date are read as times since the {} frame (candump -t {})",

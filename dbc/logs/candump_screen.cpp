@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
 #include "dbc/logs/local_time.hpp"
 #include "dbc/wire/frame_rules.hpp"
 
@@ -42,6 +45,17 @@ std::optional<std::int64_t> local_date(std::string_view date, std::string_view c
 }
 
 }  // namespace
+
+std::string without_colours(std::string_view text) {
+  std::string plain;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text.substr(at).starts_with("\x1b["))
+      at = std::min(text.find_first_not_of("0123456789;", at + 2), text.size());  // the letter after them
+    else
+      plain += text[at];
+  }
+  return plain;
+}
 
 bool ScreenParser::has_short_time(std::string_view text) {
   const std::string_view stamp = stamp_of(text);
@@ -132,14 +146,29 @@ Result<Parsed> ScreenParser::frame(LogEntry entry) {
     entry.remote = true;
     return Parsed{.entry = std::move(entry)};
   }
-  if (words_.size() - at_ < frame.size) return failure(fmt::format("{} bytes of data", frame.size));
+  if (auto read = read_bytes(frame); !read) return tl::unexpected(read.error());
+  return Parsed{.entry = std::move(entry)};
+}
+
+Result<void> ScreenParser::read_bytes(Frame& frame) const {
+  constexpr char swap_mark = '`';
+  Words swapped;
+  std::span<const std::string_view> bytes = std::span(words_).subspan(at_);
+  if (!bytes.empty() && bytes[0].find(swap_mark) != std::string_view::npos) {
+    split(bytes[0], swapped, swap_mark);
+    std::ranges::reverse(swapped);
+    bytes = swapped;
+  }
+  if (bytes.size() < frame.size) return failure(fmt::format("{} bytes of data", frame.size));
   for (std::size_t i = 0; i < frame.size; ++i) {
-    const auto byte =
-        words_[at_ + i].size() == 2 ? number_of<std::uint8_t>(words_[at_ + i], 16) : std::nullopt;
-    if (!byte) return failure(fmt::format("a byte in place of '{}'", words_[at_ + i]));
+    const bool is_binary = bytes[i].size() == 8;
+    const auto byte = bytes[i].size() == 2 || is_binary
+                          ? number_of<std::uint8_t>(bytes[i], is_binary ? 2 : 16)
+                          : std::nullopt;
+    if (!byte) return failure(fmt::format("a byte in place of '{}'", bytes[i]));
     frame.data[i] = *byte;
   }
-  return Parsed{.entry = std::move(entry)};
+  return {};
 }
 
 }  // namespace canhil::logs

@@ -4,12 +4,15 @@
 //      (1436509052.249713)  vcan0  20000004   [8]  00 04 00 00 00 00 00 00   ERRORFRAME
 //      (1436509052.249713)  vcan0  125   [0]  remote request
 // The size of a CAN FD frame has two digits. With -x, direction, BRS and ESI precede the id. With -8, the
-// size is {B}, a data length code. The time is since 1970 (-t a), a local date (-t A), since the first frame
+// size is {B}, a data length code. With -i, a byte has eight binary digits; with -S, the bytes are one word
+// from the last to the first, as in 02`01; with -c, there are colours between the words. The time is since
+// 1970 (-t a), a local date (-t A), since the first frame
 // (-t z) or since the previous frame (-t d).
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "dbc/logs/formats.hpp"
@@ -19,6 +22,9 @@ namespace canhil::logs {
 
 /// How a time without a date counts.
 enum class ScreenTimes : std::uint8_t { unknown, from_first, from_previous };
+
+/// The text without the control sequences that select colours.
+std::string without_colours(std::string_view text);
 
 /// Parses the lines that candump prints on a screen.
 class ScreenParser {
@@ -37,6 +43,7 @@ class ScreenParser {
  private:
   std::optional<std::int64_t> read_time();
   Result<Parsed> frame(LogEntry entry);
+  [[nodiscard]] Result<void> read_bytes(Frame& frame) const;
 
   Words words_;
   std::size_t at_ = 0;  // the word that is read next

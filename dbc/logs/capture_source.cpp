@@ -62,10 +62,13 @@ class CaptureSource : public LogSource {
     if (!*whole) return at_packet("the file is cut, expected the rest of the packet");
     return true;
   }
-  // The frame in a packet; nullopt: it was left out.
+  // The frame in a packet, which had `whole_size` bytes on the wire; nullopt: it was left out.
   Result<std::optional<LogEntry>> entry_of(std::uint16_t link, std::span<const std::uint8_t> packet,
-                                           std::int64_t t_ns, const std::string& interface) {
+                                           std::size_t whole_size, std::int64_t t_ns,
+                                           const std::string& interface) {
     auto parsed = frame_of_packet(link, packet);
+    if (!parsed && packet.size() < whole_size)
+      parsed = Parsed{.left_out = "packets that the capture contains only in part (snap length)"};
     if (!parsed) return at_packet(parsed.error().message);
     if (!parsed->left_out.empty()) leave_out(parsed->left_out);
     if (!parsed->entry) return std::optional<LogEntry>();
@@ -95,13 +98,13 @@ class PcapSource final : public CaptureSource {
       if (!header) return tl::unexpected(header.error());
       if (!*header) return std::optional<LogEntry>();
       const std::int64_t t_ns = fields_.u32(bytes_, 0) * ns_per_s + fields_.u32(bytes_, 4) * unit_ns_;
-      const std::uint32_t size = fields_.u32(bytes_, 8);
+      const std::uint32_t size = fields_.u32(bytes_, 8), whole_size = fields_.u32(bytes_, 12);
       if (size > longest_packet)
         return at_packet(fmt::format("{} bytes, expected {} at most", size, longest_packet));
       const auto packet = read(size);
       if (!packet) return tl::unexpected(packet.error());
       if (!*packet) return at_packet("the file is cut, expected the rest of the packet");
-      auto entry = entry_of(link_, bytes_, t_ns, "can0");
+      auto entry = entry_of(link_, bytes_, whole_size, t_ns, "can0");
       if (!entry || *entry) return entry;
     }
   }
@@ -195,7 +198,8 @@ class PcapngSource final : public CaptureSource {
     const auto t_ns = time_of_stamp(interface, time);
     if (!t_ns) return at_packet("a time after the year 2262");
     const std::span<const std::uint8_t> all(bytes_);
-    auto entry = entry_of(interface.link, all.subspan(header_size, size), *t_ns, interface.name);
+    auto entry = entry_of(interface.link, all.subspan(header_size, size), fields_.u32(bytes_, 16), *t_ns,
+                          interface.name);
     if (entry && *entry && interface.link == socketcan) {
       const std::size_t padded = (header_size + size + 3) / 4 * 4;
       (*entry)->transmitted = is_outbound(all.subspan(std::min(padded, all.size())));

@@ -36,20 +36,30 @@ bool is_trc(std::string_view text) {
   return after != std::string_view::npos && after > 0 && text[after] == ')';
 }
 
+// The header of SavvyCAN's CSV has these columns, in any order.
+constexpr std::size_t longest_csv_header = 512;
+bool is_csv(std::string_view text) {
+  std::string line(text.substr(0, text.find_first_of("\r\n")));
+  std::ranges::transform(line, line.begin(), lower);
+  line = ',' + line + ',';
+  return std::ranges::all_of(std::array{",time stamp,"sv, ",id,"sv, ",extended,"sv, ",bus,"sv},
+                             [&](std::string_view column) { return line.find(column) != std::string::npos; });
+}
+
 // The first bytes, or the first line if it is shorter: a reader of a pipe must not wait for a second line.
-Result<std::string_view> beginning_of(Input& input) {
+Result<std::string_view> beginning_of(Input& input, std::size_t size) {
   constexpr std::size_t longest_magic = 4;
-  for (std::size_t most = longest_magic; most < beginning_size; ++most) {
+  for (std::size_t most = longest_magic; most < size; ++most) {
     auto text = input.peek(most);
     if (!text || text->size() < most || text->find('\n') != std::string_view::npos) return text;
   }
-  return input.peek(beginning_size);
+  return input.peek(size);
 }
 
 }  // namespace
 
 Result<std::unique_ptr<LogSource>> source_of(Input input) {
-  const auto beginning = beginning_of(input);
+  const auto beginning = beginning_of(input, beginning_size);
   if (!beginning) return tl::unexpected(beginning.error());
   if (std::ranges::any_of(captures, [&](std::string_view magic) { return beginning->starts_with(magic); }))
     return capture_source(std::move(input));
@@ -59,7 +69,11 @@ Result<std::unique_ptr<LogSource>> source_of(Input input) {
   const std::string_view text = beginning->substr(start);
   if (is_trc(text)) return trc_source(std::move(input));
   if (begins_with(text, "time stamp,")) return csv_source(std::move(input));
-  return is_asc(text) ? asc_source(std::move(input)) : candump_source(std::move(input));
+  if (is_asc(text)) return asc_source(std::move(input));
+  if (text.find(',') == std::string_view::npos) return candump_source(std::move(input));
+  const auto header = beginning_of(input, longest_csv_header);
+  if (!header) return tl::unexpected(header.error());
+  return is_csv(*header) ? csv_source(std::move(input)) : candump_source(std::move(input));
 }
 
 }  // namespace canhil::logs

@@ -15,6 +15,7 @@
 
 #include "dbc/logs/foreign.hpp"
 #include "dbc/logs/formats.hpp"
+#include "dbc/logs/remarks.hpp"
 #include "dbc/logs/words.hpp"
 
 namespace canhil {
@@ -70,8 +71,12 @@ Result<LogFormat> log_format_of_file(const std::string& file) {
 
 void LogSource::leave_out(std::string_view reason) {
   auto found = std::ranges::find(left_out_, reason, &LeftOut::reason);
-  if (found == left_out_.end())
-    found = left_out_.insert(left_out_.end(), {.reason = std::string(reason), .first = last()});
+  if (found == left_out_.end()) {
+    constexpr std::size_t most_shown = 200;
+    std::string first = last();
+    if (first.size() > most_shown) first = first.substr(0, most_shown) + "...";
+    found = left_out_.insert(left_out_.end(), {.reason = std::string(reason), .first = std::move(first)});
+  }
   ++found->count;
 }
 
@@ -79,6 +84,12 @@ std::vector<std::string> LogSource::left_out() const {
   std::vector<std::string> all;
   for (const LeftOut& one : left_out_)
     all.push_back(fmt::format("{} left out: {}; the first is {}", one.count, one.reason, one.first));
+  return all;
+}
+
+std::uint64_t LogSource::left_out_count() const {
+  std::uint64_t all = 0;
+  for (const LeftOut& one : left_out_) all += one.count;
   return all;
 }
 
@@ -106,6 +117,11 @@ Result<void> LogWriter::close() {
   return {};
 }
 
+void LogReader::End::operator()(LogSource* source) const {
+  if (!refused) LogRemarks::hand_over(name, source->left_out_count(), source->remarks(name));
+  delete source;
+}
+
 Result<LogReader> LogReader::open(const std::string& path, RemoteFrames remote) {
   auto input = logs::Input::open(path, path);
   if (!input) return tl::unexpected(input.error());
@@ -126,13 +142,16 @@ Result<LogReader> LogReader::of_memory(std::string_view content, const std::stri
 Result<std::optional<LogEntry>> LogReader::next() {
   for (;;) {
     auto entry = source_->next();
+    if (!entry && !any_ && !source_->recognised()) source_.get_deleter().refused = true;
     if (!entry) return entry;
     if (!*entry) {
-      if (!any_ && source_->left_something_out() && !source_->recognised())
+      if (!any_ && source_->left_out_count() > 0 && !source_->recognised()) {
+        source_.get_deleter().refused = true;
         return failure(
             fmt::format("'{}': is not a log of CAN, expected candump, ASC, BLF, TRC, SavvyCAN's CSV, "
                         "pcap or pcapng: {}",
-                        name_, fmt::join(source_->left_out(), "; ")));
+                        name(), fmt::join(source_->left_out(), "; ")));
+      }
       return entry;
     }
     any_ = true;

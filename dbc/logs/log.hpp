@@ -76,8 +76,8 @@ class LogSource {
   [[nodiscard]] std::vector<std::string> remarks(const std::string& name) const;
   /// One line for each reason for which lines or records were left out.
   [[nodiscard]] std::vector<std::string> left_out() const;
-  /// Whether lines or records were left out.
-  [[nodiscard]] bool left_something_out() const { return !left_out_.empty(); }
+  /// How many lines and records were left out.
+  [[nodiscard]] std::uint64_t left_out_count() const;
 
  protected:
   /// Adds a remark about how the log was read.
@@ -119,7 +119,7 @@ class LogWriter {
 enum class RemoteFrames : std::uint8_t { left_out, kept };
 
 /// Reads a log, entry by entry. A malformed line is an error. Lines and records that are not frames of CAN or
-/// CAN FD are counted (remarks()).
+/// CAN FD are counted; a program says them by LogRemarks.
 class LogReader {
  public:
   /// Opens a log. The first bytes of the file determine the format. An error is one line; for a format that
@@ -134,15 +134,22 @@ class LogReader {
   Result<std::optional<LogEntry>> next();
   /// What has not been read so far, one line for each reason with the count and the first line or record; and
   /// what had to be assumed, such as a date that is not understood.
-  [[nodiscard]] std::vector<std::string> remarks() const { return source_->remarks(name_); }
+  [[nodiscard]] std::vector<std::string> remarks() const { return source_->remarks(name()); }
 
  private:
   friend class LogFile;
-  LogReader(std::unique_ptr<LogSource> source, std::string name, RemoteFrames remote)
-      : source_(std::move(source)), name_(std::move(name)), remote_(remote) {}
+  // Ends the reading of a log.
+  struct End {
+    std::string name;      // of the log
+    bool refused = false;  // the file is no log; an error says so
+    void operator()(LogSource* source) const;
+  };
 
-  std::unique_ptr<LogSource> source_;
-  std::string name_;
+  LogReader(std::unique_ptr<LogSource> source, std::string name, RemoteFrames remote)
+      : source_(source.release(), End{.name = std::move(name)}), remote_(remote) {}
+  [[nodiscard]] const std::string& name() const { return source_.get_deleter().name; }
+
+  std::unique_ptr<LogSource, End> source_;
   RemoteFrames remote_;
   bool any_ = false;  // true: an entry has been read
 };

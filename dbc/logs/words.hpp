@@ -23,9 +23,9 @@ constexpr bool same(std::string_view word, std::string_view lower_word) {
   return std::ranges::equal(word, lower_word, {}, lower);
 }
 
-/// Splits a text at blanks and tabs.
-inline void split(std::string_view text, Words& words) {
-  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+/// Splits a text at blanks, tabs and `mark`.
+inline void split(std::string_view text, Words& words, char mark = ' ') {
+  const auto is_blank = [mark](char c) { return c == ' ' || c == '\t' || c == mark; };
   words.clear();
   for (std::size_t at = 0; at < text.size();) {
     while (at < text.size() && is_blank(text[at])) ++at;

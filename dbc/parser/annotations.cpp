@@ -11,7 +11,7 @@ namespace {
 std::vector<ValueName> read_value_names(Reader& in, Draft& draft) {
   std::vector<ValueName> values;
   std::set<RawNumber> named;
-  while (!in.at_section_end()) {
+  const auto read_value_name = [&] {
     const Position at = in.peek().at;
     const RawNumber value = in.raw_number("';' or a value");
     std::string name = in.string("the name of the value");
@@ -21,7 +21,8 @@ std::vector<ValueName> read_value_names(Reader& in, Draft& draft) {
       draft.findings.add(Rule::duplicate_value, at,
                          fmt::format("value {} named a second time, expected every value once", value));
     }
-  }
+  };
+  while (!in.at_section_end()) in.entry(read_value_name, [&] { return in.peek().kind == TokenKind::number; });
   in.semicolon();
   return values;
 }
@@ -82,12 +83,15 @@ void read_variable(Reader& in, Draft& draft) {
   variable.initial = in.real("the initial value");
   in.natural("the number of the variable", UINT32_MAX);
   in.word("the access type DUMMY_NODE_VECTOR<number>");
-  do {
+  const auto read_node = [&] {
     const Position node_at = in.peek().at;
     std::string node = in.word("an access node");
-    if (node == nobody) continue;
+    if (node == nobody) return;
     check_node(draft, node, node_at);
     variable.nodes.push_back(std::move(node));
+  };
+  do {
+    in.entry(read_node, [&] { return in.at_mark(','); });
   } while (in.take_mark_if(','));
   in.semicolon();
   draft.variables.emplace(variable.name, variables.size());

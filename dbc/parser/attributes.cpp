@@ -112,8 +112,15 @@ AttributeValue read_value(Reader& in, Draft& draft, const AttributeDefinition& d
 void read_limits(Reader& in, Draft& draft, AttributeDefinition& definition, bool whole) {
   if (in.at_section_end()) return;
   const Position at = in.peek().at;
-  definition.minimum = whole ? static_cast<double>(in.whole("a minimum")) : in.limit("a minimum");
-  definition.maximum = whole ? static_cast<double>(in.whole("a maximum")) : in.limit("a maximum");
+  const auto limit = [&](std::string_view what) {
+    return whole ? static_cast<double>(in.whole(what)) : in.limit(what);
+  };
+  const auto read_both = [&] {
+    const double minimum = limit("a minimum");
+    definition.maximum = limit("a maximum");
+    definition.minimum = minimum;
+  };
+  in.entry(read_both, [] { return false; });
   if (definition.minimum > definition.maximum) {
     draft.findings.add(
         Rule::attribute_limits, at,
@@ -140,7 +147,9 @@ void read_type(Reader& in, Draft& draft, AttributeDefinition& definition) {
     definition.type = AttributeType::enumeration;
     in.take();
     do {
-      definition.labels.push_back(in.string("a label"));
+      std::string& label =
+          definition.labels.emplace_back();  // a malformed one is empty: others keep their number
+      in.entry([&] { label = in.string("a label"); }, [&] { return in.at_mark(','); });
     } while (in.take_mark_if(','));
   } else {
     in.fail("the type INT, HEX, FLOAT, STRING or ENUM");

@@ -129,6 +129,7 @@ void check_size(Findings& findings, Message& message) {
     message.fast_packet = true;
     return;
   }
+  if (message.j1939_transport()) return;
   if (!message.fd) {
     findings.add(Rule::fd_format_missing, message.at,
                  fmt::format("message {} has {} bytes, expected at most 8, or VFrameFormat StandardCAN_FD or "

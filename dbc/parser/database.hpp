@@ -151,6 +151,8 @@ struct Message {
   bool j1939 = false;
   bool fast_packet =
       false;  ///< NMEA 2000 sends the message in several classic frames (wire::is_fast_packet())
+  /// Whether SAE J1939-21 sends the message in several classic frames (transport::J1939Receiver).
+  [[nodiscard]] bool j1939_transport() const { return j1939 && !fd && !fast_packet && size > 8; }
   std::int64_t cycle_time_us = 0;
   std::uint16_t e2e_data_id = 0;
   std::string sample_group;

@@ -31,6 +31,7 @@ enum class Rule : std::uint8_t {
   text_encoding,
   independent_signals,
   unreadable_section,
+  unreadable_entry,
   unknown_section,
   missing_semicolon,
   line_comment,

@@ -42,14 +42,17 @@ bool names_no_node(const Reader& in) {
 // one line.
 void read_receivers(Reader& in, Draft& draft, Signal& signal) {
   Position at;
-  const auto follows = [&] { return in.take_mark_if(',') || (in.at_name() && in.peek().at.line == at.line); };
-  if (names_no_node(in)) return in.report(Rule::missing_node, "a receiver");
-  do {
+  const auto read_node = [&] {
     at = in.peek().at;
     std::string name = in.word("a receiver");
-    if (name == nobody) continue;
+    if (name == nobody) return;
     check_node(draft, name, at);
     signal.receivers.push_back(std::move(name));
+  };
+  const auto follows = [&] { return in.take_mark_if(',') || (in.at_name() && in.peek().at.line == at.line); };
+  do {
+    if (names_no_node(in)) return in.report(Rule::missing_node, "a receiver");
+    in.entry(read_node, [&] { return in.at_mark(',') || in.at_word("SG_"); });
   } while (follows());
 }
 
@@ -184,13 +187,15 @@ void read_transmitters(Reader& in, Draft& draft) {
   const Position at = in.peek().at;
   Message& message = message_of(draft, in.natural("a message id", UINT32_MAX), at);
   in.mark(':');
-  while (!in.at_section_end()) {
+  const auto read_node = [&] {
     const Position node_at = in.peek().at;
     const std::string node = in.word("';' or a sender");
-    if (node != nobody) {
-      check_node(draft, node, node_at);
-      if (node != message.sender) message.further_senders.push_back(node);
-    }
+    if (node == nobody) return;
+    check_node(draft, node, node_at);
+    if (node != message.sender) message.further_senders.push_back(node);
+  };
+  while (!in.at_section_end()) {
+    in.entry(read_node, [&] { return in.at_mark(',') || in.at_name(); });
     in.take_mark_if(',');
   }
   in.semicolon();
@@ -203,10 +208,14 @@ void read_signal_group(Reader& in, Draft& draft) {
   group.name = in.word("the name of the signal group");
   group.repetitions = static_cast<int>(in.natural("the repetitions", INT32_MAX));
   in.mark(':');
-  while (!in.at_section_end()) {
+  const auto read_name = [&] {
     const Position signal_at = in.peek().at;
-    group.signals.push_back(in.word("';' or a signal"));
-    signal_of(draft, message, group.signals.back(), signal_at);
+    std::string signal = in.word("';' or a signal");
+    signal_of(draft, message, signal, signal_at);
+    group.signals.push_back(std::move(signal));
+  };
+  while (!in.at_section_end()) {
+    in.entry(read_name, [&] { return in.at_mark(',') || in.at_name(); });
     in.take_mark_if(',');
   }
   in.semicolon();
@@ -258,7 +267,7 @@ void read_extended_mux(Reader& in, Draft& draft) {
     multiplexor.multiplexor = true;
   }
   std::vector<MuxRange> ranges;
-  do {
+  const auto read_range = [&] {
     const Position range_at = in.peek().at;
     MuxRange range;
     range.first = in.natural("a range first-last", UINT64_MAX);
@@ -275,10 +284,13 @@ void read_extended_mux(Reader& in, Draft& draft) {
           fmt::format("range {}-{} is empty, expected first <= last", range.first, range.last));
     }
     ranges.push_back(range);
+  };
+  do {
+    in.entry(read_range, [&] { return in.at_mark(','); });
   } while (in.take_mark_if(','));
   in.semicolon();
   signal.multiplexed_by = multiplexor.name;
-  signal.mux_ranges = std::move(ranges);
+  if (!ranges.empty()) signal.mux_ranges = std::move(ranges);
 }
 
 }  // namespace canhil::dbc

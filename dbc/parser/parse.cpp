@@ -35,18 +35,20 @@ void read_bit_timing(Reader& in, Draft& /*draft*/) {
 void read_nodes(Reader& in, Draft& draft) {
   in.mark(':');
   auto& nodes = draft.database.nodes;
-  while (in.at_name()) {
+  const auto read_node = [&] {
     const Position at = in.peek().at;
     const std::string name = in.word("a node");
     if (draft.nodes.contains(name)) {
-      draft.findings.add(Rule::duplicate_node, at,
-                         fmt::format("node '{}' a second time, expected every node once", name));
-      continue;
+      fail_at(Rule::duplicate_node, at,
+              fmt::format("node '{}' a second time, expected every node once", name));
     }
-    if (name == nobody) continue;
+    if (name == nobody) return;
     draft.nodes.emplace(name, nodes.size());
     nodes.push_back({.name = name, .comment = {}, .attributes = {}, .at = at});
-  }
+  };
+  const auto is_keyword_next = [&] { return in.peek().kind == TokenKind::word && !in.at_name(); };
+  while (!in.at_section_end() && !is_keyword_next())
+    in.entry(read_node, [&] { return in.at_name() || is_keyword_next(); });
 }
 
 struct Section {
@@ -169,8 +171,8 @@ Reading read(std::string_view text, Findings findings, StringEnd end) {
 
 /// The number of sections, messages and signals that could not be read.
 std::ptrdiff_t unread(const Inspection& inspection) {
-  constexpr std::array rules{Rule::unreadable_section, Rule::unreadable_message, Rule::unreadable_signal,
-                             Rule::unknown_section, Rule::not_a_dbc};
+  constexpr std::array rules{Rule::unreadable_section, Rule::unreadable_entry, Rule::unreadable_message,
+                             Rule::unreadable_signal,  Rule::unknown_section,  Rule::not_a_dbc};
   return std::ranges::count_if(inspection.findings, [&](const Finding& finding) {
     return std::ranges::find(rules, finding.rule) != rules.end();
   });

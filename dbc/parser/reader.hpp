@@ -59,6 +59,21 @@ class Reader {
   /// Reads the upper end of a range such as "3-5", and returns 5. The lexer reads the "-5" as one number.
   std::uint64_t natural_after_minus(std::string_view what);
 
+  /// Reads an entry of a list with `read`. If the entry is malformed, adds a finding and skips the tokens
+  /// before the next one for which `begins` is true, or before the end of the section: a typing error in one
+  /// entry does not cost the others.
+  template <class Read, class Begins>
+  void entry(const Read& read, const Begins& begins) {
+    const std::size_t first = index_;
+    try {
+      return read();
+    } catch (const SectionFailure& failure) {
+      const bool malformed = failure.rule == Rule::unreadable_section;
+      findings_.add(malformed ? Rule::unreadable_entry : failure.rule, failure.at, failure.what);
+    }
+    if (index_ == first && !at_section_end() && !at_mark(',')) take();
+    while (!at_section_end() && !begins()) take();
+  }
   /// Throws SectionFailure: the next token is unexpected, and the rest of the section is not read.
   [[noreturn]] void fail(const std::string& expected) const;
   /// Adds a finding that the next token is unexpected. The reading of the section continues.

@@ -36,6 +36,8 @@ class FastPacketReceiver {
   std::optional<std::span<const std::uint8_t>> take(std::span<const std::uint8_t> frame);
   /// The number of messages that began but were not completed, or of which the first frame did not come.
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
+  /// The number of messages that have begun and are not complete yet.
+  [[nodiscard]] std::uint64_t open() const { return next_ != 0 ? 1 : 0; }
 
  private:
   void lose(unsigned sequence);

@@ -14,7 +14,7 @@ constexpr Routes from_target_route([](const MessageInfo& info) {
 bool from_target(const Frame& frame) { return from_target_route(frame) != Routes::nowhere; }
 
 // Reads the whole log, so that a malformed line is an error before anything is written. A log without frames
-// for the target is an error too: it is not the recording of a run. Says what of the log is not read.
+// for the target is an error too: it is not the recording of a run.
 Result<void> check(const LogFile& log) {
   const std::string& log_path = log.name();
   auto reader = log.read();
@@ -27,8 +27,6 @@ Result<void> check(const LogFile& log) {
     empty = false;
     unheard = unheard && from_target((*next)->frame);
   }
-  for (const std::string& remark : reader->remarks())
-    std::fprintf(stderr, "hil-target: %s\n", remark.c_str());
   if (empty) return failure(log_path + ": holds no frames, expected the log of a run");
   if (unheard) return failure(log_path + ": holds only frames of the target, expected the log of a run");
   return {};

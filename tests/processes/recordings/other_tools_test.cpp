@@ -70,6 +70,26 @@ TEST(Convert, SaysWhatItLeavesOut) {
   EXPECT_THAT(ended.err, HasSubstr("1 left out: frames of CAN XL; the first is"));
 }
 
+// Every command that reads a log says what it did not read, once.
+TEST(Log, WhatIsLeftOutIsSaidByEveryCommand) {
+  const std::string log = scratch("commented.log"), own = scenario("los_quick");
+  hil_bench(fmt::format("run {} --lockstep --log {}", own, scratch("whole.log")));
+  std::ofstream(log) << "# engine off\n" << read(scratch("whole.log")) << "# engine on\n";
+  const std::string of_log =
+      "log '" + log + "': 2 left out: lines that are not frames, such as comments; the first is";
+  for (const std::string& command :
+       {fmt::format("check {} {}", log, own), fmt::format("diverge {} {}", log, scratch("whole.log")),
+        fmt::format("log compare {} {}", log, scratch("whole.log")),
+        fmt::format("decode {} --dbc {}", log, dbc())}) {
+    const Ended ended = hil_bench(command);
+    EXPECT_NE(ended.code, 2) << command << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("hil-bench: " + of_log)) << command;
+    EXPECT_EQ(ended.err.find("such as comments"), ended.err.rfind("such as comments")) << command;
+  }
+  for (const std::string& option : {"--replay " + log, "--bus log:" + log})
+    EXPECT_THAT(hil_target(option).err, HasSubstr("hil-target: " + of_log)) << option;
+}
+
 TEST(Convert, ChoosesTheFormatByOptionOrEnding) {
   const std::string log = file("for_formats.log", frame);
   EXPECT_EQ(hil_bench(fmt::format("log convert {} {} --format asc", log, scratch("named.xyz"))).code, 0);

@@ -30,6 +30,8 @@ def main(what, source, *rest):
     elif what == "copy":
         with can.Logger(rest[0]) as logger:
             for message in frames(source):
+                if rest[0].endswith(".trc"):
+                    message.channel = 1  # python-can writes only numbers
                 logger(message)
     else:
         database = canmatrix.formats.loadp_flat(rest[0])

@@ -1,8 +1,10 @@
 // Long logs with frames of all kinds, converted between the formats by hil-bench and by other programs:
-// python-can, tshark and editcap, log2asc and asc2log.
+// python-can, tshark and editcap, log2asc, asc2log and log2long. No program of Debian writes the CSV of
+// SavvyCAN.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -182,6 +184,57 @@ TEST(RoundTrip, CanUtilsReadAndWriteOurLogs) {
   // asc2log needs the locale de_DE to understand the date; without it, the times count from the present.
   run(fmt::format("asc2log -I {} -O {} 2>/dev/null", converted(all(), "a.asc"), scratch("asc2log.log")));
   expect_same(seen_in(scratch("asc2log.log")), expected, {.relative = true});
+}
+
+// log2long writes what candump shows on the screen. This has neither BRS nor ESI.
+TEST(RoundTrip, WeReadWhatCandumpShows) {
+  run(fmt::format("log2long <{} >{}", all(), scratch("long.log")));
+  const auto without_flags = [](std::string frame) {
+    const std::size_t flags = frame.find(' ') + 1, end = frame.find(' ', flags);
+    if (frame == "error") return frame;
+    std::string kept = frame.substr(flags, end - flags);
+    std::erase_if(kept, [](char flag) { return flag == 'b' || flag == 's'; });
+    return frame.replace(flags, end - flags, kept);
+  };
+  expect_same(seen_in(scratch("long.log")), seen_in(all()), {.change = without_flags});
+}
+
+// The frames of classic CAN that carry data: python-can writes no others into a TRC log, and SavvyCAN's CSV
+// has neither remote frames nor error frames.
+const std::string& classic_data() {
+  static const std::string path = [] {
+    std::ofstream file(scratch("classic.log"));
+    auto reader = LogReader::open(all());
+    for (auto entry = reader->next(); entry && *entry; entry = reader->next()) {
+      if (!(*entry)->frame.fd && !(*entry)->frame.error) file << format_log_line(**entry) << '\n';
+    }
+    return scratch("classic.log");
+  }();
+  return path;
+}
+
+TEST(RoundTrip, WeReadTheTrcOfPythonCan) {
+  run(fmt::format("/usr/bin/python3 {}/tests/processes/recordings/others.py copy {} {}", SOURCE_DIR,
+                  classic_data(), scratch("python.trc")));
+  const Log expected = seen_in(classic_data());
+  ASSERT_GT(expected.size(), frames / 4);
+  expect_same(seen_in(scratch("python.trc")), expected, {.tolerance_us = 1, .relative = true});
+}
+
+TEST(RoundTrip, WeReadTheCsvOfSavvyCan) {
+  std::ofstream file(scratch("savvy.csv"));
+  file << "Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\n";
+  auto reader = LogReader::open(classic_data());
+  ASSERT_TRUE(reader);
+  for (auto entry = reader->next(); entry && *entry; entry = reader->next()) {
+    const Frame& frame = (*entry)->frame;
+    file << fmt::format("{},{:08X},{},{},{},{},", (*entry)->t_ns / 1000, frame.id, frame.extended,
+                        (*entry)->transmitted ? "Tx" : "Rx", (*entry)->interface.back(), frame.size);
+    for (const std::uint8_t byte : frame.payload()) file << fmt::format("{:02X},", byte);
+    file << '\n';
+  }
+  file.close();
+  EXPECT_EQ(read(converted(scratch("savvy.csv"), "of_csv.log")), read(classic_data()));
 }
 
 TEST(RoundTrip, TsharkReadsAndEditcapWritesOurCaptures) {

@@ -1,10 +1,13 @@
 // Decoding of logs: frames that are shorter or longer than their message, J1939, and the output formats.
 #include "bench/recordings/decode.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "dbc/parser/parse.hpp"
 #include "tests/own_folder.hpp"
@@ -158,6 +161,61 @@ TEST(J1939, TheTableHasTheAddresses) {
                 .text,
             "t_s,bus,source,destination,CCVS1.Speed,TSC1.Torque,Standard.s\n"
             "0.000000,can0,0,,16,,\n1.000000,can0,3,11,,3,\n2.000000,can0,,,,,7\n");
+}
+
+// PGN 65259 (component identification) has up to 39 bytes, which node 0x17 sends to all nodes (BAM).
+constexpr const char* component_dbc = R"(BU_: A
+BO_ 2566843390 ComponentId: 39 A
+ SG_ first : 0|8@1+ (1,0) [0|0] "" A
+ SG_ last : 304|8@1+ (1,0) [0|0] "" A
+BA_DEF_ "ProtocolType" STRING ;
+BA_ "ProtocolType" "J1939";
+)";
+std::string component_log(std::size_t missing = 0) {
+  std::string log = "(1.000000) can0 18ECFF17#20270006FFEBFE00\n";
+  for (std::size_t i = 1; i <= 6; ++i)
+    if (i != missing) log += fmt::format("(1.{}00000) can0 18EBFF17#0{}4142434445464{}\n", i, i, i);
+  return log;
+}
+
+TEST(J1939, PutsMessagesOfSeveralFramesTogether) {
+  const Decoded whole = decoded(component_dbc, component_log());
+  EXPECT_EQ(whole.text, "    0.600000  can0 R from 23 ComponentId: first=65 last=68\n");
+  EXPECT_EQ(whole.left_out.frames, 0U);
+  EXPECT_EQ(whole.left_out.incomplete, 0U);
+  for (std::size_t missing = 1; missing <= 6; ++missing) {
+    const Decoded lacking = decoded(component_dbc, component_log(missing));
+    EXPECT_EQ(lacking.text, "") << missing;
+    EXPECT_EQ(lacking.left_out.incomplete, 1U) << missing;
+  }
+}
+
+TEST(J1939, MessageOfSeveralFramesThatTheDbcLacksIsLeftOut) {
+  const Decoded other = decoded(marked, component_log());
+  EXPECT_EQ(other.text, "");
+  EXPECT_EQ(other.left_out.ids, std::set<std::string>{"18FEEB17"});
+  EXPECT_EQ(other.left_out.frames, 1U);
+}
+
+TEST(J1939, FramesOfTheTransportProtocolMayBeMessagesToo) {
+  const std::string both =
+      std::string(component_dbc) + "BO_ 2565668862 TPCM: 8 A\n SG_ control : 0|8@1+ (1,0) [0|0] \"\" A\n";
+  EXPECT_EQ(decoded(both, component_log()).text,
+            "    0.000000  can0 R from 23 to 255 TPCM: control=32\n"
+            "    0.600000  can0 R from 23 ComponentId: first=65 last=68\n");
+}
+
+// A gateway sends the message on two buses; the frames come alternately.
+TEST(J1939, MessagesOfTwoInterfacesAreNotMixed) {
+  std::string both, line;
+  std::istringstream log(component_log());
+  while (std::getline(log, line)) {
+    both += line + "\n";
+    both += line.replace(line.find("can0"), 4, "can1") + "\n";
+  }
+  const Decoded whole = decoded(component_dbc, both);
+  EXPECT_EQ(whole.left_out.incomplete, 0U);
+  EXPECT_EQ(std::ranges::count(whole.text, '\n'), 2);
 }
 
 TEST(J1939, OptionWithoutExtendedIdsIsAnError) {

@@ -33,6 +33,13 @@ TEST(Asc, ReadsClassicFramesInEventsOfCanFd) {
                   "(0.300000) can0 125##70506 R", "(0.400000) can0 00000126##4 R"));
 }
 
+TEST(Asc, NameOfAFrameOfCanFdMayHaveBlanks) {
+  EXPECT_THAT(
+      lines_of_events("0.1 CANFD 1 Rx 123 \"Engine 1 Data\" 1 0 9 12 00 01 02 03 04 05 06 07 08 09 0A 0B\n"
+                      "0.2 CANFD 1 Rx 123 Engine Data 1 1 1 1 05\n"),
+      ElementsAre("(0.100000) can0 123##5000102030405060708090A0B R", "(0.200000) can0 123##705 R"));
+}
+
 TEST(Asc, ReadsTheColumnsOfOldTools) {
   EXPECT_THAT(
       lines_of_events(

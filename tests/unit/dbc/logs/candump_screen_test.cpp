@@ -29,6 +29,24 @@ TEST(CandumpScreen, IsRead) {
                   "(1436509052.289714) can1 128# R"));
 }
 
+// Options -i (binary digits), -S (bytes from the last to the first), -c and -cc (colours).
+TEST(CandumpScreen, OfOtherViewsIsRead) {
+  EXPECT_THAT(read_log(" (1436509052.249713)  can0  123   [2]  00000101 11111111\n"
+                       " (1436509052.249713)  can0  123   [3]  03`02`01   '.'\n"
+                       " (1436509052.249713)  can0  123   [2]  00000110`00000101\n"
+                       " (1436509052.249713)  can0  123   [1]  05\n"
+                       " (1436509052.249713)  \x1b[31mcan0  123   [2]  05 06\x1b[0m\n"
+                       " \x1b[1m\x1b[34m(1436509052.249713)  can0  123   [2]  05 07\x1b[0m\n")
+                  .lines,
+              ElementsAre("(1436509052.249713) can0 123#05FF R", "(1436509052.249713) can0 123#010203 R",
+                          "(1436509052.249713) can0 123#0506 R", "(1436509052.249713) can0 123#05 R",
+                          "(1436509052.249713) can0 123#0506 R", "(1436509052.249713) can0 123#0507 R"));
+  EXPECT_THAT(read_log(" (1436509052.249713)  can0  123   [2]  20 23   ' #'\n").lines,
+              ElementsAre("(1436509052.249713) can0 123#2023 R"));
+  EXPECT_EQ(read_log(" (1436509052.249713)  can0  123   [3]  02`01\n").error,
+            "log:1: expected 3 bytes of data");
+}
+
 TEST(CandumpScreen, TimesCountFromTheFirstFrame) {
   const auto read = read_log(
       " (000.000000)  vcan0  123   [1]  05\n (000.500000)  vcan0  123   [1]  06\n"

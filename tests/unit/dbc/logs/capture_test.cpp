@@ -50,6 +50,16 @@ TEST(Capture, OfSocketCanIsRead) {
       << "by the size of the packet, as an old kernel sets no flag";
 }
 
+TEST(Capture, PacketsInPartAreLeftOut) {
+  std::string file = pcap(227, {classic_packet.substr(0, 9), classic_packet});
+  constexpr std::size_t size_on_the_wire = 24 + 12;
+  file[size_on_the_wire] = 10;
+  const auto read = read_log(file);
+  EXPECT_THAT(read.lines, ElementsAre("(2.500000) can0 123#AABB R"));
+  EXPECT_THAT(read.remarks,
+              ElementsAre(HasSubstr("1 left out: packets that the capture contains only in part")));
+}
+
 TEST(Capture, OfAllInterfacesIsRead) {
   EXPECT_THAT(read_log(pcap(113, {sll(1, 0x0C, classic_packet), sll(4, 0x0D, fd_packet),
                                   sll(1, 0x0E, xl_packet), sll(1, 0, "")}))

@@ -21,6 +21,11 @@ TEST(Csv, OfSavvyCanIsRead) {
                   "(166.064001) can0 123# R", "(166.064002) can0 123##40102030405060708090A0B0C R"));
 }
 
+TEST(Csv, ColumnsMayHaveAnotherOrder) {
+  EXPECT_THAT(read_log("ID,Bus,Extended,time stamp,LEN,Dir,D1,D2\n0000021A,1,false,4000,2,Tx,FE,36\n").lines,
+              ElementsAre("(0.004000) can1 21A#FE36 T"));
+}
+
 TEST(Csv, OfOldVersionsIsRead) {
   EXPECT_THAT(
       read_log("Time Stamp,ID,Extended,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\n4000,0000021A,false,2,2,FE,36,\n")

@@ -91,9 +91,15 @@ const Lenient cases[] = {
      }},
     {Rule::line_comment, "CM_ \"// x\"; // \"not a string\nCM_ BO_ 1 \"read\";", "7:13 line-comment",
      [](const Database& d) { return d.comment == "// x" && d.messages[0].comment == "read"; }},
+    {Rule::unreadable_entry, "VAL_ 1 s 0 \"off\" 1 on 2 \"x\" 3 4 \"y\" 5.5 \"z\" 6 \"w\" ;\nCM_ \"read\";",
+     "7:20 unreadable-entry, 7:31 unreadable-entry, 7:37 unreadable-entry",
+     [](const Database& d) {
+       return s_of(d).values == std::vector<ValueName>{{0, "off"}, {2, "x"}, {4, "y"}, {6, "w"}} &&
+              d.comment == "read";
+     }},
     {Rule::unexpected_character, "VAL_ 1 s ? 1 \"x\" ;\nCM_ \"read\";",
-     "7:10 unexpected-character, 7:10 unreadable-section",
-     [](const Database& d) { return s_of(d).values.empty() && d.comment == "read"; }},
+     "7:10 unexpected-character, 7:10 unreadable-entry",
+     [](const Database& d) { return s_of(d).values.size() == 1 && d.comment == "read"; }},
     {Rule::name_character, message_2("\xC3\xA4\xC3\xB6 : 0|8@1+ (1,0) [0|0] \"\" B"), "8:6 name-character",
      [](const Database& d) { return last_signal(d).name == "\xC3\xA4\xC3\xB6"; }},
     {Rule::name_begins_with_digit, "BU_: 3C\nBO_ 2 20_N: 8 3C",
