@@ -77,7 +77,7 @@ Result<void> read_log(RecordedSettings& own, const NodeTable& table, Section& se
 
 NodeSettings read_recorded(const NodeTable& table, Section& section, std::int64_t duration_us) {
   RecordedSettings own;
-  own.schedule = read_schedule(section);
+  own.schedule = read_constant_schedule(section);
   const std::string name = section.text({"recorded",
                                          "File with the samples that the node sends in place of simulated "
                                          "ones: FILE.csv or FILE.log (recorded-data.md)."});

@@ -65,7 +65,10 @@ class NodeSettings {
   /// Whether the node sends a recording. Its settings then have another type (own()) than for an emulated
   /// node.
   [[nodiscard]] bool is_recorded() const { return is_recorded_; }
-  [[nodiscard]] std::int64_t latency_us() const { return schedule_->latency_us; }
+  /// The longest latency.
+  [[nodiscard]] std::int64_t latency_us() const {
+    return schedule_->latency_us + schedule_->latency_spread_us;
+  }
   [[nodiscard]] std::int64_t period_us() const { return schedule_->period_us.value_or(table_->period_us); }
 
   /// The settings, if their type is `Own`; null: the settings have another type.

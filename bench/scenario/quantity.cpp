@@ -19,7 +19,17 @@ struct Unit {
 
 namespace units = world::units;
 // The first unit whose suffix matches is used.
-constexpr std::array table{Unit{"_deg", units::deg, "deg"},
+constexpr std::array table{Unit{"_degph_per_g", units::degph / units::standard_gravity, "deg/h/g"},
+                           Unit{"_degph_per_k", units::degph, "deg/h/K"},
+                           Unit{"_degph_per_k2", units::degph, "deg/h/K^2"},
+                           Unit{"_ug_per_k", units::ug, "ug/K"},
+                           Unit{"_ug_per_k2", units::ug, "ug/K^2"},
+                           Unit{"_ppm_per_k", units::ppm, "ppm/K"},
+                           Unit{"_degphprth", units::degphprth, "deg/h/sqrt(h)"},
+                           Unit{"_ugprth", units::ugprth, "ug/sqrt(h)"},
+                           Unit{"_urad", units::urad, "urad"},
+                           Unit{"_degc", 1, "degC"},
+                           Unit{"_deg", units::deg, "deg"},
                            Unit{"_mrad", units::mrad, "mrad"},
                            Unit{"_mradps", units::mrad, "mrad/s"},
                            Unit{"_kmph", units::kmph, "km/h"},
@@ -61,6 +71,11 @@ const Unit* find_unit(std::string_view key) {
 }
 
 }  // namespace
+
+std::string_view ending_of(std::string_view key) {
+  const Unit* unit = find_unit(key);
+  return unit == nullptr ? "" : unit->ending;
+}
 
 double factor_of(std::string_view key) {
   const Unit* unit = find_unit(key);

@@ -11,6 +11,9 @@ namespace canhil::scenario {
 /// numbers.
 double factor_of(std::string_view key);
 
+/// The suffix of a key that is its unit, "_deg"; empty: the key has no unit.
+std::string_view ending_of(std::string_view key);
+
 /// The unit in a key's suffix, as people write it; empty: the key has no unit.
 std::string_view unit_of(std::string_view key);
 

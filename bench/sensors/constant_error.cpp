@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 
 namespace canhil::sensors {
@@ -12,8 +11,8 @@ using scenario::Limits;
 
 // "bias_m" -> "bias_sigma_m", "bias" -> "bias_sigma".
 std::string sigma_of(std::string_view key) {
-  const std::size_t unit = std::min(key.rfind('_'), key.size());
-  return fmt::format("{}_sigma{}", key.substr(0, unit), key.substr(unit));
+  const std::string_view unit = scenario::ending_of(key);
+  return fmt::format("{}_sigma{}", key.substr(0, key.size() - unit.size()), unit);
 }
 std::string constant_of(std::string_view of) { return fmt::format("Constant error of {}.", of); }
 std::string drawn_of(std::string_view of) {

@@ -26,7 +26,7 @@ class Fins final : public LossySampler<FinsSettings> {
  private:
   void fill(std::int64_t t_us, Sample& sample) override {
     const world::glide::Fins& at = run_.glide->at(t_us).fins;
-    sample.stamp_us = t_us + config_.stamp_error_us;
+    sample.stamp_us += config_.stamp_error_us;
     sample.values = {at.x(), at.y(), at.z()};
   }
 };

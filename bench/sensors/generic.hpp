@@ -10,23 +10,20 @@
 #include "bench/scenario/expression.hpp"
 #include "bench/scenario/schedule.hpp"
 #include "bench/sensors/sample_loss.hpp"
+#include "bench/world/error_stack.hpp"
 #include "bench/world/stream.hpp"
 
 namespace canhil::sensors {
 
-/// A value of a generic sensor and its errors, in its SI unit. The errors act in the order of the members.
+/// A value of a generic sensor and its errors, in its SI unit. The lag acts first, then scale, bias and
+/// noise, then the other errors of the stack.
 struct GenericValue {
   scenario::Expression truth;
   std::optional<scenario::Expression> valid{};  ///< the value is valid where this is not 0; none: always
-  double bandwidth = 0;                         ///< of a first-order lag [Hz]; 0: no lag
   world::RandomValue scale_factor{};            ///< error of the scale
   world::RandomValue bias{};
-  double correlated = 0;           ///< 1-sigma of a first-order Gauss-Markov process
-  double correlation_s = 0;        ///< its correlation time [s]
-  double random_walk = 0;          ///< per sqrt(s)
-  double noise = 0;                ///< white, 1-sigma of a sample
-  double lowest = 0, highest = 0;  ///< the sensor saturates there
-  double quantum = 0;              ///< step of the output; 0: none
+  double noise = 0;  ///< white, 1-sigma of a sample
+  world::ErrorStack stack{};
 };
 
 /// The settings of a [[sensor]] of kind "generic".

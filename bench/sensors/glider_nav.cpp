@@ -47,17 +47,20 @@ class GliderNav final : public LossySampler<GliderNavSettings> {
   GliderNav(const NodeSettings& node, const Run& run)
       : LossySampler(node, run, "glider_nav.loss"),
         stream_(run.stream("glider_nav")),
-        period_s_(1e-6 * static_cast<double>(node.period_us())),
-        velocity_(config_.correlated_fraction, config_.correlation_time, stream_),
-        rates_(config_.correlated_fraction, config_.correlation_time, stream_),
-        attitude_(config_.correlated_fraction, config_.correlation_time, stream_) {}
+        velocity_(noise(node)),
+        rates_(noise(node)),
+        attitude_(noise(node)) {}
 
  private:
+  world::CorrelatedNoise noise(const NodeSettings& node) {
+    return {config_.correlated_fraction, config_.correlation_time,
+            1e-6 * static_cast<double>(node.period_us()), stream_};
+  }
   void fill(std::int64_t t_us, Sample& sample) override {
     const world::GlideTruth& truth = run_.glide->at(t_us);
-    const Vector3 velocity = truth.v_eb_n + config_.velocity_noise * velocity_.next(period_s_, stream_);
-    const Vector3 rates = truth.omega_nb_b + config_.rate_noise * rates_.next(period_s_, stream_);
-    const Vector3 turn = config_.attitude_noise * attitude_.next(period_s_, stream_);
+    const Vector3 velocity = truth.v_eb_n + config_.velocity_noise * velocity_.next(stream_);
+    const Vector3 rates = truth.omega_nb_b + config_.rate_noise * rates_.next(stream_);
+    const Vector3 turn = config_.attitude_noise * attitude_.next(stream_);
     const world::Euler angles = world::euler_from(truth.C_bn);
     sample.values = {velocity.x(),
                      velocity.y(),
@@ -72,7 +75,6 @@ class GliderNav final : public LossySampler<GliderNavSettings> {
   }
 
   world::Stream stream_;
-  double period_s_;
   world::CorrelatedNoise velocity_;
   world::CorrelatedNoise rates_;
   world::CorrelatedNoise attitude_;

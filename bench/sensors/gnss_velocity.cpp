@@ -1,6 +1,5 @@
 #include "bench/sensors/gnss_velocity.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 #include "bench/world/correlated_noise.hpp"
+#include "bench/world/lever_arm.hpp"
 
 namespace canhil::sensors {
 namespace {
@@ -48,18 +48,13 @@ class GnssVelocity final : public LossySampler<GnssVelocitySettings> {
       : LossySampler(node, run, "gnss_velocity.loss"),
         stream_(run.stream("gnss_velocity")),
         bias_(draw(config_.bias, stream_)),
-        correlated_(1, config_.correlation_s, stream_),
-        interval_s_(1e-6 * static_cast<double>(node.period_us())) {}
+        correlated_(1, config_.correlation_s, 1e-6 * static_cast<double>(node.period_us()), stream_) {}
 
  private:
-  // The velocity of the antenna: v_ea_n = v_eb_n + C_bn (omega_eb_b x l_ba_b), from the time derivative of
-  // Groves (2013), eq. (2.164).
   void fill(std::int64_t t_us, Sample& sample) override {
     const world::Truth truth = run_.flight.at(t_us);
-    const Vector3 omega_eb_b =
-        truth.omega_ib_b - truth.C_bn.transpose() * world::omega_ie_n(truth.position.latitude);
-    const Vector3 antenna = truth.v_eb_n + truth.C_bn * omega_eb_b.cross(config_.lever_arm);
-    const Vector3 correlated = config_.correlated * correlated_.next(interval_s_, stream_);
+    const Vector3 antenna = world::velocity_at(truth, config_.lever_arm);
+    const Vector3 correlated = config_.correlated * correlated_.next(stream_);
     Vector3 v = antenna + bias_ + correlated + config_.noise.cwiseProduct(stream_.normal3());
     const bool invalid = losses_.uniform() < config_.invalid_probability;
     if (invalid) v.setZero();
@@ -71,7 +66,6 @@ class GnssVelocity final : public LossySampler<GnssVelocitySettings> {
   world::Stream stream_;
   Vector3 bias_;
   world::CorrelatedNoise correlated_;
-  double interval_s_;
 };
 
 }  // namespace

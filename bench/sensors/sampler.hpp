@@ -1,15 +1,19 @@
 // A sensor that measures every period.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 #include "bench/sensors/kind.hpp"
 #include "bench/sensors/sample_loss.hpp"
 
 namespace canhil::sensors {
 
-/// Sample k is valid at k * period, and is sent one latency after this time. No sample is sent after the end
-/// of the run, because an answer after the end would not be observed. `Settings`: the settings of the
-/// sensor's table. `first`: the first k; `last`: the last k, if it is not the end of the run that ends the
-/// samples.
+/// Sample k is valid at k * period. It is taken then, but for its jitter, and is sent one latency after this
+/// time. No sample is sent after the end of the run, because an answer after the end would not be observed.
+/// `Settings`: the settings of the sensor's table. `first`: the first k; `last`: the last k, if it is not the
+/// end of the run that ends the samples.
 template <class Settings>
 class Sampler : public Sensor {
  public:
@@ -18,18 +22,20 @@ class Sampler : public Sensor {
       : config_(*node.own<Settings>()),
         run_(run),
         period_us_(node.period_us()),
-        latency_us_(node.latency_us()),
+        times_(run.stream(std::string(node.table().key) + ".times")),
         valid_us_(first * period_us_),
-        last_us_(last ? *last * period_us_ : never_us) {}
+        last_us_(last ? *last * period_us_ : never_us) {
+    schedule_next();
+  }
 
   [[nodiscard]] std::int64_t due_us() const final {
-    const std::int64_t due_us = valid_us_ + latency_us_;
-    return valid_us_ > last_us_ || due_us > run_.flight.end_us() ? never_us : due_us;
+    return valid_us_ > last_us_ || due_us_ > run_.flight.end_us() ? never_us : due_us_;
   }
   Sample measure() final {
     Sample sample{.valid_us = valid_us_, .stamp_us = valid_us_};
-    if (!take(valid_us_, sample)) sample.fate = Sample::Fate::lost;
+    if (!take(taken_us_, sample)) sample.fate = Sample::Fate::lost;
     valid_us_ += period_us_;
+    schedule_next();
     return sample;
   }
 
@@ -38,13 +44,28 @@ class Sampler : public Sensor {
   const Run run_;
 
  private:
-  /// Fills in the sample that is valid at `valid_us`. Returns false if the sample is lost.
-  virtual bool take(std::int64_t valid_us, Sample& sample) = 0;
+  /// Fills in the sample that is taken at `taken_us`. Returns false if the sample is lost.
+  virtual bool take(std::int64_t taken_us, Sample& sample) = 0;
+
+  void schedule_next() {
+    const scenario::Schedule& schedule = config_.schedule;
+    std::int64_t latency_us = schedule.latency_us;
+    if (schedule.latency_spread_us > 0)
+      latency_us += std::llround(times_.uniform() * static_cast<double>(schedule.latency_spread_us));
+    due_us_ = std::max(due_us_, valid_us_ + latency_us);
+    taken_us_ = valid_us_;
+    if (schedule.jitter <= 0) return;
+    const double half = static_cast<double>(period_us_) / 2;
+    const double jitter_us = std::clamp(1e6 * schedule.jitter * times_.normal(), -half, half);
+    taken_us_ = std::clamp<std::int64_t>(valid_us_ + std::llround(jitter_us), 0, run_.flight.end_us());
+  }
 
   std::int64_t period_us_;
-  std::int64_t latency_us_;
+  world::Stream times_;
   std::int64_t valid_us_;
   std::int64_t last_us_;
+  std::int64_t due_us_ = 0;    // of the next sample
+  std::int64_t taken_us_ = 0;  // the next sample
 };
 
 /// A Sampler whose samples are lost by chance and in outages. `Settings` has a member `loss`.
@@ -60,11 +81,11 @@ class LossySampler : public Sampler<Settings> {
   world::Stream losses_;
 
  private:
-  /// Fills in the sample that is valid at `valid_us`.
-  virtual void fill(std::int64_t valid_us, Sample& sample) = 0;
-  bool take(std::int64_t valid_us, Sample& sample) final {
-    fill(valid_us, sample);
-    return !is_lost(this->config_.loss, valid_us, losses_);
+  /// Fills in the sample that is taken at `taken_us`.
+  virtual void fill(std::int64_t taken_us, Sample& sample) = 0;
+  bool take(std::int64_t taken_us, Sample& sample) final {
+    fill(taken_us, sample);
+    return !is_lost(this->config_.loss, sample.valid_us, losses_);
   }
 };
 

@@ -82,7 +82,7 @@ world::SeekerErrorModel read_errors(Section& section) {
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits share = Limits::between(0, 100);
   SeekerSettings node;
-  node.schedule = read_schedule(section);
+  node.schedule = read_constant_schedule(section);
   node.jitter_us =
       section.time_us({"jitter_ms", "Each sample is sent later by a random time between 0 and this value."},
                       Limits::between(0, 1000), 0);

@@ -2,6 +2,7 @@
 // time.
 #pragma once
 
+#include "bench/world/gauss_markov.hpp"
 #include "bench/world/stream.hpp"
 
 namespace canhil::world {
@@ -9,16 +10,16 @@ namespace canhil::world {
 /// Three components, each standard normal at every instant; `fraction` of the variance is correlated in time.
 class CorrelatedNoise {
  public:
-  /// correlation_time [s]. The process starts in its steady state.
-  CorrelatedNoise(double fraction, double correlation_time, Stream& stream);
+  /// correlation_time, and the time dt from one call of next() to the next [s]. The process starts in its
+  /// steady state.
+  CorrelatedNoise(double fraction, double correlation_time, double dt, Stream& stream);
 
-  /// The noise at the time dt [s] after the previous call. Every call takes six numbers from the stream,
-  /// whatever the fraction is.
-  Vector3 next(double dt, Stream& stream);
+  /// The next noise. Every call takes six numbers from the stream, whatever the fraction is.
+  Vector3 next(Stream& stream);
 
  private:
   double fraction_;
-  double correlation_time_;
+  GaussMarkov process_;
   Vector3 correlated_;
 };
 

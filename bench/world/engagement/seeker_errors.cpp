@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/world/gauss_markov.hpp"
+
 namespace canhil::world {
 namespace {
 
@@ -25,13 +27,12 @@ ErroneousSeeker::ErroneousSeeker(const SeekerErrorModel& model, Stream stream)
   closing_speed_bias_ = draw(model.closing_speed_bias, stream_);
 }
 
-// Glint is a Gauss-Markov process x with unit variance. The new x is phi x + sqrt(1 - phi^2) n, where n is a
-// standard normal number and phi is exp(-dt / tau). With phi equal to 0, x is white noise.
+// Glint is a Gauss-Markov process with unit variance; without a correlation time, it is white noise.
 Planes<double> ErroneousSeeker::glint(double dt) {
-  const double phi = glinting_ && model_.glint_correlation > 0 ? std::exp(-dt / model_.glint_correlation) : 0;
-  const double fresh = std::sqrt(1 - phi * phi);
+  const bool continues = glinting_ && model_.glint_correlation > 0;
+  const GaussMarkov process = continues ? GaussMarkov(dt / model_.glint_correlation) : GaussMarkov::white();
   const Planes<double> n = normals(stream_);
-  glint_ = {.pitch = phi * glint_.pitch + fresh * n.pitch, .yaw = phi * glint_.yaw + fresh * n.yaw};
+  glint_ = {.pitch = process.next(glint_.pitch, n.pitch), .yaw = process.next(glint_.yaw, n.yaw)};
   glinting_ = true;
   return glint_;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "bench/world/gauss_markov.hpp"
 #include "bench/world/glide/aerodynamics.hpp"
 #include "bench/world/stream.hpp"
 
@@ -38,7 +39,7 @@ class CoefficientErrors {
   void advance(std::int64_t t_us, std::int64_t dt_us);
 
  private:
-  void draw(double kept);
+  void draw(const GaussMarkov& process);
 
   CoefficientErrorModel model_;
   Stream stream_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/world/gauss_markov.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::world::glide {
@@ -63,8 +64,7 @@ Gusts::Gusts(const GustModel& model, Stream stream)
     : model_(model), stream_(stream), now_(model.sigma * stream_.normal3()) {}
 
 void Gusts::advance(double dt) {
-  const double kept = std::exp(-dt / model_.time);
-  now_ = kept * now_ + model_.sigma * std::sqrt(1 - kept * kept) * stream_.normal3();
+  now_ = GaussMarkov(dt / model_.time, model_.sigma).next(now_, stream_.normal3());
 }
 
 }  // namespace canhil::world::glide

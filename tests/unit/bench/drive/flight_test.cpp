@@ -94,7 +94,9 @@ TEST_F(ImuLimits, WhatIsAcceptedNeverLeavesTheRange) {
   ASSERT_EQ(refused(imu), "");
   double largest = 0;
   for (std::uint64_t run = 0; run < 200; ++run) {
-    world::ErroneousImu drawn(imu, world::Stream(1, run, "slave_imu"));
+    world::ErroneousImu drawn(imu, world::ImuStreams::of("slave_imu", [run](const std::string& name) {
+                                return world::Stream(1, run, name);
+                              }));
     for (const auto& exact : truth_.increments())
       largest = std::max(largest, drawn.measure(exact).delta_v.cwiseAbs().maxCoeff());
   }

@@ -25,7 +25,7 @@ const world::FlightRecord& flight() {
 }
 
 GenericValue value_of(const std::string& truth) {
-  return {.truth = scenario::Expression::parse(truth).value(), .lowest = -1e9, .highest = 1e9};
+  return {.truth = scenario::Expression::parse(truth).value()};
 }
 
 // The samples of a sensor with one value. `run`: its index, on which the random numbers depend.
@@ -83,8 +83,8 @@ TEST(Generic, HasWhiteNoise) {
 // The correlation of a Gauss-Markov process falls as exp(-tau / T).
 TEST(Generic, HasCorrelatedErrors) {
   GenericValue value = value_of("0");
-  value.correlated = 0.3;
-  value.correlation_s = 0.2;
+  value.stack.correlated = 0.3;
+  value.stack.correlation_s = 0.2;
   const auto values = values_of(value);
   const double independent = 200 / (2 * 0.2);  // number of independent values
   EXPECT_NEAR(std::sqrt(mean_square(values)), 0.3, 3 * 0.3 / std::sqrt(2 * independent));
@@ -99,7 +99,7 @@ TEST(Generic, HasCorrelatedErrors) {
 // The variance of a random walk grows with the time.
 TEST(Generic, WalksAtRandom) {
   GenericValue value = value_of("0");
-  value.random_walk = 0.1;
+  value.stack.random_walk = 0.1;
   std::vector<double> at_50_s, at_200_s;
   for (std::uint64_t run = 0; run < 100; ++run) {
     const auto values = values_of(value, run);
@@ -114,7 +114,7 @@ TEST(Generic, WalksAtRandom) {
 // as constant between two samples, dt apart: dt / (e^(dt / T) - 1) = T - dt / 2 + dt^2 / (12 T) - ...
 TEST(Generic, Lags) {
   GenericValue value = value_of("5 * t");
-  value.bandwidth = 2;
+  value.stack.bandwidth = 2;
   const auto values = values_of(value);
   const double T = 1 / (2 * std::numbers::pi * 2), dt = 0.01;
   EXPECT_NEAR(5 * 200 - values.back(), 5 * (T - dt / 2 + dt * dt / (12 * T)), 5e-6);
@@ -123,9 +123,9 @@ TEST(Generic, Lags) {
 
 TEST(Generic, SaturatesAndHasSteps) {
   GenericValue value = value_of("10 * sin(t)");
-  value.lowest = -3;
-  value.highest = 4;
-  value.quantum = 0.5;
+  value.stack.lowest = -3;
+  value.stack.highest = 4;
+  value.stack.step = 0.5;
   for (const Sample& one : samples_of(value)) {
     const double truth = std::clamp(10 * std::sin(1e-6 * static_cast<double>(one.valid_us)), -3.0, 4.0);
     ASSERT_NEAR(one.values[0], truth, 0.25 + 1e-12);

@@ -37,8 +37,12 @@ constexpr double dt = 0.01;
 const ImuIncrement exact{
     .t_us = 30'000, .interval_us = dt_us, .delta_theta = {1e-4, 2e-4, -3e-4}, .delta_v = {0.1, 0.0, -0.098}};
 
+ImuStreams streams(std::uint64_t run) {
+  return ImuStreams::of("imu", [run](const std::string& name) { return Stream(1, run, name); });
+}
+
 TEST(ErroneousImu, WithoutErrorsIsExact) {
-  ErroneousImu imu({}, Stream(1, 0, "imu"));
+  ErroneousImu imu({}, streams(0));
   const ImuIncrement measured = imu.measure(exact);
   EXPECT_EQ(measured.delta_theta, exact.delta_theta);
   EXPECT_EQ(measured.delta_v, exact.delta_v);
@@ -51,7 +55,7 @@ TEST(ErroneousImu, GivenConstantsEnterAsTheModelSays) {
   model.gyro.bias.value = {1e-5, -2e-5, 3e-5};
   model.gyro.scale_factor.value = {1e-3, 0, -1e-3};
   model.accel.bias.value = {3e-3, 2e-3, 1e-3};
-  ErroneousImu imu(model, Stream(1, 0, "imu"));
+  ErroneousImu imu(model, streams(0));
   EXPECT_EQ(imu.gyro_bias(), model.gyro.bias.value);
   EXPECT_EQ(imu.accel_bias(), model.accel.bias.value);
   const ImuIncrement measured = imu.measure(exact);
@@ -67,7 +71,7 @@ TEST(ErroneousImu, BiasesAreConstantInARunAndNormalOverRuns) {
   Moments gyro;
   Moments accel;
   for (std::uint64_t run = 0; run < 5000; ++run) {
-    ErroneousImu imu(model, Stream(1, run, "imu"));
+    ErroneousImu imu(model, streams(run));
     gyro.add(imu.gyro_bias());
     accel.add(imu.accel_bias());
     const Vector3 first = imu.measure(exact).delta_v;
@@ -82,7 +86,7 @@ TEST(ErroneousImu, NoiseIsWhiteWithTheDensityGiven) {
   ImuErrorModel model;
   model.gyro.noise = Vector3(1, 2, 3) * 0.125 * units::degprth;
   model.accel.noise = Vector3(1, 2, 3) * 50 * units::ugprthz;
-  ErroneousImu imu(model, Stream(1, 0, "imu"));
+  ErroneousImu imu(model, streams(0));
   Moments gyro;
   Moments accel;
   Moments gyro_pairs;  // products of successive samples
@@ -115,7 +119,7 @@ TEST(ErroneousImu, NoiseOfASecondDoesNotDependOnTheRate) {
   ImuErrorModel model;
   model.gyro.noise = Vector3::Constant(0.125 * units::degprth);
   for (const std::int64_t interval_us : {5'000, 20'000}) {
-    ErroneousImu imu(model, Stream(1, 0, "imu"));
+    ErroneousImu imu(model, streams(0));
     ImuIncrement still{.interval_us = interval_us};
     Moments seconds;
     for (int second = 0; second < 3600; ++second) {
@@ -133,7 +137,7 @@ TEST(ErroneousImu, MisalignmentFillsTheOffDiagonal) {
   const ImuIncrement along_x{.interval_us = dt_us, .delta_v = {1, 0, 0}};
   Moments leak;
   for (std::uint64_t run = 0; run < 5000; ++run) {
-    ErroneousImu imu(model, Stream(1, run, "imu"));
+    ErroneousImu imu(model, streams(run));
     const Vector3 measured = imu.measure(along_x).delta_v;
     ASSERT_EQ(measured.x(), 1.0);
     leak.add({measured.y(), measured.z(), measured.y() * measured.z() * 1e3});
