@@ -23,6 +23,7 @@ struct Canhil final : scenario::Binding {
     messages = messages::all_messages;
     estimators = estimators::all();
     dbc_hash = messages::dbc_hash;
+    for (const nodes::Kind* kind : nodes::all()) senders.emplace_back(kind->table.closes->sender);
     handshake = time_base = containers = closes_loop = answers_by_name = true;
   }
 
@@ -37,6 +38,10 @@ struct Canhil final : scenario::Binding {
   }
 
   [[nodiscard]] const MessageInfo* closing_of(const NodeTable& node) const override { return node.closes; }
+
+  [[nodiscard]] std::string_view sender_of(const MessageInfo& message) const override {
+    return message.sender;
+  }
 
   [[nodiscard]] bool is_played(const MessageInfo& message,
                                std::span<const NodeSettings> nodes) const override {

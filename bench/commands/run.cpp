@@ -68,21 +68,41 @@ std::string plain(std::string name) {
   return name;
 }
 
-// Parses NODE=BUS, and replaces NODE by the name of the node in the DBC. The frames of the bench itself and
-// of the target always use --bus.
-Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text) {
-  std::vector<std::string_view> senders;
-  for (const nodes::Kind* kind : nodes::all()) senders.push_back(kind->table.closes->sender);
-  const std::size_t equals = text.find('=');
-  const auto node = std::ranges::find_if(senders, [&](std::string_view name) {
-    return plain(std::string(name)) == plain(text.substr(0, equals));
+// Whether a node of the bench is on the bus of a scenario.
+bool is_on_bus(const scenario::Scenario& scenario, std::string_view sender) {
+  const scenario::Binding& binding = *scenario.binding;
+  return std::ranges::any_of(binding.messages, [&](const MessageInfo& one) {
+    return !is_targets(one) && binding.sender_of(one) == sender &&
+           (binding.is_played(one, scenario.nodes) || binding.is_of_events(one));
   });
-  const std::string bus = equals == std::string::npos ? "" : text.substr(equals + 1);
-  if (node == senders.end() || bus.empty() || bus == local_prefix || drive::BusName(bus).in_process)
-    return failure(
-        fmt::format("--bus-of '{}': expected NODE=BUS with NODE one of {} and BUS an interface or local:NAME",
-                    text, fmt::join(senders, ", ")));
-  return std::pair(std::string(*node), bus);
+}
+
+// Parses all NODE=BUS, and replaces NODE by the name of the node in the DBC. The frames of the bench itself
+// and of the target always use --bus.
+Result<drive::BusOf> buses_of(const Arguments& arguments, const scenario::Scenario& scenario) {
+  const std::vector<std::string>& senders = scenario.binding->senders;
+  drive::BusOf all;
+  for (const std::string& text : arguments.bus_of) {
+    const std::size_t equals = text.find('=');
+    const auto node = std::ranges::find_if(
+        senders, [&](const std::string& name) { return plain(name) == plain(text.substr(0, equals)); });
+    const std::string bus = equals == std::string::npos ? "" : text.substr(equals + 1);
+    if (node == senders.end() || bus.empty() || bus == local_prefix || drive::BusName(bus).in_process)
+      return failure(fmt::format(
+          "--bus-of '{}': expected NODE=BUS with NODE one of {} and BUS an interface or local:NAME", text,
+          fmt::join(senders, ", ")));
+    if (std::ranges::find(all, *node, &drive::BusOf::value_type::first) != all.end())
+      return failure(
+          fmt::format("--bus-of '{}': {} has a bus already, expected each node once", text, *node));
+    if (bus == arguments.bus)
+      return failure(
+          fmt::format("--bus-of '{}': is the bus of all others, expected another than --bus", text));
+    if (!is_on_bus(scenario, *node))
+      return failure(
+          fmt::format("--bus-of '{}': {} has no such node, expected one that it has", text, scenario.file));
+    all.emplace_back(*node, bus);
+  }
+  return all;
 }
 
 // The bit rates of an interface's controller, as the kernel reports them; empty if the kernel reports none.
@@ -93,7 +113,8 @@ WireFacts controller_of(const std::string& bus) {
                     .data = interface->controller->data.bitrate}};
 }
 
-drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFormat format) {
+drive::Options options_of(const Arguments& arguments, drive::BusName bus, drive::BusOf bus_of,
+                          BusFormat format) {
   drive::Options options;
   options.format = format;
   const bool external = is_external(arguments);
@@ -116,10 +137,9 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
     if (arguments.targets.empty())
       options.target_arguments = {"--realtime", "--priority", std::to_string(options.realtime->priority)};
   }
-  for (const std::string& text : arguments.bus_of) {
-    options.bus_of.push_back(*node_and_bus(text));
-    for (const std::string& word : {std::string("--bus"), options.bus_of.back().second})
-      if (!external) options.target_arguments.push_back(word);
+  options.bus_of = std::move(bus_of);
+  for (const auto& [node, own] : options.bus_of) {
+    if (!external) options.target_arguments.insert(options.target_arguments.end(), {"--bus", own});
   }
   options.target_cpu = arguments.target_cpu;
   options.operator_name = arguments.operator_name;
@@ -163,18 +183,6 @@ Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
   if (bus.rounding == Rounding::none && !arguments.log.empty())
     return failure(
         fmt::format("--log: a log has no room for the frames of '{}', expected in-process", arguments.bus));
-  std::vector<std::string> nodes;
-  for (const std::string& text : arguments.bus_of) {
-    const auto named = node_and_bus(text);
-    if (!named) return tl::unexpected(named.error());
-    if (std::ranges::find(nodes, named->first) != nodes.end())
-      return failure(
-          fmt::format("--bus-of '{}': {} has a bus already, expected each node once", text, named->first));
-    nodes.push_back(named->first);
-    if (named->second == arguments.bus)
-      return failure(
-          fmt::format("--bus-of '{}': is the bus of all others, expected another than --bus", text));
-  }
   // Frames on two buses have no common order: the answer to a step could arrive before a sample on the other
   // bus.
   if (!arguments.bus_of.empty() && (arguments.lockstep || here))
@@ -225,21 +233,6 @@ Error with_controller(Error error, const std::string& bus) {
   return error;
 }
 
-// Checks that each node that --bus-of names is in the scenario.
-Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& scenario) {
-  for (const std::string& text : arguments.bus_of) {
-    const std::string name = node_and_bus(text)->first;
-    if (std::ranges::any_of(scenario.nodes, [&](const auto& node) {
-          const MessageInfo* closes = scenario.binding->closing_of(node.table());
-          return closes != nullptr && closes->sender == name;
-        }))
-      continue;
-    return failure(
-        fmt::format("--bus-of '{}': {} has no such node, expected one that it has", text, scenario.file));
-  }
-  return {};
-}
-
 // Checks that there is a target of the scenario for each program.
 Result<void> check_targets(const Arguments& arguments, const scenario::Scenario& scenario) {
   const std::size_t most = scenario.binding->handshake ? 1 : scenario.targets.size();
@@ -278,11 +271,12 @@ ExitCode execute(const Arguments& arguments) {
     if (auto fine = scenario::refuse_commands(*scenario); !fine) return complain(fine.error());
   }
   if (auto fine = check_targets(arguments, *scenario); !fine) return complain(fine.error());
-  if (auto fine = check_nodes(arguments, *scenario); !fine) return complain(fine.error());
+  auto bus_of = buses_of(arguments, *scenario);
+  if (!bus_of) return complain(bus_of.error());
   const auto format = format_of(arguments, *scenario);
   if (!format) return complain(format.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
-  drive::Options options = options_of(arguments, bus, *format);
+  drive::Options options = options_of(arguments, bus, std::move(*bus_of), *format);
   if (auto fine = check_files(arguments, *scenario, options); !fine) return complain(fine.error());
   std::vector<std::unique_ptr<live::Display>> displays;
   if (arguments.terminal) {

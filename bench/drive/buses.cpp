@@ -24,7 +24,8 @@ Result<std::unique_ptr<Port>> open_in_process(const BusName& bus, BusFormat form
 
 }  // namespace
 
-Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format) {
+Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format,
+                             const scenario::Binding* binding) {
   const auto notes = std::make_shared<std::vector<std::string>>();
   const auto others = std::make_shared<std::optional<std::size_t>>();
   const auto with_notes = [&](std::unique_ptr<Port> port) {
@@ -42,10 +43,13 @@ Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat 
   HubRules rules;
   rules.on_nodes = [others](std::size_t nodes) { *others = nodes; };
   rules.on_turned_away = [notes](const std::string& line) { notes->push_back(line); };
-  const auto route = [names, bus_of](const Frame& frame) -> std::size_t {
-    const MessageInfo* info = messages::find_message(frame.id);
-    const auto own = std::ranges::find_if(
-        bus_of, [&](const auto& entry) { return info != nullptr && info->sender == entry.first; });
+  const auto route = [names, bus_of, binding](const Frame& frame) -> std::size_t {
+    if (bus_of.empty() || binding == nullptr) return 0;
+    const auto info = std::ranges::find_if(binding->messages, [&](const MessageInfo& one) {
+      return one.id == frame.id && one.extended == frame.extended;
+    });
+    if (info == binding->messages.end()) return 0;
+    const auto own = std::ranges::find(bus_of, binding->sender_of(*info), &BusOf::value_type::first);
     if (own == bus_of.end()) return 0;
     return static_cast<std::size_t>(std::ranges::find(names, own->second) - names.begin());
   };

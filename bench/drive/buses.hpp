@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/scenario/binding.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/ports/wire_settings.hpp"
 
@@ -43,8 +44,10 @@ struct OpenBuses {
   std::shared_ptr<const std::optional<std::size_t>> others;
 };
 
-/// Opens the buses. The port sends each frame on the bus of the frame's sender. The bench hosts a local bus
-/// unless another program already hosts this bus. Error: one line.
-Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format);
+/// Opens the buses. The port sends each frame on the bus of the frame's sender, as the binding tells it. The
+/// bench hosts a local bus unless another program already hosts this bus. `binding` must outlive the port.
+/// Error: one line.
+Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format,
+                             const scenario::Binding* binding = nullptr);
 
 }  // namespace canhil::drive

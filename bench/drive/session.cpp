@@ -45,7 +45,7 @@ class Session {
     if (options.realtime) {
       if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
     }
-    auto buses = open_buses(options.bus, options.bus_of, options.format);
+    auto buses = open_buses(options.bus, options.bus_of, options.format, scenario.binding.get());
     if (!buses) return tl::unexpected(buses.error());
     auto session = std::make_unique<Session>(scenario, truth, std::move(flight), options, std::move(*buses));
     if (auto spoken = session->speak(); !spoken) return tl::unexpected(spoken.error());

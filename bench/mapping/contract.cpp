@@ -42,6 +42,10 @@ bool Mapping::is_played(const MessageInfo& message, std::span<const scenario::No
   return !is_targets(message);
 }
 
+std::string_view Mapping::sender_of(const MessageInfo& message) const {
+  return sent_by[static_cast<std::size_t>(&message - messages.data())];
+}
+
 std::string_view Mapping::estimator_of(const MessageInfo& message) const {
   const auto index = static_cast<std::size_t>(&message - messages.data());
   const auto hear = std::ranges::find(hears, index, [](const Hear& one) { return one.of.index; });

@@ -97,6 +97,7 @@ class Joining {
       place_of_.push_back(static_cast<std::size_t>(found - all_.infos.begin()));
       return {};
     }
+    all_.sent_by.push_back(further_.sent_by[place_of_.size()]);
     rename(info);
     place_of_.push_back(all_.infos.size());
     all_.infos.push_back(info);

@@ -167,6 +167,7 @@ struct Mapping final : scenario::Binding {
       const MessageInfo& message) const override;
   [[nodiscard]] bool is_played(const MessageInfo& message,
                                std::span<const scenario::NodeSettings> nodes) const override;
+  [[nodiscard]] std::string_view sender_of(const MessageInfo& message) const override;
   [[nodiscard]] std::string_view estimator_of(const MessageInfo& message) const override;
   [[nodiscard]] Result<std::vector<std::uint8_t>> encoded(
       std::size_t channel, std::span<const std::pair<std::string, double>> values) const override;
@@ -185,6 +186,7 @@ struct Mapping final : scenario::Binding {
 
   // Storage for Binding::messages and Binding::estimators.
   std::vector<MessageInfo> infos;
+  std::vector<std::string> sent_by;  ///< for each message of the bench: the node that sends it
   std::deque<std::string_view> groups;
   std::vector<const estimators::Estimator*> presented;
 };

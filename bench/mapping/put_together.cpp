@@ -164,6 +164,10 @@ std::optional<std::string> put_together(Mapping& mapping) {
     if (auto error = list_quantities(target)) return error;
     present(mapping, target);
   }
+  for (const std::string& node : mapping.sent_by) {
+    if (!node.empty() && std::ranges::find(mapping.senders, node) == mapping.senders.end())
+      mapping.senders.push_back(node);
+  }
   for (const EventChannel& one : mapping.event_channels)
     mapping.channels.push_back({.name = one.name,
                                 .answers = one.response.has_value(),

@@ -159,7 +159,10 @@ class Reader {
                      .sender = of_target ? target_node : bench_node};
     Mapped mapped(message);
     mapped.index = static_cast<std::size_t>(used - all.begin());
-    if (used == all.end()) all.push_back(info);
+    if (used == all.end()) {
+      all.push_back(info);
+      mapping_->sent_by.push_back(of_target ? "" : message.sender);
+    }
     if (const auto own = protections_.find(&message); own != protections_.end())
       mapped.protection = own->second;
     if (mapped.protection && message.fast_packet)
@@ -187,6 +190,9 @@ class Reader {
     else {
       section.optional("every_ms");
       play.period_us = last.cycle_time_us;
+    }
+    if (const std::string node = section.text("node", ""); !node.empty()) {
+      for (const PlayedMessage& one : play.messages) mapping_->sent_by[one.of.index] = node;
     }
     play.latency_us = section.time_us("latency_ms", Limits::between(0, 10'000), 0);
     std::optional<Section> invalid = section.optional_table("invalid");
@@ -274,7 +280,7 @@ class Reader {
       std::string name = section.text("answers");
       for (const Play& one : mapping_->plays) {
         const auto part =
-            std::ranges::find(one.messages, name, [](const auto& of) { return of.of.message->name; });
+            std::ranges::find(one.messages, name, [](const auto& it) { return it.of.message->name; });
         if (name != one.name && part != one.messages.end())
           section.reject("answers", fmt::format("{} is not the last message of its play", name),
                          fmt::format("'{}'", one.name));

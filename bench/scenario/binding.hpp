@@ -75,6 +75,8 @@ struct Binding {
   }
   /// Whether a message belongs to events of a scenario alone: a request or its answer.
   [[nodiscard]] virtual bool is_of_events(const MessageInfo& /*message*/) const { return false; }
+  /// The one of `senders` that sends a message of the bench; empty: the bench itself.
+  [[nodiscard]] virtual std::string_view sender_of(const MessageInfo& /*message*/) const { return ""; }
   /// The only estimator whose targets send a message; empty: every target sends it, or none does.
   [[nodiscard]] virtual std::string_view estimator_of(const MessageInfo& /*message*/) const { return ""; }
   /// Error, one line: the scenario has no sensor for a message, or its messages cannot carry the values of
@@ -89,6 +91,7 @@ struct Binding {
   /// The estimators that a target may run. Each mapped target is presented as one.
   std::span<const estimators::Estimator* const> estimators{};
   std::vector<const sensors::Kind*> sensors{};  ///< those with names of their own that it declares
+  std::vector<std::string> senders{};           ///< the nodes of the DBC that may have a bus of their own
   std::vector<Channel> channels{};
   std::vector<std::string> flags{};  ///< of the targets
   /// The files of which it is made, as named by the user: one for each target. None: built into the program.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,32 @@ TEST_P(Devices, PassInRealTime) {
   const Ended ended = device.fly("none", "--bus " + bus());
   ASSERT_NE(ended.code, 2) << ended.err;
   expect_outputs_passed(ended, device.report());
+}
+
+// The GNSS receiver of the car is on a bus of its own. The car listens on both.
+TEST(DeviceBuses, EachNodeSendsOnItsOwn) {
+  const Device device("car");
+  const std::string log = scratch("car.log"), first = bus(), second = bus() + "-gnss";
+  const Ended ended =
+      device.fly("none", fmt::format("--bus {} --bus-of gnss={} --log {}", first, second, log));
+  ASSERT_NE(ended.code, 2) << ended.err;
+  expect_outputs_passed(ended, device.report());
+  std::map<std::string, std::map<std::string, int>> frames;  // by id and bus
+  std::istringstream lines(read(log));
+  for (std::string line; std::getline(lines, line);) {
+    std::string stamp, on, frame;
+    std::istringstream(line) >> stamp >> on >> frame;
+    ++frames[frame.substr(0, 3)][on];
+  }
+  EXPECT_EQ(frames["120"].size(), 1U);
+  EXPECT_EQ(frames["120"][second], 150);
+  EXPECT_EQ(frames["121"].size(), 1U);
+  EXPECT_EQ(frames["100"].size(), 1U);
+  EXPECT_EQ(frames["100"][first], 3000);
+  EXPECT_EQ(frames["200"].count(second), 0U);
+  const Ended unknown = device.fly("none", fmt::format("--bus {} --bus-of radar={}", first, second));
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, testing::HasSubstr("one of Sensors, Gnss"));
 }
 
 // A flag in the CSV, the JSON and the page: its first answer, and each change.
