@@ -9,6 +9,7 @@
 #include "bench/nodes/fits.hpp"
 #include "bench/nodes/wire_limits.hpp"
 #include "bench/sensors/slave_imu.hpp"
+#include "bench/world/mounting.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::nodes {

@@ -56,6 +56,7 @@ constexpr std::array table{Unit{"_degph_per_g", units::degph / units::standard_g
                            Unit{"_rad", 1, "rad"},
                            Unit{"_radps", 1, "rad/s"},
                            Unit{"_radpm2", 1, "rad/m^2"},
+                           Unit{"_hz", 1, "Hz"},
                            Unit{"_kbitps", 1, "kbit/s"},
                            Unit{"_m2ps", 1, "m^2/s"},
                            Unit{"_m2ps5", 1, "m^2/s^5"},

@@ -34,4 +34,14 @@ world::RandomConstant read_constants(scenario::Section& section, std::string_vie
           .sigma = section.three({sigma, drawn}, Limits::at_least(0))};
 }
 
+world::RandomConstant read_mounting(scenario::Section& section, std::string_view of) {
+  return read_constants(section, "mounting_deg",
+                        fmt::format("the mounting of {}: roll, pitch and yaw of its axes in the body", of));
+}
+
+world::Vector3 read_lever_arm(scenario::Section& section, std::string_view what) {
+  const std::string meaning = fmt::format("From the body's origin to {}, body axes [x, y, z].", what);
+  return section.three({"lever_arm_m", meaning}, Limits::between(-1000, 1000));
+}
+
 }  // namespace canhil::sensors

@@ -15,4 +15,10 @@ world::RandomValue read_constant(scenario::Section& section, std::string_view ke
 /// The same for three axes.
 world::RandomConstant read_constants(scenario::Section& section, std::string_view key, std::string_view of);
 
+/// Reads the keys of the mounting of a sensor's axes in the body: roll, pitch and yaw [rad]. `of`: "the IMU".
+world::RandomConstant read_mounting(scenario::Section& section, std::string_view of);
+/// Reads the key of the place of a sensor in the body: from the body's origin, body axes [m]. `what`: "the
+/// IMU".
+world::Vector3 read_lever_arm(scenario::Section& section, std::string_view what);
+
 }  // namespace canhil::sensors

@@ -7,7 +7,7 @@
 #include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 #include "bench/world/correlated_noise.hpp"
-#include "bench/world/lever_arm.hpp"
+#include "bench/world/mounting.hpp"
 
 namespace canhil::sensors {
 namespace {
@@ -27,7 +27,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   GnssVelocitySettings node;
   node.schedule = read_schedule(section);
-  node.lever_arm = section.three({"lever_arm_m", "From the IMU to the antenna, body axes [x, y, z]."});
+  node.lever_arm = read_lever_arm(section, "the antenna");
   node.bias = read_constants(section, "bias_mps", "the velocity, [N, E, D]");
   node.noise = section.three({"noise_mps", "White noise of the velocity, 1-sigma of a sample."}, sigma);
   node.correlated = section.number(

@@ -8,7 +8,7 @@
 #include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/error_stack.hpp"
 #include "bench/sensors/sampler.hpp"
-#include "bench/world/lever_arm.hpp"
+#include "bench/world/mounting.hpp"
 
 namespace canhil::sensors {
 namespace {
@@ -140,13 +140,9 @@ world::WarmUp read_warm_up(Section& section) {
 NodeSettings read(const NodeTable& table, Section& section) {
   SlaveImuSettings node;
   node.schedule = read_schedule(section);
-  node.lever_arm =
-      section.three({"lever_arm_m",
-                     "From the body's origin to the IMU, body axes [x, y, z]: the accelerometers there also "
-                     "measure the Euler and the centripetal acceleration."},
-                    Limits::between(-100, 100));
-  node.errors.mounting = read_constants(section, "mounting_deg",
-                                        "the mounting: roll, pitch and yaw of the IMU's axes in the body");
+  node.lever_arm = read_lever_arm(
+      section, "the IMU, whose accelerometers then measure the Euler and the centripetal acceleration too");
+  node.errors.mounting = read_mounting(section, "the IMU");
   node.errors.gyro = read_triad(section, gyro_keys);
   node.errors.g_sensitivity = section.three(
       {"gyro_g_sensitivity_degph_per_g", "Rate that a gyro reports per specific force along its axis."});

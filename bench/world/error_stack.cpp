@@ -57,8 +57,8 @@ double AxisErrors::given(double value) {
   return value;
 }
 
-TriadErrors::TriadErrors(const Stacks& stacks, double dt, Stream stream)
-    : stream_(std::move(stream)),
+TriadErrors::TriadErrors(const Stacks& stacks, double dt, const Stream& stream)
+    : stream_(stream),
       ideal_(std::ranges::all_of(stacks, &ErrorStack::is_ideal)),
       wanders_(std::ranges::any_of(stacks, &ErrorStack::wanders)),
       axes_{AxisErrors(stacks[0], dt, stream_), AxisErrors(stacks[1], dt, stream_),

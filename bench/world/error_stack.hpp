@@ -92,7 +92,7 @@ class TriadErrors {
  public:
   using Stacks = std::array<ErrorStack, 3>;
   /// `stream`: of these errors alone.
-  TriadErrors(const Stacks& stacks, double dt, Stream stream);
+  TriadErrors(const Stacks& stacks, double dt, const Stream& stream);
 
   /// Whether all axes are ideal.
   [[nodiscard]] bool is_ideal() const { return ideal_; }

@@ -1,26 +1,19 @@
 #include "bench/world/imu_errors.hpp"
 
 #include <cmath>
-#include <utility>
 
-#include "bench/world/attitude.hpp"
+#include "bench/world/mounting.hpp"
 
 namespace canhil::world {
 
 double WarmUp::at(double t) const { return rise == 0 ? start : start + rise * (1 - std::exp(-t / time_s)); }
 
-Matrix3 mounted(const Vector3& roll_pitch_yaw) {
-  return C_bn_from({.roll = roll_pitch_yaw.x(), .pitch = roll_pitch_yaw.y(), .heading = roll_pitch_yaw.z()})
-      .transpose();
-}
-
-ErroneousImu::ErroneousImu(const ImuErrorModel& model, ImuStreams streams)
+ErroneousImu::ErroneousImu(const ImuErrorModel& model, const ImuStreams& streams)
     : model_(model),
-      streams_(std::move(streams)),
+      streams_(streams),
       gyro_(draw_triad(model.gyro, streams_.errors)),
-      accel_(draw_triad(model.accel, streams_.errors)) {
-  const Vector3 turned = draw(model.mounting, streams_.constants);
-  if (!turned.isZero(0)) C_bs_ = mounted(turned);
+      accel_(draw_triad(model.accel, streams_.errors)),
+      C_bs_(mounted(draw(model.mounting, streams_.constants))) {
   for (int axis = 0; axis < 3; ++axis)
     G_.col(axis) = model.g_sensitivity_sigma * streams_.constants.normal3();
   G_ += Matrix3(model.g_sensitivity.asDiagonal());
@@ -33,13 +26,11 @@ ImuIncrement ErroneousImu::measure(const ImuIncrement& exact) {
     accel_.further.emplace(model_.accel.stacks, dt, streams_.accel_drift);
   }
   ImuIncrement measured = exact;
-  if (C_bs_) {
-    measured.delta_theta = *C_bs_ * exact.delta_theta;
-    measured.delta_v = *C_bs_ * exact.delta_v;
-  }
+  measured.delta_theta = C_bs_ * exact.delta_theta;
+  measured.delta_v = C_bs_ * exact.delta_v;
   const double warmer =
       model_.temperature.at(1e-6 * static_cast<double>(exact.t_us)) - model_.temperature.reference;
-  if (!G_.isZero(0)) measured.delta_theta += G_ * measured.delta_v;
+  measured.delta_theta += G_ * measured.delta_v;
   measured.delta_theta = measure(gyro_, model_.gyro, measured.delta_theta, warmer, dt);
   measured.delta_v = measure(accel_, model_.accel, measured.delta_v, warmer, dt);
   return measured;
@@ -60,7 +51,6 @@ ErroneousImu::Triad ErroneousImu::draw_triad(const TriadErrorModel& model, Strea
   return triad;
 }
 
-// Terms that are absent are not even added as zeros, so the bits are those of an IMU without them.
 Vector3 ErroneousImu::measure(Triad& triad, const TriadErrorModel& model, const Vector3& exact, double warmer,
                               double dt) {
   TriadErrors& further = *triad.further;

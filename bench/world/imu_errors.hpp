@@ -68,13 +68,10 @@ struct ImuStreams {
   }
 };
 
-/// The matrix from body axes to those of an IMU that is mounted with this roll, pitch and yaw [rad].
-Matrix3 mounted(const Vector3& roll_pitch_yaw);
-
 /// The IMU of one run: its constants are drawn on construction.
 class ErroneousImu {
  public:
-  ErroneousImu(const ImuErrorModel& model, ImuStreams streams);
+  ErroneousImu(const ImuErrorModel& model, const ImuStreams& streams);
 
   /// The measurement of one sample, from the increments in body axes. Call once for each sample, in order:
   /// each call takes six numbers from the stream `errors`. All samples have the same interval.
@@ -100,8 +97,8 @@ class ErroneousImu {
   ImuStreams streams_;
   Triad gyro_;
   Triad accel_;
-  Matrix3 G_;                    // g-sensitivity
-  std::optional<Matrix3> C_bs_;  // from body axes to the IMU's axes; none: equal axes
+  Matrix3 C_bs_;  // from body axes to the IMU's axes
+  Matrix3 G_;     // g-sensitivity
 };
 
 }  // namespace canhil::world

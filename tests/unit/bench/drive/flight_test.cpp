@@ -85,6 +85,26 @@ TEST_F(ImuLimits, ErrorsInProportionToTheFlightAreNamedToo) {
   EXPECT_THAT(refused(imu), HasSubstr("'slave_imu.accel_misalignment_sigma_mrad'"));
 }
 
+TEST_F(ImuLimits, TheErrorStackIsNamedAndItsRangeCounts) {
+  world::ImuErrorModel imu;
+  imu.gyro.stacks[1].correlated = widest_rad / dt / 5;
+  EXPECT_THAT(refused(imu), HasSubstr("'slave_imu.gyro_bias_instability_degph'"));
+  imu.gyro.stacks[1].highest =
+      0.9 * widest_rad / dt;  // what the IMU cannot measure, the signal need not hold
+  EXPECT_EQ(refused(imu), "");
+  imu = {};
+  imu.accel.stacks[1].random_walk =
+      widest_mps / dt / std::sqrt(1e-6 * static_cast<double>(truth_.end_us())) / 5;
+  EXPECT_THAT(refused(imu), HasSubstr("'slave_imu.accel_random_walk_ugprth'"));
+  imu = {};
+  imu.g_sensitivity = Vector3(2, 0, 0);  // 1 g ahead is 0.098 m/s
+  EXPECT_THAT(refused(imu), HasSubstr("'slave_imu.gyro_g_sensitivity_degph_per_g'"));
+  imu = {};
+  imu.accel.bias_per_k = Vector3(0, 2 * widest_mps / dt / 50, 0);
+  imu.temperature.rise = 50;
+  EXPECT_THAT(refused(imu), HasSubstr("the temperature (largest part)"));
+}
+
 TEST_F(ImuLimits, WhatIsAcceptedNeverLeavesTheRange) {
   world::ImuErrorModel imu;
   imu.accel.bias.sigma = Vector3::Constant(7);  // 6 sigma are 0.42 m/s per sample

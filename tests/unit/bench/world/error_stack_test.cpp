@@ -7,16 +7,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/world/lever_arm.hpp"
+#include "bench/world/mounting.hpp"
 
 namespace canhil::world {
 namespace {
 
-constexpr double dt = 0.01;
+constexpr double sample_s = 0.01;
 
 // A Butterworth low pass, integrated in small steps by the method of Runge and Kutta.
 double reference(double bandwidth, double input, double& output, double& slope) {
-  const double w = 2 * std::numbers::pi * bandwidth, h = dt / 100;
+  const double w = 2 * std::numbers::pi * bandwidth, h = sample_s / 100;
   const auto slopes = [&](double y, double v) {
     return std::pair(v, w * w * (input - y) - std::numbers::sqrt2 * w * v);
   };
@@ -32,7 +32,7 @@ double reference(double bandwidth, double input, double& output, double& slope) 
 }
 
 TEST(Lag, OfTheSecondOrderIsAButterworthLowPass) {
-  Lag lag({.bandwidth = 8, .order = 2}, dt);
+  Lag lag({.bandwidth = 8, .order = 2}, sample_s);
   double output = 0, slope = 0;
   EXPECT_EQ(lag.next(0), 0);
   for (int i = 1; i < 200; ++i) {
@@ -45,10 +45,10 @@ TEST(Lag, OfTheSecondOrderIsAButterworthLowPass) {
 // input hardly matter.
 TEST(Lag, HalvesThePowerAtItsBandwidth) {
   for (const std::int64_t order : {1, 2}) {
-    Lag lag({.bandwidth = 0.5, .order = order}, dt);
+    Lag lag({.bandwidth = 0.5, .order = order}, sample_s);
     double highest = 0;
     for (int i = 0; i < 4000; ++i) {
-      const double output = lag.next(std::sin(2 * std::numbers::pi * 0.5 * dt * i));
+      const double output = lag.next(std::sin(2 * std::numbers::pi * 0.5 * sample_s * i));
       if (i > 2000) highest = std::max(highest, output);
     }
     EXPECT_NEAR(highest, 1 / std::numbers::sqrt2, 2e-3) << order;
@@ -57,7 +57,7 @@ TEST(Lag, HalvesThePowerAtItsBandwidth) {
 
 TEST(ErrorStack, SaturatesAndSaysSo) {
   Stream stream(1, 0, "it");
-  AxisErrors axis({.lowest = -2, .highest = 3}, dt, stream);
+  AxisErrors axis({.lowest = -2, .highest = 3}, sample_s, stream);
   EXPECT_EQ(axis.given(2.5), 2.5);
   EXPECT_FALSE(axis.is_saturated());
   EXPECT_EQ(axis.given(4), 3);
@@ -71,21 +71,21 @@ TEST(ErrorStack, SaturatesAndSaysSo) {
 // A step loses what does not fill it; the counts of an integrator add up to the integral.
 TEST(ErrorStack, StepsLoseAndPulsesKeepTheRemainder) {
   Stream stream(1, 0, "it");
-  AxisErrors steps({.step = 0.5}, dt, stream), pulses({.pulse = 0.02}, dt, stream);
+  AxisErrors steps({.step = 0.5}, sample_s, stream), pulses({.pulse = 0.02}, sample_s, stream);
   double integral = 0, counted = 0;
   for (int i = 0; i < 1000; ++i) {
     EXPECT_EQ(steps.given(0.2), 0);
     EXPECT_EQ(steps.given(0.3), 0.5);
     const double value = 0.7 + 0.6 * std::sin(0.1 * i), given = pulses.given(value);
-    integral += value * dt;
-    counted += given * dt;
-    EXPECT_NEAR(given * dt, 0.02 * std::round(given * dt / 0.02), 1e-12);
+    integral += value * sample_s;
+    counted += given * sample_s;
+    EXPECT_NEAR(given * sample_s, 0.02 * std::round(given * sample_s / 0.02), 1e-12);
     EXPECT_LE(std::abs(counted - integral), 0.01 + 1e-12);
   }
 }
 
 TEST(ErrorStack, WithoutErrorsChangesNoBit) {
-  TriadErrors none({}, dt, Stream(1, 0, "it"));
+  TriadErrors none({}, sample_s, Stream(1, 0, "it"));
   EXPECT_TRUE(none.is_ideal());
   const Vector3 value(0.1, 1.0 / 3, -7e-9);
   EXPECT_EQ(none.lag(value), value);
@@ -109,7 +109,7 @@ TEST(ErrorStack, AxesAreIndependent) {
 }
 
 // The acceleration of a point of a body that swings about z, in body axes: -omega^2 r along the lever arm,
-// and d(omega)/dt r across it. The integral over the interval is added up in small steps.
+// and d(omega)/sample_s r across it. The integral over the interval is added up in small steps.
 TEST(LeverArm, MeasuresEulerAndCentripetalAcceleration) {
   const auto rate = [](double t) { return 2 * std::cos(5 * t); };
   constexpr double r = 0.4, t0 = 0.3;
@@ -117,13 +117,13 @@ TEST(LeverArm, MeasuresEulerAndCentripetalAcceleration) {
   double centripetal = 0, euler = 0, angle = 0;
   constexpr int steps = 1000;
   for (int i = 0; i < steps; ++i) {
-    const double t = t0 + (i + 0.5) * dt / steps;
-    centripetal -= rate(t) * rate(t) * r * dt / steps;
-    euler += -10 * std::sin(5 * t) * r * dt / steps;
-    angle += rate(t) * dt / steps;
+    const double t = t0 + (i + 0.5) * sample_s / steps;
+    centripetal -= rate(t) * rate(t) * r * sample_s / steps;
+    euler += -10 * std::sin(5 * t) * r * sample_s / steps;
+    angle += rate(t) * sample_s / steps;
   }
   still.delta_theta.z() = angle;
-  const ImuIncrement at = increment_at(still, {r, 0, 0.7}, {0, 0, rate(t0)}, {0, 0, rate(t0 + dt)});
+  const ImuIncrement at = increment_at(still, {r, 0, 0.7}, {0, 0, rate(t0)}, {0, 0, rate(t0 + sample_s)});
   EXPECT_NEAR(at.delta_v.x(), centripetal, 1e-8);
   EXPECT_NEAR(at.delta_v.y(), euler, 1e-8);
   EXPECT_EQ(at.delta_v.z(), 0);

@@ -1,9 +1,12 @@
-// What a point of the vehicle beside the body's origin does. The vehicle is rigid.
+// Where a sensor is in the vehicle, which is rigid, and how it is turned: what it sees there.
 #pragma once
 
 #include "bench/world/flight_record.hpp"
 
 namespace canhil::world {
+
+/// The matrix from body axes to those of a sensor that is mounted with this roll, pitch and yaw [rad].
+Matrix3 mounted(const Vector3& roll_pitch_yaw);
 
 /// The velocity over ground of a point, NED [m/s]. `lever_arm`: from the body's origin to the point, body
 /// axes [m]. v_ep_n = v_eb_n + C_bn (omega_eb_b x l), from the time derivative of Groves (2013), eq. (2.164).

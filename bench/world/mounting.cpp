@@ -1,8 +1,13 @@
-#include "bench/world/lever_arm.hpp"
+#include "bench/world/mounting.hpp"
 
 #include <Eigen/Geometry>
 
 namespace canhil::world {
+
+Matrix3 mounted(const Vector3& roll_pitch_yaw) {
+  return C_bn_from({.roll = roll_pitch_yaw.x(), .pitch = roll_pitch_yaw.y(), .heading = roll_pitch_yaw.z()})
+      .transpose();
+}
 
 Vector3 velocity_at(const Truth& truth, const Vector3& lever_arm) {
   const Vector3 omega_eb_b = truth.omega_ib_b - truth.C_bn.transpose() * omega_ie_n(truth.position.latitude);
