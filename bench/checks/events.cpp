@@ -2,43 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
+#include <optional>
+
+#include "dbc/transport/uds.hpp"
 
 namespace canhil::checks {
 namespace {
 
 using scenario::Event;
 
-// Negative response codes (ISO 14229-1, table A.1).
-constexpr std::array<std::pair<std::uint8_t, std::string_view>, 18> refusals{
-    {{0x10, "general reject"},
-     {0x11, "service not supported"},
-     {0x12, "sub-function not supported"},
-     {0x13, "incorrect message length or invalid format"},
-     {0x14, "response too long"},
-     {0x21, "busy, repeat request"},
-     {0x22, "conditions not correct"},
-     {0x24, "request sequence error"},
-     {0x31, "request out of range"},
-     {0x33, "security access denied"},
-     {0x35, "invalid key"},
-     {0x36, "exceeded number of attempts"},
-     {0x37, "required time delay not expired"},
-     {0x70, "upload or download not accepted"},
-     {0x72, "general programming failure"},
-     {0x78, "response pending"},
-     {0x7E, "sub-function not supported in active session"},
-     {0x7F, "service not supported in active session"}}};
-
 std::string shown(const Exchange& one) {
-  const auto& answer = *one.answer;
-  std::string text = scenario::to_text(answer);
-  if (answer.size() != 3 || answer[0] != 0x7F || one.request.empty() || answer[1] != one.request[0])
-    return text;
-  const auto found =
-      std::ranges::find(refusals, answer[2], [](const auto& refusal) { return refusal.first; });
-  return found == refusals.end() ? text : fmt::format("{} ({})", text, found->second);
+  std::string text = scenario::to_text(*one.answer);
+  const auto code = transport::negative_code(one.request, *one.answer);
+  const std::string_view name = code ? transport::name_of_negative_code(*code) : std::string_view();
+  return name.empty() ? text : fmt::format("{} ({})", text, name);
 }
 
 std::string why_not_sent(const Event& event, std::span<const Event> events) {

@@ -12,7 +12,7 @@
 #include "bench/commands/read_dbc.hpp"
 #include "bench/commands/subcommands.hpp"
 #include "bench/drive/contract.hpp"
-#include "bench/drive/stimuli.hpp"
+#include "bench/drive/flight.hpp"
 #include "bench/mapping/check.hpp"
 #include "bench/mapping/extract.hpp"
 #include "bench/report/file.hpp"
@@ -138,7 +138,7 @@ std::string text_of(const mapping::Mapping& mapping, const std::vector<mapping::
 // The mapping of a scenario, and the values that its flight plays.
 Result<mapping::FlownValues> flown_with(const std::string& file, const std::string& mapping,
                                         std::shared_ptr<const mapping::Mapping>& of_scenario) {
-  const auto scenario = drive::read_scenario(file);
+  auto scenario = drive::read_scenario(file);
   if (!scenario) return tl::unexpected(scenario.error());
   of_scenario = std::dynamic_pointer_cast<const mapping::Mapping>(scenario->binding);
   const bool is_own = std::ranges::any_of(scenario->binding->files, [&](const scenario::Binding::Files& one) {
@@ -148,9 +148,15 @@ Result<mapping::FlownValues> flown_with(const std::string& file, const std::stri
   if (of_scenario == nullptr || !is_own)
     return failure(fmt::format(
         "--scenario '{}': has no target with the mapping {}, expected a scenario of it", file, mapping));
-  auto flown = drive::flown_values(*scenario, *of_scenario);
-  if (!flown) return failure(fmt::format("{}: {}", file, flown.error().message));
-  return flown;
+  scenario->faults.clear();
+  const auto truth = drive::make_truth(*scenario);
+  if (!truth) return failure(fmt::format("{}: {}", file, truth.error().message));
+  auto one = drive::make_flight(*scenario, *truth, 0), other = drive::make_flight(*scenario, *truth, 1);
+  for (const auto* flight : {&one, &other}) {
+    if (!*flight) return failure(fmt::format("{}: {}", file, flight->error().message));
+  }
+  return mapping::flown_values(*of_scenario, drive::run_of(*scenario, *truth, one->per_run_truth, 0),
+                               drive::run_of(*scenario, *truth, other->per_run_truth, 1));
 }
 
 ExitCode check(const CheckArguments& arguments) {

@@ -164,17 +164,22 @@ std::vector<InitialState> initial_states(const scenario::Scenario& scenario, con
   return states;
 }
 
+sensors::Run run_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                    PerRunTruth& per_run_truth, std::uint64_t run_index, sensors::SensorFaults* faults) {
+  return {.scenario = scenario,
+          .index = run_index,
+          .flight = truth,
+          .glide = per_run_truth.glide ? &*per_run_truth.glide : nullptr,
+          .engagement = per_run_truth.engagement ? &*per_run_truth.engagement : nullptr,
+          .faults = faults};
+}
+
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                        PerRunTruth& per_run_truth, std::uint64_t run_index, bool lockstep, Rounding rounding,
                        std::unique_ptr<faults::Faults> faults) {
   if (faults == nullptr)
     faults = std::make_unique<faults::Faults>(scenario, run_index, scenario.binding->messages);
-  auto nodes = nodes::make({.scenario = scenario,
-                            .index = run_index,
-                            .flight = truth,
-                            .glide = per_run_truth.glide ? &*per_run_truth.glide : nullptr,
-                            .engagement = per_run_truth.engagement ? &*per_run_truth.engagement : nullptr,
-                            .faults = faults.get()});
+  auto nodes = nodes::make(run_of(scenario, truth, per_run_truth, run_index, faults.get()));
   return {std::move(nodes), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding,
           std::move(faults)};
 }

@@ -51,6 +51,11 @@ std::vector<InitialState> initial_states(const scenario::Scenario& scenario, con
                                          const PerRunTruth& per_run_truth, std::uint64_t run_index,
                                          std::int64_t t_us);
 
+/// What the sensors of a run use.
+sensors::Run run_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                    PerRunTruth& per_run_truth, std::uint64_t run_index,
+                    sensors::SensorFaults* faults = nullptr);
+
 /// The schedule of run `run_index`, with its nodes in order of precedence. The referenced objects must
 /// outlive the schedule. `faults`: faults of the run; null: the schedule contains only those faults of the
 /// scenario that act on frames.

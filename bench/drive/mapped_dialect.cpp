@@ -141,13 +141,7 @@ class MappedDialect final : public Dialect {
     std::vector<std::unique_ptr<nodes::Node>> players;
     players.push_back(std::make_unique<mapping::Player>(
         conversation_,
-        nodes::Run{.scenario = of_.scenario,
-                   .index = of_.run_index,
-                   .flight = of_.truth,
-                   .glide = of_.flight.per_run_truth.glide ? &*of_.flight.per_run_truth.glide : nullptr,
-                   .engagement =
-                       of_.flight.per_run_truth.engagement ? &*of_.flight.per_run_truth.engagement : nullptr,
-                   .faults = faults.get()}));
+        run_of(of_.scenario, of_.truth, of_.flight.per_run_truth, of_.run_index, faults.get())));
     if (!of_.of_log) players.push_back(talker(mapping::Phase::during));
     return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
                                       Rounding::as_on_the_bus, std::move(faults));

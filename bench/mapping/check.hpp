@@ -2,12 +2,10 @@
 // carry.
 #pragma once
 
-#include <limits>
-#include <map>
 #include <string>
 #include <vector>
 
-#include "bench/mapping/mapping.hpp"
+#include "bench/mapping/flown.hpp"
 #include "dbc/wire/bit_length.hpp"
 
 namespace canhil::mapping {
@@ -20,14 +18,6 @@ struct Remark {
   std::string subject;  ///< "IMU_TX1.TX1_YawRate"
   std::string what;     ///< one line
 };
-
-/// What a flight plays in a signal, in the unit of the signal.
-struct PlayedValues {
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -std::numeric_limits<double>::infinity();
-  double noise = 0;  ///< 1-sigma of the error that is white from sample to sample
-};
-using FlownValues = std::map<const Source*, PlayedValues>;
 
 /// Remarks in the order of the plays (messages to the target) and then the hears (messages of the target),
 /// about:

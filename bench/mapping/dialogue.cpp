@@ -2,16 +2,12 @@
 
 #include <utility>
 
+#include "dbc/transport/uds.hpp"
+
 namespace canhil::mapping {
 namespace {
 
 using transport::Bytes;
-
-// "Request correctly received, response pending" (ISO 14229-1): the answer comes later.
-bool is_pending(const Bytes& request, const Bytes& answer) {
-  return answer.size() == 3 && answer[0] == 0x7F && !request.empty() && answer[1] == request[0] &&
-         answer[2] == 0x78;
-}
 
 // Whether an event sends this request. The counter of a protected message changes.
 bool is_request(const EventChannel& channel, const scenario::Event& event, const Bytes& request) {
@@ -95,7 +91,8 @@ void Dialogue::asked(std::size_t channel, const Frame& frame, Bytes request, std
 
 void Dialogue::answered(std::size_t channel, Bytes answer, std::int64_t t_ns) {
   Line& line = lines_[channel];
-  if (!line.open || is_pending(exchanges_[*line.open].request, answer)) return;
+  if (!line.open) return;
+  if (transport::negative_code(exchanges_[*line.open].request, answer) == transport::response_pending) return;
   checks::Exchange& one = exchanges_[*std::exchange(line.open, std::nullopt)];
   one.answer = std::move(answer);
   one.answered_ns = t_ns;

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "bench/drive/stimuli.hpp"
+#include "bench/drive/flight.hpp"
 #include "bench/mapping/check.hpp"
 #include "tests/unit/bench/mapping/read_mapped.hpp"
 
@@ -85,12 +85,18 @@ below_deg = 1
   return std::move(*read);
 }
 
+FlownValues flown_values_of(const scenario::Scenario& scenario) {
+  const auto truth = drive::make_truth(scenario);
+  auto one = drive::make_flight(scenario, *truth, 0), other = drive::make_flight(scenario, *truth, 1);
+  return flown_values(dynamic_cast<const Mapping&>(*scenario.binding),
+                      drive::run_of(scenario, *truth, one->per_run_truth, 0),
+                      drive::run_of(scenario, *truth, other->per_run_truth, 1));
+}
+
 std::vector<std::string> warnings(const scenario::Scenario& scenario) {
   const auto& mapping = dynamic_cast<const Mapping&>(*scenario.binding);
-  const auto flown = drive::flown_values(scenario, mapping);
-  EXPECT_TRUE(flown);
   std::vector<std::string> all;
-  for (const Remark& one : remarks_on(mapping, *flown)) {
+  for (const Remark& one : remarks_on(mapping, flown_values_of(scenario))) {
     if (one.grade == Remark::Grade::warning)
       all.push_back(fmt::format("{} {}: {}", one.rule, one.subject, one.what));
   }
@@ -122,11 +128,8 @@ TEST(CheckWithAScenario, SaysNothingOfValuesWithoutOne) {
 // heading passes 0 deg.
 TEST(CheckWithAScenario, MeasuresWhiteNoise) {
   const scenario::Scenario scenario = flown_at(20);
-  const auto& mapping = dynamic_cast<const Mapping&>(*scenario.binding);
-  const auto flown = drive::flown_values(scenario, mapping);
-  ASSERT_TRUE(flown);
   std::map<std::string, PlayedValues> by_signal;
-  for (const auto& [source, values] : *flown) by_signal[source->signal->name] = values;
+  for (const auto& [source, values] : flown_values_of(scenario)) by_signal[source->signal->name] = values;
   constexpr double degrees = 57.29578;  // the estimate of 2000 samples has a sigma of 2 %
   EXPECT_NEAR(by_signal["Angle"].noise, 0.01 * degrees, 0.06 * 0.01 * degrees);
   EXPECT_NEAR(by_signal["Wide"].noise, 0.001 * degrees, 0.06 * 0.001 * degrees);
