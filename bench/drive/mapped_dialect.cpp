@@ -47,11 +47,15 @@ class MappedWatch final : public observe::TargetWatch {
     if (received.own) return;
     for (const std::size_t index : places_.hears(received.frame)) {
       const mapping::Hear& hear = conversation_.mapping.hears[index];
-      heard_ = true;
-      heard_from_.insert(hear.target);
-      if (!hear.is_owed() || !hear.echo) continue;
+      // A frame of the transport protocol of J1939 may be a part of another message.
+      const bool is_part = hear.of.message->j1939_transport();
+      const bool is_awaited = hear.is_owed() && hear.echo;
+      if (!is_part) note(hear);
+      if (!is_part && !is_awaited) continue;
       // An answer with a wrong checksum is an answer too: the target has processed the sample.
       const mapping::Receiver::Taken taken = receivers_[index].take(hear.of, received.frame);
+      if (is_part && !taken.bytes.empty()) note(hear);
+      if (!is_awaited) continue;
       if (taken.bytes.size() != hear.of.message->size || *hear.answers != awaited_play_) continue;
       const mapping::Sent* cause = mapping::cause_of(conversation_, hear, taken.bytes);
       if (cause != nullptr && cause->valid_us == awaited_us_) waits_for_.erase(hear.of.index);
@@ -82,6 +86,11 @@ class MappedWatch final : public observe::TargetWatch {
   }
 
  private:
+  void note(const mapping::Hear& hear) {
+    heard_ = true;
+    heard_from_.insert(hear.target);
+  }
+
   const mapping::Conversation& conversation_;
   mapping::Places places_;
   mapping::Passing passing_;

@@ -87,6 +87,14 @@ Places::Places(const Mapping& mapping)
       if (heard.id == info.id && heard.extended == info.extended) hears_[index].push_back(i);
     }
   }
+  for (std::size_t i = 0; i < mapping.hears.size(); ++i) {
+    const Mapped& heard = mapping.hears[i].of;
+    index_of_.push_back(heard.index);
+    if (!heard.message->j1939_transport()) continue;
+    const bool any = by_group_.contains(wire::j1939_group(heard.message->id));
+    (any ? from_any_ : from_[wire::j1939_source(heard.message->id)]).push_back(i);
+  }
+  for (auto& [source, all] : from_) all.insert(all.end(), from_any_.begin(), from_any_.end());
 }
 
 const quantities::Layout* find_layout(std::string_view columns) {

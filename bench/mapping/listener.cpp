@@ -31,7 +31,8 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
   const Mapping& mapping = conversation.mapping;
   for (const Hear& hear : mapping.hears) {
     const Mapped& of = hear.of;
-    if (of.message->fast_packet) seen_.from_target[of.index].has_counter = true;  // the sequence number
+    // The frames have numbers.
+    if (of.has_several_frames()) seen_.from_target[of.index].has_counter = true;
     if (!of.protection) continue;
     seen_.from_target[of.index].has_counter = of.protection->settings().counter.has_value();
     seen_.from_target[of.index].has_checksum = of.protection->settings().checksum.has_value();

@@ -26,6 +26,7 @@
 #include "dbc/protection/protection.hpp"
 #include "dbc/transport/fast_packet.hpp"
 #include "dbc/transport/iso_tp.hpp"
+#include "dbc/transport/j1939.hpp"
 #include "dbc/wire/j1939.hpp"
 #include "dbc/wire/message_places.hpp"
 #include "dbc/wire/result.hpp"
@@ -43,10 +44,13 @@ struct Mapped {
 
   /// The number of frames of the message.
   [[nodiscard]] std::size_t frames() const {
+    if (message->j1939_transport()) return 1 + transport::j1939_packets(message->size);
     return message->fast_packet ? transport::fast_packet_frames(message->size) : 1;
   }
   /// The number of bytes of each frame.
-  [[nodiscard]] unsigned frame_size() const { return message->fast_packet ? 8 : message->size; }
+  [[nodiscard]] unsigned frame_size() const { return has_several_frames() ? 8 : message->size; }
+  /// Whether a transport protocol carries the message.
+  [[nodiscard]] bool has_several_frames() const { return message->fast_packet || message->j1939_transport(); }
   /// The index of one of the message's signals.
   [[nodiscard]] std::size_t number(const dbc::Signal& signal) const {
     return static_cast<std::size_t>(&signal - message->signals.data());
@@ -206,19 +210,35 @@ class Places {
     const std::size_t index = by_id_(frame);
     if (index != MessagePlaces::nowhere || !frame.extended || frame.error) return index;
     const auto found = by_group_.find(wire::j1939_group(frame.id));
-    return found == by_group_.end() ? MessagePlaces::nowhere : found->second;
+    if (found != by_group_.end()) return found->second;
+    const auto parts = in_parts(frame);
+    return parts.empty() ? MessagePlaces::nowhere : index_of_[parts.front()];
   }
-  /// The messages of targets that a frame is, as indices of Mapping::hears.
+  /// The messages of targets that a frame is, as indices of Mapping::hears. A frame of the transport protocol
+  /// of J1939 may be a part of several messages.
   [[nodiscard]] std::span<const std::size_t> hears(const Frame& frame) const {
     const std::size_t index = (*this)(frame);
     if (index == MessagePlaces::nowhere) return {};
-    return hears_[index];
+    const auto parts = in_parts(frame);
+    return parts.empty() ? std::span<const std::size_t>(hears_[index]) : parts;
   }
 
  private:
   MessagePlaces by_id_;
   const std::map<std::uint32_t, std::size_t>& by_group_;
   std::vector<std::vector<std::size_t>> hears_;  // for each message
+  // The messages, as indices of Mapping::hears, that J1939-21 sends in several frames: from any source, and,
+  // if some are heard from one source only, all that this source may send.
+  std::vector<std::size_t> from_any_;
+  std::map<std::uint8_t, std::vector<std::size_t>> from_;
+  std::vector<std::size_t> index_of_;  // in Binding::messages, for each of Mapping::hears
+
+  [[nodiscard]] std::span<const std::size_t> in_parts(const Frame& frame) const {
+    if (from_any_.empty() && from_.empty()) return {};
+    if (!transport::J1939Receiver::carries(frame)) return {};
+    const auto own = from_.find(wire::j1939_source(frame.id));
+    return own == from_.end() ? from_any_ : own->second;
+  }
 };
 
 /// Reads the mappings of the targets of a run, and their DBCs. A mapping gives the path of its DBC relative

@@ -144,12 +144,15 @@ class Reader {
                      "each message once, or each page of a multiplexed message that the bench sends");
     // dbc::parse_leniently() accepts any size, because DBC files also describe what transport protocols
     // carry.
-    if (!message.fast_packet && (message.j1939_transport() || message.size > 64 ||
-                                 !size_has_dlc(static_cast<std::uint8_t>(message.size), true)))
+    const bool fits_a_frame = !message.j1939_transport() && message.size <= 64 &&
+                              size_has_dlc(static_cast<std::uint8_t>(message.size), true);
+    if (!fits_a_frame && !message.fast_packet && !(message.j1939_transport() && of_target))
       section.reject(
-          key, fmt::format("{} has {} bytes, which no frame has", message.name, message.size),
-          "a message of one frame, or a fast packet of NMEA 2000: a mapping knows no ISO-TP and no "
-          "J1939 transport protocol");
+          key,
+          fmt::format("{} has {} bytes, which {}", message.name, message.size,
+                      message.j1939_transport() ? "J1939 sends in several frames" : "no frame has"),
+          "a message of one frame, a fast packet of NMEA 2000, or a message of J1939 that is heard: a "
+          "mapping knows no ISO-TP, and plays nothing by the transport protocol of J1939");
     MessageInfo info{.name = message.name,
                      .id = message.id,
                      .extended = message.extended,
@@ -165,9 +168,9 @@ class Reader {
     }
     if (const auto own = protections_.find(&message); own != protections_.end())
       mapped.protection = own->second;
-    if (mapped.protection && message.fast_packet)
-      section.reject(key, fmt::format("{} is a fast packet and has a [[protection]]", message.name),
-                     "no counter and no checksum: NMEA 2000 has none");
+    if (mapped.protection && mapped.has_several_frames())
+      section.reject(key, fmt::format("{} has several frames and a [[protection]]", message.name),
+                     "no counter and no checksum: NMEA 2000 and J1939 have none");
     return mapped;
   }
 

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 
 #include "bench/mapping/mapping.hpp"
 #include "dbc/protection/protection.hpp"
 #include "dbc/transport/fast_packet.hpp"
+#include "dbc/transport/j1939.hpp"
 
 namespace canhil::mapping {
 
@@ -21,14 +23,17 @@ class Receiver {
     std::uint64_t lost = 0;                 ///< number of messages before this one that are missing
   };
 
-  /// Takes a frame with the id of the message.
+  /// Takes a frame with the id of the message, or one of the transport protocol of J1939 that may be a part
+  /// of the message.
   Taken take(const Mapped& of, const Frame& frame);
 
  private:
   Taken put_together(const Mapped& of, const Frame& frame);
+  Taken part_of_j1939(const Mapped& of, const Frame& frame);
 
   protection::Receiver protection_;
   std::map<std::uint32_t, transport::FastPacketReceiver> fast_packets_;  // by id: several sources may send
+  std::optional<transport::J1939Receiver> j1939_;                        // of the message's parameter group
 };
 
 }  // namespace canhil::mapping

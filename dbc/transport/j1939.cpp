@@ -79,6 +79,10 @@ void J1939Receiver::manage(const Frame& frame, Nodes nodes) {
     if (session.next != 0 && !again) lose(session);  // the message before is not complete
     const std::size_t size = data[1] | std::size_t{data[2]} << 8U;
     session = {.group = group, .size = size, .next = 1};
+    if (only_ && group != *only_) {
+      session.next = 0;
+      return;
+    }
     if (size < fewest_j1939_bytes || size > most_j1939_bytes || data[3] != j1939_packets(size)) lose(session);
     return;
   }
@@ -107,6 +111,7 @@ std::optional<J1939Receiver::Message> J1939Receiver::take(const Frame& frame) {
   }
   Session& session = sessions_[nodes];
   const unsigned number = frame.data[0], last = std::exchange(session.last, number);
+  if (session.next == 0 && only_) return std::nullopt;  // perhaps a packet of another group
   if (session.next == 0 || number != session.next) {
     if (number <= last) session.losing = false;  // a further message, of which the announcement did not come
     lose(session);

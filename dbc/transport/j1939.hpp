@@ -31,6 +31,10 @@ std::vector<Frame> split_j1939(std::span<const std::uint8_t> message, std::uint3
 /// Puts the messages of a bus together. It only listens: nothing is requested or acknowledged.
 class J1939Receiver {
  public:
+  J1939Receiver() = default;
+  /// Takes only the messages of this parameter group, and counts only them.
+  explicit J1939Receiver(std::uint32_t group) : only_(group) {}
+
   /// Whether a frame is one of the transport protocol.
   static bool carries(const Frame& frame);
 
@@ -64,6 +68,7 @@ class J1939Receiver {
   void manage(const Frame& frame, Nodes nodes);
   void lose(Session& session);
 
+  std::optional<std::uint32_t> only_;
   std::map<Nodes, Session> sessions_;
   std::uint64_t lost_ = 0;
 };

@@ -249,6 +249,67 @@ signals = { Height = "position.height" }
             Receiver::Outcome::wrong_size);
 }
 
+// A message of 20 bytes of J1939 is heard from an announcement and three packets; other groups do not matter.
+TEST(Own, MessagesOfTheTransportProtocolOfJ1939AreHeard) {
+  const std::string text = R"(VERSION ""
+NS_ :
+BS_:
+BU_: Sensor Device
+BO_ 2566834709 In: 8 Sensor
+ SG_ Latitude : 0|64@1- (1E-16,0) [-90|90] "deg" Device
+BO_ 2566843394 Out: 20 Device
+ SG_ Height : 120|32@1- (0.01,0) [0|0] "m" Sensor
+BA_DEF_ "ProtocolType" STRING ;
+BA_ "ProtocolType" "J1939";
+)";
+  const std::string of = R"(dbc = "ecu.dbc"
+[[play]]
+messages = ["In"]
+every_ms = 20
+[play.signals]
+"In.Latitude" = "gps.latitude"
+[[hear]]
+message = "Out"
+signals = { Height = "position.height" }
+)";
+  const auto all = read(of, text);
+  ASSERT_TRUE(all) << all.error().message;
+  const Hear& hear = (*all)->hears.front();
+  EXPECT_EQ(hear.of.frames(), 4U);
+  const Places places(**all);
+  std::vector<std::uint8_t> bytes(20);
+  bytes[15] = 0xD2;  // 1234 = 0x4D2
+  bytes[16] = 0x04;
+  constexpr std::uint32_t other_group = 0x18FECA00;
+  Receiver receiver;
+  const auto wholes_of = [&](const std::vector<Frame>& frames) {
+    std::size_t wholes = 0;
+    for (const Frame& frame : frames) {
+      EXPECT_EQ(places(frame), hear.of.index);
+      EXPECT_THAT(places.hears(frame), testing::ElementsAre(0U));
+      const auto taken = receiver.take(hear.of, frame);
+      EXPECT_EQ(taken.lost, 0U);
+      if (taken.outcome != Receiver::Outcome::whole) continue;
+      ++wholes;
+      std::vector<double> values;
+      mapping::read(hear, taken.bytes, values,
+                    [](const ReportedSignal&, double value, bool) { EXPECT_DOUBLE_EQ(value, 12.34); });
+    }
+    return wholes;
+  };
+  const std::uint32_t id = hear.of.message->id, source = id & 0xFFU;
+  EXPECT_EQ(wholes_of(transport::split_j1939(bytes, other_group | source)), 0U);
+  EXPECT_EQ(wholes_of(transport::split_j1939(bytes, id)), 1U);
+  const Frame of_another = transport::split_j1939(bytes, id ^ 1U).front();
+  EXPECT_EQ(places(of_another), MessagePlaces::nowhere);
+
+  std::string played = of;
+  played.replace(played.find("\"In\""), 4, "\"Out\"");
+  const auto refused = read(played, text);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("plays nothing by the transport protocol of J1939"));
+}
+
 constexpr const char* scenario = R"(title = "a"
 duration_s = 2
 seed = 1
