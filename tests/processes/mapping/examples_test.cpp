@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/processes/hil/program.hpp"
@@ -136,6 +138,60 @@ TEST(DeviceLog, HasTheAnswersToEvents) {
 
 INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("auv", "car", "marine", "odometer", "uav"),
                          [](const auto& of) { return of.param; });
+
+// The ship's navigator, but its position is a message of J1939: PGN 65259, announced to all nodes (BAM),
+// seven packets.
+class J1939Navigator {
+ public:
+  J1939Navigator() {
+    const std::string position = "2381841700", group = std::to_string(0x98FEEB24U);
+    change("marine.dbc",
+           {{position, group},
+            {"BA_DEF_DEF_ \"GenMsgCycleTime\" 0;",
+             "BA_DEF_DEF_ \"GenMsgCycleTime\" 0;\nBA_DEF_ BO_ \"VFrameFormat\" ENUM \"StandardCAN\","
+             "\"ExtendedCAN\",\"reserved\",\"J1939PG\";\nBA_DEF_DEF_ \"VFrameFormat\" \"ExtendedCAN\";\n"
+             "BA_ \"VFrameFormat\" BO_ " +
+                 group + " 3;"}});
+    change("marine.mapping.toml", {});
+    change("marine.toml", {});
+    change(
+        "marine.py",
+        {{"str(Path(__file__).resolve().parents[1] / \"kit\")", "\"" SOURCE_DIR "/docs/examples/kit\""},
+         {"enumerate(self.out.split(message))",
+          "enumerate([bytes([32, 43, 0, 7, 255, 0xEB, 0xFE, 0])] + [bytes([i + 1]) + message[7 * i:7 * i + "
+          "7].ljust(7, b'\\xff') for i in range(7)])"},
+         {"yield POSITION, frame", "yield EXTENDED | (0x1CEBFF24 if number else 0x1CECFF24), frame"}});
+  }
+  [[nodiscard]] Ended fly(const std::string& defect, const std::string& more) const {
+    return hil_bench(fmt::format(
+        "run {0}/marine.toml --lockstep --target '/usr/bin/python3 {0}/marine.py --defect {1}' {2}",
+        scratch(""), defect, more));
+  }
+
+ private:
+  static void change(const std::string& file,
+                     const std::vector<std::pair<std::string, std::string>>& changes) {
+    std::string text = read(SOURCE_DIR "/docs/examples/marine/" + file);
+    for (const auto& [from, to] : changes) {
+      ASSERT_NE(text.find(from), std::string::npos) << from;
+      for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+        text.replace(at, from.size(), to);
+    }
+    std::ofstream(scratch(file)) << text;
+  }
+};
+
+TEST(MessagesOfJ1939, OfSeveralFramesAreHeard) {
+  const J1939Navigator navigator;
+  const std::string log = scratch("j1939.log");
+  const Ended right = navigator.fly("none", "--log " + log);
+  EXPECT_THAT(right.out, testing::ContainsRegex("PASS +error position.horizontal")) << right.err;
+  EXPECT_THAT(right.out, testing::HasSubstr("lost by the counter 0 "));
+  EXPECT_THAT(hil_bench(fmt::format("check {} {}", log, scratch("marine.toml"))).out,
+              testing::ContainsRegex("PASS +error position.horizontal"));
+  EXPECT_THAT(navigator.fly("lost_frame", "").out,
+              testing::ContainsRegex("FAIL +protection +.*lost by the counter [1-9]"));
+}
 
 class DeviceDefects : public testing::TestWithParam<DeviceDefect> {};
 
