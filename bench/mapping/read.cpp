@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <limits>
 
 #include "bench/mapping/join.hpp"
 #include "bench/mapping/mapping.hpp"
@@ -146,6 +147,10 @@ class Reader {
     // carry.
     const bool fits_a_frame = !message.j1939_transport() && message.size <= 64 &&
                               size_has_dlc(static_cast<std::uint8_t>(message.size), true);
+    constexpr unsigned most_bytes = std::numeric_limits<decltype(MessageInfo::size)>::max();
+    if (message.size > most_bytes)
+      section.reject(key, fmt::format("{} has {} bytes", message.name, message.size),
+                     fmt::format("at most {}", most_bytes));
     if (!fits_a_frame && !message.fast_packet && !(message.j1939_transport() && of_target))
       section.reject(
           key,

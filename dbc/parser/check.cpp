@@ -130,6 +130,15 @@ void check_size(Findings& findings, Message& message) {
     return;
   }
   if (message.j1939_transport()) return;
+  if (message.size > largest_frame) {
+    findings.add(
+        Rule::message_size, message.at,
+        fmt::format(
+            "message {} has {} bytes, expected at most {}, or a fast packet of NMEA 2000 or a message "
+            "of SAE J1939",
+            message.name, message.size, largest_frame));
+    return;
+  }
   if (!message.fd) {
     findings.add(Rule::fd_format_missing, message.at,
                  fmt::format("message {} has {} bytes, expected at most 8, or VFrameFormat StandardCAN_FD or "
@@ -194,9 +203,11 @@ void check_values(Findings& findings, const Message& message, const Signal& sign
   }
 }
 
+using MessageBits = std::bitset<std::size_t{8} * largest_message>;
+
 /// Sets those elements of `bits` (index: byte * 8 + bit) that the signal occupies. False: the signal reaches
 /// beyond the message.
-bool bits_of(const Message& message, const Signal& signal, std::bitset<512>& bits) {
+bool bits_of(const Message& message, const Signal& signal, MessageBits& bits) {
   for (unsigned i = 0; i < signal.length; ++i) {
     const unsigned bit = wire::bit_position(signal.start_bit, i, signal.byte_order == ByteOrder::big_endian);
     if (bit >= message.size * 8) return false;
@@ -206,12 +217,12 @@ bool bits_of(const Message& message, const Signal& signal, std::bitset<512>& bit
 }
 
 void check_layout(Findings& findings, const Message& message, LeftOut& left_out) {
-  std::vector<std::bitset<512>> bits(message.signals.size());
+  std::vector<MessageBits> bits(message.signals.size());
   for (std::size_t i = 0; i < message.signals.size(); ++i) {
     const Signal& signal = message.signals[i];
     if (left_out[i]) continue;
     if (!bits_of(message, signal, bits[i])) {
-      // For a start bit beyond 64 bytes, a finding was added when the start bit was read.
+      // For a start bit beyond the longest message, a finding was added when the start bit was read.
       if (signal.start_bit < bits[i].size()) {
         findings.add(
             Rule::signal_beyond_message, signal.at,
@@ -245,6 +256,13 @@ void leave_out(Message& message, const LeftOut& left_out) {
   for (SignalGroup& group : message.groups)
     std::erase_if(group.signals,
                   [&](const std::string& name) { return find_signal(message, name) == nullptr; });
+}
+
+/// Removes the messages that are longer than a frame and that no transport protocol carries.
+void leave_out_long_messages(Database& database) {
+  std::erase_if(database.messages, [](const Message& message) {
+    return message.size > largest_frame && !message.fast_packet && !message.j1939_transport();
+  });
 }
 
 /// Removes the messages that are marked in draft.left_out. They were kept until now, because later sections
@@ -284,6 +302,7 @@ void finish(Draft& draft) {
     leave_out_multiplexed(draft.findings, message, left_out);
     leave_out(message, left_out);
   }
+  leave_out_long_messages(draft.database);
 }
 
 }  // namespace canhil::dbc

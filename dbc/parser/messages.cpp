@@ -9,8 +9,7 @@
 namespace canhil::dbc {
 namespace {
 
-constexpr unsigned largest_size = 64;
-constexpr unsigned last_bit = 8 * largest_size - 1;
+constexpr unsigned last_bit = 8 * largest_message - 1;
 
 // Reads the indicator of a signal. M: the signal is a multiplexor. m3: the signal is present when its
 // multiplexor has the value 3. m3M: both.
@@ -155,7 +154,8 @@ void read_message(Reader& in, Draft& draft) {
   const Position name_at = in.peek().at;
   message.name = in.word("the name of the message");
   in.mark(':');
-  message.size = static_cast<unsigned>(in.natural_or(Rule::message_size, "the size in bytes", largest_size));
+  message.size =
+      static_cast<unsigned>(in.natural_or(Rule::message_size, "the size in bytes", largest_message));
   read_sender(in, draft, message);
   const bool is_kept = check_id(draft, message, written_id);
   const std::size_t index = draft.database.messages.size();
@@ -169,7 +169,7 @@ void read_message(Reader& in, Draft& draft) {
         Rule::duplicate_message, name_at,
         fmt::format("message {} is defined a second time, expected a unique name", message.name));
   }
-  draft.left_out.push_back(!is_kept || !is_new || message.size > largest_size);
+  draft.left_out.push_back(!is_kept || !is_new || message.size > largest_message);
   draft.database.messages.push_back(std::move(message));
   draft.signals.emplace_back();
   while (!is_after_signals(in)) {

@@ -54,7 +54,9 @@ const Wrong wrong[] = {
      "7:5: message id 536870912 out of range, expected at most 536870911"},
     {"id_twice", "BO_ 1 N: 8 A", "7:5: message N has the id 1 of M, expected a unique id"},
     {"message_twice", "BO_ 2 M: 8 A", "7:7: message M is defined a second time, expected a unique name"},
-    {"size", "BO_ 2 N: 65 A", "7:10: unexpected '65', expected the size in bytes, an integer in 0..64"},
+    {"size", "BO_ 2 N: 65 A",
+     "7:5: message N has 65 bytes, expected at most 64, or a fast packet of NMEA 2000 or a message of SAE "
+     "J1939"},
     {"size_classic", "BO_ 2 N: 9 A",
      "7:5: message N has 9 bytes, expected at most 8, or VFrameFormat StandardCAN_FD or ExtendedCAN_FD"},
     {"size_fd", std::string("BO_ 2 N: 9 A\n") + format + "BA_ \"VFrameFormat\" BO_ 2 2;",

@@ -134,7 +134,9 @@ const Lenient cases[] = {
      [](const Database& d) { return has_one_message(d) && last(d).signals.size() == 2; }},
     {Rule::duplicate_message, "BO_ 2 M: 4 A", "7:7 duplicate-message",
      [](const Database& d) { return find_message(d, 2)->size == 4 && find_message(d, "M")->id == 1; }},
-    {Rule::message_size, "BO_ 2 N: 1785 A\n SG_ a : 0|8@1+ (1,0) [0|0] \"\" B", "7:10 message-size",
+    {Rule::message_size, "BO_ 2 N: 1785 A\n SG_ a : 0|8@1+ (1,0) [0|0] \"\" B", "7:5 message-size",
+     has_one_message},
+    {Rule::message_size, "BO_ 2 N: 1786 A\n SG_ a : 0|8@1+ (1,0) [0|0] \"\" B", "7:10 message-size",
      has_one_message},
     {Rule::fd_format_missing, "BO_ 2 N: 12 A", "7:5 fd-format-missing",
      [](const Database& d) { return last(d).fd && last(d).size == 12; }},
@@ -348,6 +350,25 @@ TEST(LenientReader, FindsMessagesBetweenMissingQuotes) {
   const Inspection comment = inspect("BU_: A\nBO_ 2 N: 8 A\nCM_ BO_ 2 \"before:\nBO_ 2 N: 4 A\n\";\n");
   EXPECT_TRUE(comment.findings.empty());
   EXPECT_EQ(comment.database->messages[0].comment, "before:\nBO_ 2 N: 4 A\n");
+}
+
+// PGN 129540 (satellites in view) is a fast packet. PGN 65227 (trouble codes) is a message of J1939.
+TEST(LenientReader, KeepsLongMessagesOfTransportProtocols) {
+  const Inspection inspection = inspect(
+      "BU_: A\nBO_ 2381842434 Sats: 223 A\n SG_ last : 1776|8@1+ (1,0) [0|0] \"\" A\n"
+      "BO_ 2566834944 Codes: 1785 A\n SG_ Code : 14272|8@1+ (1,0) [0|0] \"\" A\n SG_ Beyond : 14279|8@1+ "
+      "(1,0) [0|0] \"\" A\n"
+      "BO_ 2566835200 Other: 100 A\n"
+      "BA_DEF_ BO_ \"VFrameFormat\" ENUM \"StandardCAN\",\"ExtendedCAN\",\"reserved\",\"J1939PG\";\n"
+      "BA_DEF_DEF_ \"VFrameFormat\" \"ExtendedCAN\";\nBA_ \"VFrameFormat\" BO_ 2566834944 3;\n");
+  ASSERT_TRUE(inspection.database);
+  const auto& messages = inspection.database->messages;
+  ASSERT_EQ(messages.size(), 2U);
+  EXPECT_TRUE(messages[0].fast_packet);
+  EXPECT_EQ(messages[0].signals.size(), 1U);
+  EXPECT_TRUE(messages[1].j1939_transport());
+  EXPECT_EQ(messages[1].signals.size(), 1U);
+  EXPECT_EQ(places_of(inspection.findings), "6:6 signal-beyond-message, 7:5 message-size");
 }
 
 TEST(LenientReader, ListsTenThousandFindingsAndReadsOn) {
