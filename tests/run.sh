@@ -201,7 +201,7 @@ address_sanitizer() {
   # Tests that are not run with this sanitizer, and why:
   local left_out=(
     '[.]Documentation[.]' # these compare the documentation with the DBC, and the DBC of this copy has one more estimator
-    ThePapersFlight 'Ecu[.]PassesInRealTime' 'Devices[.]PassInRealTime' # these long flights in real time run the same code as the quick flights
+    ThePapersFlight 'Ecu[.]PassesInRealTime' 'Devices[.]PassInRealTime' 'Device(Buses|Log)[.]' # these long flights in real time run the same code as the quick flights
     # These run code many times that other tests run once, so they find no further memory errors.
     '[.]Bits[./]' 'ClassicAndFdAgree.*all_four' ScenarioFiles Defective 'Killed[.]' 'Divided.*/[(]([17]|3, 1)' 'Acceptance[.]' 'Slurm[.]' 'Suites[.]'
     'Faults[.](WhatIsKnown|Shards|AViolation)' 'IsJudgedAsItWasFlown/.(all_four|inflight)' 'OfScenario[.].*/.?inflight_(gps|ssbl_180)'
