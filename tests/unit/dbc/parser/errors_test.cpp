@@ -71,8 +71,8 @@ const Wrong wrong[] = {
     // signals
     {"signal_twice", signal_line("a : 0|8@1+ (1,0) [0|0] \"\" B\n SG_ a : 8|8@1+ (1,0) [0|0] \"\" B"),
      "9:6: signal N.a is defined a second time, expected a unique name"},
-    {"start", signal_line("a : 512|8@1+ (1,0) [0|0] \"\" B"),
-     "8:10: unexpected '512', expected a start bit, an integer in 0..511"},
+    {"start", signal_line("a : 14280|8@1+ (1,0) [0|0] \"\" B"),
+     "8:10: unexpected '14280', expected a start bit, an integer in 0..14279"},
     {"length_0", signal_line("a : 0|0@1+ (1,0) [0|0] \"\" B"), "8:6: signal N.a has 0 bits, expected 1..64"},
     {"length_65", signal_line("a : 0|65@1+ (1,0) [0|0] \"\" B"),
      "8:6: signal N.a has 65 bits, expected 1..64"},
