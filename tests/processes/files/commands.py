@@ -44,7 +44,7 @@ TABLE = {
     "hil-bench dbc": {},
     "hil-bench dbc lint": {"FILE": "R", "--encoding": "N", "--sarif": "W"},
     "hil-bench dbc show": {"FILE": "R", "MESSAGE": "N", "--encoding": "N"},
-    "hil-bench dbc check": {"MAPPING": "R"},
+    "hil-bench dbc check": {"MAPPING": "R", "--scenario": "R"},
     "hil-bench dbc extract": {"MAPPING": "R", "LOG": "R", "--play": "N"},
     "hil-bench dbc wireshark": {"FILE": "R", "--encoding": "N", "--out": "W"},
     "hil-bench dbc rules": {},

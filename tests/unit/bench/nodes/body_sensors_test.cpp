@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/sensors/air_data.hpp"
 #include "bench/sensors/depth_gauge.hpp"
 #include "bench/sensors/dvl.hpp"
 #include "bench/sensors/gps.hpp"
@@ -77,6 +78,36 @@ TEST(Dvl, WithoutBottomLockIsInvalidAndHasItsNoise) {
   const Vector3 sigma = (squares / (2000 - invalid)).cwiseSqrt();
   for (int axis = 0; axis < 3; ++axis)
     EXPECT_NEAR(sigma[axis], 0.1 * (axis + 1), 0.5 * (axis + 1) / std::sqrt(2 * 1800.0));
+}
+
+// Against the sensor without errors. Both draw the same numbers, but those multiply 0.
+TEST(AirData, HasTheErrorsOfItsKeys) {
+  const std::string sensor = "period_ms = 10\nwind_mps = [3, -2, 0.5]\n";
+  const auto exact = measured(air_data, sensor, turning());
+  const auto noisy = measured(air_data,
+                              sensor +
+                                  "pressure_bias_hpa = 2\npressure_noise_hpa = 0.5\nspeed_scale_ppm = 20000\n"
+                                  "speed_noise_mps = 0.4\nangle_bias_deg = 1\nangle_noise_deg = 0.2\n",
+                              turning());
+  ASSERT_EQ(exact.size(), noisy.size());
+  const double count = static_cast<double>(exact.size());
+  const auto expect = [&](std::size_t value, double scale, double bias, double sigma) {
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      const double error = noisy[i].values[value] - scale * exact[i].values[value];
+      sum += error;
+      squares += (error - bias) * (error - bias);
+    }
+    // Five sigmas of a mean and of a standard deviation.
+    EXPECT_NEAR(sum / count, bias, 5 * sigma / std::sqrt(count)) << value;
+    EXPECT_NEAR(std::sqrt(squares / count), sigma, 5 * sigma / std::sqrt(2 * count)) << value;
+  };
+  expect(0, 1, 200, 50);                          // Pa
+  expect(3, 1.02, 0, 0.4);                        // air speed
+  expect(4, 1, 1 * deg, 0.2 * deg);               // angle of attack
+  expect(5, 1, 1 * deg, 0.2 * deg);               // sideslip
+  for (std::size_t i = 0; i < exact.size(); ++i)  // the temperature has no error
+    EXPECT_EQ(noisy[i].values[1], exact[i].values[1]);
 }
 
 // The wheels of a level turn to the right roll on circles about the same centre: their speeds are as their
