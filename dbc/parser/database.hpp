@@ -78,8 +78,8 @@ struct Node {
 
 /// The byte order of a signal: Intel (little-endian) or Motorola (big-endian).
 enum class ByteOrder : std::uint8_t { little_endian, big_endian };
-/// The most bytes of a frame, and of a message that a transport protocol carries (SAE J1939-21).
-inline constexpr unsigned largest_frame = 64, largest_message = 1785;
+inline constexpr unsigned largest_frame = 64;      ///< the most bytes of a frame
+inline constexpr unsigned largest_message = 1785;  ///< the most of a transport protocol (SAE J1939-21)
 
 /// The type of a raw value.
 enum class RawType : std::uint8_t { unsigned_integer, signed_integer, float32, float64 };
