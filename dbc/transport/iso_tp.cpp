@@ -28,7 +28,7 @@ Bytes padded(Bytes frame, std::uint8_t padding) {
 // STmin: 0 to 127 ms, or 0xF1 to 0xF9: 100 to 900 us. A reserved value counts as 127 ms (9.6.5.4).
 std::int64_t separation_of(std::uint8_t st_min) {
   constexpr std::uint8_t most_ms = 0x7F, least_tenths = 0xF1, most_tenths = 0xF9;
-  if (st_min >= least_tenths && st_min <= most_tenths) return (st_min - 0xF0) * 100;
+  if (st_min >= least_tenths && st_min <= most_tenths) return std::int64_t{100} * (st_min - 0xF0);
   return std::int64_t{1000} * std::min(st_min, most_ms);
 }
 
