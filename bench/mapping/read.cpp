@@ -286,10 +286,11 @@ class Reader {
       // A play has the name of its last message. Another of its messages means it too, but is not what is
       // answered.
       std::string name = section.text("answers");
+      const bool is_play = std::ranges::find(mapping_->plays, name, &Play::name) != mapping_->plays.end();
       for (const Play& one : mapping_->plays) {
-        const auto part =
-            std::ranges::find(one.messages, name, [](const auto& it) { return it.of.message->name; });
-        if (name != one.name && part != one.messages.end())
+        const bool is_part = std::ranges::any_of(
+            one.messages, [&](const PlayedMessage& part) { return part.of.message->name == name; });
+        if (!is_play && is_part)
           section.reject("answers", fmt::format("{} is not the last message of its play", name),
                          fmt::format("'{}'", one.name));
       }

@@ -391,6 +391,10 @@ TEST(Player, PlaysEachPageOfAMessage) {
   EXPECT_THAT(sent, testing::ElementsAre(100, 50));
   EXPECT_EQ(flown.mapping.plays[1].name, "Paged");
   EXPECT_EQ(flown.mapping.plays[2].name, "Paged Page=1");
+  std::string of_first = with_pages(1);  // the first page has the name of the message
+  of_first.replace(of_first.find("answers = \"Rates\"\necho"), 22, "answers = \"Paged\"\n#");
+  const auto answered = read("", of_first);
+  EXPECT_TRUE(answered) << answered.error().message;
   const auto twice = read("", with_pages(0));
   ASSERT_FALSE(twice);
   EXPECT_EQ(twice.error().message,
@@ -512,6 +516,10 @@ TEST(Mapping, SaysWhatIsWrongInOneLine) {
   EXPECT_EQ(refused("\"Answer.Roll\" = \"deg\"", ""),
             "ecu.mapping.toml:18: key 'hear[1].signals.Roll': has no unit in the DBC, expected [units] with "
             "\"Answer.Roll\" = one of: rad, mrad, deg");
+  EXPECT_EQ(
+      refused("answers = \"Rates\"", "answers = \"Turned\""),
+      "ecu.mapping.toml:16: key 'hear[1].answers': Turned is not the last message of its play, expected "
+      "'Rates'");
   EXPECT_EQ(refused("every_ms = 20", ""),
             "ecu.mapping.toml:5: key 'play[1].every_ms': is missing, expected a number above 0");
   EXPECT_EQ(refused("message = \"Answer\"", "message = \"Rates\""),
