@@ -165,7 +165,7 @@ Event read_event(Section& section, const Binding& binding, std::int64_t duration
   if (event.times > 1 && event.period_us == 0)
     section.missing("period_ms", "the time from one to the next, with times");
   if (event.times == 1) section.refuse("period_ms", "has no effect without times", "times beside it");
-  read_answer(section, known && binding.channels[event.channel].answers, event);
+  read_answer(section, !known || binding.channels[event.channel].answers, event);
   section.finish();
   return event;
 }

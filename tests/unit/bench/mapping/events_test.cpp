@@ -369,6 +369,8 @@ TEST(Events, AreReadStrictly) {
   EXPECT_THAT(wrong("at_s = 1\nat = \"start\"\nchannel = \"mode\"\nrequest = \"01\"\n"),
               HasSubstr("no effect beside"));
   EXPECT_THAT(wrong("at_s = 11\nchannel = \"mode\"\nrequest = \"01\"\n"), HasSubstr("at_s"));
+  EXPECT_THAT(wrong("at_s = 1\nchanel = \"diagnosis\"\nrequest = \"01\"\nexpect = \"41\"\n"),
+              HasSubstr("'channel'"));
   EXPECT_THAT(wrong("at_s = 1\nchannel = \"bus\"\nrequest = \"01\"\n"), HasSubstr("'bus'"));
   EXPECT_THAT(wrong("at_s = 1\nchannel = \"mode\"\nvalues = { Power = 300 }\n"),
               HasSubstr("does not fit into Power"));
