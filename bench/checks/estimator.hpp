@@ -43,6 +43,18 @@ struct Mark {
   Spool<std::int64_t> t_us{};  ///< times of their causes, ascending
 };
 
+/// Passes on, for each answer that could report a mark, whether it did. `all`, `set`: their times, ascending;
+/// each time in `set` is one in `all`.
+template <class Give>
+void each_state(const Spool<std::int64_t>& all, const Spool<std::int64_t>& set, const Give& give) {
+  auto next = set.begin();
+  for (const std::int64_t t_us : all) {
+    const bool is_set = next != set.end() && *next == t_us;
+    if (is_set) ++next;
+    give(t_us, is_set);
+  }
+}
+
 /// A track and its estimator.
 struct OwnTrack {
   std::string_view estimator;

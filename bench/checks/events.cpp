@@ -39,11 +39,10 @@ std::string expected_of(const Event& event) {
   return text;
 }
 
-Finding judge_exchange(const Event& event, const Exchange& one, const Evidence& evidence) {
+Finding judge_exchange(const Event& event, bool in_run, const Exchange& one, const Evidence& evidence) {
   const std::string expected = expected_of(event);
   if (!one.answer) {
     const std::int64_t left_us = (evidence.seen.last_ns - one.sent_ns) / 1000;
-    const bool in_run = event.when != Event::When::start && event.when != Event::When::end;
     if (in_run && left_us < event.patience_us())
       return {Outcome::not_measured, "no answer before the end of the run", expected};
     if (!one.broken.empty()) return {Outcome::fail, "the answer is broken: " + one.broken, expected};
@@ -68,10 +67,11 @@ Finding judge_exchange(const Event& event, const Exchange& one, const Evidence& 
 }
 
 // The worst of an event's exchanges.
-Finding judge_event(const Event& event, const std::vector<const Exchange*>& own, const Evidence& evidence) {
+Finding judge_event(const Event& event, bool in_run, const std::vector<const Exchange*>& own,
+                    const Evidence& evidence) {
   std::optional<Finding> worst;
   for (const Exchange* one : own) {
-    Finding finding = judge_exchange(event, *one, evidence);
+    Finding finding = judge_exchange(event, in_run, *one, evidence);
     const bool worse = !worst || (finding.outcome == Outcome::fail && worst->outcome != Outcome::fail) ||
                        (finding.outcome == Outcome::not_measured && worst->outcome == Outcome::pass);
     if (worse) worst = std::move(finding);
@@ -90,9 +90,10 @@ std::vector<CheckResult> judge_events(std::span<const Event> events, const Evide
       if (one.event == i) own.push_back(&one);
     }
     if (!own.empty() && !event.expected) continue;
-    Finding finding = own.empty()
-                          ? Finding{Outcome::not_measured, why_not_sent(event, events), expected_of(event)}
-                          : judge_event(event, own, evidence);
+    Finding finding =
+        own.empty()
+            ? Finding{Outcome::not_measured, why_not_sent(event, events), expected_of(event)}
+            : judge_event(event, scenario::phase_of(events, event) == scenario::Phase::during, own, evidence);
     if (!evidence.ended_early.empty())
       finding = {Outcome::not_measured, "the run ended early", std::move(finding.expected)};
     results.push_back({.name = event.name,

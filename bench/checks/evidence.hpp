@@ -30,6 +30,10 @@ struct Evidence {
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
                                                 const quantities::Quantity& quantity);
 
+/// Why the causes of the answers with a quantity are not certain; empty: they are.
+std::string why_uncertain(const Evidence& evidence, std::string_view estimator,
+                          const quantities::Quantity& quantity);
+
 /// The finding if an estimator has no track of a quantity although there is a truth: the target told no value
 /// of the quantity, or not all the values that it is made of.
 Finding no_values(const quantities::Quantity& quantity, std::string expected);

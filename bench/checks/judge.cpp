@@ -74,9 +74,8 @@ std::string why_ambiguous(const checks::Rule& rule, const Evidence& evidence) {
     if (!timing.answers[index].ambiguous.empty()) return timing.answers[index].ambiguous;
   }
   for (const Subject& subject : rule.paired()) {
-    const estimators::Estimator* one = estimators::find(evidence.estimators, subject.estimator);
-    if (one == nullptr || one->ambiguous == nullptr) continue;
-    if (std::string why = one->ambiguous(evidence.seen, *subject.quantity); !why.empty()) return why;
+    if (std::string why = why_uncertain(evidence, subject.estimator, *subject.quantity); !why.empty())
+      return why;
   }
   return "";
 }
@@ -161,6 +160,12 @@ std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::s
     }
   }
   return found;
+}
+
+std::string why_uncertain(const Evidence& evidence, std::string_view estimator,
+                          const quantities::Quantity& quantity) {
+  const estimators::Estimator* one = estimators::find(evidence.estimators, estimator);
+  return one == nullptr || one->ambiguous == nullptr ? "" : one->ambiguous(evidence.seen, quantity);
 }
 
 Finding no_values(const quantities::Quantity& quantity, std::string expected) {

@@ -5,6 +5,7 @@
 #include "bench/drive/in_process_port.hpp"
 #include "bench/drive/in_process_wire.hpp"
 #include "dbc/ports/several.hpp"
+#include "dbc/wire/message_places.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::drive {
@@ -43,13 +44,13 @@ Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat 
   HubRules rules;
   rules.on_nodes = [others](std::size_t nodes) { *others = nodes; };
   rules.on_turned_away = [notes](const std::string& line) { notes->push_back(line); };
-  const auto route = [names, bus_of, binding](const Frame& frame) -> std::size_t {
-    if (bus_of.empty() || binding == nullptr) return 0;
-    const auto info = std::ranges::find_if(binding->messages, [&](const MessageInfo& one) {
-      return one.id == frame.id && one.extended == frame.extended;
-    });
-    if (info == binding->messages.end()) return 0;
-    const auto own = std::ranges::find(bus_of, binding->sender_of(*info), &BusOf::value_type::first);
+  const MessagePlaces places(bus_of.empty() || binding == nullptr ? std::span<const MessageInfo>()
+                                                                  : binding->messages);
+  const auto route = [names, bus_of, binding, places](const Frame& frame) -> std::size_t {
+    const std::size_t place = places(frame);
+    if (place == MessagePlaces::nowhere) return 0;
+    const auto own =
+        std::ranges::find(bus_of, binding->sender_of(binding->messages[place]), &BusOf::value_type::first);
     if (own == bus_of.end()) return 0;
     return static_cast<std::size_t>(std::ranges::find(names, own->second) - names.begin());
   };

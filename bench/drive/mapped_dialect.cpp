@@ -151,7 +151,7 @@ class MappedDialect final : public Dialect {
     players.push_back(std::make_unique<mapping::Player>(
         conversation_,
         run_of(of_.scenario, of_.truth, of_.flight.per_run_truth, of_.run_index, faults.get())));
-    if (!of_.of_log) players.push_back(talker(mapping::Phase::during));
+    if (!of_.of_log && !of_.scenario.events.empty()) players.push_back(talker(scenario::Phase::during));
     return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
                                       Rounding::as_on_the_bus, std::move(faults));
   }
@@ -194,7 +194,7 @@ class MappedDialect final : public Dialect {
     return {};
   }
   void stop(Link& link, nodes::Transmission& /*out*/) override {
-    static_cast<void>(talk(link, mapping::Phase::after, [] { return std::nullopt; }));
+    static_cast<void>(talk(link, scenario::Phase::after, [] { return std::nullopt; }));
   }
   observe::Observer* dialogue() override { return of_.scenario.events.empty() ? nullptr : &dialogue_; }
   [[nodiscard]] std::vector<checks::Exchange> exchanges() const override { return dialogue_.exchanges(); }
@@ -203,7 +203,7 @@ class MappedDialect final : public Dialect {
  private:
   using Gone = std::function<std::optional<std::string>()>;
 
-  std::unique_ptr<mapping::EventSender> talker(mapping::Phase phase) {
+  std::unique_ptr<mapping::EventSender> talker(scenario::Phase phase) {
     const PerRunTruth& own = of_.flight.per_run_truth;
     return std::make_unique<mapping::EventSender>(
         conversation_.mapping, of_.scenario.events, phase, dialogue_, counters_,
@@ -226,11 +226,11 @@ class MappedDialect final : public Dialect {
         return {};  // found again below
       link.wait_until(link.now_ns() + poll_ns);
     }
-    return talk(link, mapping::Phase::before, gone);
+    return talk(link, scenario::Phase::before, gone);
   }
 
   // Sends the events of a phase that has no schedule.
-  Result<void> talk(Link& link, mapping::Phase phase, const Gone& gone) {
+  Result<void> talk(Link& link, scenario::Phase phase, const Gone& gone) {
     const std::int64_t start_ns = link.now_ns();
     const auto now_us = [&] { return (link.now_ns() - start_ns) / 1000; };
     Schedule schedule({}, talker(phase));

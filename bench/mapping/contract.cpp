@@ -78,6 +78,16 @@ Result<void> Mapping::fits(const scenario::Scenario& scenario, const world::Flig
   return Player::check(*this, scenario);
 }
 
+Frame Mapped::frame(std::span<const std::uint8_t> bytes) const {
+  Frame frame{.id = message->id,
+              .size = static_cast<std::uint8_t>(bytes.size()),
+              .extended = message->extended,
+              .fd = message->fd,
+              .brs = message->fd};
+  std::ranges::copy(bytes, frame.data.begin());
+  return frame;
+}
+
 Places::Places(const Mapping& mapping)
     : by_id_(mapping.messages), by_group_(mapping.by_group), hears_(mapping.messages.size()) {
   for (std::size_t index = 0; index < hears_.size(); ++index) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "dbc/parser/codec.hpp"
+#include "bench/mapping/reading.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -16,19 +16,6 @@ constexpr std::int64_t flow_control_us = 1'000'000;
 // How finely the first time at which a condition holds is searched.
 constexpr std::int64_t condition_step_us = 10'000;
 
-Phase phase_of(const std::vector<Event>& events, const Event& event) {
-  switch (event.when) {
-    case Event::When::start:
-      return Phase::before;
-    case Event::When::end:
-      return Phase::after;
-    case Event::When::answered:
-      return phase_of(events, events[event.after]);
-    default:
-      return Phase::during;
-  }
-}
-
 std::int64_t first_time(const scenario::Expression& condition, const world::Truths& truths,
                         std::int64_t end_us) {
   for (std::int64_t t_us = 0; t_us <= end_us; t_us += condition_step_us) {
@@ -39,7 +26,7 @@ std::int64_t first_time(const scenario::Expression& condition, const world::Trut
 
 }  // namespace
 
-EventSender::EventSender(const Mapping& mapping, const std::vector<Event>& events, Phase phase,
+EventSender::EventSender(const Mapping& mapping, const std::vector<Event>& events, scenario::Phase phase,
                          Dialogue& dialogue, Counters& counters, const world::Truths& truths,
                          std::int64_t end_us)
     : mapping_(mapping), events_(events), dialogue_(dialogue), counters_(counters), places_(mapping) {
@@ -57,17 +44,6 @@ EventSender::EventSender(const Mapping& mapping, const std::vector<Event>& event
 
 const EventChannel& EventSender::channel_of(std::size_t event) const {
   return mapping_.event_channels[events_[event].channel];
-}
-
-Frame EventSender::frame_of(std::size_t event, const transport::Bytes& bytes) const {
-  const dbc::Message& message = *channel_of(event).request.message;
-  Frame frame{.id = message.id,
-              .size = static_cast<std::uint8_t>(bytes.size()),
-              .extended = message.extended,
-              .fd = message.fd,
-              .brs = message.fd};
-  std::ranges::copy(bytes, frame.data.begin());
-  return frame;
 }
 
 std::int64_t EventSender::due_us() const {
@@ -113,7 +89,7 @@ void EventSender::begin(Waiting& waiting, std::int64_t now_us, nodes::Transmissi
     transport::Bytes bytes = event.request;
     bytes.resize(channel.request.message->size);
     if (channel.request.protection) counters_[event.channel].protect(*channel.request.protection, bytes);
-    out.put(frame_of(index, bytes));
+    out.put(channel.request.frame(bytes));
   }
   if (!advance(talks_[event.channel] = std::move(talk), now_us, out)) end(event.channel, now_us, false);
 }
@@ -123,7 +99,7 @@ void EventSender::begin(Waiting& waiting, std::int64_t now_us, nodes::Transmissi
 bool EventSender::advance(Talk& talk, std::int64_t now_us, nodes::Transmission& out) {
   const Event& event = events_[talk.event];
   if (talk.sender && talk.sender->may_send()) {
-    out.put(frame_of(talk.event, *talk.sender->next()));
+    out.put(channel_of(talk.event).request.frame(*talk.sender->next()));
     if (talk.sender->may_send()) {
       talk.due_us = now_us + talk.sender->separation_us();
       return true;
@@ -158,7 +134,7 @@ bool EventSender::hear(const Frame& frame, std::int64_t now_us) {
     if (found == talks_.end()) continue;
     Talk& talk = found->second;
     if (auto flow_control = dialogue_.flow_control(channel))
-      ready_.push_back({.due_us = now_us, .frame = frame_of(talk.event, *flow_control)});
+      ready_.push_back({.due_us = now_us, .frame = of.request.frame(*flow_control)});
     if (talk.sender && !talk.sender->over()) {
       talk.sender->take(frame.payload());
       if (talk.sender->may_send()) talk.due_us = now_us;
@@ -183,9 +159,7 @@ void EventSender::see_flags(const Frame& frame, std::int64_t now_us) {
       const Event& event = events_[one.event];
       if (event.when != Event::When::flag || one.due_us != never_us) continue;
       for (const ReportedFlag& flag : hear.flags) {
-        const bool is_present = hear.of.plan.is_present(hear.of.number(*flag.signal), taken.bytes);
-        if (flag.name == event.flag && is_present &&
-            flag.is_set(dbc::raw_bits(*flag.signal, taken.bytes)) == event.flag_set)
+        if (flag.name == event.flag && state_of(hear, flag, taken.bytes) == event.flag_set)
           one.due_us = now_us + event.delay_us;
       }
     }

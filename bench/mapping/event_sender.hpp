@@ -17,16 +17,13 @@
 
 namespace canhil::mapping {
 
-/// The part of a run to which an event belongs.
-enum class Phase : std::uint8_t { before, during, after };
-
 /// The counters of the messages that events send, by channel. They continue from phase to phase.
 using Counters = std::map<std::size_t, protection::Sender>;
 
 class EventSender final : public nodes::Node {
  public:
   /// Sends the events of one phase. All arguments must outlive the sender.
-  EventSender(const Mapping& mapping, const std::vector<scenario::Event>& events, Phase phase,
+  EventSender(const Mapping& mapping, const std::vector<scenario::Event>& events, scenario::Phase phase,
               Dialogue& dialogue, Counters& counters, const world::Truths& truths, std::int64_t end_us);
 
   [[nodiscard]] std::int64_t due_us() const override;
@@ -55,7 +52,6 @@ class EventSender final : public nodes::Node {
   };
 
   [[nodiscard]] const EventChannel& channel_of(std::size_t event) const;
-  [[nodiscard]] Frame frame_of(std::size_t event, const transport::Bytes& bytes) const;
   void begin(Waiting& waiting, std::int64_t now_us, nodes::Transmission& out);
   bool advance(Talk& talk, std::int64_t now_us, nodes::Transmission& out);
   void end(std::size_t channel, std::int64_t now_us, bool has_answer);

@@ -168,9 +168,7 @@ void Listener::record(const Hear& hear, std::span<const std::uint8_t> bytes, std
       answers.values[&telling].push_back({.t_us = t_us, .value = value});
   });
   for (const ReportedFlag& flag : hear.flags) {
-    if (hear.of.plan.is_present(hear.of.number(*flag.signal), bytes) &&
-        flag.is_set(dbc::raw_bits(*flag.signal, bytes)))
-      answers.flags[&flag].push_back(t_us);
+    if (state_of(hear, flag, bytes).value_or(false)) answers.flags[&flag].push_back(t_us);
   }
 }
 

@@ -51,6 +51,8 @@ struct Mapped {
   [[nodiscard]] unsigned frame_size() const { return has_several_frames() ? 8 : message->size; }
   /// Whether a transport protocol carries the message.
   [[nodiscard]] bool has_several_frames() const { return message->fast_packet || message->j1939_transport(); }
+  /// A frame of the message.
+  [[nodiscard]] Frame frame(std::span<const std::uint8_t> bytes) const;
   /// The index of one of the message's signals.
   [[nodiscard]] std::size_t number(const dbc::Signal& signal) const {
     return static_cast<std::size_t>(&signal - message->signals.data());

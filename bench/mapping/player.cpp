@@ -234,14 +234,7 @@ double Player::value_of(std::size_t play, const Source& source, std::int64_t sta
 // Adds a message to a transmission, in one frame or in several.
 void Player::add_frames(Sent& sent, const Mapped& of, std::vector<std::uint8_t> bytes) {
   const auto add = [&](std::span<const std::uint8_t> data) {
-    const bool fd = of.message->fd;
-    Frame frame{.id = of.message->id,
-                .size = static_cast<std::uint8_t>(data.size()),
-                .extended = of.message->extended,
-                .fd = fd,
-                .brs = fd};
-    std::ranges::copy(data, frame.data.begin());
-    sent.frames.push_back(frame);
+    sent.frames.push_back(of.frame(data));
     sent.message_of.push_back(sent.messages.size());
   };
   if (of.message->fast_packet) {

@@ -21,4 +21,10 @@ std::optional<world::Euler> angles_in(const Hear& hear, std::span<const std::uin
   return world::euler_from(quaternion.normalized().toRotationMatrix());
 }
 
+std::optional<bool> state_of(const Hear& hear, const ReportedFlag& flag,
+                             std::span<const std::uint8_t> bytes) {
+  if (!hear.of.plan.is_present(hear.of.number(*flag.signal), bytes)) return std::nullopt;
+  return flag.is_set(dbc::raw_bits(*flag.signal, bytes));
+}
+
 }  // namespace canhil::mapping

@@ -35,4 +35,7 @@ void read(const Hear& hear, std::span<const std::uint8_t> data, std::vector<doub
   }
 }
 
+/// Whether a flag is set in a message of the target; none: the page that came does not have its signal.
+std::optional<bool> state_of(const Hear& hear, const ReportedFlag& flag, std::span<const std::uint8_t> bytes);
+
 }  // namespace canhil::mapping

@@ -9,16 +9,12 @@
 namespace canhil::report {
 namespace {
 
-// `all` and `set` are ascending, and each time in `set` is one in `all`.
 std::vector<std::pair<std::int64_t, bool>> changes(const Spool<std::int64_t>& all,
                                                    const Spool<std::int64_t>& set) {
   std::vector<std::pair<std::int64_t, bool>> found;
-  auto next = set.begin();
-  for (const std::int64_t t_us : all) {
-    const bool is_set = next != set.end() && *next == t_us;
-    if (is_set) ++next;
+  estimators::each_state(all, set, [&](std::int64_t t_us, bool is_set) {
     if (found.empty() || found.back().second != is_set) found.emplace_back(t_us, is_set);
-  }
+  });
   return found;
 }
 

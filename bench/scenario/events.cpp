@@ -172,6 +172,19 @@ Event read_event(Section& section, const Binding& binding, std::int64_t duration
 
 }  // namespace
 
+Phase phase_of(std::span<const Event> events, const Event& event) {
+  switch (event.when) {
+    case When::start:
+      return Phase::before;
+    case When::end:
+      return Phase::after;
+    case When::answered:
+      return phase_of(events, events[event.after]);
+    default:
+      return Phase::during;
+  }
+}
+
 Result<BytePattern> BytePattern::parse(std::string_view text) {
   BytePattern pattern;
   while (!text.empty()) {

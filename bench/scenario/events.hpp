@@ -72,6 +72,11 @@ struct Event {
   static constexpr std::int64_t usual_patience_us = 1'000'000;
 };
 
+/// The part of a run to which an event belongs.
+enum class Phase : std::uint8_t { before, during, after };
+/// The phase of one of these events: that of the moment with which its chain of answers begins.
+Phase phase_of(std::span<const Event> events, const Event& event);
+
 /// Reads all events of a file.
 std::vector<Event> read_events(Section& root, const Binding& binding, std::int64_t duration_us);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "bench/checks/delay.hpp"
-#include "bench/checks/estimator.hpp"
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
 #include "bench/checks/not_finite.hpp"
@@ -44,9 +43,7 @@ Finding DelayBelow::judge(const Evidence& evidence) const {
       fmt::format("{:.1f} +- {:.1f} ms", delay->delay_s * 1e3, delay->half_width_s * 1e3);
   if (delay->delay_s + delay->half_width_s < bar_s) {
     // Each value counts at the latest possible sample, so the delay may be longer.
-    const estimators::Estimator* one = estimators::find(evidence.estimators, judged.estimator);
-    const std::string why =
-        one == nullptr || one->ambiguous == nullptr ? "" : one->ambiguous(evidence.seen, *judged.quantity);
+    const std::string why = why_uncertain(evidence, judged.estimator, *judged.quantity);
     if (!why.empty()) return {Outcome::not_measured, measured + " or more: " + why, expected};
     return {Outcome::pass, measured, expected};
   }

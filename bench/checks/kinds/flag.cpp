@@ -58,15 +58,11 @@ struct Counted {
   std::optional<std::int64_t> first_set_us{}, first_clear_us{};
 };
 
-// `all` and `set` are ascending, and each time in `set` is one in `all`.
 Counted count(const Spool<std::int64_t>& all, const Spool<std::int64_t>& set,
               const scenario::Window& window) {
   Counted counted;
-  auto next = set.begin();
   bool before = false;
-  for (const std::int64_t t_us : all) {
-    const bool is_set = next != set.end() && *next == t_us;
-    if (is_set) ++next;
+  estimators::each_state(all, set, [&](std::int64_t t_us, bool is_set) {
     if (within(window, t_us)) {
       counted.times.push_back(t_us);
       counted.set += is_set ? 1 : 0;
@@ -75,7 +71,7 @@ Counted count(const Spool<std::int64_t>& all, const Spool<std::int64_t>& set,
       if (!first) first = t_us;
     }
     before = is_set;
-  }
+  });
   return counted;
 }
 

@@ -99,7 +99,8 @@ class EventTalk {
         dialogue_(mapping_, scenario_.events) {}
 
   /// `answer`: the target's frames to a frame of the bench.
-  void run(Phase phase, std::int64_t end_us, const std::function<std::vector<Frame>(const Frame&)>& answer) {
+  void run(scenario::Phase phase, std::int64_t end_us,
+           const std::function<std::vector<Frame>(const Frame&)>& answer) {
     EventSender sender(mapping_, scenario_.events, phase, dialogue_, counters_, {.flight = flight_}, end_us);
     for (std::int64_t due_us = sender.due_us(); due_us <= end_us; due_us = sender.due_us()) {
       while (!told_.empty() && told_.front().first <= due_us) {
@@ -169,7 +170,7 @@ request = "01"
 times = 3
 period_ms = 500
 )");
-  talk.run(Phase::during, 10'000'000, nothing);
+  talk.run(scenario::Phase::during, 10'000'000, nothing);
   EXPECT_THAT(talk.sent(),
               ElementsAre(Pair(1'000'000, ElementsAre(1, 0, 0, 0)), Pair(1'500'000, ElementsAre(1, 0, 0, 0)),
                           Pair(2'000'000, ElementsAre(1, 0, 0, 0)),
@@ -178,7 +179,7 @@ period_ms = 500
 
 TEST(Events, SendValuesOfSignals) {
   EventTalk talk("[[event]]\nat_s = 1\nchannel = \"mode\"\nvalues = { Power = 3, Level = 100.5 }\n");
-  talk.run(Phase::during, 10'000'000, nothing);
+  talk.run(scenario::Phase::during, 10'000'000, nothing);
   EXPECT_THAT(talk.sent(), ElementsAre(Pair(1'000'000, ElementsAre(3, 201, 0, 0))));
 }
 
@@ -187,7 +188,7 @@ TEST(Events, WaitForAConditionOfTheTruth) {
   EventTalk talk(
       "[[event]]\nwhen = \"attitude.heading > 20 * deg && attitude.heading < 180 * deg\"\ndelay_s = "
       "1\nchannel = \"mode\"\nrequest = \"01\"\n");
-  talk.run(Phase::during, 10'000'000, nothing);
+  talk.run(scenario::Phase::during, 10'000'000, nothing);
   ASSERT_EQ(talk.sent().size(), 1U);
   EXPECT_NEAR(1e-6 * static_cast<double>(talk.sent()[0].first), 1 + 10.0 / 12, 0.02);
 }
@@ -204,7 +205,7 @@ request = "02"
 )");
   talk.tell_at(2'000'000, frame_of(200, {0, 0, 0}));
   talk.tell_at(2'500'000, frame_of(200, {0, 0, 1}));
-  talk.run(Phase::during, 10'000'000, nothing);
+  talk.run(scenario::Phase::during, 10'000'000, nothing);
   EXPECT_THAT(talk.sent(), ElementsAre(Pair(2'500'000, testing::_), Pair(4'000'000, testing::_)));
 }
 
@@ -221,9 +222,9 @@ delay_s = 0.5
 channel = "diagnosis"
 request = "3E 00"
 )");
-  talk.run(Phase::during, 10'000'000, nothing);
+  talk.run(scenario::Phase::during, 10'000'000, nothing);
   EXPECT_THAT(talk.sent(), testing::IsEmpty()) << "both belong to the time before the run";
-  talk.run(Phase::before, 10'000'000, [](const Frame& frame) {
+  talk.run(scenario::Phase::before, 10'000'000, [](const Frame& frame) {
     return frame.data[1] == 0x10 ? tell({6, 0x50, 3, 0, 50, 1, 0xF4}) : std::vector<Frame>{};
   });
   EXPECT_THAT(talk.sent(), ElementsAre(Pair(0, testing::_), Pair(500'000, testing::_)));
@@ -243,7 +244,7 @@ channel = "diagnosis"
 request = "22 00 02"
 )");
   talk.tell_at(1'700'000, frame_of(301, {4, 0x62, 0, 1, 9}));
-  talk.run(Phase::during, 10'000'000, nothing);
+  talk.run(scenario::Phase::during, 10'000'000, nothing);
   EXPECT_THAT(talk.sent(), ElementsAre(Pair(1'000'000, testing::_), Pair(1'700'000, testing::_)));
 }
 
@@ -259,7 +260,7 @@ within_ms = 50
 
 TEST(Events, PutLongAnswersTogether) {
   EventTalk talk(read_serial);
-  talk.run(Phase::during, 10'000'000, [](const Frame& frame) {
+  talk.run(scenario::Phase::during, 10'000'000, [](const Frame& frame) {
     if (frame.data[0] == 3) return tell({0x10, 9, 0x62, 0xF1, 0x8C, 0x41, 2, 3});
     return tell({0x21, 4, 5, 6});
   });
@@ -277,7 +278,7 @@ TEST(Events, PutLongAnswersTogether) {
 TEST(Events, WrongAnswersFail) {
   const auto outcome = [](const Bytes& answer) {
     EventTalk talk(read_serial);
-    talk.run(Phase::during, 10'000'000, [&](const Frame&) { return tell(answer); });
+    talk.run(scenario::Phase::during, 10'000'000, [&](const Frame&) { return tell(answer); });
     return talk.judged()[0];
   };
   EXPECT_EQ(outcome({3, 0x7F, 0x22, 0x31}).outcome, Outcome::fail);
@@ -289,14 +290,38 @@ TEST(Events, WrongAnswersFail) {
 
 TEST(Events, SilenceFailsAndLateAnswersFail) {
   EventTalk silent(read_serial);
-  silent.run(Phase::during, 10'000'000, nothing);
+  silent.run(scenario::Phase::during, 10'000'000, nothing);
   EXPECT_EQ(silent.judged()[0].outcome, Outcome::fail);
   EXPECT_THAT(silent.judged()[0].measured, HasSubstr("no answer within 1.05 s"));
   EventTalk late(read_serial);
   late.tell_at(1'080'000, frame_of(301, {5, 0x62, 0xF1, 0x8C, 0x41, 0}));
-  late.run(Phase::during, 10'000'000, nothing);
+  late.run(scenario::Phase::during, 10'000'000, nothing);
   EXPECT_EQ(late.judged()[0].outcome, Outcome::fail);
   EXPECT_THAT(late.judged()[0].measured, HasSubstr("after 80.3 ms"));
+}
+
+// The run is over then, so it cannot end before the answer.
+TEST(Events, SilenceAfterTheRunFailsToo) {
+  EventTalk talk(R"([[event]]
+name = "session"
+at = "end"
+channel = "diagnosis"
+request = "10 03"
+expect = "50 03 *"
+[[event]]
+after = "session"
+delay_s = 9.5
+channel = "diagnosis"
+request = "3E 00"
+expect = "7E 00"
+)");
+  talk.run(scenario::Phase::after, 20'000'000, [](const Frame& frame) {
+    return frame.data[1] == 0x10 ? tell({2, 0x50, 3}) : std::vector<Frame>{};
+  });
+  const auto judged = talk.judged();
+  ASSERT_EQ(judged.size(), 2U);
+  EXPECT_EQ(judged[0].outcome, Outcome::pass);
+  EXPECT_EQ(judged[1].outcome, Outcome::fail) << judged[1].measured;
 }
 
 // "Response pending" is no answer, and gives the target time.
@@ -309,7 +334,7 @@ expect = "71 01 02 03"
 )");
   talk.tell_at(1'900'000, frame_of(301, {3, 0x7F, 0x31, 0x78}));
   talk.tell_at(2'700'000, frame_of(301, {4, 0x71, 1, 2, 3}));
-  talk.run(Phase::during, 10'000'000, nothing);
+  talk.run(scenario::Phase::during, 10'000'000, nothing);
   EXPECT_EQ(talk.judged()[0].outcome, Outcome::pass) << talk.judged()[0].measured;
 }
 
@@ -323,7 +348,7 @@ when = "attitude.roll > 1"
 channel = "mode"
 request = "02"
 )");
-  talk.run(Phase::during, 10'000'000, nothing);
+  talk.run(scenario::Phase::during, 10'000'000, nothing);
   const auto judged = talk.judged();
   ASSERT_EQ(judged.size(), 2U);
   for (const auto& one : judged) EXPECT_EQ(one.outcome, Outcome::not_measured);
