@@ -113,7 +113,7 @@ std::string misfit_of(const SlaveImuSettings& settings, const world::FlightRecor
   const world::ImuErrorModel& imu = settings.errors;
   const world::Matrix3 C_bs = world::mounted(imu.mounting.value);
   const world::WarmUp& warm_up = imu.temperature;
-  Measured gyro{.exact = {},
+  Measured gyro{.exact = world::Vector3::Zero(),
                 .mounting_sigma = imu.mounting.sigma.maxCoeff(),
                 .warmer = std::max(std::abs(warm_up.start - warm_up.reference),
                                    std::abs(warm_up.start + warm_up.rise - warm_up.reference)),
