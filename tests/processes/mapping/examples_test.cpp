@@ -131,7 +131,7 @@ TEST(DeviceLog, HasTheAnswersToEvents) {
                                                                           {"cleared", "pass"}}) {
       const nlohmann::json seen = read_json(report);
       const auto& checks = seen["checks"];
-      const auto found = std::ranges::find_if(checks, [&](const auto& one) { return one["name"] == name; });
+      const auto found = std::ranges::find_if(checks, [&key = name](const auto& one) { return one["name"] == key; });
       ASSERT_NE(found, checks.end()) << name;
       EXPECT_EQ((*found)["outcome"], outcome) << name << ": " << (*found)["measured"];
     }
