@@ -131,7 +131,8 @@ TEST(DeviceLog, HasTheAnswersToEvents) {
                                                                           {"cleared", "pass"}}) {
       const nlohmann::json seen = read_json(report);
       const auto& checks = seen["checks"];
-      const auto found = std::ranges::find_if(checks, [&key = name](const auto& one) { return one["name"] == key; });
+      const auto found =
+          std::ranges::find_if(checks, [&key = name](const auto& one) { return one["name"] == key; });
       ASSERT_NE(found, checks.end()) << name;
       EXPECT_EQ((*found)["outcome"], outcome) << name << ": " << (*found)["measured"];
     }
