@@ -1,0 +1,19 @@
+// One line for each kind of plant.
+#include "bench/plant/registry.hpp"
+
+#include <array>
+
+#include "bench/plant/steered_heading.hpp"
+
+namespace canhil::plant {
+namespace {
+
+constexpr std::array registered{
+    &steered_heading,  // a ship or a car: heading by a rudder or a steering actuator
+};
+
+}  // namespace
+
+std::span<const Kind* const> kinds() { return registered; }
+
+}  // namespace canhil::plant
