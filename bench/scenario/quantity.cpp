@@ -35,6 +35,7 @@ constexpr std::array table{Unit{"_degph_per_g", units::degph / units::standard_g
                            Unit{"_kmph", units::kmph, "km/h"},
                            Unit{"_degph", units::degph, "deg/h"},
                            Unit{"_degps", units::deg, "deg/s"},
+                           Unit{"_degps2", units::deg, "deg/s^2"},
                            Unit{"_degprth", units::degprth, "deg/sqrt(h)"},
                            Unit{"_ug", units::ug, "ug"},
                            Unit{"_ugprthz", units::ugprthz, "ug/sqrt(Hz)"},
