@@ -28,7 +28,9 @@ Endings endings_of(const Variant& variant, const Runs& runs) {
     if (run.ending.kind == drive::Ending::Kind::wrong_answers ||
         run.ending.kind == drive::Ending::Kind::wrong_end)
       ++endings.wrong;
-    if (run.ending.kind == drive::Ending::Kind::not_measured) ++endings.not_measured;
+    if (run.ending.kind == drive::Ending::Kind::not_measured ||
+        run.ending.kind == drive::Ending::Kind::plant_failed)
+      ++endings.not_measured;
     if (run.ending.kind == drive::Ending::Kind::completed) {
       ++endings.completed;
       if (!finite(run.samples)) ++endings.not_finite;

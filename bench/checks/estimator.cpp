@@ -5,6 +5,10 @@
 
 namespace canhil::estimators {
 
+world::Truths truths_of(const Truth& truth) {
+  return {.flight = truth.flight, .glide = truth.glide, .engagement = truth.engagement, .plant = truth.plant};
+}
+
 void give_tracks(const Estimator& of, const checks::Observations& seen, const Truth& truth,
                  const quantities::TrackSink& give_away) {
   const auto give = [&](quantities::Track track) {

@@ -19,6 +19,7 @@
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/glide/glide.hpp"
+#include "bench/world/truth_values.hpp"
 #include "dbc/spool/spool.hpp"
 
 namespace canhil::scenario {
@@ -33,7 +34,10 @@ struct Truth {
   std::int64_t duration_us = 0;                         ///< duration of the run
   const world::EngagementRecord* engagement = nullptr;  ///< null: the run has no engagement
   const world::GlideRecord* glide = nullptr;            ///< null: the run has no glide
+  const world::PlantRecord* plant = nullptr;            ///< null: the run has no plant
 };
+/// The true values of a run.
+world::Truths truths_of(const Truth& truth);
 
 /// Answers that report the same outcome or flag.
 struct Mark {

@@ -14,6 +14,9 @@
 
 namespace canhil::checks {
 
+/// Evidence::timing_unfit of a run in virtual time.
+inline constexpr std::string_view virtual_time = "virtual time";
+
 struct Evidence {
   const Observations& seen;
   estimators::Truth truth;

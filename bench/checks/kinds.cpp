@@ -7,6 +7,7 @@
 #include "bench/checks/kinds/answers.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/checks/kinds/bus_load.hpp"
+#include "bench/checks/kinds/command.hpp"
 #include "bench/checks/kinds/consistency.hpp"
 #include "bench/checks/kinds/convergence.hpp"
 #include "bench/checks/kinds/counters.hpp"
@@ -23,6 +24,7 @@
 #include "bench/checks/kinds/own_times.hpp"
 #include "bench/checks/kinds/protection.hpp"
 #include "bench/checks/kinds/recovers_within.hpp"
+#include "bench/checks/kinds/response.hpp"
 #include "bench/checks/kinds/sigma.hpp"
 #include "bench/checks/kinds/sigma_grows.hpp"
 #include "bench/checks/kinds/wire_response.hpp"
@@ -52,7 +54,9 @@ constexpr std::array of_any_estimator{check_kind<Error>,
                                       check_kind<SigmaGrows>,
                                       check_kind<Honest>,
                                       check_kind<Answering>,
-                                      check_kind<Flag>};
+                                      check_kind<Flag>,
+                                      check_kind<Response>,
+                                      check_kind<CommandTime>};
 
 }  // namespace
 

@@ -24,10 +24,11 @@ struct Ending {
     target_ended,   ///< the process of the target ended during the flight
     wrong_end,      ///< the flight was completed, but the process of the target did not end as it should
     wrong_answers,  ///< only in a campaign: the flight was completed, but a check of every run failed
-    not_measured    ///< only in a campaign: the flight was completed, but the bench could not judge it, for
+    not_measured,   ///< only in a campaign: the flight was completed, but the bench could not judge it, for
                     ///< example because it clipped a stimulus or because of a second target
+    plant_failed    ///< the plant could not advance
   };
-  static constexpr Kind last_kind = Kind::not_measured;
+  static constexpr Kind last_kind = Kind::plant_failed;
   Kind kind = Kind::completed;
   std::int64_t t_us = 0;  ///< bench time of the end, or the time since which the target was silent
   std::string detail;     ///< one line for people; empty when completed

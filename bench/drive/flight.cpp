@@ -38,8 +38,18 @@ bool starts_by_own_truth(const scenario::TargetSetup& target) {
   return estimator != nullptr && estimator->facts.start == scenario::Start::per_run_truth;
 }
 
-Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, std::uint64_t run_index) {
+Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                       std::uint64_t run_index) {
   PerRunTruth own;
+  if (scenario.plant.setup != nullptr) {
+    auto plant =
+        plant::Simulation::begin(*scenario.plant.setup, {.seed = scenario.seed, .run_index = run_index},
+                                 {.start = scenario.truth.start,
+                                  .duration_us = scenario.duration_us,
+                                  .interval_us = truth.interval_us()});
+    if (!plant) return tl::unexpected(plant.error());
+    own.plant = std::move(*plant);
+  }
   if (scenario.glide) {
     const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
     own.glide.emplace(scenario.glide->plan, scenario.duration_us, stream("glide.coefficients"),
@@ -52,9 +62,9 @@ Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, std::
                       run_index, missing_s, own.glide->epochs().back().height));
     }
   }
-  const auto is_recorded = [&](scenario::TruthOf truth) {
+  const auto is_recorded = [&](scenario::TruthOf sampled) {
     return std::ranges::any_of(scenario.nodes, [&](const scenario::NodeSettings& node) {
-      return node.is_recorded() && node.table().samples == truth;
+      return node.is_recorded() && node.table().samples == sampled;
     });
   };
   own.glide_is_sampled = !is_recorded(scenario::TruthOf::glide);
@@ -109,12 +119,31 @@ Result<void> check_density(const scenario::Scenario& scenario) {
 
 }  // namespace
 
+const world::FlightRecord& flight_of(const world::FlightRecord& of_all_runs, const PerRunTruth& own) {
+  return own.plant && own.plant->flight() != nullptr ? *own.plant->flight() : of_all_runs;
+}
+
+world::Truths truths_of(const world::FlightRecord& flight, const PerRunTruth& own) {
+  return {.flight = flight_of(flight, own),
+          .glide = own.glide ? &*own.glide : nullptr,
+          .engagement = own.engagement ? &*own.engagement : nullptr,
+          .plant = own.plant ? &own.plant->record() : nullptr};
+}
+
 estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth& own,
                            std::int64_t duration_us) {
-  return {.flight = flight,
+  return {.flight = flight_of(flight, own),
           .duration_us = duration_us,
           .engagement = own.engagement ? &*own.engagement : nullptr,
-          .glide = own.glide && own.glide_is_sampled ? &*own.glide : nullptr};
+          .glide = own.glide && own.glide_is_sampled ? &*own.glide : nullptr,
+          .plant = own.plant ? &own.plant->record() : nullptr};
+}
+
+Ending with_end_of_plant(Ending ending, const PerRunTruth& own, std::int64_t duration_us) {
+  if (own.plant == nullptr) return ending;
+  if (ending.kind == Ending::Kind::completed) own.plant->advance(duration_us);
+  if (!own.plant->why_failed()) return ending;
+  return {Ending::Kind::plant_failed, ending.t_us, *own.plant->why_failed()};
 }
 
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
@@ -137,7 +166,7 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
 
 Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index) {
-  auto per_run_truth = make_per_run_truth(scenario, run_index);
+  auto per_run_truth = make_per_run_truth(scenario, truth, run_index);
   if (!per_run_truth) return tl::unexpected(per_run_truth.error());
   Flight flight{.per_run_truth = std::move(*per_run_truth), .initial = {}};
   flight.initial = initial_states(scenario, truth, flight.per_run_truth, run_index, 0);
@@ -152,13 +181,14 @@ std::vector<InitialState> initial_states(const scenario::Scenario& scenario, con
                                          std::int64_t t_us) {
   std::vector<InitialState> states;
   const auto& glide = per_run_truth.glide;
+  const world::FlightRecord& flown = flight_of(truth, per_run_truth);
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream stream(scenario.seed, run_index, "initial_error");
     const world::InitialErrorModel error = target.initial_error.value_or(scenario.initial_error);
     states.push_back(
         glide && starts_by_own_truth(target)
             ? state_at_release(glide->at(t_us), *scenario.glide, target.initial_sigma, stream)
-            : initial_state(initial_solution(truth.at(std::min(t_us, truth.end_us())), error, stream),
+            : initial_state(initial_solution(flown.at(std::min(t_us, flown.known_until_us())), error, stream),
                             target.initial_sigma));
   }
   return states;
@@ -168,9 +198,10 @@ sensors::Run run_of(const scenario::Scenario& scenario, const world::FlightRecor
                     PerRunTruth& per_run_truth, std::uint64_t run_index, sensors::SensorFaults* faults) {
   return {.scenario = scenario,
           .index = run_index,
-          .flight = truth,
+          .flight = flight_of(truth, per_run_truth),
           .glide = per_run_truth.glide ? &*per_run_truth.glide : nullptr,
           .engagement = per_run_truth.engagement ? &*per_run_truth.engagement : nullptr,
+          .plant = per_run_truth.plant ? &per_run_truth.plant->record() : nullptr,
           .faults = faults};
 }
 
@@ -181,7 +212,7 @@ Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRe
     faults = std::make_unique<faults::Faults>(scenario, run_index, scenario.binding->messages);
   auto nodes = nodes::make(run_of(scenario, truth, per_run_truth, run_index, faults.get()));
   return {std::move(nodes), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding,
-          std::move(faults)};
+          std::move(faults), per_run_truth.plant.get()};
 }
 
 }  // namespace canhil::drive

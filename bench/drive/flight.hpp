@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "bench/checks/estimator.hpp"
+#include "bench/drive/ending.hpp"
 #include "bench/drive/initial_state.hpp"
 #include "bench/drive/schedule.hpp"
+#include "bench/plant/simulation.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/glide/glide.hpp"
+#include "bench/world/truth_values.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::drive {
@@ -25,12 +28,22 @@ struct PerRunTruth {
   std::optional<world::EngagementRecord> engagement{};  ///< none: the scenario has no engagement, or its
                                                         ///< seeker is recorded; filled during the flight
   std::optional<world::GlideRecord> glide{};            ///< none: not in the scenario
-  bool glide_is_sampled = true;  ///< false: the nodes send a recording of another glide
+  bool glide_is_sampled = true;                ///< false: the nodes send a recording of another glide
+  std::unique_ptr<plant::Simulation> plant{};  ///< null: the scenario has no plant
 };
+
+/// The flight of a run: that of the plant if it moves the carrier, otherwise the flight of all runs.
+const world::FlightRecord& flight_of(const world::FlightRecord& of_all_runs, const PerRunTruth& own);
+/// The true values of a run.
+world::Truths truths_of(const world::FlightRecord& flight, const PerRunTruth& own);
 
 /// The complete truth, for comparison with answers. `duration_us`: duration of the run.
 estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth& own,
                            std::int64_t duration_us);
+
+/// Advances the plant to the end of a completed run: the truth of the last samples needs it. Returns how the
+/// run ended, which a plant that failed decides.
+Ending with_end_of_plant(Ending ending, const PerRunTruth& own, std::int64_t duration_us);
 
 /// The parts of a run that are drawn at random before the run begins.
 struct Flight {
@@ -40,8 +53,8 @@ struct Flight {
   std::vector<InitialState> initial;
 };
 
-/// The flight of run `run_index`. Error, one line: the glide ends before the end of the run, or the bus
-/// cannot carry the initial state.
+/// The flight of run `run_index`. Error, one line: the glide ends before the end of the run, the plant cannot
+/// be made, or the bus cannot carry the initial state.
 Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index);
 

@@ -58,7 +58,8 @@ checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::Flig
                                .timing_unfit = timing_unfit,
                                .delays = delays});
   if (to_the_end) checks::conclude(verdict, flown.ending.detail);
-  if (flown.ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
+  if (flown.ending.kind == Ending::Kind::interrupted || flown.ending.kind == Ending::Kind::plant_failed)
+    verdict.outcome = checks::Outcome::not_measured;
   return verdict;
 }
 

@@ -13,6 +13,7 @@
 
 #include "bench/checks/judge.hpp"
 #include "bench/drive/dialect.hpp"
+#include "bench/mapping/command_receiver.hpp"
 #include "bench/mapping/event_sender.hpp"
 #include "bench/mapping/listener.hpp"
 #include "bench/mapping/player.hpp"
@@ -152,8 +153,12 @@ class MappedDialect final : public Dialect {
         conversation_,
         run_of(of_.scenario, of_.truth, of_.flight.per_run_truth, of_.run_index, faults.get())));
     if (!of_.of_log && !of_.scenario.events.empty()) players.push_back(talker(scenario::Phase::during));
+    plant::Simulation* plant = of_.flight.per_run_truth.plant.get();
+    if (!of_.scenario.plant.steered.empty())
+      players.push_back(
+          std::make_unique<mapping::CommandReceiver>(conversation_, *of_.scenario.plant.setup, *plant));
     return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
-                                      Rounding::as_on_the_bus, std::move(faults));
+                                      Rounding::as_on_the_bus, std::move(faults), plant);
   }
   // Watchers look up played messages in the conversation, and the player changes the conversation.
   [[nodiscard]] bool watches_frames_alone() const override { return false; }
@@ -204,13 +209,9 @@ class MappedDialect final : public Dialect {
   using Gone = std::function<std::optional<std::string>()>;
 
   std::unique_ptr<mapping::EventSender> talker(scenario::Phase phase) {
-    const PerRunTruth& own = of_.flight.per_run_truth;
     return std::make_unique<mapping::EventSender>(
         conversation_.mapping, of_.scenario.events, phase, dialogue_, counters_,
-        world::Truths{.flight = of_.truth,
-                      .glide = own.glide ? &*own.glide : nullptr,
-                      .engagement = own.engagement ? &*own.engagement : nullptr},
-        of_.truth.end_us());
+        truths_of(of_.truth, of_.flight.per_run_truth), of_.truth.end_us());
   }
 
   // A target may be silent until an event has configured it. The events begin when the settling time is over

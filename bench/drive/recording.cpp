@@ -119,8 +119,8 @@ class Recording {
   Recording(const scenario::Scenario& scenario, const world::FlightRecord& truth, Flight flight,
             Frames frames, std::string log, Manner manner)
       : scenario_(scenario),
-        truth_(truth),
         flight_(std::move(flight)),
+        truth_(flight_of(truth, flight_.per_run_truth)),
         frames_(std::move(frames)),
         log_(std::move(log)),
         manner_(manner),
@@ -148,6 +148,7 @@ class Recording {
     dialogue_ = dialect_->dialogue();
     auto ending = replay();
     if (!ending) return tl::unexpected(ending.error());
+    ending = with_end_of_plant(std::move(*ending), flight_.per_run_truth, scenario_.duration_us);
     schedule_->end();
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
     seen.clipped = schedule_->outbox().clipped().to_text();
@@ -255,8 +256,8 @@ class Recording {
   }
 
   const scenario::Scenario& scenario_;
-  const world::FlightRecord& truth_;
   Flight flight_;
+  const world::FlightRecord& truth_;
   Frames frames_;
   std::string log_;
   Manner manner_;
@@ -286,12 +287,17 @@ Result<Run> judge_recording(const scenario::Scenario& scenario, const std::strin
   if (!file) return tl::unexpected(file.error());
   const auto manner = manner_of(*file, scenario);
   if (!manner) return tl::unexpected(manner.error());
+  if (!scenario.plant.steered.empty() && !manner->lockstep)
+    return failure(fmt::format(
+        "{}: is of a run in real time, whose commands steered the plant at times that a log does not keep "
+        "exactly, expected the log of a run in lockstep",
+        log));
   auto frames = Frames::open(*file);
   if (!frames) return tl::unexpected(frames.error());
   Recording recording(scenario, *truth, std::move(*flight), std::move(*frames), log, *manner);
   auto flown = recording.judge();
   if (!flown) return tl::unexpected(flown.error());
-  std::string timing_unfit(manner->lockstep ? "virtual time" : unknown_lateness);
+  std::string timing_unfit(manner->lockstep ? checks::virtual_time : unknown_lateness);
   Options options;
   options.bus = BusName("log:" + log);
   options.lockstep = manner->lockstep;

@@ -64,7 +64,7 @@ class Session {
         port_(std::move(buses.port)),
         bus_(known_of(*port_, options.controller)),
         clock_(clock_of(bus_.time, options.lockstep)),
-        truth_(truth),
+        truth_(flight_of(truth, flight_.per_run_truth)),
         hands_(options.bus.text, targets_, [this](std::int64_t t_us) { restart_target(t_us); }),
         link_(*port_),
         bus_watch_(*port_),
@@ -134,6 +134,7 @@ class Session {
                   : run_real_time(link_, *schedule_, *target, dialect_->silence_limit_ns(), stop, progress,
                                   options_.spin_ns, is_gone);
     if (delay_watches_) delays_ = delay_watches_->record();
+    ending_ = with_end_of_plant(std::move(ending_), flight_.per_run_truth, scenario_.duration_us);
   }
 
   // Stops the target, closes the log and ends the target's process.
@@ -168,7 +169,7 @@ class Session {
   }
   // Why timing cannot be judged; empty: it can.
   [[nodiscard]] std::string timing_unfit(const checks::Observations& seen) const {
-    if (clock_ == ClockKind::lockstep) return "virtual time";
+    if (clock_ == ClockKind::lockstep) return std::string(checks::virtual_time);
     return link_.flood() ? to_text(*link_.flood()) : checks::unfit_for_timing(seen);
   }
 
@@ -185,7 +186,8 @@ class Session {
   // Why waiting for the target is pointless; none: the bench can wait.
   std::optional<std::string> gone(bool stop) {
     if (stop) return "interrupted";
-    return targets_.ended();
+    const plant::Simulation* plant = flight_.per_run_truth.plant.get();
+    return plant != nullptr && plant->why_failed() ? plant->why_failed() : targets_.ended();
   }
 
   [[nodiscard]] Departure departure() {

@@ -7,7 +7,7 @@ namespace canhil::drive {
 
 Result<void> check_stimuli(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index, const std::atomic<bool>& stop) {
-  if (scenario.engagement && scenario.engagement->guidance == world::Guidance::target) return {};
+  if (scenario.closes_the_loop()) return {};
   scenario::Scenario undisturbed = scenario;
   undisturbed.faults.clear();
   undisturbed.events.clear();

@@ -33,7 +33,7 @@ const Spool<NavigationError>& NavigationAnswers::errors(const world::FlightRecor
   errors.reserve(size());
   for (std::size_t index = 0; index < size(); ++index) {
     const std::int64_t t_us = (*this)[index].cause_us;
-    if (t_us >= 0 && t_us <= truth.end_us()) errors.push_back(error_of(*this, index, truth));
+    if (t_us >= 0 && t_us <= truth.known_until_us()) errors.push_back(error_of(*this, index, truth));
   }
   errors_ = std::move(errors);
   truth_ = &truth;
@@ -46,7 +46,7 @@ std::optional<NavigationError> NavigationAnswers::first_after(std::int64_t cause
                                                               const world::FlightRecord& truth) const {
   const std::int64_t before_us = std::max({cause_us, navigation_us, std::int64_t{-1}});
   const auto after = std::ranges::upper_bound(in_order(), before_us, {}, &NavigationAnswer::cause_us);
-  if (after == end() || after->cause_us > truth.end_us()) return std::nullopt;
+  if (after == end() || after->cause_us > truth.known_until_us()) return std::nullopt;
   return error_of(*this, static_cast<std::size_t>(after - begin()), truth);
 }
 

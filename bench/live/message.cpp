@@ -29,7 +29,7 @@ Json object(const report::Series& series, std::size_t from) {
   constexpr std::array<std::string_view, 4> kinds{"estimate", "error", "innovation", "statistic"};
   Json json{{"key", key_of(series)},
             {"estimator", series.estimator},
-            {"name", series.about->name},
+            {"name", series.name},
             {"title", series.quantity},
             {"unit", series.unit},
             {"kind", kinds[static_cast<std::size_t>(series.kind)]},

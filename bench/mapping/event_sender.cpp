@@ -13,31 +13,32 @@ using scenario::Event;
 
 // The target must answer a first frame with flow control within this time (N_Bs of ISO 15765-2).
 constexpr std::int64_t flow_control_us = 1'000'000;
-// How finely the first time at which a condition holds is searched.
+// How often a condition is looked at until it holds.
 constexpr std::int64_t condition_step_us = 10'000;
-
-std::int64_t first_time(const scenario::Expression& condition, const world::Truths& truths,
-                        std::int64_t end_us) {
-  for (std::int64_t t_us = 0; t_us <= end_us; t_us += condition_step_us) {
-    if (condition.at(truths, t_us).value_or(0) != 0) return t_us;
-  }
-  return never_us;
-}
 
 }  // namespace
 
 EventSender::EventSender(const Mapping& mapping, const std::vector<Event>& events, scenario::Phase phase,
                          Dialogue& dialogue, Counters& counters, const world::Truths& truths,
                          std::int64_t end_us)
-    : mapping_(mapping), events_(events), dialogue_(dialogue), counters_(counters), places_(mapping) {
+    : mapping_(mapping),
+      events_(events),
+      truths_(truths),
+      end_us_(end_us),
+      dialogue_(dialogue),
+      counters_(counters),
+      places_(mapping) {
   for (std::size_t i = 0; i < events.size(); ++i) {
     const Event& event = events[i];
     if (phase_of(events, event) != phase) continue;
     Waiting waiting{.event = i, .left = event.times};
     if (event.when == Event::When::start || event.when == Event::When::end) waiting.due_us = 0;
     if (event.when == Event::When::time) waiting.due_us = event.at_us;
-    if (event.when == Event::When::truth) waiting.due_us = first_time(*event.condition, truths, end_us);
-    if (waiting.due_us != never_us) waiting.due_us += event.delay_us;
+    waiting.looks = event.when == Event::When::truth;
+    if (waiting.looks)
+      waiting.due_us = 0;
+    else if (waiting.due_us != never_us)
+      waiting.due_us += event.delay_us;
     waiting_.push_back(waiting);
   }
 }
@@ -50,7 +51,7 @@ std::int64_t EventSender::due_us() const {
   std::int64_t due_us = ready_.empty() ? never_us : ready_.front().due_us;
   for (const auto& [channel, talk] : talks_) due_us = std::min(due_us, talk.due_us);
   for (const Waiting& one : waiting_) {
-    if (!talks_.contains(events_[one.event].channel)) due_us = std::min(due_us, one.due_us);
+    if (one.looks || !talks_.contains(events_[one.event].channel)) due_us = std::min(due_us, one.due_us);
   }
   return due_us;
 }
@@ -68,9 +69,20 @@ void EventSender::transmit(nodes::Transmission& out) {
     return;
   }
   const auto next = std::ranges::find_if(waiting_, [&](const Waiting& one) {
-    return one.due_us == now_us && !talks_.contains(events_[one.event].channel);
+    return one.due_us == now_us && (one.looks || !talks_.contains(events_[one.event].channel));
   });
+  if (next->looks) return look(*next, now_us);
   begin(*next, now_us, out);
+}
+
+void EventSender::look(Waiting& waiting, std::int64_t now_us) {
+  const Event& event = events_[waiting.event];
+  if (event.condition->at(truths_, now_us).value_or(0) != 0) {
+    waiting.looks = false;
+    waiting.due_us = now_us + event.delay_us;
+  } else {
+    waiting.due_us = now_us + condition_step_us > end_us_ ? never_us : now_us + condition_step_us;
+  }
 }
 
 void EventSender::begin(Waiting& waiting, std::int64_t now_us, nodes::Transmission& out) {
@@ -122,7 +134,8 @@ void EventSender::end(std::size_t channel, std::int64_t now_us, bool has_answer)
     const Event& other = events_[one.event];
     if (has_answer && other.when == Event::When::answered && other.after == event && one.due_us == never_us)
       one.due_us = now_us + other.delay_us;
-    if (other.channel == channel && one.due_us != never_us) one.due_us = std::max(one.due_us, now_us);
+    if (other.channel == channel && one.due_us != never_us && !one.looks)
+      one.due_us = std::max(one.due_us, now_us);
   }
 }
 

@@ -39,6 +39,7 @@ class EventSender final : public nodes::Node {
     std::size_t event = 0;
     std::int64_t due_us = nodes::never_us;
     std::int64_t left = 1;  // how often
+    bool looks = false;     // `due_us`: when its condition is looked at again
   };
   // A request on its way.
   struct Talk {
@@ -52,6 +53,7 @@ class EventSender final : public nodes::Node {
   };
 
   [[nodiscard]] const EventChannel& channel_of(std::size_t event) const;
+  void look(Waiting& waiting, std::int64_t now_us);
   void begin(Waiting& waiting, std::int64_t now_us, nodes::Transmission& out);
   bool advance(Talk& talk, std::int64_t now_us, nodes::Transmission& out);
   void end(std::size_t channel, std::int64_t now_us, bool has_answer);
@@ -59,6 +61,8 @@ class EventSender final : public nodes::Node {
 
   const Mapping& mapping_;
   const std::vector<scenario::Event>& events_;
+  world::Truths truths_;
+  std::int64_t end_us_;
   Dialogue& dialogue_;
   Counters& counters_;
   Places places_;

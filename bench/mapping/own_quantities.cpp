@@ -89,6 +89,13 @@ DeclaredUnit read_unit(scenario::Section& section, std::string_view key) {
   return unit;
 }
 
+const ReferenceQuantity& add_command(std::deque<ReferenceQuantity>& own, std::string_view name,
+                                     std::string_view si) {
+  const bool known = std::ranges::find(units, si, &decltype(units)::value_type::first) != units.end();
+  return own.emplace_back(
+      ReferenceQuantity{.quantity = &interned(name, known ? si : ""), .si = known ? si : ""});
+}
+
 std::deque<ReferenceQuantity> read_own_quantities(scenario::Section& section) {
   std::deque<ReferenceQuantity> all;
   for (const std::string& name : section.keys()) {

@@ -17,6 +17,13 @@ namespace canhil::mapping {
 /// truth: an expression.
 std::deque<ReferenceQuantity> read_own_quantities(scenario::Section& section);
 
+/// A command of the target to a plant has a name with this ending. It needs no entry in [quantities]: its
+/// unit is that of its signal.
+inline constexpr std::string_view command_ending = ".command";
+/// Adds a quantity without a truth. `si`: its SI unit; empty: a plain number.
+const ReferenceQuantity& add_command(std::deque<ReferenceQuantity>& own, std::string_view name,
+                                     std::string_view si);
+
 /// The unit of a quantity that a mapping declares.
 struct DeclaredUnit {
   std::string_view si{};  ///< empty: a plain number

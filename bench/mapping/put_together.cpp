@@ -176,6 +176,11 @@ std::optional<std::string> put_together(Mapping& mapping) {
                                                   : transport::most_iso_tp_bytes});
   for (const Hear& hear : mapping.hears) {
     for (const ReportedFlag& flag : hear.flags) mapping.flags.push_back(flag.name);
+    for (const ReportedSignal& one : hear.reported_signals) {
+      if (one.what == ReportedSignal::What::value)
+        mapping.reported.push_back(
+            {.name = std::string(one.quantity->quantity->name), .si = std::string(one.quantity->si)});
+    }
   }
   mapping.closes_loop = mapping.guide != nullptr;
   mapping.estimators = mapping.presented;

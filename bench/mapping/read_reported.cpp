@@ -7,6 +7,8 @@
 #include <array>
 #include <functional>
 
+#include "bench/mapping/own_quantities.hpp"
+
 namespace canhil::mapping {
 namespace {
 
@@ -89,7 +91,7 @@ class SignalReader {
       telling.other = quantity(key, word.substr(other, word.size() - 1 - other));
       word = word.substr(correlation.size(), comma - correlation.size());
     }
-    telling.quantity = quantity(key, word);
+    telling.quantity = quantity(key, word, &signal);
     if (signals_.error()) return;
     std::string_view si = telling.what == What::correlation ? "" : telling.quantity->si;
     if (telling.what == What::sigma && is_on_the_ground(*telling.quantity) &&
@@ -104,7 +106,9 @@ class SignalReader {
 
   // The quantity with this name that the target may report. Null: there is none, and the section has an
   // error.
-  const ReferenceQuantity* quantity(const std::string& key, std::string_view word) {
+  // `signal`: carries the value itself; null: it carries something about the quantity.
+  const ReferenceQuantity* quantity(const std::string& key, std::string_view word,
+                                    const dbc::Signal* signal = nullptr) {
     const ReferenceQuantity* built_in = find_reference_quantity(word);
     if (built_in != nullptr && built_in->of.empty()) return built_in;
     std::vector<std::string_view> names;
@@ -112,13 +116,16 @@ class SignalReader {
       if (one.quantity->name == word) return &one;
       names.push_back(one.quantity->name);
     }
+    if (signal != nullptr && word.ends_with(command_ending))
+      return &add_command(known_.own, word, known_.units.si_of(*signal));
     for (const ReferenceQuantity& one : reference_quantities()) {
       if (one.of.empty()) names.push_back(one.quantity->name);
     }
-    signals_.reject(key, fmt::format("'{}' is not a quantity that a target reports", word),
-                    fmt::format("one of: {}; or one with '.sigma'; or 'correlation(ONE, OTHER)'; or "
-                                "'attitude.quaternion.w' and its other parts; or one of [quantities]",
-                                fmt::join(names, ", ")));
+    signals_.reject(
+        key, fmt::format("'{}' is not a quantity that a target reports", word),
+        fmt::format("one of: {}; or one with '.sigma'; or 'correlation(ONE, OTHER)'; or NAME.command; or "
+                    "'attitude.quaternion.w' and its other parts; or one of [quantities]",
+                    fmt::join(names, ", ")));
     return nullptr;
   }
 

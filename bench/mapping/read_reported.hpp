@@ -14,7 +14,7 @@ namespace canhil::mapping {
 
 /// What the rest of the mapping says about quantities and signals.
 struct Known {
-  const std::deque<ReferenceQuantity>& own;  ///< quantities that the mapping defines
+  std::deque<ReferenceQuantity>& own;  ///< quantities that the mapping defines; commands are added
   const SignalUnits& units;
 };
 

@@ -103,7 +103,7 @@ std::span<const ReferenceQuantity> reference_quantities() { return known(); }
 
 std::optional<double> truth_of(const ReferenceQuantity& quantity, const estimators::Truth& truth,
                                std::int64_t t_us) {
-  const world::Truths truths{.flight = truth.flight, .glide = truth.glide, .engagement = truth.engagement};
+  const world::Truths truths = estimators::truths_of(truth);
   if (const auto* value = std::get_if<const world::TruthValue*>(&quantity.truth))
     return (*value)->at(truths, t_us);
   if (const auto* expression = std::get_if<scenario::Expression>(&quantity.truth))
@@ -115,7 +115,7 @@ std::string why_no_truth(const ReferenceQuantity& quantity, const scenario::Scen
   if (!quantity.of.empty())
     return why_no_truth(*find_reference_quantity(quantity.of.front()->name), scenario);
   if (const auto* value = std::get_if<const world::TruthValue*>(&quantity.truth))
-    return scenario::why_no_truth(scenario, (*value)->in);
+    return scenario::why_no_truth(scenario, **value);
   if (const auto* expression = std::get_if<scenario::Expression>(&quantity.truth))
     return scenario::why_no_truth(scenario, *expression);
   return std::holds_alternative<Zero>(quantity.truth) ? "" : "no truth: the mapping gives none";

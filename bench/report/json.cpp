@@ -91,7 +91,7 @@ constexpr std::size_t most_changes = 1000;  // of a flag
 
 Json object(const Series& series) {
   Json json{{"estimator", series.estimator},
-            {"name", series.about->name},
+            {"name", series.name},
             {"quantity", series.quantity},
             {"unit", series.unit},
             {"kind", kind_names[static_cast<std::size_t>(series.kind)]},

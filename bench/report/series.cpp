@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "bench/checks/probability.hpp"
 #include "bench/checks/rule.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/report/summary.hpp"
+#include "bench/scenario/quantity.hpp"
 
 namespace canhil::report {
 namespace {
@@ -70,6 +72,49 @@ Series series_of(std::string_view estimator, const Track& track, bool estimates,
   return series.series();
 }
 
+// An output of the plant. Each point has the range of the values of a stretch.
+class PlantSeries {
+ public:
+  PlantSeries(std::string name, std::string_view si, std::int64_t duration_us)
+      : ending_(scenario::ending_for(si)),
+        stretch_us_(std::max<std::int64_t>(1, duration_us / static_cast<std::int64_t>(Series::max_points))),
+        series_{.estimator = "plant",
+                .name = name,
+                .quantity = std::move(name),
+                .unit = std::string(ending_.empty() ? "" : scenario::unit_of(ending_)),
+                .kind = Series::Kind::estimate} {}
+
+  void take(std::int64_t t_us, double in_si) {
+    const double value = in_si / scenario::factor_of(ending_);
+    const bool follows = !series_.points.empty() && t_us / stretch_us_ == last_us_ / stretch_us_;
+    last_us_ = t_us;
+    if (!follows) return series_.points.push_back({.t_s = seconds(t_us), .low = value, .high = value});
+    Series::Point& all = series_.points.back();
+    all.low = std::min(all.low, value);
+    all.high = std::max(all.high, value);
+  }
+  [[nodiscard]] Series series() && { return std::move(series_); }
+
+ private:
+  std::string_view ending_;
+  std::int64_t stretch_us_, last_us_ = 0;
+  Series series_;
+};
+
+std::vector<Series> series_of_plant(const scenario::Scenario& scenario, const drive::Run& run) {
+  std::vector<Series> all;
+  const world::PlantRecord* plant = plant_of(run);
+  if (plant == nullptr) return all;
+  for (std::size_t column = 0; column < plant->columns().size(); ++column) {
+    const scenario::PlantFacts::Output& output = scenario.plant.outputs[column];
+    PlantSeries series(output.name, output.si, scenario.duration_us);
+    for (std::size_t i = 0; i < plant->times_us().size(); ++i)
+      series.take(plant->times_us()[i], plant->value(column, i));
+    all.push_back(std::move(series).series());
+  }
+  return all;
+}
+
 }  // namespace
 
 GrowingSeries::GrowingSeries(std::string_view estimator, const Track& track, bool estimates,
@@ -77,7 +122,7 @@ GrowingSeries::GrowingSeries(std::string_view estimator, const Track& track, boo
     : scenario_(scenario),
       unit_(estimates ? track.estimate_unit : track.unit),
       series_{.estimator = std::string(estimator),
-              .about = track.quantity,
+              .name = std::string(track.quantity->name),
               .quantity = estimates ? track.estimate_title : track.title,
               .unit = std::string(unit_.name),
               .kind = estimates ? Series::Kind::estimate : kind_of(track)} {
@@ -143,6 +188,10 @@ void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, cons
   }
 }
 
+const world::PlantRecord* plant_of(const drive::Run& run) {
+  return is_cut_off(run) || !run.per_run_truth.plant ? nullptr : &run.per_run_truth.plant->record();
+}
+
 std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run) {
   std::vector<Series> all;
   std::ptrdiff_t estimates_end = 0;  // an estimator's estimates come before its other series
@@ -153,6 +202,7 @@ std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run&
     Series values = series_of(estimator, track, false, scenario);
     if (!track.only_if_judged || !values.bars.empty()) all.push_back(std::move(values));
   });
+  std::ranges::move(series_of_plant(scenario, run), std::back_inserter(all));
   std::erase_if(all, [](const Series& one) { return one.points.empty(); });
   return all;
 }

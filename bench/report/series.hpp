@@ -30,9 +30,9 @@ struct Series {
     double below = 0;            ///< in the unit of the series
     double from_s = 0, to_s = 0;
   };
-  std::string estimator;
-  const quantities::Quantity* about = nullptr;
-  std::string quantity;  ///< for people
+  std::string estimator;  ///< "plant": an output of the plant
+  std::string name;       ///< of the quantity
+  std::string quantity;   ///< for people
   std::string unit;
   Kind kind = Kind::error;
   std::vector<Point> points{};
@@ -69,7 +69,11 @@ using TrackOf = std::function<void(std::string_view estimator, const quantities:
 /// Passes on the tracks of the scenario's estimators, one estimator after another.
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give);
 
-/// The series of all estimators of the scenario.
+/// The outputs of the plant over the run, as PlantFacts::outputs; null: there is no plant, or the run was cut
+/// off.
+const world::PlantRecord* plant_of(const drive::Run& run);
+
+/// The series of all estimators of the scenario, and of the outputs of the plant.
 std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

@@ -49,6 +49,11 @@ struct Binding {
     std::size_t most_bytes = 8;  ///< of a request
   };
 
+  /// A quantity that the targets report.
+  struct Reported {
+    std::string name, si;  ///< SI unit; empty: a plain number
+  };
+
   Binding() = default;
   Binding(const Binding&) = delete;
   Binding& operator=(const Binding&) = delete;
@@ -94,6 +99,7 @@ struct Binding {
   std::vector<std::string> senders{};           ///< the nodes of the DBC that may have a bus of their own
   std::vector<Channel> channels{};
   std::vector<std::string> flags{};  ///< of the targets
+  std::vector<Reported> reported{};  ///< quantities whose values may be commands of a plant
   /// The files of which it is made, as named by the user: one for each target. None: built into the program.
   std::vector<Files> files{};
   std::uint64_t hash = 0;      ///< hash of the files; 0: built in

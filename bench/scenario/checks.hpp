@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/scenario/plant_facts.hpp"
+
 namespace canhil::checks {
 class Rule;
 }
@@ -49,14 +51,17 @@ struct EachEstimator {
   std::string estimator{};  ///< its name, if there are several; set by the reader of the check
 };
 
+inline const PlantFacts no_plant{};
+
 /// Facts about the scenario, for the functions that read the different kinds of checks.
 struct CheckContext {
   std::int64_t duration_us = 0;
   const DbcVocabulary& contract;
   std::span<const std::string> estimators;  ///< the estimators that run
-  std::span<const FaultWindow> faults{};    ///< the windows end with the run at the latest
-  std::int64_t latency_us = 0;              ///< largest latency of a node, from validity to transmission
-  EachEstimator* each = nullptr;            ///< null: only the first of the estimators is read
+  const PlantFacts& plant = no_plant;
+  std::span<const FaultWindow> faults{};  ///< the windows end with the run at the latest
+  std::int64_t latency_us = 0;            ///< largest latency of a node, from validity to transmission
+  EachEstimator* each = nullptr;          ///< null: only the first of the estimators is read
 };
 
 /// A rule and its subject. The subject is empty for a kind that a scenario may have only once.

@@ -13,6 +13,7 @@
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/estimator_facts.hpp"
 #include "bench/scenario/faults.hpp"
+#include "bench/scenario/plant_facts.hpp"
 
 namespace canhil::estimators {
 struct Estimator;
@@ -42,6 +43,8 @@ struct DbcVocabulary {
   std::shared_ptr<const Binding> binding{};
   /// Reads the table of any node if the table has the key `recorded`; null: recordings are not allowed.
   NodeSettings (*read_recorded)(const NodeTable& table, Section& section, std::int64_t duration_us) = nullptr;
+  /// Reads the table [plant]; null: a scenario has none.
+  PlantFacts (*read_plant)(Section& section, const Binding& binding) = nullptr;
   /// The table of a sensor with a name of its own; `kind`: the table of its kind. Null: the binding declares
   /// no sensor of this name, and the kind needs it.
   const NodeTable* (*named)(const NodeTable& kind, std::string_view name, const Binding& binding) = nullptr;

@@ -32,6 +32,23 @@ bool assigns(std::string_view text) {
   return false;
 }
 
+constexpr std::string_view name_characters =
+    "0123456789_.[]abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+
+// The true values that a text may use: all of the bench, and the outputs of a plant that the text names.
+std::vector<const world::TruthValue*> usable_in(std::string_view text) {
+  std::vector<const world::TruthValue*> usable;
+  for (const world::TruthValue& one : world::truth_values()) usable.push_back(&one);
+  for (std::size_t end = 0, begin = 0; begin < text.size(); begin = end + 1) {
+    end = std::min(text.find_first_not_of(name_characters, begin), text.size());
+    const std::string_view name = text.substr(begin, end - begin);
+    if (!name.starts_with(world::plant_prefix)) continue;
+    const world::TruthValue* output = world::find_truth_value(name);
+    if (output != nullptr && std::ranges::find(usable, output) == usable.end()) usable.push_back(output);
+  }
+  return usable;
+}
+
 }  // namespace
 
 struct Expression::Parsed {
@@ -47,26 +64,26 @@ tl::expected<Expression, Expression::Wrong> Expression::parse(std::string_view t
     return tl::unexpected(Wrong{fmt::format("'{}' assigns a value", text), "== to compare two values"});
   auto parsed = std::make_shared<Parsed>();
   mu::Parser& parser = parsed->parser;
+  const std::vector<const world::TruthValue*> usable = usable_in(text);
   std::vector<std::string> names{std::string(time_name)};
-  for (const world::TruthValue& one : world::truth_values()) names.emplace_back(one.name);
+  for (const world::TruthValue* one : usable) names.emplace_back(one->name);
   try {
-    parser.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    parser.DefineNameChars(std::string(name_characters).c_str());
     parser.DefineConst("pi", std::numbers::pi);
     parser.DefineConst("deg", world::units::deg);
     parser.DefineConst("g", world::units::standard_gravity);
     parser.DefineVar(std::string(time_name), &parsed->t_s);
     double unused = 0;
-    for (const world::TruthValue& one : world::truth_values())
-      parser.DefineVar(std::string(one.name), &unused);
+    for (const world::TruthValue* one : usable) parser.DefineVar(std::string(one->name), &unused);
     parser.SetExpr(std::string(text));
     const auto used = parser.GetUsedVar();
-    for (const world::TruthValue& one : world::truth_values()) {
-      const std::string name(one.name);
+    for (const world::TruthValue* one : usable) {
+      const std::string name(one->name);
       if (!used.contains(name)) {
         parser.RemoveVar(name);
         continue;
       }
-      parsed->uses.push_back(&one);
+      parsed->uses.push_back(one);
       parser.DefineVar(name, &parsed->values.emplace_back());
     }
     parser.Eval();
@@ -99,7 +116,7 @@ std::span<const world::TruthValue* const> Expression::uses() const { return pars
 
 std::string why_no_truth(const Scenario& scenario, const Expression& expression) {
   for (const world::TruthValue* one : expression.uses()) {
-    if (std::string why = why_no_truth(scenario, one->in); !why.empty()) return why;
+    if (std::string why = why_no_truth(scenario, *one); !why.empty()) return why;
   }
   return {};
 }

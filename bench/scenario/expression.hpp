@@ -18,9 +18,9 @@ namespace canhil::scenario {
 class Section;
 struct Scenario;
 
-/// An expression over true values (world::truth_values()) in SI, and `t`, the time of the run [s]. It has the
-/// operators and functions of muParser, and the constants `pi`, `deg` (1 degree in rad) and `g` (standard
-/// gravity). Copies share one parser; several threads may use them.
+/// An expression over true values (world::truth_values(), and outputs of the plant: plant.NAME) in SI, and
+/// `t`, the time of the run [s]. It has the operators and functions of muParser, and the constants `pi`,
+/// `deg` (1 degree in rad) and `g` (standard gravity). Copies share one parser; several threads may use them.
 class Expression {
  public:
   /// What is wrong in a text, and what was expected.

@@ -74,6 +74,20 @@ const Unit* find_unit(std::string_view key) {
 
 }  // namespace
 
+std::string_view ending_for(std::string_view si) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> endings{{{"rad", "_deg"},
+                                                                                  {"rad/s", "_degps"},
+                                                                                  {"m/s^2", "_mps2"},
+                                                                                  {"m/s", "_mps"},
+                                                                                  {"m", "_m"},
+                                                                                  {"s", "_s"},
+                                                                                  {"Pa", "_pa"},
+                                                                                  {"K", "_k"},
+                                                                                  {"T", "_t"}}};
+  const auto found = std::ranges::find(endings, si, &decltype(endings)::value_type::first);
+  return found == endings.end() ? "" : found->second;
+}
+
 std::string_view ending_of(std::string_view key) {
   const Unit* unit = find_unit(key);
   return unit == nullptr ? "" : unit->ending;

@@ -30,6 +30,9 @@ struct Limits {
   }
 };
 
+/// The ending of keys for values with this SI unit: "_deg" for rad; empty: none for it.
+std::string_view ending_for(std::string_view si);
+
 /// Whether a value is finite and within limits.
 bool holds(const Limits& limits, double value);
 

@@ -1,6 +1,7 @@
 #include "bench/scenario/scenario.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -140,6 +141,7 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Db
   const CheckContext context{.duration_us = scenario.duration_us,
                              .contract = contract,
                              .estimators = estimators,
+                             .plant = scenario.plant,
                              .faults = faults,
                              .latency_us = latency_us};
   std::vector<Check> checks;
@@ -164,9 +166,9 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Db
 /// Reads the carrier's flight. The table [truth] may be absent if there is an engagement or a glide; then no
 /// table that depends on [truth] is allowed.
 void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
-  if (root.has("truth") || !(scenario.engagement || scenario.glide)) {
+  if (root.has("truth") || scenario.plant.moves_the_carrier || !(scenario.engagement || scenario.glide)) {
     Section truth = root.table("truth");
-    scenario.truth = read_truth(truth, scenario.duration_us);
+    scenario.truth = read_truth(truth, scenario.duration_us, scenario.plant.moves_the_carrier);
     return;
   }
   root.optional("truth");
@@ -239,8 +241,17 @@ std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) 
 
 }  // namespace
 
-std::string why_no_truth(const Scenario& scenario, world::TruthIn truth) {
+std::string why_no_truth(const Scenario& scenario, const world::TruthValue& value) {
   using enum world::TruthIn;
+  const world::TruthIn truth = value.in;
+  if (truth == plant) {
+    std::vector<std::string> shown;
+    for (const PlantFacts::Output& one : scenario.plant.outputs) shown.push_back(one.name);
+    if (std::ranges::find(shown, value.name) != shown.end()) return "";
+    if (scenario.plant.setup == nullptr)
+      return fmt::format("no truth of {}: the scenario has no [plant]", value.name);
+    return fmt::format("no truth of {}: the plant has only {}", value.name, fmt::join(shown, ", "));
+  }
   if (truth == engagement) return why_no_truth(scenario, TruthOf::engagement);
   // A glide replaces the flight of the carrier.
   const bool glides = truth == glide || (truth == motion && scenario.glide);
@@ -299,6 +310,12 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
                          "'truth', or answers with los.rate.pitch and los.rate.yaw");
   }
   read_glider(root, scenario, contract);
+  if (contract.read_plant != nullptr && root.has("plant")) {
+    Section plant = root.table("plant");
+    scenario.plant = contract.read_plant(plant, *contract.binding);
+    plant.finish();
+  }
+  root.optional("plant");
   read_navigation(root, scenario, contract);
   if (!contract.binding->handshake && !root.has("start"))
     root.refuse("initial_error", no_start, "a table [start] beside it");

@@ -23,6 +23,7 @@
 #include "bench/scenario/faults.hpp"
 #include "bench/scenario/glide.hpp"
 #include "bench/scenario/node.hpp"
+#include "bench/scenario/plant_facts.hpp"
 #include "bench/scenario/setting.hpp"
 #include "bench/scenario/target_setup.hpp"
 #include "bench/world/engagement/plan.hpp"
@@ -31,7 +32,7 @@
 #include "dbc/wire/result.hpp"
 
 namespace canhil::world {
-enum class TruthIn : std::uint8_t;
+struct TruthValue;
 }
 
 namespace canhil::scenario {
@@ -59,11 +60,16 @@ struct Scenario {
       initial_error;  ///< errors of the initial state for the target, relative to the truth at the start
   std::optional<Glide> glide;  ///< truth of a glider, in addition to `truth`
   std::optional<world::EngagementPlan> engagement;
+  PlantFacts plant;
   std::vector<NodeSettings> nodes;  ///< the nodes on the bus
   std::vector<Event> events;
   std::vector<Fault> faults;
   std::vector<Check> checks;
 
+  /// Whether what moves depends on the target's answers, so that no flight is known before its run.
+  [[nodiscard]] bool closes_the_loop() const {
+    return !plant.steered.empty() || (engagement && engagement->guidance == world::Guidance::target);
+  }
   /// If false, answers cannot be compared with the flight of the carrier.
   [[nodiscard]] bool truth_is_known() const { return !std::holds_alternative<world::Unknown>(truth.motion); }
   [[nodiscard]] bool runs(std::string_view estimator) const {
@@ -94,7 +100,7 @@ inline constexpr std::size_t most_toml_bytes = std::size_t{1} << 20U;
 
 /// Why the scenario does not know a truth; empty: the truth is known.
 std::string why_no_truth(const Scenario& scenario, TruthOf truth);
-std::string why_no_truth(const Scenario& scenario, world::TruthIn truth);
+std::string why_no_truth(const Scenario& scenario, const world::TruthValue& value);
 /// Why there is no truth to compare an estimator's answers with; empty: there is a truth, or the scenario has
 /// none of the estimator's nodes.
 std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -175,14 +176,15 @@ constexpr std::array motion_readers{MotionReader{"rest", read_rest},
 
 }  // namespace
 
-world::Flight read_truth(Section& section, std::int64_t duration_us) {
+world::Flight read_truth(Section& section, std::int64_t duration_us, bool plant_moves) {
   std::vector<std::string> names;
   for (const MotionReader& reader : motion_readers) names.emplace_back(reader.name);
-  names.insert(names.end(), {"recorded", "unknown"});
-  const std::string name = section.one_of({"trajectory",
-                                           "How the carrier moves. `recorded`: as in a CSV file; `unknown`: "
-                                           "there is no truth, and every node sends recorded samples."},
-                                          names);
+  names.insert(names.end(), {"recorded", "plant", "unknown"});
+  const std::string name = section.one_of(
+      {"trajectory",
+       "How the carrier moves. `recorded`: as in a CSV file; `plant`: as "
+       "the table [plant] says; `unknown`: there is no truth, and every node sends recorded samples."},
+      names);
   world::Flight flight;
   if (name == "recorded") {
     flight = read_recorded_flight(section, duration_us);
@@ -191,6 +193,13 @@ world::Flight read_truth(Section& section, std::int64_t duration_us) {
   } else {
     flight.start = read_position(section);
   }
+  const bool by_plant = name == "plant";
+  if (by_plant && !plant_moves)
+    section.reject("trajectory", "is 'plant', but no plant moves the carrier",
+                   "a table [plant] whose outputs or [plant.motion] give an attitude or a velocity");
+  if (!by_plant && plant_moves)
+    section.reject("trajectory", fmt::format("is '{}', but the plant moves the carrier", name), "'plant'");
+  if (by_plant) flight.motion = world::Grown{std::make_shared<world::GrownPath>(world::GrownPath::Point{})};
   for (const MotionReader& reader : motion_readers) {
     if (reader.name == name) flight.motion = reader.read(section);
   }

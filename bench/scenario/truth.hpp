@@ -8,6 +8,7 @@ namespace canhil::scenario {
 
 class Section;
 
-world::Flight read_truth(Section& section, std::int64_t duration_us);
+/// `plant_moves`: the scenario has a plant that moves the carrier.
+world::Flight read_truth(Section& section, std::int64_t duration_us, bool plant_moves = false);
 
 }  // namespace canhil::scenario

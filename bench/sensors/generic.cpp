@@ -97,7 +97,7 @@ class Generic final : public LossySampler<GenericSettings> {
  public:
   Generic(const NodeSettings& node, const Run& run)
       : LossySampler(node, run, "generic.loss"),
-        truths_{.flight = run.flight, .glide = run.glide, .engagement = run.engagement} {
+        truths_{.flight = run.flight, .glide = run.glide, .engagement = run.engagement, .plant = run.plant} {
     const double dt = 1e-6 * static_cast<double>(node.period_us());
     const auto outputs = node.table().sensor->outputs.values;
     for (std::size_t i = 0; i < outputs.size(); ++i)

@@ -15,6 +15,7 @@
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/glide/glide.hpp"
+#include "bench/world/plant_record.hpp"
 #include "bench/world/stream.hpp"
 
 namespace canhil::sensors {
@@ -33,6 +34,7 @@ struct Run {
   const world::FlightRecord& flight;              ///< from the start to the end of the run
   const world::GlideRecord* glide = nullptr;      ///< null: the scenario has no [glide]
   world::EngagementRecord* engagement = nullptr;  ///< null: no [engagement]; filled during the flight
+  const world::PlantRecord* plant = nullptr;      ///< null: no [plant]; filled during the flight
   SensorFaults* faults = nullptr;                 ///< null: no faults
   std::string_view sensor{};                      ///< name of a named sensor, which has streams of its own
 

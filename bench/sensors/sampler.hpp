@@ -57,7 +57,10 @@ class Sampler : public Sensor {
     if (schedule.jitter <= 0) return;
     const double half = static_cast<double>(period_us_) / 2;
     const double jitter_us = std::clamp(1e6 * schedule.jitter * times_.normal(), -half, half);
-    taken_us_ = std::clamp<std::int64_t>(valid_us_ + std::llround(jitter_us), 0, run_.flight.end_us());
+    // A flight that grows is known up to the time at which the sample is sent.
+    const std::int64_t last_us =
+        run_.flight.grows() ? std::min(due_us_, run_.flight.end_us()) : run_.flight.end_us();
+    taken_us_ = std::clamp<std::int64_t>(valid_us_ + std::llround(jitter_us), 0, last_us);
   }
 
   std::int64_t period_us_;

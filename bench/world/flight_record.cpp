@@ -1,6 +1,7 @@
 #include "bench/world/flight_record.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cassert>
@@ -93,26 +94,44 @@ void integrate(const Motion& motion, std::int64_t a_us, std::int64_t b_us, Posit
 }  // namespace
 
 FlightRecord::FlightRecord(const Flight& flight, std::int64_t duration_us, std::int64_t interval_us)
-    : flight_(flight), interval_us_(interval_us) {
+    : flight_(flight),
+      interval_us_(interval_us),
+      end_us_(duration_us / interval_us * interval_us),
+      position_(flight.start) {
   assert(duration_us >= 0 && interval_us > 0);
-  const Motion& motion = flight.motion;
   const auto count = static_cast<std::size_t>(duration_us / interval_us);
   epochs_.reserve(count + 1);
   increments_.reserve(count);
-  Position position = flight.start;
-  epochs_.push_back(truth_of(motion, position, 0));
-  for (std::int64_t end = interval_us; end <= duration_us && !Stoppable::stopped(); end += interval_us) {
-    ImuIncrement increment{.t_us = end, .interval_us = interval_us};
-    between_jumps(motion, end - interval_us, end, [&](std::int64_t a_us, std::int64_t b_us) {
-      integrate(motion, a_us, b_us, position, increment);
+  epochs_.push_back(truth_of(flight.motion, position_, 0));
+  if (!grows()) fly_to(end_us_);
+  if (!grows()) end_us_ = epochs_.back().t_us;  // the flight may have been stopped
+}
+
+void FlightRecord::fly_to(std::int64_t end_us) {
+  const Motion& motion = flight_.motion;
+  for (std::int64_t end = epochs_.back().t_us + interval_us_; end <= end_us && !Stoppable::stopped();
+       end += interval_us_) {
+    ImuIncrement increment{.t_us = end, .interval_us = interval_us_};
+    between_jumps(motion, end - interval_us_, end, [&](std::int64_t a_us, std::int64_t b_us) {
+      integrate(motion, a_us, b_us, position_, increment);
     });
     increments_.push_back(increment);
-    epochs_.push_back(truth_of(motion, position, end));
+    epochs_.push_back(truth_of(motion, position_, end));
   }
 }
 
+void FlightRecord::follow() {
+  const auto* grown = std::get_if<Grown>(&flight_.motion);
+  if (grown != nullptr) fly_to(std::min(end_us_, grown->path->end_us()));
+}
+
+std::int64_t FlightRecord::known_until_us() const {
+  const auto* grown = std::get_if<Grown>(&flight_.motion);
+  return grown == nullptr ? end_us_ : std::min(end_us_, grown->path->end_us());
+}
+
 Truth FlightRecord::at(std::int64_t t_us) const {
-  assert(t_us >= 0 && t_us <= end_us());
+  assert(t_us >= 0 && t_us <= known_until_us());
   const Truth& before = epochs_[static_cast<std::size_t>(t_us / interval_us_)];
   if (before.t_us == t_us) return before;
   Position position = before.position;

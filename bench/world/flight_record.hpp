@@ -1,4 +1,5 @@
-// The truth of a scenario, shared by all its runs. It is computed once; then several threads may read it.
+// The truth of a scenario, shared by all its runs. It is computed once; then several threads may read it. A
+// motion that grows (motion/grown.hpp) has a record for each run, which grows with it.
 //
 // Velocity and attitude are exactly those of the motion (for a recorded motion see motion/recorded.hpp).
 // Position is integrated. Rate and specific force follow by inverting the navigation equations in NED, Groves
@@ -37,8 +38,10 @@ struct ImuIncrement {
 class FlightRecord {
  public:
   /// Flies from 0 to the last epoch at or before duration_us. There is an epoch every interval_us.
-  /// interval_us must be positive; duration_us may be 0.
+  /// interval_us must be positive; duration_us may be 0. If the motion grows, the record has its start only.
   FlightRecord(const Flight& flight, std::int64_t duration_us, std::int64_t interval_us);
+  /// Flies on to the last epoch at or before the end of the motion; for a motion that grows.
+  void follow();
 
   /// If false, only the initial state is known, so errors cannot be computed.
   [[nodiscard]] bool is_known() const { return !std::holds_alternative<Unknown>(flight_.motion); }
@@ -48,16 +51,23 @@ class FlightRecord {
   /// Increment k covers epoch k to epoch k + 1.
   [[nodiscard]] const Spool<ImuIncrement>& increments() const { return increments_; }
   [[nodiscard]] std::int64_t interval_us() const { return interval_us_; }
-  /// Time of the last epoch.
-  [[nodiscard]] std::int64_t end_us() const { return epochs_.back().t_us; }
+  /// Time of the last epoch of the run.
+  [[nodiscard]] std::int64_t end_us() const { return end_us_; }
+  /// The time up to which the truth is known: end_us(), unless the motion still grows.
+  [[nodiscard]] std::int64_t known_until_us() const;
+  /// Whether the motion grows during the run.
+  [[nodiscard]] bool grows() const { return std::holds_alternative<Grown>(flight_.motion); }
 
-  /// Truth at any time in [0, end_us()]. At an epoch, the stored truth is returned; between two epochs, the
-  /// truth is integrated from the earlier epoch.
+  /// Truth at any time in [0, known_until_us()]. At an epoch, the stored truth is returned; between two
+  /// epochs, the truth is integrated from the earlier epoch.
   [[nodiscard]] Truth at(std::int64_t t_us) const;
 
  private:
+  void fly_to(std::int64_t end_us);
+
   Flight flight_;
-  std::int64_t interval_us_;
+  std::int64_t interval_us_, end_us_;
+  Position position_;  // at the last epoch
   Spool<Truth> epochs_;
   Spool<ImuIncrement> increments_;
 };

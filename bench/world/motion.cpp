@@ -41,6 +41,7 @@ Vector3 velocity(const Motion& motion, double t) {
 std::vector<std::int64_t> jumps_us(const Motion& motion, std::int64_t from_us, std::int64_t to_us) {
   if (const auto* recorded = std::get_if<Recorded>(&motion))
     return recorded->path->samples_between(from_us, to_us);
+  if (const auto* grown = std::get_if<Grown>(&motion)) return grown->path->points_between(from_us, to_us);
   const auto* flight = std::get_if<LevelAcceleration>(&motion);
   if (flight != nullptr && flight->cruise_us > from_us && flight->cruise_us < to_us)
     return {flight->cruise_us};

@@ -7,6 +7,7 @@
 
 #include "bench/world/earth.hpp"
 #include "bench/world/motion/along_the_nose.hpp"
+#include "bench/world/motion/grown.hpp"
 #include "bench/world/motion/level_acceleration.hpp"
 #include "bench/world/motion/recorded.hpp"
 #include "bench/world/motion/rest.hpp"
@@ -15,8 +16,8 @@
 
 namespace canhil::world {
 
-using Motion =
-    std::variant<Rest, LevelAcceleration, Weave, SPath, Racetrack, Spiral, RestThenGo, Recorded, Unknown>;
+using Motion = std::variant<Rest, LevelAcceleration, Weave, SPath, Racetrack, Spiral, RestThenGo, Recorded,
+                            Grown, Unknown>;
 
 /// Velocity and attitude at time t [s] from the start; right-continuous where the motion has a jump.
 Movement movement(const Motion& motion, double t);

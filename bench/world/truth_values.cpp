@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
+#include <mutex>
+#include <string>
 
 #include "bench/world/attitude.hpp"
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/glide/glide.hpp"
+#include "bench/world/plant_record.hpp"
 
 namespace canhil::world {
 namespace {
@@ -19,7 +23,7 @@ constexpr double slowest_on_course = 0.1;  // [m/s]; at standstill, the directio
 // A value from the flight record, at any time of the run.
 template <class Of>
 Value flown(const Truths& truths, std::int64_t t_us, Of of) {
-  if (!truths.flight.is_known() || t_us < 0 || t_us > truths.flight.end_us()) return std::nullopt;
+  if (!truths.flight.is_known() || t_us < 0 || t_us > truths.flight.known_until_us()) return std::nullopt;
   return of(truths.flight.at(t_us));
 }
 // A value from the glide record, at the last step at or before the time.
@@ -112,7 +116,36 @@ constexpr std::array known{
 
 std::span<const TruthValue> truth_values() { return known; }
 
+namespace {
+
+// A value is identified by its address, so a name gives one object.
+const TruthValue& output_of_plant(std::string_view name) {
+  struct Own {
+    std::string name;
+    TruthValue value{};
+  };
+  static std::mutex mutex;
+  static std::deque<Own> known_outputs;
+  const std::lock_guard lock(mutex);
+  for (const Own& one : known_outputs) {
+    if (one.name == name) return one.value;
+  }
+  Own& own = known_outputs.emplace_back(Own{.name = std::string(name)});
+  own.value = {.name = own.name, .si = "", .in = plant};
+  return own.value;
+}
+
+}  // namespace
+
+std::optional<double> TruthValue::at(const Truths& truths, std::int64_t t_us) const {
+  if (of != nullptr) return of(truths, t_us);
+  if (truths.plant == nullptr) return std::nullopt;
+  const auto column = truths.plant->find(name.substr(plant_prefix.size()));
+  return column ? truths.plant->at(*column, t_us) : std::nullopt;
+}
+
 const TruthValue* find_truth_value(std::string_view name) {
+  if (name.starts_with(plant_prefix) && name.size() > plant_prefix.size()) return &output_of_plant(name);
   const auto found = std::ranges::find(known, name, &TruthValue::name);
   return found == known.end() ? nullptr : &*found;
 }

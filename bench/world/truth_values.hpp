@@ -11,16 +11,18 @@ namespace canhil::world {
 struct EngagementRecord;
 class FlightRecord;
 class GlideRecord;
+class PlantRecord;
 
 /// The truths of a run.
 struct Truths {
   const FlightRecord& flight;
   const GlideRecord* glide = nullptr;            ///< null: the run has no glide
   const EngagementRecord* engagement = nullptr;  ///< null: the run has no engagement
+  const PlantRecord* plant = nullptr;            ///< null: the run has no plant
 };
 
 /// The truth that contains a value. `motion`: the glide if there is one, otherwise the flight.
-enum class TruthIn : std::uint8_t { flight, motion, glide, engagement };
+enum class TruthIn : std::uint8_t { flight, motion, glide, engagement, plant };
 
 /// A true value, in SI. Axes: north, east, down, or those of the body (forward, right, down).
 struct TruthValue {
@@ -28,12 +30,17 @@ struct TruthValue {
   std::string_view si;    ///< SI unit
   bool turns = false;     ///< an angle: values that differ by a full turn are equal
   TruthIn in = TruthIn::flight;
+  /// Null: an output of the plant.
+  std::optional<double> (*of)(const Truths& truths, std::int64_t t_us) = nullptr;
+
   /// The value at a time [us] of the run; none: there is no truth at this time.
-  std::optional<double> (*at)(const Truths& truths, std::int64_t t_us) = nullptr;
+  [[nodiscard]] std::optional<double> at(const Truths& truths, std::int64_t t_us) const;
 };
 
 std::span<const TruthValue> truth_values();
-/// The value of this name; null: there is none.
+/// The value of this name; null: there is none. Any name that begins with plant_prefix may be an output of a
+/// plant: the scenario says whether its plant has it.
 const TruthValue* find_truth_value(std::string_view name);
+inline constexpr std::string_view plant_prefix = "plant.";
 
 }  // namespace canhil::world

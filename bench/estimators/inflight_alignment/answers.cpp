@@ -110,7 +110,7 @@ std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Win
 
 bool has_time_and_truth(const FixAnswer& answer, const world::FlightRecord& truth) {
   const bool considered = used(answer.outcome) || answer.outcome == messages::FixOutcome::gated;
-  return considered && answer.cause_us >= 0 && answer.cause_us <= truth.end_us();
+  return considered && answer.cause_us >= 0 && answer.cause_us <= truth.known_until_us();
 }
 
 Vector3 position_error(const FixAnswer& answer, const world::FlightRecord& truth) {

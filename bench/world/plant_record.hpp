@@ -1,0 +1,67 @@
+// What happened to a plant in a run: its outputs over time, and the commands that it got.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dbc/spool/spool.hpp"
+
+namespace canhil::world {
+
+/// A command as it arrived.
+struct Given {
+  std::int64_t t_us = 0;       ///< arrival
+  double value = 0;            ///< in SI
+  std::int64_t cause_us = -1;  ///< time of validity of the sample that it answers; -1: it answers none
+};
+
+/// The commands of an input of a plant.
+struct CommandRecord {
+  std::string input;                 ///< its name
+  std::int64_t delay_us = 0;         ///< from the arrival of a command to its effect
+  std::int64_t step_us = 0;          ///< of the plant
+  Spool<Given> given{};              ///< in order of arrival
+  std::uint64_t invalid = 0;         ///< number of messages in which the command had no value
+  Spool<std::int64_t> missing_us{};  ///< starts of the steps without a command, or with one that is too old
+};
+
+class PlantRecord {
+ public:
+  struct Column {
+    std::string name;
+    bool turns = false;  ///< an angle: between two values it takes the shorter way
+    bool steps = false;  ///< keeps a value until the next
+  };
+  explicit PlantRecord(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+  std::vector<CommandRecord> commands{};
+  double longest_step_s = 0;  ///< the longest time that a step took, by the wall clock
+
+  /// Adds the values at a time later than all others.
+  void add(std::int64_t t_us, std::span<const double> values);
+
+  [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+  /// The index of a column; none: there is no such column.
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
+  /// The times of the values [us], ascending.
+  [[nodiscard]] const Spool<std::int64_t>& times_us() const { return times_us_; }
+  /// The value at the time times_us()[index].
+  [[nodiscard]] double value(std::size_t column, std::size_t index) const {
+    return values_[index * columns_.size() + column];
+  }
+  /// The value at a time between the first and the last, interpolated on a straight line; none: any other
+  /// time.
+  [[nodiscard]] std::optional<double> at(std::size_t column, std::int64_t t_us) const;
+
+ private:
+  std::vector<Column> columns_;
+  Spool<std::int64_t> times_us_;
+  Spool<double> values_;
+};
+
+}  // namespace canhil::world
