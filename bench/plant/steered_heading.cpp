@@ -2,7 +2,7 @@
 // speed on small steering angles too. With the rudder angle d and the turn rate r about down:
 //   T dr/dt = K d - r + T gust(t),   d(heading)/dt = r.
 // The actuator follows the command d_c with a first-order lag, limits of its rate and a stop:
-//   dd/dt = clamp((clamp(d_c, stop) - d) / lag, rate).
+//   dd/dt = clamp((clamp(d_c + offset, stop) - d) / lag, rate).
 // The gust is an angular acceleration (1 - cos)/2 over its time. The speed over ground is constant and has
 // the direction of the heading. The method is fourth-order Runge-Kutta with steps of at most 1 ms.
 #include "bench/plant/steered_heading.hpp"
@@ -30,6 +30,7 @@ struct Settings {
   double lag = 0;            ///< of the actuator [s]; 0: none
   double rate_limit = 0;     ///< of the actuator [rad/s]
   double stop = 0;           ///< largest angle of the actuator [rad]
+  double offset = 0;         ///< of the actuator's zero [rad]
   double gust = 0;           ///< largest angular acceleration of the gust [rad/s^2]
   std::optional<std::pair<std::int64_t, std::int64_t>> gust_us{};
 };
@@ -50,7 +51,7 @@ class SteeredHeading final : public Plant {
   [[nodiscard]] std::span<const double> outputs() const override { return outputs_; }
   Result<void> step(std::int64_t from_us, std::int64_t to_us, std::span<const double> inputs) override {
     constexpr std::int64_t longest_us = 1000;
-    const double wanted = std::clamp(inputs.front(), -settings_.stop, settings_.stop);
+    const double wanted = std::clamp(inputs.front() + settings_.offset, -settings_.stop, settings_.stop);
     const std::int64_t steps = (to_us - from_us + longest_us - 1) / longest_us;
     const double dt = 1e-6 * static_cast<double>(to_us - from_us) / static_cast<double>(steps);
     for (std::int64_t i = 0; i < steps; ++i)
@@ -127,6 +128,8 @@ std::unique_ptr<Plan> read(scenario::Section& section) {
       section.number({"actuator_rate_degps", "Largest rate of the actuator."}, Limits::above(0), 1000);
   own.stop =
       section.number({"actuator_stop_deg", "Largest angle of the actuator."}, Limits::above(0, 90), 35);
+  own.offset = section.number({"actuator_offset_deg", "Angle of the actuator at the command 0."},
+                              Limits::between(-90, 90), 0);
   own.gust_us = section.optional_interval_us({"gust_s", "Begin and end of a gust."}, Limits::at_least(0));
   if (own.gust_us)
     own.gust =

@@ -115,7 +115,7 @@ Finding Response::judge(const Evidence& evidence) const {
   if (std::string missing = missing_command(evidence, window); !missing.empty())
     return {Outcome::fail, std::move(missing), expected};
   const world::Truths truths = estimators::truths_of(evidence.truth);
-  std::optional<double> first, largest, beyond;
+  std::optional<double> first, last, largest, beyond;
   std::int64_t outside_us = -1;
   const std::int64_t step_us = evidence.truth.flight.interval_us();
   std::int64_t last_us = window.from_us;
@@ -129,6 +129,7 @@ Finding Response::judge(const Evidence& evidence) const {
     const double off = turns ? std::remainder(*at - setpoint, 2 * std::numbers::pi) : *at - setpoint;
     if (!first) first = off;
     if (!(std::abs(off) <= band)) outside_us = t_us;
+    last = off;
     largest = std::max(largest.value_or(0), std::abs(off));
     beyond = std::max(beyond.value_or(0), *first > 0 ? -off : off);
     last_us = t_us;
@@ -145,7 +146,7 @@ Finding Response::judge(const Evidence& evidence) const {
                  fmt::format("{}, {:.1f} % of the step", shown(*beyond), 100 * *beyond / std::abs(*first)));
   if (outside_us < 0) return {Outcome::not_measured, "the response begins in the band", expected};
   if (outside_us == last_us)
-    return found(false, fmt::format("not settled: {} off at the end", shown(*largest)));
+    return found(false, fmt::format("not settled: {} off at the end", shown(std::abs(*last))));
   const double settled_s = 1e-6 * static_cast<double>(outside_us + step_us - window.from_us);
   return found(settled_s < below, fmt::format("settled after {:.3g} s", settled_s));
 }
