@@ -134,7 +134,10 @@ std::string lines(const Json& series, LinePlot& plot) {
   const std::size_t size = plot.t_s.size();
   if (series.contains("truth")) {
     plot.truth = numbers(series.at("truth"), size);
-    return "solid: the estimate; dotted: the truth";
+    const bool any_truth = std::ranges::any_of(plot.truth, [](double v) { return std::isfinite(v); });
+    if (any_truth) return "solid: the estimate; dotted: the truth";
+    plot.truth.clear();
+    return series.at("estimator") == "plant" ? "an output of the plant" : "as reported; it has no truth";
   }
   if (series.contains("sigma")) {
     plot.limit = numbers(series.at("sigma"), size);

@@ -7,7 +7,6 @@
 import math
 import struct
 import sys
-import time
 from collections import deque
 from pathlib import Path
 
@@ -35,6 +34,7 @@ class Autopilot:
     def __init__(self, defect):
         self.defect, self.integral, self.command, self.periods = defect, 0.0, 0.0, 0
         self.measured, self.feedback, self.misses = deque(maxlen=4), 0.0, 0
+        self.held = deque([], 3) if defect == "late" else None
 
     def receive(self, identifier, data):
         """Takes a frame. Yields the frames that answer it."""
@@ -45,15 +45,19 @@ class Autopilot:
         heading, rate, counter = struct.unpack("<HhB", data[:5])
         self.measured.append((heading / 100, rate / 100))
         self.periods += 1
-        if self.defect == "late":
-            time.sleep(0.06)
         if not (self.defect == "stuck" and self.periods > 400):
             self.command = self.steer(*self.measured[0 if self.defect == "old_heading" else -1])
         off = abs(self.feedback - self.command) > FAULT and self.defect != "no_fault"
         self.misses = self.misses + 1 if off else 0
         status = 1 | (2 if self.misses > PATIENCE else 0)
         frame = struct.pack("<hBB", round(self.command * 100), status, counter)
-        yield COMMAND, frame + bytes([crc(frame)])
+        frame += bytes([crc(frame)])
+        if self.held is None:
+            yield COMMAND, frame
+        else:  # each command waits for 60 ms
+            if len(self.held) == 3:
+                yield COMMAND, self.held[0]
+            self.held.append(frame)
 
     def steer(self, heading, rate):
         """A controller with integral action near the course: otherwise the turn would wind it up."""

@@ -31,6 +31,7 @@ namespace {
 std::optional<double> timing_bar_s(const nlohmann::json& check) {
   static const std::map<std::string, std::regex> bars{
       {"latency", std::regex(".* < ([0-9.]+) (ms) .*")},
+      {"command", std::regex(".* < ([0-9.]+) (ms) .*")},
       {"output_period", std::regex(".* every ([0-9.]+) (ms) \\+- ([0-9.]+) %.*")},
       {"heartbeat", std::regex("never silent for more than ([0-9.]+) (s)")},
   };

@@ -139,7 +139,8 @@ TEST(DeviceLog, HasTheAnswersToEvents) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Devices, testing::Values("auv", "car", "marine", "odometer", "uav"),
+INSTANTIATE_TEST_SUITE_P(Each, Devices,
+                         testing::Values("auv", "autopilot", "car", "marine", "odometer", "uav"),
                          [](const auto& of) { return of.param; });
 
 // The ship's navigator, but its position is a message of J1939: PGN 65259, announced to all nodes (BAM),
@@ -223,6 +224,10 @@ INSTANTIATE_TEST_SUITE_P(
                     DeviceDefect{"marine", "lost_frame", "protection"},
                     DeviceDefect{"marine", "never_estimated", "flag estimated at no GNSS position"},
                     DeviceDefect{"marine", "wrong_sid", "causes"},
+                    DeviceDefect{"autopilot", "old_heading", "response overshoot of attitude.heading"},
+                    DeviceDefect{"autopilot", "wrong_sign", "response settling_time of attitude.heading"},
+                    DeviceDefect{"autopilot", "stuck", "holds through the gust"},
+                    DeviceDefect{"autopilot", "no_integral", "comes back to the course"},
                     DeviceDefect{"odometer", "own_measures", "error ground_speed"},
                     DeviceDefect{"odometer", "no_code", "trouble code"},
                     DeviceDefect{"odometer", "lost_frame", "serial number"},

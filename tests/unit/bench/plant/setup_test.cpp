@@ -72,14 +72,13 @@ TEST(PlantSetup, TheMotionMayComeFromExpressions) {
 }
 
 TEST(PlantSetup, WhatIsWrongIsOneLine) {
-  EXPECT_EQ(
-      complaint("kind = \"steered_heading\"", "kind = \"submarine\"").find("a.toml:13: key 'plant.kind'"),
-      0U);
+  EXPECT_THAT(complaint("kind = \"steered_heading\"", "kind = \"submarine\""), HasSubstr("key 'plant.kind'"));
   EXPECT_THAT(
       complaint("trajectory = \"plant\"", "trajectory = \"rest\"\nheading_deg = 0"),
       HasSubstr("key 'truth.trajectory': is 'rest', but the plant moves the carrier, expected 'plant'"));
   EXPECT_THAT(complaint("[master_ins]", "[plant.commands.rudder]\nfrom = \"heading\"\n[master_ins]"),
-              HasSubstr("key 'plant.commands.rudder.from': is 'heading', expected one of: rudder.command"));
+              HasSubstr("key 'plant.commands.rudder.from': 'heading' is unknown, expected one of: "
+                        "rudder.command, flow.command, engaged"));
   EXPECT_THAT(complaint("[master_ins]", "[plant.commands.rudder]\nfrom = \"flow.command\"\n[master_ins]"),
               HasSubstr("key 'plant.commands.rudder.from': is in m/s, expected a command in rad"));
   EXPECT_THAT(complaint("[master_ins]", "[plant.commands.ruder]\n[master_ins]"),

@@ -1,0 +1,141 @@
+// The autopilot of docs/examples steers its plant.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+const std::string autopilot = SOURCE_DIR "/docs/examples/autopilot/";
+const std::string autopilot_target =
+    "--target '/usr/bin/python3 " SOURCE_DIR "/docs/examples/autopilot/autopilot.py";
+
+// The scenario with changes; returns its path.
+std::string changed_loop(const std::string& name,
+                         const std::vector<std::pair<std::string, std::string>>& changes) {
+  std::string text = read(autopilot + "autopilot.toml");
+  for (const auto& [from, to] : changes) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  }
+  const std::string mapping = "autopilot.mapping.toml";
+  text.replace(text.find(mapping), mapping.size(), autopilot + mapping);
+  std::ofstream(scratch(name)) << text;
+  return scratch(name);
+}
+
+std::map<std::string, std::string> outcomes_of(const std::string& report) {
+  std::map<std::string, std::string> outcomes;
+  const nlohmann::json seen = read_json(report);
+  for (const auto& check : seen["checks"]) outcomes[check["name"]] = check["outcome"];
+  return outcomes;
+}
+
+// An actuator that reaches its stop turns the craft too slowly, and the autopilot says that it does not
+// follow.
+TEST(ClosedLoop, AnActuatorAtItsStopFails) {
+  const std::string stops = changed_loop("stops.toml", {{"actuator_stop_deg = 30", "actuator_stop_deg = 6"}});
+  const std::string report = scratch("stops.json");
+  const Ended ended =
+      hil_bench(fmt::format("run {} --lockstep {}' --json {}", stops, autopilot_target, report));
+  EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
+  auto outcomes = outcomes_of(report);
+  EXPECT_EQ(outcomes["response settling_time of attitude.heading"], "fail");
+  EXPECT_EQ(outcomes["flag no rudder_fault"], "fail");
+  EXPECT_EQ(outcomes["command age of rudder"], "pass");
+}
+
+// 60 ms from the arrival of a command to its effect: the delay is found in virtual time too.
+TEST(ClosedLoop, ADelayOfTheCommandFails) {
+  const std::string late =
+      changed_loop("late.toml", {{"timeout_ms = 200", "delay_ms = 60\ntimeout_ms = 200"}});
+  const std::string report = scratch("late.json");
+  const Ended ended =
+      hil_bench(fmt::format("run {} --lockstep {}' --json {}", late, autopilot_target, report));
+  EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
+  auto outcomes = outcomes_of(report);
+  EXPECT_EQ(outcomes["command delay of rudder"], "fail");
+  EXPECT_EQ(outcomes["response overshoot of attitude.heading"], "fail");
+}
+
+// A device that answers 60 ms late, in real time. The host may be too late to judge, but it never passes.
+TEST(ClosedLoop, ALateDeviceFailsByItsDelay) {
+  const std::string report = scratch("late_device.json");
+  const Ended ended = hil_bench(
+      fmt::format("run {}autopilot.toml {} --defect late' --json {}", autopilot, autopilot_target, report));
+  EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
+  auto outcomes = outcomes_of(report);
+  EXPECT_NE(outcomes["command delay of rudder"], "pass");
+  EXPECT_NE(outcomes["latency AP_Rudder"], "pass");
+  EXPECT_NE(outcomes["response overshoot of attitude.heading"], "pass");
+  EXPECT_EQ(outcomes["flag engaged"], "pass");
+}
+
+// The same bits in each run of lockstep and on each bus, and the log gives the same verdict again.
+TEST(ClosedLoop, LockstepHasTheSameBitsOnEachBusAndInItsLog) {
+  std::vector<std::string> frames;
+  for (const std::string& where : {std::string("one"), std::string("two")}) {
+    const std::string log = scratch(where + ".log");
+    const Ended ended =
+        hil_bench(fmt::format("run {}autopilot.toml --lockstep --bus {}-{} {}' --log {} --json {}", autopilot,
+                              bus(), where, autopilot_target, log, scratch(where + ".json")));
+    ASSERT_EQ(ended.code, 3) << ended.out << ended.err;
+    std::istringstream lines(read(log));
+    std::string all;
+    for (std::string line; std::getline(lines, line);) all += line.substr(line.rfind(' ')) + "\n";
+    frames.push_back(all);
+  }
+  EXPECT_GT(frames[0].size(), 10'000U);
+  EXPECT_EQ(frames[0], frames[1]);
+  const Ended checked = hil_bench(fmt::format("check {} {}autopilot.toml --json {}", scratch("one.log"),
+                                              autopilot, scratch("checked.json")));
+  EXPECT_EQ(checked.code, 3) << checked.out << checked.err;
+  EXPECT_EQ(outcomes_of(scratch("checked.json")), outcomes_of(scratch("one.json")));
+}
+
+TEST(ClosedLoop, TheLogOfARealTimeRunIsRefused) {
+  const std::string log = scratch("real.log");
+  ASSERT_NE(
+      hil_bench(fmt::format("run {} {}' --log {}",
+                            changed_loop("short.toml", {{"duration_s = 30.0", "duration_s = 2.0"},
+                                                        {"to_s = 12", "to_s = 1"},
+                                                        {"to_s = 12", "to_s = 1"},
+                                                        {"from_s = 12\nto_s = 20", "from_s = 1\nto_s = 2"},
+                                                        {"from_s = 24", "from_s = 1.5"},
+                                                        {"gust_s = [12, 15]", "gust_s = [1, 2]"}}),
+                            autopilot_target, log))
+          .code,
+      2);
+  const Ended checked = hil_bench(fmt::format("check {} {}", log, scratch("short.toml")));
+  EXPECT_EQ(checked.code, 2);
+  EXPECT_THAT(checked.err, HasSubstr("is of a run in real time"));
+}
+
+// The outputs of the plant and the commands are in the CSV and in the page.
+TEST(ClosedLoop, TheReportShowsThePlant) {
+  const std::string csv = scratch("plant.csv"), page = scratch("plant.html");
+  ASSERT_EQ(hil_bench(fmt::format("run {}autopilot.toml --lockstep {}' --csv {} --html {}", autopilot,
+                                  autopilot_target, csv, page))
+                .code,
+            3);
+  const std::string rows = read(csv);
+  EXPECT_THAT(rows, HasSubstr("\n0.010000,plant,plant.attitude.heading,rad,,"));
+  EXPECT_THAT(rows, HasSubstr("\n30.000000,plant,plant.rudder,rad,,"));
+  EXPECT_THAT(rows, HasSubstr(",autopilot,rudder.command,rad,"));
+  EXPECT_THAT(read(page), HasSubstr("plant.rudder"));
+}
+
+}  // namespace
+}  // namespace canhil::test
