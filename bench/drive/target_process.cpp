@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstring>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "bench/drive/target_command.hpp"
@@ -24,9 +20,6 @@ Result<ChildProcess> start_target(const std::string& command, const std::string&
     return failure(
         fmt::format("target '{}': {}; expected an executable file, or --target none", name, reason));
   };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(program, ignored))
-    return no_program(strerror(EISDIR));  // execv would report EACCES
   words->insert(words->end(), {"--bus", bus});
   words->insert(words->end(), more.begin(), more.end());
   auto started = ChildProcess::start(program, std::move(*words), {.cpus = cpus});

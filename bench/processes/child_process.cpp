@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -85,7 +87,12 @@ Result<ChildProcess> ChildProcess::start(const std::string& program, std::vector
   } while (got < 0 && errno == EINTR);
   close(refusal[0]);
   ChildProcess child(pid);
-  if (got == static_cast<ssize_t>(sizeof reason)) return failure(strerror(reason));
+  if (got == static_cast<ssize_t>(sizeof reason)) {
+    std::error_code ignored;
+    const bool folder =
+        std::filesystem::is_directory(std::filesystem::path(options.folder) / program, ignored);
+    return failure(strerror(folder ? EISDIR : reason));  // for a folder, execv() fails with EACCES
+  }
   return child;
 }
 

@@ -32,7 +32,8 @@ bool never_waits(const Descriptor& own_end) { return fcntl(own_end.get(), F_SETF
 bool ready(const Descriptor& descriptor, short events, Dialogue::Time deadline) {
   using namespace std::chrono;
   while (true) {
-    const auto left = std::max(nanoseconds(deadline - steady_clock::now()), nanoseconds::zero());
+    const auto now = steady_clock::now();
+    const nanoseconds left = deadline > now ? deadline - now : nanoseconds::zero();
     const auto whole = duration_cast<seconds>(left);
     const timespec timeout{.tv_sec = whole.count(), .tv_nsec = (left - whole).count()};
     pollfd one{.fd = descriptor.get(), .events = events, .revents = 0};

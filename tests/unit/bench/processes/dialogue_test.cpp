@@ -51,6 +51,7 @@ TEST(Dialogue, WaitsNoLongerThanTheDeadline) {
   Dialogue sleeper = shell("exec sleep 30");
   const auto begin = steady_clock::now();
   std::string received;
+  EXPECT_EQ(sleeper.receive(received, Dialogue::Time::min()), Outcome::late);
   EXPECT_EQ(sleeper.receive(received, begin + 50ms), Outcome::late);
   EXPECT_EQ(sleeper.send(std::string(1'000'000, 'x'), begin + 100ms), Outcome::late);
   EXPECT_LT(steady_clock::now() - begin, 10s);
