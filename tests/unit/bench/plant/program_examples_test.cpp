@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 
 #include "tests/unit/bench/plant/read_plan.hpp"
@@ -58,6 +59,28 @@ TEST(ProgramExamples, TheTurntableInCTurnsAtTheCommandedRate) {
     ASSERT_TRUE(plant->step(10'000 * i, 10'000 * (i + 1), std::vector{rate}));
     ASSERT_EQ(plant->outputs()[0], angle) << "17 digits carry each bit";
   }
+}
+
+// What the program writes, given the lines of the bench.
+std::string answers_of_turntable(const std::string& lines) {
+  const std::string file = test::own_folder() + "/lines";
+  std::ofstream(file) << lines;
+  FILE* output = popen((TURNTABLE " < " + file).c_str(), "r");
+  std::string all;
+  for (int c = std::getc(output); c != EOF; c = std::getc(output)) all += static_cast<char>(c);
+  pclose(output);
+  return all;
+}
+
+TEST(ProgramExamples, TheDialogueOfThePageIsReal) {
+  std::ifstream page(SOURCE_DIR "/docs/plant-program.md");
+  std::string from_bench, from_program;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("> ")) from_bench += line.substr(2) + "\n";
+    if (line.starts_with("< ")) from_program += line.substr(2) + "\n";
+  }
+  EXPECT_THAT(from_bench, HasSubstr("start\nstep"));
+  EXPECT_EQ(answers_of_turntable(from_bench), from_program);
 }
 
 class PythonModule : public testing::Test {
