@@ -22,9 +22,10 @@ class Ship:
     outputs = {"attitude.heading": "rad turns", "velocity.north": "m/s", "velocity.east": "m/s", "turn_rate": "rad/s", "rudder": "rad"}
 
     def __init__(self, heading_deg, speed_mps, turn_time_constant_s, turn_gain_per_s, actuator_lag_s=0.0, actuator_rate_degps=1000.0, actuator_stop_deg=35.0,
-                 gust_from_s=0.0, gust_to_s=0.0, gust_degps2=0.0):
+                 actuator_offset_deg=0.0, gust_from_s=0.0, gust_to_s=0.0, gust_degps2=0.0):
         self.speed, self.time_constant, self.gain, self.lag = speed_mps, turn_time_constant_s, turn_gain_per_s, actuator_lag_s
         self.rate_limit, self.stop = math.radians(actuator_rate_degps), math.radians(actuator_stop_deg)
+        self.offset = math.radians(actuator_offset_deg)
         self.gust_from, self.gust_to, self.gust_most = gust_from_s, gust_to_s, math.radians(gust_degps2)
         self.x = [math.radians(heading_deg), 0.0, 0.0]  # heading, turn rate, rudder
 
@@ -35,7 +36,7 @@ class Ship:
     def step(self, t, dt, inputs):
         steps = math.ceil(dt / LONGEST - 1e-6)  # dt may be a rounding error above a whole number of steps
         for i in range(steps):
-            self.advance(t + i * dt / steps, dt / steps, clamp(inputs["rudder"], self.stop))
+            self.advance(t + i * dt / steps, dt / steps, clamp(inputs["rudder"] + self.offset, self.stop))
 
     def gust(self, t):
         """An angular acceleration that rises and falls once, as (1 - cos)/2."""
