@@ -8,6 +8,7 @@
 
 #include "bench/campaign/database.hpp"
 #include "bench/drive/target_command.hpp"
+#include "bench/processes/command.hpp"
 #include "dbc/files/output_file.hpp"
 #include "dbc/version/version.hpp"
 #include "messages/canhil.hpp"
@@ -41,7 +42,7 @@ std::string with_hashes(const std::string& target) {
   const auto words = drive::target_words(target);
   for (std::size_t i = 0; words && i < words->size(); ++i) {
     const std::string& word = (*words)[i];
-    const std::string path = i == 0 ? drive::program_path(word) : word;
+    const std::string path = i == 0 ? processes::program_path(word) : word;
     text += text.empty() ? "" : " ";
     text += i == 0 || drive::identify_file(path)
                 ? with_hash(std::filesystem::path(path).filename().string(), path)

@@ -18,6 +18,7 @@
 #include "bench/commands/progress_line.hpp"
 #include "bench/drive/inputs.hpp"
 #include "bench/drive/target_command.hpp"
+#include "bench/processes/command.hpp"
 #include "bench/report/file.hpp"
 #include "bench/scenario/commands.hpp"
 #include "dbc/files/command_files.hpp"
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 // The arguments as given on the command line.
 struct Arguments {
   std::string suites = data_folder("acceptance");
-  std::string target = drive::quoted_word(own_folder() + "/hil-target");
+  std::string target = processes::quoted_word(own_folder() + "/hil-target");
   std::vector<std::string> estimators, families;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> share;

@@ -20,6 +20,7 @@
 #include "bench/drive/contract.hpp"
 #include "bench/drive/inputs.hpp"
 #include "bench/drive/target_command.hpp"
+#include "bench/processes/command.hpp"
 #include "bench/report/file.hpp"
 #include "dbc/files/command_files.hpp"
 
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 
 // The arguments as given on the command line.
 struct Arguments {
-  std::string target = drive::quoted_word(own_folder() + "/hil-target");
+  std::string target = processes::quoted_word(own_folder() + "/hil-target");
   std::string estimator;  // empty: the estimator that the target's heartbeat names; if it names none, the
                           // first estimator that the target accepts
   std::string scenario;   // empty: the project's short flight of the estimator

@@ -16,6 +16,7 @@
 #include "bench/drive/session.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/observe/divergence.hpp"
+#include "bench/processes/command.hpp"
 #include "bench/report/file.hpp"
 #include "bench/scenario/binding.hpp"
 #include "dbc/files/command_files.hpp"
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::string folder;
   std::vector<std::string> scenarios;
-  std::string target = drive::quoted_word(own_folder() + "/hil-target");
+  std::string target = processes::quoted_word(own_folder() + "/hil-target");
   std::optional<std::uint64_t> tolerance;
   std::string json;
 };

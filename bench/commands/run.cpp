@@ -25,6 +25,7 @@
 #include "bench/live/terminal.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/observe/recorder.hpp"
+#include "bench/processes/command.hpp"
 #include "bench/scenario/binding.hpp"
 #include "bench/scenario/commands.hpp"
 #include "bench/scenario/nearest.hpp"
@@ -124,7 +125,7 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, drive:
   options.bus.text = named_local(options.bus.text, external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external)
     options.targets = arguments.targets.empty()
-                          ? std::vector{drive::quoted_word(own_folder() + "/hil-target")}
+                          ? std::vector{processes::quoted_word(own_folder() + "/hil-target")}
                           : arguments.targets;
   if (arguments.bus_of.empty()) options.controller = controller_of(options.bus.text);
   options.lockstep = arguments.lockstep;

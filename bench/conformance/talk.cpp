@@ -38,7 +38,7 @@ Result<std::unique_ptr<Talk>> Talk::open(const scenario::Scenario& scenario, con
 }
 
 Talk::Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive::Flight flight,
-           drive::OpenBuses buses, drive::ChildProcess target, const std::atomic<bool>& stop)
+           drive::OpenBuses buses, processes::ChildProcess target, const std::atomic<bool>& stop)
     : scenario_(scenario),
       truth_(std::move(truth)),
       flight_(std::move(flight)),
@@ -176,7 +176,7 @@ std::string Talk::gone() {
 
 std::string Talk::end() {
   if (std::string why = gone(); !why.empty()) return why;
-  const std::string wrong = drive::wrong_end(target_.end(drive::ChildProcess::usual_patience));
+  const std::string wrong = drive::wrong_end(target_.end(processes::ChildProcess::usual_patience));
   return wrong.empty() ? "" : "target: " + wrong;
 }
 

@@ -17,6 +17,7 @@
 #include "bench/drive/link.hpp"
 #include "bench/drive/schedule.hpp"
 #include "bench/drive/target_process.hpp"
+#include "bench/processes/child_process.hpp"
 #include "bench/protocol/decode_from_target.hpp"
 #include "bench/protocol/heartbeat_errors.hpp"
 
@@ -138,7 +139,7 @@ class Talk {
   }
 
   Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive::Flight flight,
-       drive::OpenBuses buses, drive::ChildProcess target, const std::atomic<bool>& stop);
+       drive::OpenBuses buses, processes::ChildProcess target, const std::atomic<bool>& stop);
 
  private:
   static constexpr std::int64_t answer_ns = 2'000'000'000, step_ns = 3'000'000'000,
@@ -164,7 +165,7 @@ class Talk {
   std::shared_ptr<std::vector<std::string>> notes_;
   std::unique_ptr<Port> port_;
   drive::Link link_;
-  drive::ChildProcess target_;
+  processes::ChildProcess target_;
   const std::atomic<bool>& stop_;
   nodes::Transmission out_;
   NodeListener listener_;

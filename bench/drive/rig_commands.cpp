@@ -8,12 +8,15 @@
 #include <thread>
 #include <utility>
 
-#include "bench/drive/child_process.hpp"
+#include "bench/processes/child_process.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "dbc/text/escape.hpp"
 
 namespace canhil::drive {
 namespace {
+
+using processes::ChildProcess;
+using processes::ProcessEnd;
 
 constexpr std::chrono::milliseconds between_looks{5};
 

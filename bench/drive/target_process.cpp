@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstring>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "bench/drive/target_command.hpp"
+#include "bench/processes/command.hpp"
 
 namespace canhil::drive {
 
@@ -18,17 +15,14 @@ Result<ChildProcess> start_target(const std::string& command, const std::string&
                                   const std::vector<std::string>& more, const std::vector<int>& cpus) {
   auto words = target_words(command);
   if (!words) return tl::unexpected(words.error());
-  const std::string name = words->front(), program = program_path(name);
+  const std::string name = words->front(), program = processes::program_path(name);
   const auto no_program = [&name](const std::string& reason) {
     return failure(
         fmt::format("target '{}': {}; expected an executable file, or --target none", name, reason));
   };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(program, ignored))
-    return no_program(strerror(EISDIR));  // execv would report EACCES
   words->insert(words->end(), {"--bus", bus});
   words->insert(words->end(), more.begin(), more.end());
-  auto started = ChildProcess::start(program, std::move(*words), cpus);
+  auto started = ChildProcess::start(program, std::move(*words), {.cpus = cpus});
   if (!started) return no_program(started.error().message);
   return started;
 }

@@ -3,12 +3,16 @@
 
 #include <array>
 
+#include "bench/plant/hover.hpp"
+#include "bench/plant/program/program.hpp"
 #include "bench/plant/steered_heading.hpp"
 
 namespace canhil::plant {
 namespace {
 
 constexpr std::array registered{
+    &hover,            // a small rotorcraft: attitude and position by thrust and body rates
+    &program,          // a program of the user, in any language
     &steered_heading,  // a ship or a car: heading by a rudder or a steering actuator
 };
 

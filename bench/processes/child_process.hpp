@@ -4,13 +4,14 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <csignal>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dbc/wire/result.hpp"
 
-namespace canhil::drive {
+namespace canhil::processes {
 
 /// How a process ended.
 struct ProcessEnd {
@@ -22,16 +23,25 @@ struct ProcessEnd {
 /// "ended by SIGSEGV (Segmentation fault)", "exited with 3".
 std::string to_text(const ProcessEnd& end);
 
+/// How a program is started, in addition to its command line.
+struct StartOptions {
+  std::vector<int> cpus{};        ///< CPUs on which it runs; empty: those of the bench
+  std::string folder{};           ///< its working folder; empty: that of the bench
+  int input = -1;                 ///< descriptor that becomes its standard input; -1: that of the bench
+  int output = -1;                ///< descriptor that becomes its standard output; -1: the bench's standard
+                                  ///< error, because the bench may write a report to its standard output
+  int signal_at_death = SIGTERM;  ///< sent by the kernel if the thread that started the program ends
+};
+
 /// A child process in a session and a process group of its own. So signals that the terminal, or a program
 /// such as `timeout`, sends to the bench's group do not reach it, and end() also ends the processes that it
-/// started. The destructor ends it; if the bench dies, the kernel sends it SIGTERM.
+/// started. The destructor ends it; if the bench dies, the kernel ends it.
 class ChildProcess {
  public:
-  /// Starts a program with the command line `words`, on the given CPUs (if `cpus` is empty: on the bench's
-  /// CPUs). Its standard output is the bench's standard error, because the bench may write a report to its
-  /// own standard output. Error: the reason of the kernel, such as "Permission denied".
+  /// Starts a program with the command line `words`; a relative path of the program is relative to its
+  /// working folder. Error: the reason of the kernel, such as "Permission denied".
   static Result<ChildProcess> start(const std::string& program, std::vector<std::string> words,
-                                    const std::vector<int>& cpus = {});
+                                    const StartOptions& options = {});
 
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess(const ChildProcess&) = delete;
@@ -63,4 +73,4 @@ class ChildProcess {
   std::optional<ProcessEnd> ended_;
 };
 
-}  // namespace canhil::drive
+}  // namespace canhil::processes

@@ -1,4 +1,4 @@
-#include "bench/drive/child_process.hpp"
+#include "bench/processes/child_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,17 +9,33 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "dbc/realtime/process.hpp"
 
-namespace canhil::drive {
+namespace canhil::processes {
 namespace {
 
 ProcessEnd end_of(const siginfo_t& info) {
   if (info.si_code == CLD_EXITED) return {.status = info.si_status};
   return {.signal = info.si_status};
+}
+
+// Connects the standard input and output of the new process. The descriptors are first copied to numbers
+// that dup2() does not overwrite: a bench that was started without a standard input has pipes with the
+// numbers 0 and 1.
+void connect_streams(const StartOptions& options) {
+  constexpr int after_standard_streams = 3;
+  const auto copied = [](int descriptor) {
+    return fcntl(descriptor, F_DUPFD_CLOEXEC, after_standard_streams);
+  };
+  const int input = options.input < 0 ? -1 : copied(options.input);
+  const int output = copied(options.output < 0 ? STDERR_FILENO : options.output);
+  if (input >= 0) dup2(input, STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
 }
 
 }  // namespace
@@ -32,7 +48,7 @@ std::string to_text(const ProcessEnd& end) {
 }
 
 Result<ChildProcess> ChildProcess::start(const std::string& program, std::vector<std::string> words,
-                                         const std::vector<int>& cpus) {
+                                         const StartOptions& options) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -52,13 +68,14 @@ Result<ChildProcess> ChildProcess::start(const std::string& program, std::vector
     return failure(strerror(fork_error));
   }
   if (pid == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    prctl(PR_SET_PDEATHSIG, options.signal_at_death);
     if (getppid() != parent) _exit(127);
     std::signal(SIGPIPE, SIG_DFL);  // the program must not inherit the bench's signal settings
     setsid();
-    if (!cpus.empty()) realtime::pin(cpus);
-    dup2(STDERR_FILENO, STDOUT_FILENO);
-    execv(program.c_str(), arguments.data());
+    if (!options.cpus.empty()) realtime::pin(options.cpus);
+    connect_streams(options);
+    if (options.folder.empty() || chdir(options.folder.c_str()) == 0)
+      execv(program.c_str(), arguments.data());
     const int reason = errno;
     static_cast<void>(!write(refusal[1], &reason, sizeof reason));
     _exit(127);
@@ -70,7 +87,12 @@ Result<ChildProcess> ChildProcess::start(const std::string& program, std::vector
   } while (got < 0 && errno == EINTR);
   close(refusal[0]);
   ChildProcess child(pid);
-  if (got == static_cast<ssize_t>(sizeof reason)) return failure(strerror(reason));
+  if (got == static_cast<ssize_t>(sizeof reason)) {
+    std::error_code ignored;
+    const bool folder =
+        std::filesystem::is_directory(std::filesystem::path(options.folder) / program, ignored);
+    return failure(strerror(folder ? EISDIR : reason));  // for a folder, execv() fails with EACCES
+  }
   return child;
 }
 
@@ -139,4 +161,4 @@ ProcessEnd ChildProcess::end(std::chrono::milliseconds patience) {
   return *ended_;
 }
 
-}  // namespace canhil::drive
+}  // namespace canhil::processes
