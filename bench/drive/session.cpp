@@ -34,8 +34,7 @@ constexpr std::int64_t step_limit_ns = 5'000'000'000;
 // One run, stage by stage: open, configure, drive, collect.
 class Session {
  public:
-  // Enters real-time operation, opens bus and log, and starts the target, according to the options. All
-  // arguments except `flight` must outlive the session.
+  // Opens bus and log and starts the target. All arguments except `flight` must outlive the session.
   static Result<std::unique_ptr<Session>> open(const scenario::Scenario& scenario,
                                                const world::FlightRecord& truth, Flight flight,
                                                const Options& options) {
@@ -239,8 +238,7 @@ class Session {
     return targets_.start(options_.targets, options_.bus.text, arguments, cpus);
   }
 
-  // Closes the log of a run that did not begin. Returns a text with the name of the log, for the end of the
-  // error message.
+  // Closes the log of a run that did not begin. Returns the name of the log, for the end of an error message.
   std::string log_of_the_handshake() {
     if (!log_) return {};
     const auto name = log_->close_early();
