@@ -76,9 +76,6 @@ Result<void> check_files(const Arguments& arguments, const std::vector<accept::S
   }
   for (const accept::Suite& suite : suites) {
     for (const accept::Flight& flight : suite.flights) {
-      if (arguments.no_commands) {
-        if (auto fine = scenario::refuse_commands(flight.scenario); !fine) return fine;
-      }
       files.reads(drive::inputs_of(flight.scenario));
       if (arguments.record && flight.reference)
         files.may_write("reference", suite.reference_of(flight).string());
@@ -87,10 +84,6 @@ Result<void> check_files(const Arguments& arguments, const std::vector<accept::S
     for (const std::string& name : suite.campaigns) {
       const auto campaign = campaign::read_campaign(suite.folder / name);
       if (!campaign) return tl::unexpected(campaign.error());
-      for (const campaign::Variant& variant : campaign->variants) {
-        if (!arguments.no_commands) break;
-        if (auto fine = scenario::refuse_commands(variant.scenario); !fine) return fine;
-      }
       files.reads(campaign::inputs_of(*campaign));
     }
   }
@@ -115,6 +108,7 @@ Result<void> write_reports(const Arguments& arguments, const accept::Report& all
 
 ExitCode execute(const Arguments& arguments) {
   if (auto fine = drive::check_target(arguments.target); !fine) return complain(fine.error());
+  if (arguments.no_commands) scenario::forbid_commands();
   const auto suites = read(arguments);
   if (!suites) return complain(suites.error());
   if (auto fine = check_files(arguments, *suites); !fine) return complain(fine.error());

@@ -127,19 +127,10 @@ Rounding rounding_of(const Arguments& arguments) {
   return arguments.unrounded ? Rounding::none : Rounding::as_on_the_bus;
 }
 
-Result<void> refuse_commands(const campaign::Campaign& campaign) {
-  for (const campaign::Variant& variant : campaign.variants) {
-    if (auto fine = scenario::refuse_commands(variant.scenario); !fine) return fine;
-  }
-  return {};
-}
-
 ExitCode execute(const Arguments& arguments) {
+  if (arguments.no_commands) scenario::forbid_commands();
   auto campaign = campaign::read_campaign(arguments.file);
   if (!campaign) return complain(campaign.error());
-  if (arguments.no_commands) {
-    if (auto fine = refuse_commands(*campaign); !fine) return complain(fine.error());
-  }
   if (arguments.runs) campaign->runs = *arguments.runs;
   campaign->rounding = rounding_of(arguments);
   const auto shard =
@@ -243,11 +234,9 @@ ExitCode export_results(const ExportArguments& arguments) {
 }
 
 ExitCode replay(const ReplayArguments& arguments) {
+  if (arguments.no_commands) scenario::forbid_commands();
   const auto campaign = campaign::read_campaign(arguments.file);
   if (!campaign) return complain(campaign.error());
-  if (arguments.no_commands) {
-    if (auto fine = refuse_commands(*campaign); !fine) return complain(fine.error());
-  }
   const auto* variant = campaign->variants.data();
   if (!arguments.variant.empty()) {
     const auto found = std::ranges::find(campaign->variants, arguments.variant, &campaign::Variant::name);

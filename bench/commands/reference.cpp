@@ -6,6 +6,7 @@
 #include "bench/commands/campaign.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/report/file.hpp"
+#include "bench/scenario/commands.hpp"
 
 namespace canhil::commands {
 
@@ -14,6 +15,7 @@ void add_reference(command_line::Command app, int& code) {
   const auto command = app.add_subcommand(std::string(reference_name), std::string(reference_summary));
   command.add_flag("--json", *json, "JSON instead of Markdown");
   command.on_given([&code, json] {
+    scenario::forbid_commands();  // the readers are given keys to see what they ask for
     const auto parts = reference::parts();
     const auto shown = report::write_stdout(*json ? reference::json(parts) : reference::markdown(parts));
     code = static_cast<int>(shown ? ExitCode::pass : complain(shown.error()));

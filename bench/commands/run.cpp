@@ -263,13 +263,11 @@ ExitCode execute(const Arguments& arguments) {
   if (auto fine = check_operator(arguments.operator_name); !fine) return complain(fine.error());
   const drive::BusName bus(arguments.bus);
   if (auto fine = check_bus(arguments, bus); !fine) return complain(fine.error());
+  if (arguments.no_commands) scenario::forbid_commands();
   auto scenario = drive::read_scenario(arguments.scenario);
   if (!scenario) return complain(scenario.error());
   if (!arguments.faults.empty()) {
     if (auto added = drive::add_faults(*scenario, arguments.faults); !added) return complain(added.error());
-  }
-  if (arguments.no_commands) {
-    if (auto fine = scenario::refuse_commands(*scenario); !fine) return complain(fine.error());
   }
   if (auto fine = check_targets(arguments, *scenario); !fine) return complain(fine.error());
   auto bus_of = buses_of(arguments, *scenario);

@@ -10,6 +10,9 @@
 #include "bench/drive/contract.hpp"
 #include "bench/drive/target_parameters.hpp"
 #include "bench/nodes/registry.hpp"
+#include "bench/plant/registry.hpp"
+#include "bench/plant/setup.hpp"
+#include "bench/plant/steered_heading.hpp"
 #include "bench/scenario/binding.hpp"
 #include "bench/scenario/engagement.hpp"
 #include "bench/scenario/events.hpp"
@@ -149,6 +152,34 @@ Part truth_part() {
             {.name = fmt::format("[{}]", path), .about = "For an unpowered glider.", .keys = std::move(own)});
     }
   }
+  return part;
+}
+
+Part plants_part() {
+  AnyBinding binding;
+  binding.reported = {{.name = "rudder.command", .si = "rad"}};
+  const auto all =
+      keys_of([&](Section& section) { plant::read_setup(section, binding); }, "kind = \"steered_heading\"\n");
+  const auto of = [](const plant::Kind& kind) {
+    return keys_of([&](Section& section) { std::ignore = kind.read(section); });
+  };
+  std::vector<AskedKey> common;
+  const auto own = of(plant::steered_heading);
+  for (const AskedKey& one : in_table(all, "")) {
+    if (std::ranges::none_of(own, [&](const AskedKey& other) { return other.key.name == one.key.name; }))
+      common.push_back(one);
+  }
+  Part part{.title = "Plant",
+            .about =
+                "What moves, and what the target's commands steer (plant.md). The names of the inputs and "
+                "outputs, and the units of their values, are those of the kind.",
+            .tables = {{.name = "[plant]", .about = "Keys of each kind.", .keys = std::move(common)},
+                       {.name = "[plant.commands.INPUT]",
+                        .about = "What steers an input; for example a rudder, whose values are angles.",
+                        .keys = in_table(all, "commands.rudder")}}};
+  for (const plant::Kind* kind : plant::kinds())
+    part.tables.push_back(
+        {.name = std::string(kind->key), .about = std::string(kind->meaning), .keys = of(*kind)});
   return part;
 }
 
@@ -324,6 +355,7 @@ std::vector<Part> parts() {
           target_part(contract),
           parameters_part(),
           truth_part(),
+          plants_part(),
           nodes_part(contract),
           faults_part(contract),
           events_part(),

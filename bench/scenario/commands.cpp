@@ -1,25 +1,19 @@
 #include "bench/scenario/commands.hpp"
 
-#include <fmt/format.h>
-
-#include <utility>
-
-#include "bench/scenario/scenario.hpp"
+#include "bench/scenario/section.hpp"
 
 namespace canhil::scenario {
+namespace {
 
-Result<void> refuse_commands(const Scenario& scenario) {
-  for (const TargetSetup& target : scenario.targets) {
-    if (!target.own_start) continue;
-    for (const auto& [key, command] :
-         {std::pair("before", target.own_start->before), std::pair("after", target.own_start->after)}) {
-      if (!command.empty())
-        return failure(
-            fmt::format("{}: key 'target.{}': is a shell command ('{}'), expected none with --no-commands",
-                        scenario.file, key, command));
-    }
-  }
-  return {};
+bool forbidden = false;
+
+}  // namespace
+
+void forbid_commands() { forbidden = true; }
+
+bool may_execute(Section& section, std::string_view key, const std::string& what) {
+  if (forbidden) section.reject(key, what, "none with --no-commands");
+  return !forbidden;
 }
 
 }  // namespace canhil::scenario

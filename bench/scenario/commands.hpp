@@ -1,13 +1,19 @@
-// The shell commands of a scenario.
+// What a scenario lets the bench execute: shell commands, and programs and libraries that are plants.
 #pragma once
 
-#include "dbc/wire/result.hpp"
+#include <string>
+#include <string_view>
 
 namespace canhil::scenario {
 
-struct Scenario;
+class Section;
 
-/// Error, one line: the scenario has a shell command, `before` or `after`, which a run would execute.
-Result<void> refuse_commands(const Scenario& scenario);
+/// From now on, reading a scenario that would execute something is an error (the option --no-commands). To be
+/// called before the first scenario is read.
+void forbid_commands();
+
+/// Reports an error to the section if commands are forbidden, and returns false. `what`: what the key's value
+/// is, "is a shell command ('...')".
+bool may_execute(Section& section, std::string_view key, const std::string& what);
 
 }  // namespace canhil::scenario

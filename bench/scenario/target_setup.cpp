@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/scenario/binding.hpp"
+#include "bench/scenario/commands.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/world/units.hpp"
@@ -84,6 +85,10 @@ TargetSetup read_own_start(Section& section, const DbcVocabulary& contract, std:
                              "With `mapping`: shell command that is run after the flight, also if the flight "
                              "failed or was interrupted; it must exit with 0."},
                             "")};
+  for (const auto& [key, command] :
+       {std::pair("before", target.own_start->before), std::pair("after", target.own_start->after)}) {
+    if (!command.empty()) may_execute(section, key, fmt::format("is a shell command ('{}')", command));
+  }
   section.finish();
   return target;
 }

@@ -5,6 +5,7 @@
 
 #include "bench/drive/contract.hpp"
 #include "bench/drive/flight.hpp"
+#include "bench/scenario/commands.hpp"
 #include "tests/fuzz/expect.hpp"
 
 namespace {
@@ -24,6 +25,7 @@ void begin(const scenario::Scenario& scenario) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
+  scenario::forbid_commands();  // a text must not start a program
   static const scenario::DbcVocabulary contract = drive::contract();
   const auto scenario = scenario::parse(text, "fuzz.toml", contract);
   if (!scenario) {

@@ -9,6 +9,7 @@
 
 #include "bench/plant/program/conversation.hpp"
 #include "bench/processes/command.hpp"
+#include "bench/scenario/commands.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/files/text_file.hpp"
@@ -122,6 +123,8 @@ std::unique_ptr<Plan> read_program(scenario::Section& section) {
   }
   own.words = *std::move(words);
   add_files(section, own.words);
+  const std::string what = fmt::format("is a program ('{}')", own.command);
+  if (!scenario::may_execute(section, "command", what)) return nullptr;
   const auto started = Conversation::start(own, {});
   if (!started) {
     section.reject("command", started.error());
