@@ -10,6 +10,7 @@
 #include "bench/nodes/time_keeper.hpp"
 #include "bench/scenario/binding.hpp"
 #include "bench/scenario/table.hpp"
+#include "bench/world/motion/oscillation.hpp"
 #include "bench/world/stoppable.hpp"
 
 namespace canhil::drive {
@@ -149,7 +150,8 @@ Ending with_end_of_plant(Ending ending, const PerRunTruth& own, std::int64_t dur
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
   if (auto whole = check_epochs(scenario); !whole) return tl::unexpected(whole.error());
   if (auto dense = check_density(scenario); !dense) return tl::unexpected(dense.error());
-  world::FlightRecord truth(scenario.truth, scenario.duration_us, epoch_interval_us(scenario));
+  world::FlightRecord truth(world::drawn(scenario.truth, scenario.seed), scenario.duration_us,
+                            epoch_interval_us(scenario));
   if (world::Stoppable::stopped()) return failure("interrupted");
   if (auto fits = scenario.binding->fits(scenario, truth); !fits) return tl::unexpected(fits.error());
   // Checks the initial state without drawn errors. If a value does not fit into its signal, the scenario is

@@ -124,6 +124,28 @@ Part parameters_part() {
   return part;
 }
 
+/// The keys of a table inside [truth].
+std::vector<AskedKey> inner_keys_of_truth(const std::string& given, std::string_view table) {
+  return in_table(explore(
+                      [](std::string_view text) {
+                        Section section = Section::parse(text, file);
+                        scenario::read_truth(section, longest_run_us);
+                      },
+                      given, Depth::as_it_is),
+                  table);
+}
+
+std::vector<AskedKey> keys_of_waypoint() {
+  const std::string given = "trajectory = \"waypoints\"\n";
+  auto keys = inner_keys_of_truth(given + "waypoint = [{}]\n", "waypoint[1]");
+  for (AskedKey& one : keys) one.in_place = {};
+  for (AskedKey& one : inner_keys_of_truth(given + "waypoint = [{ latitude_deg = 0 }]\n", "waypoint[1]")) {
+    one.key.required = false;
+    if (!one.key.meaning.empty()) keys.push_back(std::move(one));
+  }
+  return keys;
+}
+
 Part truth_part() {
   Part part{
       .title = "Truth and initial errors",
@@ -132,6 +154,34 @@ Part truth_part() {
           {.name = "[truth]",
            .about = "The flight of the carrier.",
            .keys = keys_of([](Section& section) { scenario::read_truth(section, longest_run_us); })},
+          {.name = "[[truth.leg]]",
+           .about =
+               "A leg of the trajectory `legs`. What a leg does not give keeps the value of the leg before; "
+               "a turn ends with its leg.",
+           .keys = inner_keys_of_truth("trajectory = \"legs\"\nleg = [{}]\n", "leg[1]")},
+          {.name = "[[truth.waypoint]]",
+           .about = "A waypoint of the trajectory `waypoints`: by `north_m` and `east_m`, or by "
+                    "`latitude_deg` and "
+                    "`longitude_deg`. The vehicle passes it on a turn; it reaches the last one.",
+           .keys = keys_of_waypoint()},
+          {.name = "[truth.vibration]",
+           .about = "Vibration on top of a built-in trajectory: any number of `[[truth.vibration.sine]]` and "
+                    "`[[truth.vibration.random]]`. All runs have the same phases, drawn from the seed.",
+           .keys = {}},
+          {.name = "[[truth.vibration.sine]]",
+           .about = "A vibration of one frequency.",
+           .keys =
+               inner_keys_of_truth("trajectory = \"rest\"\nvibration.sine = [{}]\n", "vibration.sine[1]")},
+          {.name = "[[truth.vibration.random]]",
+           .about = "Random vibration in a band of frequencies.",
+           .keys = inner_keys_of_truth("trajectory = \"rest\"\nvibration.random = [{}]\n",
+                                       "vibration.random[1]")},
+          {.name = "[truth.sea]",
+           .about = "The motion of a vessel in waves, on top of a built-in trajectory: heave, horizontal "
+                    "motion, roll "
+                    "and pitch. `height_m` is then the mean height. All runs have the same waves, drawn from "
+                    "the seed.",
+           .keys = inner_keys_of_truth("trajectory = \"rest\"\nsea = {}\n", "sea")},
           {.name = "[initial_error]",
            .about =
                "The initial state that the bench sends to the target is the true state plus these errors.",

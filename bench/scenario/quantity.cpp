@@ -39,6 +39,7 @@ constexpr std::array table{Unit{"_degph_per_g", units::degph / units::standard_g
                            Unit{"_degprth", units::degprth, "deg/sqrt(h)"},
                            Unit{"_ug", units::ug, "ug"},
                            Unit{"_ugprthz", units::ugprthz, "ug/sqrt(Hz)"},
+                           Unit{"_g2phz", units::standard_gravity* units::standard_gravity, "g^2/Hz"},
                            Unit{"_g", units::standard_gravity, "g"},
                            Unit{"_ppm", units::ppm, "ppm"},
                            Unit{"_hpa", 100, "hPa"},

@@ -9,18 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "bench/scenario/legs.hpp"
+#include "bench/scenario/oscillations.hpp"
 #include "bench/scenario/recorded_flight.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::scenario {
 namespace {
-
-double read_heading(Section& section) {
-  return section.number({"heading_deg",
-                         "Heading. `rest`, `level_acceleration`: constant; `weave`, `s_path`: the mean; "
-                         "other trajectories: the heading at the start."},
-                        Limits::between(-180, 360));
-}
 
 world::Motion read_rest(Section& section) {
   return world::Rest{
@@ -172,14 +167,22 @@ constexpr std::array motion_readers{MotionReader{"rest", read_rest},
                                     MotionReader{"s_path", read_s_path},
                                     MotionReader{"racetrack", read_racetrack},
                                     MotionReader{"spiral", read_spiral},
-                                    MotionReader{"rest_then_go", read_rest_then_go}};
+                                    MotionReader{"rest_then_go", read_rest_then_go},
+                                    MotionReader{"legs", read_legs}};
 
 }  // namespace
+
+double read_heading(Section& section) {
+  return section.number({"heading_deg",
+                         "Heading. `rest`, `level_acceleration`: constant; `weave`, `s_path`: the mean; "
+                         "other trajectories: the heading at the start."},
+                        Limits::between(-180, 360));
+}
 
 world::Flight read_truth(Section& section, std::int64_t duration_us, bool plant_moves) {
   std::vector<std::string> names;
   for (const MotionReader& reader : motion_readers) names.emplace_back(reader.name);
-  names.insert(names.end(), {"recorded", "plant", "unknown"});
+  names.insert(names.end(), {"waypoints", "recorded", "plant", "unknown"});
   const std::string name = section.one_of(
       {"trajectory",
        "How the carrier moves. `recorded`: as in a CSV file; `plant`: as "
@@ -200,9 +203,11 @@ world::Flight read_truth(Section& section, std::int64_t duration_us, bool plant_
   if (!by_plant && plant_moves)
     section.reject("trajectory", fmt::format("is '{}', but the plant moves the carrier", name), "'plant'");
   if (by_plant) flight.motion = world::Grown{std::make_shared<world::GrownPath>(world::GrownPath::Point{})};
+  if (name == "waypoints") flight.motion = read_waypoints(section, flight.start);
   for (const MotionReader& reader : motion_readers) {
     if (reader.name == name) flight.motion = reader.read(section);
   }
+  flight.oscillations = read_oscillations(section, !by_plant && name != "recorded" && name != "unknown");
   section.finish();
   return flight;
 }

@@ -8,6 +8,9 @@ namespace canhil::scenario {
 
 class Section;
 
+/// Reads heading_deg [rad].
+double read_heading(Section& section);
+
 /// `plant_moves`: the scenario has a plant that moves the carrier.
 world::Flight read_truth(Section& section, std::int64_t duration_us, bool plant_moves = false);
 

@@ -1,5 +1,10 @@
 #include "bench/world/motion.hpp"
 
+#include <algorithm>
+
+#include "bench/world/motion/leg_path.hpp"
+#include "bench/world/motion/oscillation.hpp"
+
 namespace canhil::world {
 namespace {
 
@@ -42,6 +47,13 @@ std::vector<std::int64_t> jumps_us(const Motion& motion, std::int64_t from_us, s
   if (const auto* recorded = std::get_if<Recorded>(&motion))
     return recorded->path->samples_between(from_us, to_us);
   if (const auto* grown = std::get_if<Grown>(&motion)) return grown->path->points_between(from_us, to_us);
+  if (const auto* oscillating = std::get_if<Oscillating>(&motion))
+    return oscillating->motion->jumps_us(from_us, to_us);
+  if (const auto* legs = std::get_if<Legs>(&motion)) {
+    const auto all = legs->path->jumps_us();
+    const auto first = std::ranges::upper_bound(all, from_us);
+    return {first, std::lower_bound(first, all.end(), to_us)};
+  }
   const auto* flight = std::get_if<LevelAcceleration>(&motion);
   if (flight != nullptr && flight->cruise_us > from_us && flight->cruise_us < to_us)
     return {flight->cruise_us};

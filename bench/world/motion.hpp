@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
 #include "bench/world/earth.hpp"
 #include "bench/world/motion/along_the_nose.hpp"
 #include "bench/world/motion/grown.hpp"
+#include "bench/world/motion/legs.hpp"
 #include "bench/world/motion/level_acceleration.hpp"
+#include "bench/world/motion/oscillating.hpp"
 #include "bench/world/motion/recorded.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "bench/world/motion/unknown.hpp"
@@ -16,8 +19,13 @@
 
 namespace canhil::world {
 
-using Motion = std::variant<Rest, LevelAcceleration, Weave, SPath, Racetrack, Spiral, RestThenGo, Recorded,
-                            Grown, Unknown>;
+template <class... More>
+using MotionOr =
+    std::variant<Rest, LevelAcceleration, Weave, SPath, Racetrack, Spiral, RestThenGo, Legs, More...>;
+
+/// A motion that has Kinematics, so that oscillations can be added.
+using BuiltInMotion = MotionOr<>;
+using Motion = MotionOr<Oscillating, Recorded, Grown, Unknown>;
 
 /// Velocity and attitude at time t [s] from the start; right-continuous where the motion has a jump.
 Movement movement(const Motion& motion, double t);
@@ -28,10 +36,14 @@ Vector3 velocity(const Motion& motion, double t);
 /// discontinuous, between `from_us` and `to_us`, ends excluded. Quadrature must not step across these times.
 std::vector<std::int64_t> jumps_us(const Motion& motion, std::int64_t from_us, std::int64_t to_us);
 
+struct OscillationModel;
+
 /// A complete truth: initial position and motion.
 struct Flight {
   Position start;
   Motion motion;
+  /// The oscillations that are yet to be drawn and added (oscillation.hpp); null: none.
+  std::shared_ptr<const OscillationModel> oscillations{};
 };
 
 }  // namespace canhil::world

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"heading_deg = 90", "heading_deg = 90\nspeed_kmph = 3",
               "14: key 'truth.speed_kmph': is unknown, expected one of: trajectory, latitude_deg, "
               "longitude_deg, "
-              "height_m, roll_deg, pitch_deg, heading_deg"},
+              "height_m, roll_deg, pitch_deg, heading_deg, vibration, sea"},
         Wrong{"[[check]]", "[[check]]\nbelow_mrad = 3",
               "17: key 'check[1].below_mrad': is unknown, expected one of: kind, requirement, "
               "silent_at_most_s, name"},
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"\"rest\"", "5",
               "9: key 'truth.trajectory': is a number, expected one of: rest, level_acceleration, weave, "
               "s_path, racetrack, spiral, "
-              "rest_then_go, "
+              "rest_then_go, legs, waypoints, "
               "recorded, unknown"},
         Wrong{sigma, "initial_sigma = 1", "7: key 'target.initial_sigma': is a number, expected a table"},
         Wrong{"[[check]]", "[check]", "16: key 'check': is a table, expected at least one [[check]]"},

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bench/world/motion/leg_path.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::world {
@@ -36,6 +37,29 @@ Flight coning() {
   weave.coning_amplitude = 0.2 * deg;
   weave.coning_period = 0.1;
   return flight;
+}
+
+/// Legs with every kind of change.
+Flight legs(Vehicle vehicle) {
+  const double climb = vehicle == Vehicle::rotorcraft ? 2.0 : 0.1;
+  const std::vector<Leg> legs{{.duration_us = 9'000'000,
+                               .speed = 45,
+                               .climb = climb,
+                               .turn = 1.5,
+                               .speed_us = 7'000'000,
+                               .transition_us = 2'000'000,
+                               .turn_us = 9'000'000},
+                              {.duration_us = 6'000'000,
+                               .speed = 30,
+                               .climb = 0,
+                               .drift = 0.5,
+                               .turn = -0.5,
+                               .speed_us = 5'000'000,
+                               .transition_us = 3'000'000,
+                               .turn_us = 6'000'000}};
+  return {.start = seoul,
+          .motion = Legs{std::make_shared<const LegPath>(
+              Carrier{.vehicle = vehicle, .roll_by_acceleration = 0.01}, 0, 2, legs)}};
 }
 
 TEST(FlightRecord, AtRestTheAccelerometersFeelMinusGravityAndTheGyrosTheEarth) {
@@ -160,7 +184,9 @@ TEST_P(IndependentNavigator, FliesTheIncrementsBackToTheTruth) {
   EXPECT_GT((truth.v - inertial(record.epochs().front()).v).norm(), 10.0) << "the flight is not trivial";
 }
 
-INSTANTIATE_TEST_SUITE_P(Flights, IndependentNavigator, testing::Values(paper, weaving));
+INSTANTIATE_TEST_SUITE_P(Flights, IndependentNavigator,
+                         testing::Values(paper, weaving, legs(Vehicle::car), legs(Vehicle::aircraft),
+                                         legs(Vehicle::rotorcraft)));
 
 TEST(FlightRecord, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
   // Coning at 10 Hz: 10 ms is 0.63 rad, for which the quadrature with five Gauss nodes has an error of 4e-13
