@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "bench/drive/child_process.hpp"
+#include "bench/process/child_process.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "dbc/text/escape.hpp"
 
@@ -22,16 +22,16 @@ Result<void> run_command(std::string_view key, const std::string& command, const
   const auto wrong = [&](const std::string& how) {
     return failure(fmt::format("key 'target.{}': '{}' {}, expected 0", key, command, how));
   };
-  auto started = ChildProcess::start("/bin/sh", {"sh", "-c", command});
+  auto started = process::ChildProcess::start("/bin/sh", {"sh", "-c", command});
   if (!started) return wrong("cannot be started: " + started.error().message);
   while (!started->ended()) {
     if (stop) {
-      started->end(ChildProcess::short_patience);
+      started->end(process::ChildProcess::short_patience);
       return failure(fmt::format("interrupted while 'target.{}' ran", key));
     }
     std::this_thread::sleep_for(between_looks);
   }
-  const ProcessEnd end = *started->ended();
+  const process::ProcessEnd end = *started->ended();
   started->leave();  // what the command started in the background goes on, for example a simulator
   return end.exited_with_0() ? Result<void>() : wrong(to_text(end));
 }

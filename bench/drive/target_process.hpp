@@ -5,10 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "bench/drive/child_process.hpp"
 #include "bench/drive/ending.hpp"
+#include "bench/process/child_process.hpp"
 
 namespace canhil::drive {
+
+using process::ChildProcess;
+using process::ProcessEnd;
 
 /// Starts `COMMAND --bus BUS`, followed by the arguments `more`, on the given CPUs (if `cpus` is empty: on
 /// the bench's CPUs). target_words() splits the command into words. Error, one line: the program cannot be

@@ -1,4 +1,4 @@
-#include "bench/drive/child_process.hpp"
+#include "bench/process/child_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 
 #include "dbc/realtime/process.hpp"
 
-namespace canhil::drive {
+namespace canhil::process {
 namespace {
 
 ProcessEnd end_of(const siginfo_t& info) {
@@ -32,7 +32,7 @@ std::string to_text(const ProcessEnd& end) {
 }
 
 Result<ChildProcess> ChildProcess::start(const std::string& program, std::vector<std::string> words,
-                                         const std::vector<int>& cpus) {
+                                         const std::vector<int>& cpus, std::optional<int> standard_input) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -57,6 +57,7 @@ Result<ChildProcess> ChildProcess::start(const std::string& program, std::vector
     std::signal(SIGPIPE, SIG_DFL);  // the program must not inherit the bench's signal settings
     setsid();
     if (!cpus.empty()) realtime::pin(cpus);
+    if (standard_input) dup2(*standard_input, STDIN_FILENO);
     dup2(STDERR_FILENO, STDOUT_FILENO);
     execv(program.c_str(), arguments.data());
     const int reason = errno;
@@ -139,4 +140,4 @@ ProcessEnd ChildProcess::end(std::chrono::milliseconds patience) {
   return *ended_;
 }
 
-}  // namespace canhil::drive
+}  // namespace canhil::process

@@ -10,7 +10,7 @@
 
 #include "dbc/wire/result.hpp"
 
-namespace canhil::drive {
+namespace canhil::process {
 
 /// How a process ended.
 struct ProcessEnd {
@@ -29,9 +29,11 @@ class ChildProcess {
  public:
   /// Starts a program with the command line `words`, on the given CPUs (if `cpus` is empty: on the bench's
   /// CPUs). Its standard output is the bench's standard error, because the bench may write a report to its
-  /// own standard output. Error: the reason of the kernel, such as "Permission denied".
+  /// own standard output. `standard_input`: the descriptor of its standard input, if not the bench's. Error:
+  /// the reason of the kernel, such as "Permission denied".
   static Result<ChildProcess> start(const std::string& program, std::vector<std::string> words,
-                                    const std::vector<int>& cpus = {});
+                                    const std::vector<int>& cpus = {},
+                                    std::optional<int> standard_input = {});
 
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess(const ChildProcess&) = delete;
@@ -63,4 +65,4 @@ class ChildProcess {
   std::optional<ProcessEnd> ended_;
 };
 
-}  // namespace canhil::drive
+}  // namespace canhil::process
