@@ -3,12 +3,14 @@
 
 #include <array>
 
+#include "bench/plant/fmu/fmu.hpp"
 #include "bench/plant/steered_heading.hpp"
 
 namespace canhil::plant {
 namespace {
 
 constexpr std::array registered{
+    &fmu_plant,        // a model that another tool exported (FMI 2.0, FMI 3.0)
     &steered_heading,  // a ship or a car: heading by a rudder or a steering actuator
 };
 

@@ -119,8 +119,8 @@ std::unique_ptr<Plan> read(scenario::Section& section) {
   own.time_constant =
       section.number({"turn_time_constant_s", "Time constant of the turn rate after a step of the rudder."},
                      Limits::above(0));
-  own.gain = section.number(
-      {"turn_gain_per_s", "Turn rate in the steady state per angle of the rudder."}, Limits{});
+  own.gain =
+      section.number({"turn_gain_per_s", "Turn rate in the steady state per angle of the rudder."}, Limits{});
   own.lag =
       section.number({"actuator_lag_s", "Time constant of the actuator; 0: none."}, Limits::at_least(0), 0);
   own.rate_limit =
