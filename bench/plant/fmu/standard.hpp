@@ -46,6 +46,10 @@ using Instantiate = Instance(const char* name, int kind, const char* guid, const
 using SetupExperiment = int(Instance, Boolean tolerance_defined, double tolerance, double start_s,
                             Boolean stop_defined, double stop_s);
 using DoStep = int(Instance, double from_s, double step_s, Boolean no_return_to_earlier);
+/// After DoStep returned discard, this kind of status says whether the FMU asks for the end of the
+/// simulation.
+inline constexpr int terminated = 3;
+using GetBooleanStatus = int(Instance, int kind, Boolean* value);
 
 }  // namespace fmi2
 

@@ -16,7 +16,7 @@ namespace {
 
 using test::Described;
 
-enum Fault { nothing, fails, discards, is_fatal, hangs, crashes, exits, writes_nan, fails_at_start };
+enum Fault { nothing, fails, discards, is_fatal, hangs, crashes, exits, writes_nan, fails_at_start, ends };
 
 void write_faulty(int version,
                   const std::string& capabilities = "canHandleVariableCommunicationStepSize='true'") {
@@ -62,6 +62,8 @@ TEST_P(FaultyFmu, ReturnsAnError) {
               fmt::format("{}fmi{}DoStep returned discard{}", start, GetParam(), message));
     EXPECT_EQ(error_of_run(is_fatal, in_process),
               fmt::format("{}fmi{}DoStep returned fatal{}", start, GetParam(), message));
+    EXPECT_EQ(error_of_run(ends, in_process),
+              fmt::format("{}fmi{}DoStep asked for the end of the simulation", start, GetParam()));
     EXPECT_EQ(error_of_run(writes_nan, in_process), start + "output 'y' is nan");
     EXPECT_EQ(
         error_of_run(fails_at_start, in_process),

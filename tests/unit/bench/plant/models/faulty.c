@@ -9,7 +9,7 @@
 const char model_token[] = "{faulty}";
 
 enum { what, at_s, output };
-enum { nothing, fails, discards, is_fatal, hangs, crashes, exits, writes_nan, fails_at_start };
+enum { nothing, fails, discards, is_fatal, hangs, crashes, exits, writes_nan, fails_at_start, ends };
 
 void model_create(struct model* m) { m->v[at_s] = 1; }
 
@@ -39,6 +39,8 @@ enum model_status model_step(struct model* m, double from_s, double step_s) {
       return model_ok;
     case exits:
       exit(3);
+    case ends:
+      return model_ends;
     case writes_nan:
       m->v[output] = NAN;
       return model_ok;

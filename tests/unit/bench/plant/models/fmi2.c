@@ -19,6 +19,7 @@ struct instance {
   const struct callbacks* calls;
   enum state state;
   char resources[512];
+  int ends;
 };
 
 static int done(struct instance* i, enum model_status status) {
@@ -68,9 +69,15 @@ int fmi2Terminate(struct instance* i) { return change(i, stepping, ended); }
 #ifndef WITHOUT_STEP
 int fmi2DoStep(struct instance* i, double from_s, double step_s, int no_return) {
   if (i->state != stepping || !no_return) return 3;
-  return done(i, model_step(&i->m, from_s, step_s));
+  const enum model_status status = model_step(&i->m, from_s, step_s);
+  i->ends = status == model_ends;
+  return i->ends ? 2 : done(i, status);
 }
 #endif
+int fmi2GetBooleanStatus(struct instance* i, int kind, int* value) {
+  *value = i->ends;
+  return kind == 3 ? 0 : 3;
+}
 
 #define ACCESS(NAME, TYPE)                                                               \
   int fmi2Set##NAME(struct instance* i, const unsigned* at, size_t n, const TYPE* from) { \

@@ -81,7 +81,9 @@ int fmi3DoStep(struct instance* i, double from_s, double step_s, bool no_return,
     step_s /= 2;
   }
 #endif
-  return done(i, model_step(&i->m, from_s, step_s));
+  const enum model_status status = model_step(&i->m, from_s, step_s);
+  *terminate = status == model_ends;
+  return *terminate ? 0 : done(i, status);
 }
 #endif
 

@@ -5,8 +5,8 @@
 
 enum { model_variables = 100, model_texts = 4 };
 
-/* The status that a function returns; the numbers are those of FMI. */
-enum model_status { model_ok = 0, model_discard = 2, model_error = 3, model_fatal = 4 };
+/* The status that a function returns; the numbers are those of FMI. model_ends: the simulation shall end. */
+enum model_status { model_ok = 0, model_discard = 2, model_error = 3, model_fatal = 4, model_ends = 100 };
 
 struct model {
   double v[model_variables];
