@@ -9,6 +9,8 @@
 #include <map>
 #include <pugixml.hpp>
 
+#include "dbc/text/escape.hpp"
+
 namespace canhil::plant::fmu {
 namespace {
 
@@ -100,7 +102,8 @@ class Reader {
 
  private:
   void fail(std::string_view what, std::string_view expected) {
-    if (!error_) error_ = Error{fmt::format("modelDescription.xml: {}, expected {}", what, expected)};
+    if (!error_)
+      error_ = Error{one_line(fmt::format("modelDescription.xml: {}, expected {}", what, expected))};
   }
   template <class T>
   T attribute(const xml_node& node, const char* name, std::string_view expected,
@@ -109,9 +112,7 @@ class Reader {
     if (!found) return fallback;
     const std::optional<T> value = from_text(trimmed(found.value()));
     if (value) return *value;
-    fail(fmt::format("{} {}{}: {} '{}'", node.name(), node.attribute("name").value(), where_, name,
-                     found.value()),
-         expected);
+    fail(fmt::format("{}: {} '{}'", where_.empty() ? node.name() : where_, name, found.value()), expected);
     return fallback;
   }
   double real(const xml_node& node, const char* name, double fallback) {

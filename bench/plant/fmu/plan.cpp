@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/plant/fmu/running.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::plant::fmu {
 namespace {
@@ -50,7 +51,7 @@ class Fmu final : public Plant {
 
  private:
   [[nodiscard]] tl::unexpected<Error> failed(std::string_view what, std::string_view when) const {
-    return failure(fmt::format("FMU '{}' {}: {}", settings_->setup.fmu, when, what));
+    return failure(one_line(fmt::format("FMU '{}' {}: {}", settings_->setup.fmu, when, what)));
   }
   Result<void> convert_outputs(std::string_view when) {
     for (std::size_t i = 0; i < outputs_.size(); ++i) {
@@ -106,7 +107,8 @@ Result<double> Element::from_si(double si) const {
 
 Result<std::unique_ptr<Plant>> FmuPlan::make(const Draw& /*draw*/) const {
   auto folder = unpacked();
-  if (!folder) return failure(fmt::format("FMU '{}': {}", settings_->setup.fmu, folder.error().message));
+  if (!folder)
+    return failure(one_line(fmt::format("FMU '{}': {}", settings_->setup.fmu, folder.error().message)));
   auto plant = std::make_unique<Fmu>(settings_, std::move(*folder));
   if (auto started = plant->start(); !started) return tl::unexpected(started.error());
   return plant;

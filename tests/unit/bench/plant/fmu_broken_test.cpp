@@ -102,7 +102,7 @@ TEST_F(BrokenFmu, HasAWrongDescription) {
   EXPECT_EQ(refusal_of(replaced(good(), "modelIdentifier='passing3'", "modelIdentifier='../x'")),
             "modelDescription.xml: modelIdentifier '../x', expected letters, digits and _");
   EXPECT_EQ(refusal_of(replaced(good(), "valueReference='40'", "valueReference='x'")),
-            "modelDescription.xml: Float64 yvariable 'y': valueReference 'x', expected a value reference");
+            "modelDescription.xml: variable 'y': valueReference 'x', expected a value reference");
   EXPECT_EQ(refusal_of(good("", {{"u", 0, "Int8", "input", "start='200'"}})),
             "modelDescription.xml: variable 'u': start '200', expected a whole number that Int8 can hold");
   EXPECT_EQ(refusal_of(good("", {{"tick", 0, "Clock", "input", "intervalVariability='constant'"}})),
