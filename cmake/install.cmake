@@ -25,7 +25,7 @@ foreach(generated generated generated_fd)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/dbc/codegen/${generated}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/canhil FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 
-install(TARGETS hil-target hil-bench hil-bench-campaign hil-bench-paper)
+install(TARGETS hil-target hil-bench hil-bench-campaign hil-bench-fmu hil-bench-paper)
 set(data ${CMAKE_INSTALL_DATADIR}/canhil)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/bench/flights ${CMAKE_SOURCE_DIR}/bench/monte_carlo ${CMAKE_SOURCE_DIR}/bench/acceptance
                   ${CMAKE_SOURCE_DIR}/docs/examples DESTINATION ${data})
@@ -54,7 +54,7 @@ endif()
 
 # Builds everything that is installed, but no tests: cmake --build build/default --target canhil_installed.
 add_custom_target(canhil_installed)
-add_dependencies(canhil_installed ${targets} dbcgen hil-target hil-bench hil-bench-campaign hil-bench-paper)
+add_dependencies(canhil_installed ${targets} dbcgen hil-target hil-bench hil-bench-campaign hil-bench-fmu hil-bench-paper)
 if(HELP2MAN)
   add_dependencies(canhil_installed canhil_manual)
 endif()

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "bench/plant/fmu/fmu.hpp"
 #include "bench/plant/hover.hpp"
 #include "bench/plant/program/program.hpp"
 #include "bench/plant/steered_heading.hpp"
@@ -11,6 +12,7 @@ namespace canhil::plant {
 namespace {
 
 constexpr std::array registered{
+    &fmu_plant,        // a model that another tool exported (FMI 2.0, FMI 3.0)
     &hover,            // a small rotorcraft: attitude and position by thrust and body rates
     &program,          // a program of the user, in any language
     &steered_heading,  // a ship or a car: heading by a rudder or a steering actuator

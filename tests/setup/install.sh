@@ -15,6 +15,7 @@ build_packages=(
   g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libboost1.81-dev libgeographiclib-dev libfmt-dev libexpected-dev
   libcli11-dev libtomlplusplus-dev libmuparser-dev nlohmann-json3-dev libsqlite3-dev libsqlitecpp-dev libkainjow-mustache-dev libpcap-dev zlib1g-dev libssl-dev
+  libzip-dev libpugixml-dev # plants that are FMUs: the archive, and its modelDescription.xml
   libjs-chart.js libncurses-dev # for the live view: the charts of its page (compiled into hil-bench), and its display in a terminal
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev # every build needs these, because CMake configures the tests too
 )
