@@ -11,6 +11,7 @@
 
 #include "bench/plant/fmu/plan.hpp"
 #include "bench/plant/fmu/presets.hpp"
+#include "bench/scenario/commands.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::plant {
@@ -124,7 +125,8 @@ std::unique_ptr<Plan> read_plan(Section& section) {
       section.time_us({"answers_within_s", "Longest wall time for a step of the FMU, and for its start."},
                       Limits::between(0.001, longest_patience_s), usual_patience_s)));
   own.setup.log = section.flag({"log", "Whether the messages of the FMU go to standard error."});
-  if (!content) return std::make_unique<FmuPlan>(own, Archive());
+  if (!content || !scenario::may_execute(section, "file", "is an FMU, whose code would be executed"))
+    return std::make_unique<FmuPlan>(own, Archive());
   own.setup.fmu = std::filesystem::path(section.files().back()).filename().string();
   auto file = open_file(std::move(*content));
   if (!file) {
