@@ -86,7 +86,7 @@ void add_variables(const std::vector<Sized>& all, FmuSettings& settings, std::ve
   }
 }
 
-void add_presets(const std::vector<Sized>& all, Setup& setup) {
+void add_presets(const std::vector<Sized>& all, fmu::Setup& setup) {
   for (const Sized& one : all) {
     if (!one.set || one.variable->causality == Causality::input) continue;
     (one.variable->causality == Causality::structural_parameter ? setup.structure : setup.parameters)

@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1] / "kit"))
 from device import serve
 
-HEADING, RUDDER, COMMAND = 0x100, 0x110, 0x200
+HEADING, RUDDER, COMMAND, STEERED = 0x100, 0x110, 0x200, 0x201
 DEFECTS = ("none", "old_heading", "late", "wrong_sign", "stuck", "no_integral", "no_fault")
 COURSE, STOP, PERIOD = 20.0, 30.0, 0.02  # deg, deg, s
 GAIN, DAMPING, INTEGRAL, NEAR = 6.0, 0.8, 1.0, 8.0  # rudder per error, per turn rate [s], per integral of the error [1/s]; deg
@@ -49,6 +49,7 @@ class Autopilot:
             self.command = self.steer(*self.measured[0 if self.defect == "old_heading" else -1])
         off = abs(self.feedback - self.command) > FAULT and self.defect != "no_fault"
         self.misses = self.misses + 1 if off else 0
+        yield STEERED, struct.pack("<HB", round(self.measured[-1][0] * 100) % 36000, counter)
         status = 1 | (2 if self.misses > PATIENCE else 0)
         frame = struct.pack("<hBB", round(self.command * 100), status, counter)
         frame += bytes([crc(frame)])

@@ -3,12 +3,12 @@
 #include <cstring>
 #include <thread>
 
-#include "tests/unit/bench/plant/made_fmu.hpp"
+#include "tests/unit/bench/plant/heading_fmu.hpp"
 
 namespace canhil {
 namespace {
 
-using test::Described;
+using test::heading_description;
 
 constexpr double deg = 3.14159265358979323846 / 180;
 const std::string keys =
@@ -20,23 +20,6 @@ std::string parameters() {
       "[plant.parameters]\nheading = {}\nspeed = 7\ntime_constant = 4\ngain = 0.3\nlag = 0.5\n"
       "rate_limit = {}\nstop = {}\ngust = {}\ngust_from = 2\ngust_to = 6\n",
       30 * deg, 5 * deg, 25 * deg, 0.4 * deg);
-}
-
-std::string description(int version, const std::string& model) {
-  std::vector<Described> all{{"rudder", 0, "Float64", "input", "start='0' unit='rad'"}};
-  int reference = 1;
-  for (const char* name : {"heading", "speed", "time_constant", "gain", "lag", "rate_limit", "stop", "gust",
-                           "gust_from", "gust_to"})
-    all.push_back({name, reference++, "Float64", "parameter", "start='1'", "variability='fixed'"});
-  reference = 20;
-  for (const auto& [name, unit] :
-       {std::pair("attitude.heading", "rad"), std::pair("velocity.north", "m/s"),
-        std::pair("velocity.east", "m/s"), std::pair("turn_rate", "rad/s"), std::pair("rudder_angle", "rad")})
-    all.push_back({name, reference++, "Float64", "output", fmt::format("unit='{}'", unit)});
-  return test::description_of(version, model, all,
-                              "<UnitDefinitions><Unit name='rad'><BaseUnit rad='1'/></Unit>"
-                              "<Unit name='rad/s'><BaseUnit rad='1' s='-1'/></Unit>"
-                              "<Unit name='m/s'><BaseUnit m='1' s='-1'/></Unit></UnitDefinitions>");
 }
 
 /// The outputs of all steps of 20 s, with a rudder that goes from side to side.
@@ -67,7 +50,7 @@ TEST(FmuHeading, IsThatOfThePlantThatIsBuiltIn) {
   const std::vector<double> expected = trajectory(*built_in.plan);
   for (const int version : {2, 3}) {
     const std::string model = version == 2 ? "heading2" : "heading3";
-    test::write_fmu(version, model, description(version, model));
+    test::write_fmu(version, model, heading_description(version, model));
     const auto plan = test::plan_of(parameters());
     for (std::size_t i = 0; i < plan->outputs.size(); ++i)
       EXPECT_EQ(plan->outputs[i].si, built_in.plan->outputs[i].si) << plan->outputs[i].name;
@@ -84,7 +67,7 @@ TEST(FmuHeading, AnEarlyReturnIsContinued) {
   const test::NothingLeft nothing_left;
   const auto built_in = test::read_plant(keys, "steered_heading");
   const std::vector<double> expected = trajectory(*built_in.plan);
-  test::write_fmu(3, "early3", description(3, "early3"));
+  test::write_fmu(3, "early3", heading_description(3, "early3"));
   const std::vector<double> own = trajectory(*test::plan_of(parameters()));
   ASSERT_EQ(own.size(), expected.size());
   for (std::size_t i = 0; i < own.size(); ++i) ASSERT_NEAR(own[i], expected[i], 1e-6) << i;
@@ -92,7 +75,7 @@ TEST(FmuHeading, AnEarlyReturnIsContinued) {
 
 TEST(FmuHeading, RunsInSeveralThreads) {
   const test::NothingLeft nothing_left;
-  test::write_fmu(3, "heading3", description(3, "heading3"));
+  test::write_fmu(3, "heading3", heading_description(3, "heading3"));
   const auto plan = test::plan_of(parameters());
   std::vector<std::vector<double>> all(4);
   std::vector<std::thread> threads;

@@ -33,7 +33,7 @@ std::string keys_of_a_file() {
     return keys;
   };
   return "title, duration_s, dbc, seed, target, engagement, glide, wind, airframe, " +
-         nodes_of(TruthOf::glide) + "truth, initial_error, " + nodes_of(TruthOf::navigation) +
+         nodes_of(TruthOf::glide) + "plant, truth, initial_error, " + nodes_of(TruthOf::navigation) +
          nodes_of(TruthOf::engagement) + "event, fault, check";
 }
 
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
               "9: key 'truth.trajectory': is a number, expected one of: rest, level_acceleration, weave, "
               "s_path, racetrack, spiral, "
               "rest_then_go, legs, waypoints, "
-              "recorded, unknown"},
+              "recorded, plant, unknown"},
         Wrong{sigma, "initial_sigma = 1", "7: key 'target.initial_sigma': is a number, expected a table"},
         Wrong{"[[check]]", "[check]", "16: key 'check': is a table, expected at least one [[check]]"},
         Wrong{"seed = 7\n", "seed = 7\ncheck = [ 5 ]\n",
@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
             "sigma, answers, latency, latency_growth, delay, output_period, own_times, heartbeat, counters, "
             "counts_match, protection, bus_load, bus_errors, "
             "wire_response, detected_within, recovers_within, sigma_grows, honest, answering, "
-            "flag, miss_distance"},
+            "flag, response, command, miss_distance"},
         Wrong{
             "[[check]]", check("kind = 'error'\nquantity = 'yaw.of.the.body'\nbelow_mrad = 1"),
             "18: key 'check[1].quantity': 'yaw.of.the.body' is unknown, expected one of: misalignment.north, "
