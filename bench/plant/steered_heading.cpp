@@ -7,13 +7,13 @@
 // the direction of the heading. The method is fourth-order Runge-Kutta with steps of at most 1 ms.
 #include "bench/plant/steered_heading.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <optional>
-#include <utility>
 
+#include "bench/plant/gust.hpp"
+#include "bench/plant/integration.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/world/units.hpp"
 
@@ -32,15 +32,11 @@ struct Settings {
   double stop = 0;           ///< largest angle of the actuator [rad]
   double offset = 0;         ///< of the actuator's zero [rad]
   double gust = 0;           ///< largest angular acceleration of the gust [rad/s^2]
-  std::optional<std::pair<std::int64_t, std::int64_t>> gust_us{};
+  Gust gust_time{};
 };
 
 // The elements of the state: heading, turn rate, rudder.
-using State = std::array<double, 3>;
-
-State plus(const State& x, double dt, const State& rate) {
-  return {x[0] + dt * rate[0], x[1] + dt * rate[1], x[2] + dt * rate[2]};
-}
+using State = Eigen::Vector3d;
 
 class SteeredHeading final : public Plant {
  public:
@@ -50,40 +46,26 @@ class SteeredHeading final : public Plant {
 
   [[nodiscard]] std::span<const double> outputs() const override { return outputs_; }
   Result<void> step(std::int64_t from_us, std::int64_t to_us, std::span<const double> inputs) override {
-    constexpr std::int64_t longest_us = 1000;
     const double wanted = std::clamp(inputs.front() + settings_.offset, -settings_.stop, settings_.stop);
-    const std::int64_t steps = (to_us - from_us + longest_us - 1) / longest_us;
-    const double dt = 1e-6 * static_cast<double>(to_us - from_us) / static_cast<double>(steps);
-    for (std::int64_t i = 0; i < steps; ++i)
-      x_ = advanced(1e-6 * static_cast<double>(from_us) + static_cast<double>(i) * dt, dt, wanted);
+    in_short_steps(from_us, to_us, [&](double t, double dt) { x_ = advanced(t, dt, wanted); });
     show();
     return {};
   }
 
  private:
-  [[nodiscard]] double gust(double t) const {
-    if (!settings_.gust_us) return 0;
-    const double from = 1e-6 * static_cast<double>(settings_.gust_us->first);
-    const double to = 1e-6 * static_cast<double>(settings_.gust_us->second);
-    if (t <= from || t >= to) return 0;
-    return settings_.gust * (1 - std::cos(2 * std::numbers::pi * (t - from) / (to - from))) / 2;
-  }
   [[nodiscard]] State derivative(double t, const State& x, double wanted) const {
     const double moving = settings_.lag > 0 ? std::clamp((wanted - x[2]) / settings_.lag,
                                                          -settings_.rate_limit, settings_.rate_limit)
                                             : 0;
-    return {x[1], (settings_.gain * x[2] - x[1]) / settings_.time_constant + gust(t), moving};
+    const double gust = settings_.gust * settings_.gust_time.at(t);
+    return {x[1], (settings_.gain * x[2] - x[1]) / settings_.time_constant + gust, moving};
   }
   [[nodiscard]] State advanced(double t, double dt, double wanted) const {
     State x = x_;
     if (settings_.lag <= 0)
       x[2] += std::clamp(wanted - x[2], -settings_.rate_limit * dt, settings_.rate_limit * dt);
-    const State k1 = derivative(t, x, wanted);
-    const State k2 = derivative(t + dt / 2, plus(x, dt / 2, k1), wanted);
-    const State k3 = derivative(t + dt / 2, plus(x, dt / 2, k2), wanted);
-    const State k4 = derivative(t + dt, plus(x, dt, k3), wanted);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += dt / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
-    return x;
+    return runge_kutta(x, t, dt,
+                       [&](double time, const State& state) { return derivative(time, state, wanted); });
   }
   void show() {
     outputs_ = {x_[0], settings_.speed * std::cos(x_[0]), settings_.speed * std::sin(x_[0]), x_[1], x_[2]};
@@ -130,8 +112,9 @@ std::unique_ptr<Plan> read(scenario::Section& section) {
       section.number({"actuator_stop_deg", "Largest angle of the actuator."}, Limits::above(0, 90), 35);
   own.offset = section.number({"actuator_offset_deg", "Angle of the actuator at the command 0."},
                               Limits::between(-90, 90), 0);
-  own.gust_us = section.optional_interval_us({"gust_s", "Begin and end of a gust."}, Limits::at_least(0));
-  if (own.gust_us)
+  own.gust_time.us =
+      section.optional_interval_us({"gust_s", "Begin and end of a gust."}, Limits::at_least(0));
+  if (own.gust_time.us)
     own.gust =
         section.number({"gust_degps2", "Largest angular acceleration of the gust about down."}, Limits{});
   else

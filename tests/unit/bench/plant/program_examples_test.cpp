@@ -15,7 +15,8 @@ using testing::HasSubstr;
 
 const std::string ship_keys =
     "heading_deg = 350\nspeed_mps = 6\nturn_time_constant_s = 8\nturn_gain_per_s = 0.12\n"
-    "actuator_lag_s = 0.5\nactuator_rate_degps = 4\nactuator_stop_deg = 30\ngust_degps2 = 0.2\n";
+    "actuator_lag_s = 0.5\nactuator_rate_degps = 4\nactuator_stop_deg = 30\nactuator_offset_deg = "
+    "2\ngust_degps2 = 0.2\n";
 
 // Commands that reach the stop and the largest rate, and go back and forth.
 double rudder_at(int step) { return step < 1000 ? 0.9 : 0.3 * std::sin(0.01 * step); }
