@@ -147,10 +147,10 @@ Result<Archive> Archive::open(std::string content) {
     own.names_.push_back(name);
   }
   std::ranges::sort(own.names_);
-  const auto folders_again = std::ranges::unique(own.names_, [](const auto& one, const auto& next) {
+  const auto again = [](const std::string& one, const std::string& next) {
     return one == next && is_folder(one);  // some tools list a folder once for each of its files
-  });
-  own.names_.erase(folders_again.begin(), folders_again.end());
+  };
+  own.names_.erase(std::unique(own.names_.begin(), own.names_.end(), again), own.names_.end());
   if (const auto twice = std::ranges::adjacent_find(own.names_); twice != own.names_.end())
     return failure(fmt::format("contains '{}' twice, expected each file once", *twice));
   return own;

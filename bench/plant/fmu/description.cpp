@@ -212,7 +212,7 @@ class Reader {
     for (const xml_node& item : defaults.children("Item"))
       variable.items.emplace_back(
           item.attribute("name").value(),
-          attribute<std::int64_t>(item, "value", "a whole number", number<std::int64_t>, 0));
+          attribute<std::int32_t>(item, "value", "a whole number", number<std::int32_t>, 0));
     read_dimensions(variable, typed);
     read_start(variable, typed);
     own_.variables.push_back(std::move(variable));

@@ -18,7 +18,7 @@ struct Facts {
   Range range{};
 };
 
-// In the order of Type.
+// In the order of Type. An enumeration has the range of FMI 2.0; FMI 3.0 permits that of Int64.
 constexpr std::array<Facts, 13> types{{{"Float32", false, range<float>()},
                                        {"Float64", false, range<double>()},
                                        {"Int8", true, range<std::int8_t>()},
@@ -31,7 +31,7 @@ constexpr std::array<Facts, 13> types{{{"Float32", false, range<float>()},
                                        {"UInt64", true, range<std::uint64_t>()},
                                        {"Boolean", false, {0, 1}},
                                        {"String"},
-                                       {"Enumeration", true, range<std::int64_t>()}}};
+                                       {"Enumeration", true, range<std::int32_t>()}}};
 
 const Facts& facts(Type type) { return types[static_cast<std::size_t>(type)]; }
 
