@@ -11,6 +11,30 @@
 #include "bench/scenario/binding.hpp"
 
 namespace canhil::report {
+namespace {
+
+// What became of the commands, and how quick the plant was.
+EstimatorResults results_of_plant(const world::PlantRecord& plant) {
+  EstimatorResults own{"plant", {}};
+  for (const world::CommandRecord& one : plant.commands) {
+    estimators::ResultLine line{.name = one.input, .what = fmt::format("commands of '{}'", one.input)};
+    const auto given = static_cast<double>(one.given.size()),
+               missing = static_cast<double>(one.missing_us.size());
+    line.add("commands", given, fmt::format("{} commands", one.given.size()));
+    line.add("without_value", static_cast<double>(one.invalid),
+             fmt::format("{} without a value", one.invalid));
+    line.add("steps_without", missing, fmt::format("{} steps without one in time", one.missing_us.size()));
+    own.lines.push_back(std::move(line));
+  }
+  estimators::ResultLine steps{.name = "steps", .what = "longest step of the plant"};
+  steps.add("longest_step_s", plant.longest_step_s,
+            fmt::format("{:.3f} ms by the wall clock", plant.longest_step_s * 1e3));
+  own.lines.push_back(std::move(steps));
+  return own;
+}
+
+}  // namespace
+
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario) {
   std::vector<std::string_view> closing;
   for (const estimators::Estimator* one : estimators::in(scenario)) {
@@ -52,6 +76,7 @@ std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const 
     own.lines.push_back(std::move(answers));
     all.push_back(std::move(own));
   }
+  if (run.per_run_truth.plant) all.push_back(results_of_plant(run.per_run_truth.plant->record()));
   return all;
 }
 

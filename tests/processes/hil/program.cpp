@@ -35,6 +35,7 @@ std::optional<double> timing_bar_s(const nlohmann::json& check) {
       {"output_period", std::regex(".* every ([0-9.]+) (ms) \\+- ([0-9.]+) %.*")},
       {"heartbeat", std::regex("never silent for more than ([0-9.]+) (s)")},
   };
+  if (check["kind"] == "response") return 0.02;  // two steps of the plant: a late bench flies another loop
   const auto bar = bars.find(check["kind"].get<std::string>());
   if (bar == bars.end()) return std::nullopt;
   std::smatch found;
