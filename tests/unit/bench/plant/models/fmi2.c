@@ -26,6 +26,7 @@ static int done(struct instance* i, enum model_status status) {
   if (status != model_ok && i->m.message)
     i->calls->logger(i->calls->environment, "", (int)status, "logStatusError", "%s (%d)", i->m.message, 42);
   if (status != model_ok) i->state = ended;
+  if (status == model_fatal) i->calls->release(i); /* nothing may be called any more */
   return (int)status;
 }
 

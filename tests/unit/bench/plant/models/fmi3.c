@@ -22,6 +22,7 @@ static int done(struct instance* i, enum model_status status) {
   if (status != model_ok && i->m.message)
     i->log(i->environment, (int)status, "logStatusError", i->m.message);
   if (status != model_ok) i->state = ended;
+  if (status == model_fatal) free(i); /* nothing may be called any more */
   return (int)status;
 }
 
