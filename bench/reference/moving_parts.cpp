@@ -31,10 +31,20 @@ std::vector<AskedKey> inner_keys_of_truth(const std::string& given, std::string_
 std::vector<AskedKey> keys_of_waypoint() {
   const std::string given = "trajectory = \"waypoints\"\n";
   auto keys = inner_keys_of_truth(given + "waypoint = [{}]\n", "waypoint[1]");
-  for (AskedKey& one : keys) one.in_place = {};
+  for (AskedKey& one : keys) {
+    if (one.key.required) one.in_place = {one.key.name == "north_m" ? "latitude_deg" : "longitude_deg"};
+  }
   for (AskedKey& one : inner_keys_of_truth(given + "waypoint = [{ latitude_deg = 0 }]\n", "waypoint[1]")) {
     one.key.required = false;
-    if (!one.key.meaning.empty()) keys.push_back(std::move(one));
+    keys.push_back(std::move(one));
+  }
+  return keys;
+}
+
+std::vector<AskedKey> keys_of_sinusoid() {
+  auto keys = inner_keys_of_truth("trajectory = \"rest\"\nvibration.sine = [{}]\n", "vibration.sine[1]");
+  for (AskedKey& one : keys) {
+    if (one.key.name == "phase_deg") one.key.fallback.clear();  // drawn
   }
   return keys;
 }
@@ -48,7 +58,8 @@ Part truth_part() {
       .tables = {
           {.name = "[truth]",
            .about = "The flight of the carrier.",
-           .keys = keys_of([](Section& section) { scenario::read_truth(section, longest_run_us); })},
+           .keys = in_table(keys_of([](Section& section) { scenario::read_truth(section, longest_run_us); }),
+                            "")},
           {.name = "[[truth.leg]]",
            .about =
                "A leg of the trajectory `legs`. What a leg does not give keeps the value of the leg before; "
@@ -59,14 +70,11 @@ Part truth_part() {
                     "`latitude_deg` and "
                     "`longitude_deg`. The vehicle passes it on a turn; it reaches the last one.",
            .keys = keys_of_waypoint()},
-          {.name = "[truth.vibration]",
-           .about = "Vibration on top of a built-in trajectory: any number of `[[truth.vibration.sine]]` and "
-                    "`[[truth.vibration.random]]`. All runs have the same phases, drawn from the seed.",
-           .keys = {}},
           {.name = "[[truth.vibration.sine]]",
-           .about = "A vibration of one frequency.",
-           .keys =
-               inner_keys_of_truth("trajectory = \"rest\"\nvibration.sine = [{}]\n", "vibration.sine[1]")},
+           .about = "A vibration of one frequency, on top of a built-in trajectory. All runs have the same "
+                    "phases, drawn "
+                    "from the seed.",
+           .keys = keys_of_sinusoid()},
           {.name = "[[truth.vibration.random]]",
            .about = "Random vibration in a band of frequencies.",
            .keys = inner_keys_of_truth("trajectory = \"rest\"\nvibration.random = [{}]\n",

@@ -25,8 +25,8 @@ world::Sinusoid read_sinusoid(Section& section) {
                      "phase). Default: drawn from the seed, for each axis."},
                     Limits::between(-360, 360));
   if (section.has("phase_deg")) one.phase = phase;
-  if (one.acceleration.isZero() && one.angle.isZero())
-    section.missing("acceleration_g", "acceleration_g or angle_mrad above 0");
+  if (!section.has("acceleration_g") && !section.has("angle_mrad"))
+    section.reject("acceleration_g", "is missing, as is angle_mrad", "at least one of the two");
   section.finish();
   return one;
 }
@@ -49,7 +49,7 @@ world::RandomVibration read_random(Section& section) {
   if (one.lines > most_lines) section.reject("lines", "are too many", "at most 200");
   if (section.has("from_hz") && section.has("to_hz") && one.from >= one.to)
     section.reject("to_hz", "is not above from_hz", "a frequency above it");
-  if (one.psd.isZero()) section.missing("psd_g2phz", "a number above 0, or an array of three");
+  if (!section.has("psd_g2phz")) section.missing("psd_g2phz", "a number, or an array of three");
   section.finish();
   return one;
 }

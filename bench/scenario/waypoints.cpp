@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/scenario/legs.hpp"
+#include "bench/scenario/mover.hpp"
 #include "bench/scenario/route.hpp"
 #include "bench/scenario/section.hpp"
 
@@ -68,7 +69,7 @@ world::Motion read_waypoints(Section& section, const Position& start) {
   const auto rest_us = section.optional_time_us(
       {"rest_s",
        "`waypoints`: time at rest at the start; without this key, the vehicle starts at its speed."},
-      Limits::at_least(0));
+      Limits::between(0, 86'400));
   plan.from_rest = rest_us.has_value();
   plan.rest_us = rest_us.value_or(0);
   plan.stops =

@@ -104,8 +104,11 @@ Movement Oscillation::movement(double t) const {
 }
 
 Vector3 Oscillation::velocity(double t) const {
+  if (lines_.empty()) {
+    const Vector3 base = std::visit([t](const auto& own) { return world::kinematics(own, t).v_eb_n; }, base_);
+    return sea_ ? Vector3(base + sea_->velocity(t)) : base;
+  }
   const Kinematics below = kinematics(t);
-  if (lines_.empty()) return below.v_eb_n;
   Vector3 u = Vector3::Zero();
   for (const Line& line : lines_)
     u += std::sin(line.omega * t) * line.sine + std::cos(line.omega * t) * line.cosine;

@@ -37,14 +37,16 @@ class EnergyDivision {
   std::vector<double> omega_, below_;
 };
 
-/// The response of a damped oscillator to a unit forcing at r times its natural frequency.
+/// The response of a damped oscillator to sin(omega t), at r times its natural frequency, as multiples of
+/// sin(omega t) and cos(omega t).
 struct Response {
-  double gain;
-  double phase;
+  double sine;
+  double cosine;
 };
 Response response(double r, double damping) {
   const double real = 1 - r * r, imaginary = 2 * damping * r;
-  return {.gain = 1 / std::hypot(real, imaginary), .phase = -std::atan2(imaginary, real)};
+  const double square = real * real + imaginary * imaginary;
+  return {.sine = real / square, .cosine = -imaginary / square};
 }
 
 }  // namespace
@@ -66,14 +68,19 @@ Sea::Sea(const SeaModel& model, Stream& stream) : towards_(model.from + std::num
     const double length_ratio = model.length * wave_number / two_pi;
     const Response roll = response(omega * model.roll_period / two_pi, model.roll_damping);
     const Response pitch = response(omega * model.pitch_period / two_pi, model.pitch_damping);
+    const double slope = amplitude * wave_number;
     waves_.push_back({.omega = omega,
                       .phase = phase,
                       .displacement = amplitude / (1 + length_ratio * length_ratio),
-                      .roll = amplitude * wave_number * roll.gain,
-                      .roll_phase = phase + roll.phase,
-                      .pitch = amplitude * wave_number * pitch.gain,
-                      .pitch_phase = phase + pitch.phase});
+                      .roll_sine = slope * roll.sine,
+                      .roll_cosine = slope * roll.cosine,
+                      .pitch_sine = slope * pitch.sine,
+                      .pitch_cosine = slope * pitch.cosine});
   }
+}
+
+Vector3 Sea::in_ned(double along, double up) const {
+  return {std::cos(towards_) * along, std::sin(towards_) * along, -up};
 }
 
 // The elevation is a cos(omega t - k x + phase), x along the direction of travel. So the slope is k a
@@ -88,14 +95,13 @@ void Sea::add_to(Kinematics& kinematics, double t) const {
     up_rate -= wave.displacement * w * w * c;
     along += wave.displacement * w * c;
     along_rate -= wave.displacement * w * w * s;
-    roll += wave.roll * std::sin(w * t + wave.roll_phase);
-    roll_rate += wave.roll * w * std::cos(w * t + wave.roll_phase);
-    pitch += wave.pitch * std::sin(w * t + wave.pitch_phase);
-    pitch_rate += wave.pitch * w * std::cos(w * t + wave.pitch_phase);
+    roll += wave.roll_sine * s + wave.roll_cosine * c;
+    roll_rate += w * (wave.roll_sine * c - wave.roll_cosine * s);
+    pitch += wave.pitch_sine * s + wave.pitch_cosine * c;
+    pitch_rate += w * (wave.pitch_sine * c - wave.pitch_cosine * s);
   }
-  const double north = std::cos(towards_), east = std::sin(towards_);
-  kinematics.v_eb_n += Vector3(north * along, east * along, -up);
-  kinematics.v_eb_n_rate += Vector3(north * along_rate, east * along_rate, -up_rate);
+  kinematics.v_eb_n += in_ned(along, up);
+  kinematics.v_eb_n_rate += in_ned(along_rate, up_rate);
   // Water that rises ahead lifts the bow; water that rises to starboard rolls the vessel to port.
   const double ahead = std::cos(towards_ - kinematics.angles.heading);
   const double abeam = std::sin(towards_ - kinematics.angles.heading);
@@ -106,13 +112,23 @@ void Sea::add_to(Kinematics& kinematics, double t) const {
   kinematics.rates.pitch += pitch_rate * ahead + pitch * abeam * turning;
 }
 
+Vector3 Sea::velocity(double t) const {
+  double up = 0, along = 0;
+  for (const Wave& wave : waves_) {
+    const double angle = wave.omega * t + wave.phase, speed = wave.displacement * wave.omega;
+    up -= speed * std::sin(angle);
+    along += speed * std::cos(angle);
+  }
+  return in_ned(along, up);
+}
+
 Vector3 Sea::displacement(double t) const {
   double up = 0, along = 0;
   for (const Wave& wave : waves_) {
     up += wave.displacement * std::cos(wave.omega * t + wave.phase);
     along += wave.displacement * std::sin(wave.omega * t + wave.phase);
   }
-  return {std::cos(towards_) * along, std::sin(towards_) * along, -up};
+  return in_ned(along, up);
 }
 
 double Sea::highest() const { return std::ranges::max(waves_, {}, &Wave::omega).omega; }

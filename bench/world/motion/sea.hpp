@@ -37,19 +37,23 @@ class Sea {
 
   /// Adds the vessel's motion at time t [s] to that of its course.
   void add_to(Kinematics& kinematics, double t) const;
+  /// The velocity that add_to() adds, NED [m/s].
+  [[nodiscard]] Vector3 velocity(double t) const;
   /// Displacement of the vessel, NED [m].
   [[nodiscard]] Vector3 displacement(double t) const;
   /// The highest frequency [rad/s].
   [[nodiscard]] double highest() const;
 
  private:
-  /// A wave of amplitude a, and the responses to it: amplitude and phase.
+  /// A wave, and the responses to it as multiples of the sine and the cosine of omega t + phase: of roll to a
+  /// wave from abeam, of pitch to a wave from ahead or astern.
   struct Wave {
     double omega = 0, phase = 0;
-    double displacement = 0;            ///< [m]
-    double roll = 0, roll_phase = 0;    ///< to a wave from abeam [rad]
-    double pitch = 0, pitch_phase = 0;  ///< to a wave from ahead or astern [rad]
+    double displacement = 0;                  ///< [m]
+    double roll_sine = 0, roll_cosine = 0;    ///< [rad]
+    double pitch_sine = 0, pitch_cosine = 0;  ///< [rad]
   };
+  [[nodiscard]] Vector3 in_ned(double along, double up) const;
   double towards_;  // direction of travel [rad]
   std::vector<Wave> waves_;
 };

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "bench/scenario/route.hpp"
 #include "bench/world/flight_record.hpp"
@@ -350,6 +352,30 @@ TEST(Oscillations, AreRefusedWithTheReason) {
                     with("trajectory = \"rest\"", "trajectory = \"unknown\""))),
       "s.toml:14: key 'truth.vibration': cannot be added to this trajectory, expected it with a built-in "
       "trajectory only");
+}
+
+// Every example of a trajectory in the documentation is a valid one.
+TEST(Trajectories, OfTheDocumentationAreRead) {
+  std::ifstream file(SOURCE_DIR "/docs/scenarios.md");
+  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  int examples = 0;
+  for (std::size_t at = page.find("```toml\n"); at != std::string::npos; at = page.find("```toml\n", at)) {
+    at += 8;
+    std::string example = page.substr(at, page.find("```", at) - at);
+    if (example.find("truth.") == std::string::npos) continue;
+    ++examples;
+    if (example.find("[truth]\n") == std::string::npos) {
+      EXPECT_EQ(error_of(with("[master_ins]", example + "[master_ins]")), "no error") << example;
+      continue;
+    }
+    if (example.find("latitude_deg") == std::string::npos)
+      example = with("[truth]\n", "[truth]\nlatitude_deg = 1\nlongitude_deg = 2\nheight_m = 3\n", example);
+    std::string text(valid);
+    const std::size_t truth = text.find("[truth]");
+    text.replace(truth, text.find("[master_ins]") - truth, example);
+    EXPECT_EQ(error_of(text), "no error") << example;
+  }
+  EXPECT_EQ(examples, 7);
 }
 
 }  // namespace
