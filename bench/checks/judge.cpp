@@ -18,6 +18,7 @@
 #include "bench/checks/rule.hpp"
 #include "bench/checks/target_state.hpp"
 #include "bench/checks/timing.hpp"
+#include "bench/world/plant_record.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -36,6 +37,24 @@ std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, con
                          .requirement = "",
                          .kind = std::string(BusErrorLimits::kind),
                          .rule = std::make_shared<RuleOf<BusErrorLimits>>(rule)};
+}
+
+// The implied check that fails if the target never commanded an input of the plant: the loop was open.
+constexpr std::string_view commands_kind = "commands";
+
+std::optional<CheckResult> open_loop(const Evidence& evidence) {
+  if (evidence.truth.plant == nullptr || !evidence.ended_early.empty()) return std::nullopt;
+  std::vector<std::string_view> silent;
+  for (const world::CommandRecord& one : evidence.truth.plant->commands) {
+    if (one.given.empty()) silent.push_back(one.input);
+  }
+  if (silent.empty()) return std::nullopt;
+  return CheckResult{.name = std::string(commands_kind),
+                     .kind = std::string(commands_kind),
+                     .requirement = "",
+                     .outcome = Outcome::fail,
+                     .measured = fmt::format("no command of {} came", fmt::join(silent, ", ")),
+                     .expected = "commands of each input of the plant"};
 }
 
 // Returns only the tracks that the checks use: a run has many more tracks, and each may be long.
@@ -148,7 +167,8 @@ std::optional<Finding> missing_answers(const checks::Rule& rule, const Evidence&
 
 bool is_implied(std::string_view kind) {
   return kind == BusErrorLimits::kind || kind == Protection::kind || kind == causes_kind ||
-         kind == groups_kind || kind == state_kind || kind == stimuli_kind || kind == senders_kind;
+         kind == groups_kind || kind == state_kind || kind == stimuli_kind || kind == senders_kind ||
+         kind == commands_kind;
 }
 
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
@@ -221,6 +241,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
   }
   std::ranges::move(judge_events(scenario.events, evidence), std::back_inserter(verdict.checks));
   std::ranges::move(of_every_run(scenario, evidence.seen), std::back_inserter(verdict.checks));
+  if (auto open = open_loop(evidence)) verdict.checks.push_back(std::move(*open));
   conclude(verdict, evidence.ended_early);
   return verdict;
 }

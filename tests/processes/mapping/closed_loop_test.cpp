@@ -57,6 +57,35 @@ TEST(ClosedLoop, AnActuatorAtItsStopFails) {
   EXPECT_EQ(outcomes["command age of rudder"], "pass");
 }
 
+// A device that answers, but never commands: without a check of the loop too, the run fails.
+TEST(ClosedLoop, WithoutACommandItFails) {
+  const std::string silent = scratch("silent.py");
+  std::string device = read(autopilot + "autopilot.py");
+  const std::string yields = "            yield COMMAND, frame\n        else",
+                    folder_of_kit = "str(Path(__file__).resolve().parents[1] / \"kit\")";
+  ASSERT_NE(device.find(yields), std::string::npos);
+  device.replace(device.find(yields), yields.size(), "            pass\n        else");
+  device.replace(device.find(folder_of_kit), folder_of_kit.size(), "\"" SOURCE_DIR "/docs/examples/kit\"");
+  std::ofstream(silent) << device;
+  std::string text = read(autopilot + "autopilot.toml"), map = read(autopilot + "autopilot.mapping.toml");
+  const std::string owes =
+      "message = \"AP_Rudder\"\nanswers = \"HDG_Heading\"\necho = { signal = \"AP_HeadingCounter\", of = "
+      "\"HDG_Heading.HDG_Counter\" }\n";
+  ASSERT_NE(map.find(owes), std::string::npos);
+  map.replace(map.find(owes), owes.size(), "message = \"AP_Rudder\"\n");
+  const std::string dbc = "dbc = \"autopilot.dbc\"";
+  map.replace(map.find(dbc), dbc.size(), "dbc = \"" + autopilot + "autopilot.dbc\"");
+  std::ofstream(scratch("silent.mapping.toml")) << map;
+  text.replace(text.find("autopilot.mapping.toml"), 22, "silent.mapping.toml");
+  text.replace(text.find("[[check]]"), std::string::npos,
+               "[[check]]\nkind = \"error\"\nquantity = \"attitude.heading\"\nbelow_deg = 0.1\n");
+  std::ofstream(scratch("silent.toml")) << text;
+  const Ended ended = hil_bench(
+      fmt::format("run {} --lockstep --target '/usr/bin/python3 {}'", scratch("silent.toml"), silent));
+  EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
+  EXPECT_THAT(ended.out, testing::ContainsRegex("FAIL +commands +no command of rudder came"));
+}
+
 // 60 ms from the arrival of a command to its effect: the delay is found in virtual time too.
 TEST(ClosedLoop, ADelayOfTheCommandFails) {
   const std::string late =
