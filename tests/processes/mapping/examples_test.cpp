@@ -140,7 +140,7 @@ TEST(DeviceLog, HasTheAnswersToEvents) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, Devices,
-                         testing::Values("auv", "autopilot", "car", "marine", "odometer", "uav"),
+                         testing::Values("auv", "autopilot", "car", "hover", "marine", "odometer", "uav"),
                          [](const auto& of) { return of.param; });
 
 // The ship's navigator, but its position is a message of J1939: PGN 65259, announced to all nodes (BAM),
@@ -228,6 +228,12 @@ INSTANTIATE_TEST_SUITE_P(
                     DeviceDefect{"autopilot", "wrong_sign", "response settling_time of attitude.heading"},
                     DeviceDefect{"autopilot", "stuck", "holds through the gust"},
                     DeviceDefect{"autopilot", "no_integral", "comes back to the course"},
+                    DeviceDefect{"hover", "old_attitude", "turns to east"},
+                    DeviceDefect{"hover", "no_integral", "flies north"},
+                    DeviceDefect{"hover", "ignores_heading", "flies north"},
+                    DeviceDefect{"hover", "weak_motors", "climbs"},
+                    DeviceDefect{"hover", "never_holding", "flag holding"},
+                    DeviceDefect{"hover", "turns_away", "turns to east"},
                     DeviceDefect{"odometer", "own_measures", "error ground_speed"},
                     DeviceDefect{"odometer", "no_code", "trouble code"},
                     DeviceDefect{"odometer", "lost_frame", "serial number"},
