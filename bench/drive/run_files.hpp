@@ -15,7 +15,7 @@ namespace canhil::drive {
 struct Options;
 
 /// A file and its role in the run: "bench", "target", "target argument", "scenario", "mapping", "DBC",
-/// "recording", "faults", "log".
+/// "recording", "plant", "faults", "log".
 struct RunFile {
   std::string role;
   std::string name;

@@ -37,7 +37,7 @@ struct Worded {
 
 // For each path, the words that replace it in the output. A path without an entry is shown unchanged, except
 // that in_words() replaces the first part of some paths.
-constexpr std::array<Worded, 28> worded{
+constexpr std::array<Worded, 29> worded{
     {{"dbc_hash", "DBC"},
      {"latency_stamps", "latency stamps"},
      {"period_overrides", "periods"},
@@ -50,6 +50,7 @@ constexpr std::array<Worded, 28> worded{
      {"files.target argument", "file among the target's arguments (SHA-256)"},
      {"files.mapping", "mapping (SHA-256)"},
      {"files.recording", "recorded data (SHA-256)"},
+     {"files.plant", "file of the plant (SHA-256)"},
      {"files.faults", "file of faults (SHA-256)"},
      {"adapters.kind", "adapter"},
      {"adapters.driver", "driver of the adapter"},

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "bench/scenario/binding.hpp"
 #include "bench/scenario/engagement.hpp"
@@ -311,9 +312,12 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   }
   read_glider(root, scenario, contract);
   if (contract.read_plant != nullptr && root.has("plant")) {
+    std::vector<std::string> recordings = std::exchange(root.files(), {});
     Section plant = root.table("plant");
     scenario.plant = contract.read_plant(plant, *contract.binding);
     plant.finish();
+    for (const std::string& path : std::exchange(root.files(), std::move(recordings)))
+      scenario.inputs.push_back({"plant", path});
   }
   root.optional("plant");
   read_navigation(root, scenario, contract);

@@ -39,7 +39,7 @@ namespace canhil::scenario {
 
 /// An input file of a scenario other than the scenario file.
 struct InputFile {
-  std::string role;  ///< "recording", "faults"
+  std::string role;  ///< "recording", "plant", "faults"
   std::string path;
 };
 

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "bench/scenario/scenario.hpp"
+#include "tests/unit/bench/plant/closed_loop.hpp"
 #include "tests/unit/bench/plant/read_plan.hpp"
 #include "tests/unit/bench/plant/scripts.hpp"
 
@@ -82,6 +84,21 @@ TEST(Program, FilesOfItsCommandBelongToTheScenario) {
   EXPECT_EQ(hash(), before);
   test::script("hashed.sh", test::up_to_first_step + "# changed");
   EXPECT_NE(hash(), before);
+}
+
+TEST(Program, IsAFileOfTheRun) {
+  const std::string path =
+      test::script("craft.sh",
+                   "while read line && [ \"$line\" != start ]; do :; done\n"
+                   "echo input rudder rad; echo output attitude.heading rad turns; echo state 1");
+  std::string text = closed_loop;
+  const auto begin = text.find("kind = \"steered_heading\""), end = text.find("[master_ins]");
+  text.replace(begin, end - begin, "kind = 'program'\ncommand = 'sh " + path + "'\n");
+  const auto scenario = read_loop(text);
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  ASSERT_EQ(scenario->inputs.size(), 1U);
+  EXPECT_EQ(scenario->inputs.front().role, "plant");
+  EXPECT_EQ(scenario->inputs.front().path, path);
 }
 
 TEST(Program, SeveralOfThemRunAtTheSameTime) {
