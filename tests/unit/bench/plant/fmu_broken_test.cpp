@@ -53,6 +53,12 @@ TEST_F(BrokenFmu, IsNoZipArchive) {
       "FMU");
 }
 
+TEST_F(BrokenFmu, IsNotNamed) {
+  const auto read = test::read_plant("");
+  EXPECT_EQ(read.error, "test.toml:1: key 'plant.file': is missing, expected text on one line");
+  EXPECT_FALSE(read.plan->make({}));
+}
+
 TEST_F(BrokenFmu, IsTruncatedAnywhere) {
   test::write_fmu(3, "passing3", good());
   const std::string whole = test::content_of(test::own_folder() + "/model.fmu");
