@@ -96,6 +96,22 @@ TEST_F(BrokenFmu, ClimbsOutOfItsFolder) {
   EXPECT_FALSE(std::filesystem::exists(test::own_folder() + "/outside"));
 }
 
+TEST_F(BrokenFmu, HasAFileTwice) {
+  const auto twice = [](const std::string& one, const std::string& other) {
+    test::write_fmu(3, "passing3", good(),
+                    {{.name = "a1.txt", .content = one}, {.name = "a2.txt", .content = other}});
+    const std::string path = test::own_folder() + "/model.fmu";
+    std::string zip = test::content_of(path);
+    for (auto at = zip.find("a2.txt"); at != std::string::npos; at = zip.find("a2.txt", at))
+      zip[at + 1] = '1';
+    std::ofstream(path, std::ios::trunc) << zip;
+  };
+  twice("x", "x");
+  EXPECT_TRUE(test::plan_of()->make({}));
+  twice("x", "y");
+  EXPECT_EQ(refusal(), "contains 'a1.txt' twice with different contents, expected it once");
+}
+
 TEST_F(BrokenFmu, HasAWrongDescription) {
   EXPECT_EQ(refusal({{.name = "readme.txt", .content = "x"}}),
             "has no modelDescription.xml, expected an FMU");
