@@ -112,6 +112,17 @@ TEST_F(BrokenFmu, HasAFileTwice) {
   EXPECT_EQ(refusal(), "contains 'a1.txt' twice with different contents, expected it once");
 }
 
+TEST_F(BrokenFmu, IsTooLargeWhenUnpacked) {
+  test::write_fmu(3, "passing3", good());
+  const std::string path = test::own_folder() + "/model.fmu";
+  std::string zip = test::content_of(path);
+  const auto entry = zip.find("PK\x01\x02");  // of the central directory; its size is at byte 24
+  ASSERT_NE(entry, std::string::npos);
+  zip.replace(entry + 24, 4, "\xff\xff\xff\xf0");
+  std::ofstream(path, std::ios::trunc) << zip;
+  EXPECT_EQ(refusal(), "unpacks to more than 2048 MiB, expected at most that");
+}
+
 TEST_F(BrokenFmu, HasAWrongDescription) {
   EXPECT_EQ(refusal({{.name = "readme.txt", .content = "x"}}),
             "has no modelDescription.xml, expected an FMU");
