@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <string_view>
 #include <system_error>
 
@@ -130,11 +131,13 @@ Result<Archive> Archive::open(std::string content) {
   const auto archive = open_zip(*own.content_);
   if (!archive) return tl::unexpected(archive.error());
   const zip_int64_t count = zip_get_num_entries(archive->get(), 0);
+  constexpr zip_uint64_t wanted = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_CRC;
   std::uint64_t bytes = 0;
+  std::map<std::string, std::pair<zip_uint64_t, zip_uint32_t>> seen;  // size and checksum of each entry
   for (zip_uint64_t index = 0; index < static_cast<zip_uint64_t>(std::max<zip_int64_t>(count, 0)); ++index) {
     zip_stat_t facts;
     zip_stat_init(&facts);
-    if (zip_stat_index(archive->get(), index, 0, &facts) != 0 || (facts.valid & ZIP_STAT_NAME) == 0)
+    if (zip_stat_index(archive->get(), index, 0, &facts) != 0 || (facts.valid & wanted) != wanted)
       return failure(fmt::format("is damaged ({}), expected a zip archive", zip_strerror(archive->get())));
     const std::string name = facts.name;
     const unsigned kind = mode_of(archive->get(), index) & S_IFMT;
@@ -142,17 +145,14 @@ Result<Archive> Archive::open(std::string content) {
       return failure(fmt::format("contains '{}', expected files below its own folder", name));
     if (kind != 0 && kind != S_IFREG && kind != S_IFDIR)
       return failure(fmt::format("contains the link or device '{}', expected files and folders", name));
-    if ((facts.valid & ZIP_STAT_SIZE) != 0) bytes += std::min<std::uint64_t>(facts.size, most_unpacked_bytes);
+    bytes += std::min<std::uint64_t>(facts.size, most_unpacked_bytes);
     if (bytes >= most_unpacked_bytes) return too_large();
-    own.names_.push_back(name);
+    const auto [place, is_new] = seen.emplace(name, std::pair(facts.size, facts.crc));
+    // Some tools list a folder or a file several times.
+    if (!is_new && place->second != std::pair(facts.size, facts.crc))
+      return failure(fmt::format("contains '{}' twice with different contents, expected it once", name));
   }
-  std::ranges::sort(own.names_);
-  const auto again = [](const std::string& one, const std::string& next) {
-    return one == next && is_folder(one);  // some tools list a folder once for each of its files
-  };
-  own.names_.erase(std::unique(own.names_.begin(), own.names_.end(), again), own.names_.end());
-  if (const auto twice = std::ranges::adjacent_find(own.names_); twice != own.names_.end())
-    return failure(fmt::format("contains '{}' twice, expected each file once", *twice));
+  for (const auto& [name, content_of_it] : seen) own.names_.push_back(name);
   return own;
 }
 

@@ -53,6 +53,12 @@ TEST_F(BrokenFmu, IsNoZipArchive) {
       "FMU");
 }
 
+TEST_F(BrokenFmu, IsNotNamed) {
+  const auto read = test::read_plant("");
+  EXPECT_EQ(read.error, "test.toml:1: key 'plant.file': is missing, expected text on one line");
+  EXPECT_FALSE(read.plan->make({}));
+}
+
 TEST_F(BrokenFmu, IsTruncatedAnywhere) {
   test::write_fmu(3, "passing3", good());
   const std::string whole = test::content_of(test::own_folder() + "/model.fmu");
@@ -88,6 +94,33 @@ TEST_F(BrokenFmu, ClimbsOutOfItsFolder) {
       refusal({described(good()), {.name = "resources/link", .content = "/etc/passwd", .mode = 0120777}}),
       "contains the link or device 'resources/link', expected files and folders");
   EXPECT_FALSE(std::filesystem::exists(test::own_folder() + "/outside"));
+}
+
+TEST_F(BrokenFmu, HasAFileTwice) {
+  const auto twice = [](const std::string& one, const std::string& other) {
+    test::write_fmu(3, "passing3", good(),
+                    {{.name = "a1.txt", .content = one}, {.name = "a2.txt", .content = other}});
+    const std::string path = test::own_folder() + "/model.fmu";
+    std::string zip = test::content_of(path);
+    for (auto at = zip.find("a2.txt"); at != std::string::npos; at = zip.find("a2.txt", at))
+      zip[at + 1] = '1';
+    std::ofstream(path, std::ios::trunc) << zip;
+  };
+  twice("x", "x");
+  EXPECT_TRUE(test::plan_of()->make({}));
+  twice("x", "y");
+  EXPECT_EQ(refusal(), "contains 'a1.txt' twice with different contents, expected it once");
+}
+
+TEST_F(BrokenFmu, IsTooLargeWhenUnpacked) {
+  test::write_fmu(3, "passing3", good());
+  const std::string path = test::own_folder() + "/model.fmu";
+  std::string zip = test::content_of(path);
+  const auto entry = zip.find("PK\x01\x02");  // of the central directory; its size is at byte 24
+  ASSERT_NE(entry, std::string::npos);
+  zip.replace(entry + 24, 4, "\xff\xff\xff\xf0");
+  std::ofstream(path, std::ios::trunc) << zip;
+  EXPECT_EQ(refusal(), "unpacks to more than 2048 MiB, expected at most that");
 }
 
 TEST_F(BrokenFmu, HasAWrongDescription) {

@@ -189,6 +189,22 @@ TEST_P(Variables, ParametersAndStartValuesComeFromTheScenario) {
   EXPECT_EQ(output("length"), 4 + 'd');
 }
 
+// A campaign sets parameters in this way.
+TEST_P(Variables, SettingsReplaceParameters) {
+  const auto setting = [](const std::string& key, const std::string& value) {
+    return scenario::Setting{.key = "plant.parameters." + key, .value = value, .elements = {}, .line = 0};
+  };
+  const auto read = test::read_plant("file = 'model.fmu'\nparameters.offset = 1\n", "fmu",
+                                     {setting("offset", "2.5"), setting("gear.in", "'reverse'")});
+  ASSERT_EQ(read.error, "");
+  EXPECT_EQ(find(read.plan->inputs, "gear.in").start, -1);
+  auto running = read.plan->make({});
+  ASSERT_TRUE(running) << running.error().message;
+  EXPECT_EQ((*running)->outputs()[index_of(read.plan->outputs, "plain.out")], 1.5 + 2.5);
+  EXPECT_EQ(test::read_plant("file = 'model.fmu'\n", "fmu", {setting("ofset", "1")}).error,
+            "test.toml: key 'plant.parameters.ofset': is unknown, expected 'offset'");
+}
+
 std::string error_of(const std::string& parameters) {
   return test::read_plant("file = 'model.fmu'\n[plant.parameters]\n" + parameters).error;
 }

@@ -122,8 +122,9 @@ struct ReadPlant {
 };
 
 /// Reads a table [plant] with these keys.
-inline ReadPlant read_plant(const std::string& keys, std::string_view kind = "fmu") {
-  auto root = scenario::Section::parse("[plant]\n" + keys, own_folder() + "/test.toml");
+inline ReadPlant read_plant(const std::string& keys, std::string_view kind = "fmu",
+                            const std::vector<scenario::Setting>& settings = {}) {
+  auto root = scenario::Section::parse("[plant]\n" + keys, own_folder() + "/test.toml", settings);
   scenario::Section section = root.table("plant");
   ReadPlant read{.plan = kind_of(kind).read(section), .error = {}};
   section.finish();
