@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 Snapshot snapshot(std::size_t points) {
   report::Series series{.estimator = "any",
-                        .about = &quantities::attitude_heading,
+                        .name = std::string(quantities::attitude_heading.name),
                         .quantity = "heading error",
                         .unit = "mrad"};
   for (std::size_t i = 0; i < points; ++i)

@@ -18,7 +18,7 @@ Snapshot full_snapshot() {
                                   {.name = "two"}}}};
   for (int i = 0; i < 30; ++i) {
     snapshot.flight->series.push_back({.estimator = "any",
-                                       .about = &quantities::attitude_heading,
+                                       .name = std::string(quantities::attitude_heading.name),
                                        .quantity = "error " + std::to_string(i),
                                        .unit = "mrad",
                                        .points = {{.t_s = 7, .low = -1e300, .high = 1e300, .sigma = 0.4}}});
