@@ -140,7 +140,7 @@ class Session {
   Collected collect() {
     schedule_->end();
     if (ending_.kind == Ending::Kind::target_silent) ending_.detail += why_silent();
-    const auto ended_before = gone(false);
+    const auto ended_before = targets_.ended();
     if (options_.for_verdict) dialect_->stop(link_, schedule_->outbox());
     commands_.finish();
     if (options_.onlooker != nullptr) options_.onlooker->landed();

@@ -109,7 +109,9 @@ FlightRecord::FlightRecord(const Flight& flight, std::int64_t duration_us, std::
 
 void FlightRecord::fly_to(std::int64_t end_us) {
   const Motion& motion = flight_.motion;
-  for (std::int64_t end = epochs_.back().t_us + interval_us_; end <= end_us && !Stoppable::stopped();
+  // What has grown is complete also after a signal, because the run's next transmission looks at it.
+  const auto stopped = [&] { return !grows() && Stoppable::stopped(); };
+  for (std::int64_t end = epochs_.back().t_us + interval_us_; end <= end_us && !stopped();
        end += interval_us_) {
     ImuIncrement increment{.t_us = end, .interval_us = interval_us_};
     between_jumps(motion, end - interval_us_, end, [&](std::int64_t a_us, std::int64_t b_us) {

@@ -3,45 +3,20 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "tests/processes/hil/program.hpp"
+#include "tests/processes/mapping/autopilot_loop.hpp"
 #include "tests/unit/bench/plant/heading_fmu.hpp"
 
 namespace canhil::test {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const std::string example = SOURCE_DIR "/docs/examples/autopilot/";
-const std::string steered_by =
-    "--target '/usr/bin/python3 " SOURCE_DIR "/docs/examples/autopilot/autopilot.py'";
-
-// The scenario of the example without the offset of the actuator, which the FMU does not have. `plant`: the
-// keys of the table [plant]; the default is the plant that is built in.
-std::string loop(const std::string& name, const std::string& plant = "") {
-  std::string text = read(example + "autopilot.toml");
-  const auto change = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-  };
-  change("actuator_offset_deg = 4\n", "");
-  change("autopilot.mapping.toml", example + "autopilot.mapping.toml");
-  if (!plant.empty()) {
-    const std::size_t from = text.find("kind = \"steered_heading\""),
-                      to = text.find("[plant.commands.rudder]");
-    text.replace(from, to - from, plant);
-    change("\"plant.rudder\"", "\"plant.rudder_angle\"");
-  }
-  std::ofstream(own_folder() + "/" + name) << text;
-  return own_folder() + "/" + name;
+std::string fmu_loop(const std::string& name, const std::string& plant) {
+  return autopilot_loop(name, plant, "rudder_angle");
 }
 
 std::string fmu_keys(const std::string& more = "") {
@@ -53,26 +28,17 @@ std::string fmu_keys(const std::string& more = "") {
       own_folder(), more, 350 * deg, 120 * deg, 30 * deg, 60 * deg);
 }
 
-std::vector<double> headings_of(const std::string& csv) {
-  std::vector<double> all;
-  std::istringstream lines(read(csv));
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t at = line.find("plant,plant.attitude.heading,rad,,");
-    if (at != std::string::npos) all.push_back(std::stod(line.substr(at + 34)));
-  }
-  return all;
-}
-
 class FmuLoops : public testing::TestWithParam<int> {};
 
 TEST_P(FmuLoops, MovesLikeThePlantThatIsBuiltIn) {
   const std::string model = fmt::format("heading{}", GetParam());
   write_fmu(GetParam(), model, heading_description(GetParam(), model));
   std::vector<std::vector<double>> flown;
-  for (const std::string& scenario : {loop("built_in.toml"), loop("fmu.toml", fmu_keys()),
-                                      loop("here.toml", fmu_keys("in_process = true\n"))}) {
+  for (const std::string& scenario : {autopilot_loop("built_in.toml"), fmu_loop("fmu.toml", fmu_keys()),
+                                      fmu_loop("here.toml", fmu_keys("in_process = true\n"))}) {
     const std::string csv = scratch("flown.csv");
-    const Ended ended = hil_bench(fmt::format("run {} --lockstep {} --csv {}", scenario, steered_by, csv));
+    const Ended ended =
+        hil_bench(fmt::format("run {} --lockstep {} --csv {}", scenario, steered_by_autopilot, csv));
     ASSERT_EQ(ended.code, 3) << ended.out << ended.err;
     flown.push_back(headings_of(csv));
   }
@@ -91,7 +57,8 @@ TEST(FmuLoop, AnFmuThatFailsIsNotMeasured) {
   const std::string lag = "time_constant = 0.4";
   keys.replace(keys.find(lag), lag.size(),
                "time_constant = 1e-300");  // its turn rate leaves the range of numbers
-  const Ended ended = hil_bench(fmt::format("run {} --lockstep {}", loop("fails.toml", keys), steered_by));
+  const Ended ended =
+      hil_bench(fmt::format("run {} --lockstep {}", fmu_loop("fails.toml", keys), steered_by_autopilot));
   EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("not measured: "));
   EXPECT_THAT(ended.out, HasSubstr("model.fmu"));
@@ -99,22 +66,22 @@ TEST(FmuLoop, AnFmuThatFailsIsNotMeasured) {
 
 TEST(FmuLoop, AnFmuIsRefusedWithoutCommands) {
   write_fmu(2, "heading2", heading_description(2, "heading2"));
-  expect_one_line(
-      hil_bench(fmt::format("run {} --lockstep --no-commands {}", loop("fmu.toml", fmu_keys()), steered_by)),
-      "is an FMU, whose code would be executed");
+  expect_one_line(hil_bench(fmt::format("run {} --lockstep --no-commands {}",
+                                        fmu_loop("fmu.toml", fmu_keys()), steered_by_autopilot)),
+                  "is an FMU, whose code would be executed");
 }
 
 // A campaign over a parameter of the FMU: the same results with one thread, with two, and from two machines.
 TEST(FmuLoop, ACampaignSweepsItsParameters) {
   write_fmu(3, "heading3", heading_description(3, "heading3"));
-  static_cast<void>(loop("fmu.toml", fmu_keys()));
+  static_cast<void>(fmu_loop("fmu.toml", fmu_keys()));
   const std::string campaign = own_folder() + "/campaign.toml";
   std::ofstream(campaign) << "title = \"craft\"\nruns = 2\nseed = 5\n[[variant]]\nname = \"FMU\"\n"
                              "scenario = \"fmu.toml\"\n[sweep]\n\"plant.parameters.gain\" = [1.0, 1.2, 1.4]\n"
                              "[[metric]]\nkind = \"distribution\"\nname = \"heading\"\n"
                              "quantity = \"attitude.heading\"\nat_s = 3.0\nrms_at_most_mrad = 20.0\n";
   const auto flies = [&](const std::string& options) {
-    const Ended ended = hil_bench(fmt::format("campaign {} {} {}", campaign, steered_by, options));
+    const Ended ended = hil_bench(fmt::format("campaign {} {} {}", campaign, steered_by_autopilot, options));
     EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
   };
   std::vector<std::string> exported;

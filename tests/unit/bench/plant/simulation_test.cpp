@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
 #include "bench/world/attitude.hpp"
+#include "bench/world/stoppable.hpp"
 
 namespace canhil::plant {
 namespace {
@@ -160,6 +162,17 @@ TEST(PlantSimulation, AnOutputThatIsNotFiniteIsAFailure) {
   ASSERT_TRUE(flown->why_failed());
   EXPECT_THAT(*flown->why_failed(),
               HasSubstr("the plant 'turntable' has no finite value of 'held' at t=0.010 s"));
+}
+
+// A signal that ends the command may come between two transmissions: the next sensor still looks at the
+// flight.
+TEST(PlantSimulation, TheFlightIsCompleteIfTheRunIsInterrupted) {
+  Flown flown;
+  const std::atomic<bool> stop = true;
+  const world::Stoppable stoppable(stop);
+  flown->advance(50'000);
+  ASSERT_EQ(flown->flight()->epochs().size(), 6U);
+  EXPECT_EQ(flown->flight()->at(50'000).t_us, 50'000);
 }
 
 }  // namespace
