@@ -100,7 +100,7 @@ LegPath::LegPath(const Carrier& carrier, double speed, double heading, std::span
   stretches_.push_back(next);
   jumps_us_.push_back(from_us);
   std::ranges::sort(jumps_us_);
-  jumps_us_.erase(std::ranges::unique(jumps_us_).begin(), jumps_us_.end());
+  jumps_us_.erase(std::unique(jumps_us_.begin(), jumps_us_.end()), jumps_us_.end());
 }
 
 LegPath::Course LegPath::course(const Stretch& stretch, double tau) {

@@ -124,7 +124,7 @@ std::vector<std::int64_t> Oscillation::jumps_us(std::int64_t from_us, std::int64
   const std::int64_t length = to_us - from_us, pieces = (length + piece_us_ - 1) / piece_us_;
   for (std::int64_t piece = 1; piece < pieces; ++piece) jumps.push_back(from_us + piece * length / pieces);
   std::ranges::sort(jumps);
-  jumps.erase(std::ranges::unique(jumps).begin(), jumps.end());
+  jumps.erase(std::unique(jumps.begin(), jumps.end()), jumps.end());
   return jumps;
 }
 
