@@ -7,6 +7,7 @@
 
 #include "bench/checks/finding.hpp"
 #include "bench/checks/judge.hpp"
+#include "bench/world/plant_record.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -70,6 +71,17 @@ std::string unfit(const Evidence& evidence, double quantile, double bar_s) {
   if (late_s <= lateness_share * bar_s) return "";
   return fmt::format("this host kept the bench itself {:.2f} ms late ({}), more than {:g} % of the limit",
                      late_s * 1e3, quantile_name(quantile), lateness_share * 100);
+}
+
+std::string late_loop(const Evidence& evidence) {
+  constexpr double usual = 0.99;  // quantile; a single late frame changes little
+  const world::PlantRecord* plant = evidence.truth.plant;
+  if (evidence.timing_unfit == virtual_time || plant == nullptr || plant->commands.empty()) return "";
+  const double step_s = 1e-6 * static_cast<double>(plant->commands.front().step_us);
+  const double late_s = evidence.seen.timing.lateness.quantile_ns(usual) * 1e-9;
+  if (late_s <= step_s) return "";
+  return fmt::format("the bench itself was {:.2f} ms late ({}), more than a step of the plant", late_s * 1e3,
+                     quantile_name(usual));
 }
 
 // A slow target computes or sleeps; it does not wait for a CPU. If it waited, the measured times contain the

@@ -228,6 +228,10 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
       finding.outcome = Outcome::not_measured;
       finding.measured = std::move(why);
     }
+    if (const std::string late = late_loop(evidence); finding.outcome == Outcome::fail && !late.empty()) {
+      finding.outcome = Outcome::not_measured;
+      finding.measured += "; " + late;
+    }
     if (!evidence.ended_early.empty()) {  // an incomplete run neither passes nor fails a check
       finding.outcome = Outcome::not_measured;
       finding.measured = "the run ended early";

@@ -30,22 +30,15 @@ std::vector<scenario::PlantFacts::Output> followed(const scenario::CheckContext&
   return all;
 }
 
-// A bench that is late as a rule, for example because of a slow plant, does not fly the loop of the scenario.
-// A single late frame changes nothing. A target that waited for a CPU is not blamed, but may pass.
+// A target that waited for a CPU is not blamed, but may pass. In a loop that was late, nothing is measured.
 Finding unless_host_late(const Evidence& evidence, Finding finding) {
-  constexpr double usual = 0.99;  // quantile
   if (evidence.timing_unfit == virtual_time) return finding;
+  if (std::string late = late_loop(evidence); !late.empty())
+    return {Outcome::not_measured, finding.measured + "; " + late, finding.expected};
   const world::PlantRecord* plant = evidence.truth.plant;
   if (plant == nullptr || plant->commands.empty()) return finding;
+  constexpr double usual = 0.99;  // quantile
   const double step_s = 1e-6 * static_cast<double>(plant->commands.front().step_us);
-  const double late_s = evidence.seen.timing.lateness.quantile_ns(usual) * 1e-9;
-  if (late_s > step_s) {
-    finding.outcome = Outcome::not_measured;
-    finding.measured +=
-        fmt::format("; the bench itself was {:.2f} ms late ({}), more than a step of the plant", late_s * 1e3,
-                    quantile_name(usual));
-    return finding;
-  }
   return unless_target_delayed(evidence, usual, step_s / lateness_share, std::move(finding));
 }
 
