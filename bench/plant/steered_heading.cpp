@@ -106,6 +106,9 @@ std::unique_ptr<Plan> read(scenario::Section& section) {
       section.number({"turn_gain_per_s", "Turn rate in the steady state per angle of the rudder."}, Limits{});
   own.lag =
       section.number({"actuator_lag_s", "Time constant of the actuator; 0: none."}, Limits::at_least(0), 0);
+  constexpr double least_lag = 0.005;  // that the steps of 1 ms resolve
+  if (own.lag > 0 && own.lag < least_lag)
+    section.reject("actuator_lag_s", "is too short", "0, or at least 0.005");
   own.rate_limit =
       section.number({"actuator_rate_degps", "Largest rate of the actuator."}, Limits::above(0), 1000);
   own.stop =
