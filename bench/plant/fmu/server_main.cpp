@@ -105,7 +105,7 @@ int main() {
                "hil-bench-fmu: its standard input is no socket, expected to be started by hil-bench\n");
     return 2;
   }
-  static Folder folder;  // the watching thread uses it until the process ends
+  static Folder& folder = *new Folder;  // never deleted: the watching thread uses it until the process ends
   watch_the_bench(folder, getppid());
   if (serve(Channel(take_socket()), folder)) return 0;
   folder.remove();

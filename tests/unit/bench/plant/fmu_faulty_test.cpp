@@ -2,6 +2,7 @@
 // left.
 #include <sys/prctl.h>
 #include <sys/types.h>
+#include <unistd.h>
 #include <csignal>
 
 #include <array>
@@ -27,10 +28,11 @@ void write_faulty(int version,
   test::write_fmu(version, model, test::description_of(version, model, all, "", capabilities));
 }
 
-/// The error of a run of 0.3 s in steps of 0.1 s; the fault is in the second.
+/// The error of a run of 0.3 s in steps of 0.1 s; the fault is in the second. A start with a sanitizer on
+/// busy cores can take a second.
 std::string error_of_run(Fault fault, bool in_process = false) {
   const auto plan = test::plan_of(
-      fmt::format("answers_within_s = 0.3\nparameters = {{ what = {}, at_s = 0.2 }}\n", int{fault}),
+      fmt::format("answers_within_s = 2\nparameters = {{ what = {}, at_s = 0.2 }}\n", int{fault}),
       in_process);
   auto made = plan->make({});
   if (!made) return made.error().message;
@@ -82,18 +84,21 @@ TEST_P(FaultyFmu, EndsItsProcess) {
 TEST_P(FaultyFmu, Hangs) {
   const auto before = std::chrono::steady_clock::now();
   EXPECT_EQ(error_of_run(hangs),
-            "FMU 'model.fmu' in the step from 0.1 s to 0.2 s: did not answer within 0.3 s and was killed");
-  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(5));
+            "FMU 'model.fmu' in the step from 0.1 s to 0.2 s: did not answer within 2 s and was killed");
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(10));
 }
 
 // A bench that is killed cannot clean up: the process of the FMU does it, even if the FMU hangs.
 TEST_P(FaultyFmu, TheBenchIsKilled) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);  // this process sees the end of the FMU's process
   for (const Fault fault : {nothing, hangs}) {
+    int started[2];
+    ASSERT_EQ(pipe(started), 0);
     const pid_t bench = fork();
     if (bench == 0) {
       const auto plan = test::plan_of(fmt::format("parameters = {{ what = {}, at_s = 0.1 }}\n", int{fault}));
       auto made = plan->make({});
+      static_cast<void>(!write(started[1], "x", 1));
       if (fault == hangs) static_cast<void>((*made)->step(0, 100'000, {}));
       pause();
     }
@@ -103,11 +108,15 @@ TEST_P(FaultyFmu, TheBenchIsKilled) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       return condition();
     };
-    ASSERT_TRUE(until([&] { return !nothing_left_.empty(); }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the FMU has started
+    char x = 0;
+    ASSERT_EQ(read(started[0], &x, 1), 1);
+    EXPECT_FALSE(nothing_left_.empty());
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // until the FMU hangs
     kill(bench, SIGKILL);
     ASSERT_EQ(waitpid(bench, nullptr, 0), bench);
     EXPECT_TRUE(until([&] { return nothing_left_.empty(); }));
+    close(started[0]);
+    close(started[1]);
     EXPECT_TRUE(until([] { return waitpid(-1, nullptr, WNOHANG) < 0; }));
   }
 }
