@@ -192,7 +192,7 @@ std::vector<world::Position> flown(const LegPath& path, world::Position position
   std::int64_t t_us = 0;
   for (const std::int64_t to_us : stops_us) {
     const double length = as_seconds(to_us - t_us);
-    const int steps = length > 0 ? std::max(8, static_cast<int>(std::ceil(length / longest_step))) : 0;
+    const int steps = length > 0 ? std::max(2, static_cast<int>(std::ceil(length / longest_step))) : 0;
     const double dt = steps > 0 ? length / steps : 0;
     for (int step = 0; step < steps; ++step) {
       const double t = as_seconds(t_us) + step * dt;

@@ -77,13 +77,12 @@ LegPath::LegPath(const Carrier& carrier, double speed, double heading, std::span
     next.turn_time = in_seconds(leg.turn_us);
     next.turn_transition = in_seconds(ends_us);
     stretches_.push_back(next);
-    jumps_us_.push_back(from_us);
-    if (leg.speed != next.speed_before) jumps_us_.push_back(from_us + leg.speed_us);
+    if (leg.speed != next.speed_before) add_blend(from_us, leg.speed_us);
     if (leg.climb != next.climb_before || leg.drift != next.drift_before)
-      jumps_us_.push_back(from_us + leg.transition_us);
+      add_blend(from_us, leg.transition_us);
     if (leg.turn != 0) {
-      for (const std::int64_t at_us : {ends_us, leg.turn_us - ends_us, leg.turn_us})
-        jumps_us_.push_back(from_us + at_us);
+      add_blend(from_us, ends_us);
+      add_blend(from_us + leg.turn_us - ends_us, ends_us);
     }
     from_us += leg.duration_us;
     next.from = in_seconds(from_us);
@@ -98,9 +97,15 @@ LegPath::LegPath(const Carrier& carrier, double speed, double heading, std::span
   next.drift = next.drift_before;
   next.turn = 0;
   stretches_.push_back(next);
-  jumps_us_.push_back(from_us);
   std::ranges::sort(jumps_us_);
   jumps_us_.erase(std::unique(jumps_us_.begin(), jumps_us_.end()), jumps_us_.end());
+}
+
+// The polynomials of two blends multiply each other, and the sine of a third. A rule with five nodes
+// integrates an eighth of a blend to rounding.
+void LegPath::add_blend(std::int64_t from_us, std::int64_t length_us) {
+  constexpr int pieces = 8;
+  for (int piece = 0; piece <= pieces; ++piece) jumps_us_.push_back(from_us + piece * length_us / pieces);
 }
 
 LegPath::Course LegPath::course(const Stretch& stretch, double tau) {

@@ -47,7 +47,7 @@ class LegPath {
   LegPath(const Carrier& carrier, double speed, double heading, std::span<const Leg> legs);
 
   [[nodiscard]] Kinematics kinematics(double t) const;
-  /// The times at which a blend begins or ends, ascending [us].
+  /// The times at which a blend begins or ends, and times that divide each blend, ascending [us].
   [[nodiscard]] std::span<const std::int64_t> jumps_us() const { return jumps_us_; }
 
  private:
@@ -62,6 +62,7 @@ class LegPath {
   struct Course {
     Changing speed, climb, drift, heading;
   };
+  void add_blend(std::int64_t from_us, std::int64_t length_us);
   [[nodiscard]] static Course course(const Stretch& stretch, double tau);
   [[nodiscard]] Kinematics along_the_path(const Course& now) const;
 

@@ -89,8 +89,8 @@ TEST_P(EachVehicle, HasTheDerivativesOfItsVelocityAndAttitude) {
   EXPECT_GT(greatest, 5.0) << "the motion is real";
 }
 
-// The second derivatives on both sides of each time at which a blend begins or ends: their difference must
-// vanish with the step, so the third derivative is finite there.
+// The second derivatives on both sides of each time at which a blend begins or ends, and between: their
+// difference must vanish with the step, so the third derivative is finite there.
 TEST_P(EachVehicle, IsSmoothToTheSecondDerivative) {
   const LegPath path = path_of(GetParam());
   ASSERT_GT(path.jumps_us().size(), 12U);
@@ -103,8 +103,8 @@ TEST_P(EachVehicle, IsSmoothToTheSecondDerivative) {
   for (const std::int64_t t_us : path.jumps_us()) {
     const double t = 1e-6 * static_cast<double>(t_us);
     if (t_us == 0) continue;
-    EXPECT_LT(jump(t, 1e-3), 0.3) << t;
-    EXPECT_LT(jump(t, 1e-5), 3e-3) << t;
+    EXPECT_LT(jump(t, 1e-3), 0.5) << t;
+    EXPECT_LT(jump(t, 1e-5), 5e-3) << t;
     EXPECT_LT((values(path.kinematics(t + 1e-9)) - values(path.kinematics(t - 1e-9))).norm(), 1e-7) << t;
   }
 }
@@ -149,6 +149,32 @@ TEST_P(EachVehicle, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
 INSTANTIATE_TEST_SUITE_P(All, EachVehicle,
                          testing::Values(Vehicle::car, Vehicle::ship, Vehicle::auv, Vehicle::aircraft,
                                          Vehicle::rotorcraft));
+
+// The blends begin and end inside the samples. A rule that steps across an end errs by
+// up to 8e-3 m/s here, and one that takes a whole blend in one step by 5e-8 m/s.
+TEST(Legs, ABlendThatEndsInsideASampleIsNotSmeared) {
+  const std::vector<Leg> legs{{.duration_us = 33'700},
+                              {.duration_us = 171'300,
+                               .speed = 3,
+                               .turn = 0.1,
+                               .speed_us = 61'100,
+                               .transition_us = 40'300,
+                               .turn_us = 130'700}};
+  const Flight flight{.start = {.latitude = 0.6, .longitude = 2, .height = 100},
+                      .motion = Legs{std::make_shared<const LegPath>(Carrier{}, 0, 0.3, legs)}};
+  const FlightRecord coarse(flight, 250'000, 50'000);
+  const FlightRecord fine(flight, 250'000, 100);
+  for (std::size_t k = 0; k < coarse.increments().size(); ++k) {
+    Vector3 theta = Vector3::Zero();
+    Vector3 v = Vector3::Zero();
+    for (std::size_t j = 500 * k; j < 500 * k + 500; ++j) {
+      theta += fine.increments()[j].delta_theta;
+      v += fine.increments()[j].delta_v;
+    }
+    EXPECT_LT((coarse.increments()[k].delta_theta - theta).norm(), 1e-14) << k;
+    EXPECT_LT((coarse.increments()[k].delta_v - v).norm(), 1e-12) << k;
+  }
+}
 
 TEST(Legs, AnAircraftTurnsCoordinated) {
   const LegPath path = path_of(Vehicle::aircraft);
