@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bench/campaign/series.hpp"
 #include "bench/checks/judge.hpp"
