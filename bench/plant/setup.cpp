@@ -160,6 +160,8 @@ scenario::PlantFacts read_setup(Section& section, const Binding& binding) {
   std::vector<std::string> names;
   for (const Kind* kind : kinds()) names.emplace_back(kind->key);
   auto setup = std::make_shared<Setup>();
+  if (!section.has("kind"))  // without it, nothing is known of the other keys
+    section.reject("kind", "is missing", fmt::format("one of: {}", fmt::join(names, ", ")));
   setup->kind = section.one_of({"kind", "What moves."}, names);
   std::unique_ptr<Plan> plan;
   for (const Kind* kind : kinds()) {
