@@ -1,8 +1,10 @@
 // The scenario of docs/examples/autopilot with another plant.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -49,6 +51,23 @@ inline std::vector<double> headings_of(const std::string& csv) {
     if (at != std::string::npos) all.push_back(std::stod(line.substr(at + 34)));
   }
   return all;
+}
+
+/// Flies these scenarios in lockstep, expects that the first two turn alike to rounding, and returns the
+/// headings of each [rad].
+inline std::vector<std::vector<double>> fly_alike(const std::vector<std::string>& scenarios) {
+  std::vector<std::vector<double>> flown;
+  for (const std::string& scenario : scenarios) {
+    const std::string csv = scratch("flown.csv");
+    const Ended ended =
+        hil_bench(fmt::format("run {} --lockstep {} --csv {}", scenario, steered_by_autopilot, csv));
+    EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
+    flown.push_back(headings_of(csv));
+    EXPECT_EQ(flown.back().size(), 3001U);
+  }
+  for (std::size_t i = 0; i < std::min(flown[0].size(), flown[1].size()); ++i)
+    EXPECT_NEAR(flown[0][i], flown[1][i], 1e-10) << i;
+  return flown;
 }
 
 }  // namespace canhil::test

@@ -152,51 +152,6 @@ TEST(ClosedLoop, TheLogOfARealTimeRunIsRefused) {
   EXPECT_THAT(checked.err, HasSubstr("is of a run in real time"));
 }
 
-// The rows of the plant in a CSV, by output: the values in order of time.
-std::map<std::string, std::vector<double>> rows_of_plant(const std::string& csv) {
-  std::map<std::string, std::vector<double>> rows;
-  std::istringstream lines(read(csv));
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> fields;
-    std::istringstream parts(line);
-    for (std::string field; std::getline(parts, field, ',');) fields.push_back(field);
-    if (fields.size() > 5 && fields[1] == "plant") rows[fields[2]].push_back(std::stod(fields[5]));
-  }
-  return rows;
-}
-
-// The craft as a program in Python: the same loop has the same trajectory to rounding.
-TEST(ClosedLoop, APlantAsAProgramMovesLikeTheBuiltInOne) {
-  std::string program = read(autopilot + "autopilot.toml");
-  const std::size_t from = program.find("kind = \"steered_heading\""),
-                    to = program.find("[plant.commands.rudder]");
-  ASSERT_NE(to, std::string::npos);
-  program.replace(from, to - from,
-                  "kind = \"program\"\ncommand = \"/usr/bin/python3 " SOURCE_DIR
-                  "/docs/examples/plant/ship.py\"\n[plant.parameters]\nheading_deg = 350.0\nspeed_mps = 8.0\n"
-                  "turn_time_constant_s = 0.4\nturn_gain_per_s = 1.2\nactuator_lag_s = 0.05\n"
-                  "actuator_rate_degps = 120\nactuator_stop_deg = 30\nactuator_offset_deg = 4\n"
-                  "gust_from_s = 12\ngust_to_s = 15\ngust_degps2 = 60\n");
-  const std::string mapping = "autopilot.mapping.toml";
-  program.replace(program.find(mapping), mapping.size(), autopilot + mapping);
-  std::ofstream(scratch("program.toml")) << program;
-  std::vector<std::map<std::string, std::vector<double>>> flown;
-  for (const std::string& scenario : {autopilot + "autopilot.toml", scratch("program.toml")}) {
-    const std::string csv = scratch("flown.csv");
-    const Ended ended =
-        hil_bench(fmt::format("run {} --lockstep {}' --csv {}", scenario, autopilot_target, csv));
-    ASSERT_EQ(ended.code, 3) << ended.out << ended.err;
-    flown.push_back(rows_of_plant(csv));
-  }
-  ASSERT_EQ(flown[0].size(), 5U);
-  for (const auto& [output, values] : flown[0]) {
-    ASSERT_EQ(values.size(), 3001U) << output;
-    ASSERT_EQ(flown[1][output].size(), values.size()) << output;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      ASSERT_NEAR(flown[1][output][i], values[i], 1e-10) << output << " at step " << i;
-  }
-}
-
 // A program that takes 30 ms for each step of 10 ms: in real time its loop is another one, which proves
 // nothing.
 TEST(ClosedLoop, ASlowPlantIsNotMeasuredInRealTime) {

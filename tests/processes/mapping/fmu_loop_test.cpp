@@ -33,18 +33,8 @@ class FmuLoops : public testing::TestWithParam<int> {};
 TEST_P(FmuLoops, MovesLikeThePlantThatIsBuiltIn) {
   const std::string model = fmt::format("heading{}", GetParam());
   write_fmu(GetParam(), model, heading_description(GetParam(), model));
-  std::vector<std::vector<double>> flown;
-  for (const std::string& scenario : {autopilot_loop("built_in.toml"), fmu_loop("fmu.toml", fmu_keys()),
-                                      fmu_loop("here.toml", fmu_keys("in_process = true\n"))}) {
-    const std::string csv = scratch("flown.csv");
-    const Ended ended =
-        hil_bench(fmt::format("run {} --lockstep {} --csv {}", scenario, steered_by_autopilot, csv));
-    ASSERT_EQ(ended.code, 3) << ended.out << ended.err;
-    flown.push_back(headings_of(csv));
-  }
-  ASSERT_EQ(flown[0].size(), 3001U);
-  ASSERT_EQ(flown[1].size(), 3001U);
-  for (std::size_t i = 0; i < flown[0].size(); ++i) ASSERT_NEAR(flown[0][i], flown[1][i], 1e-10) << i;
+  const auto flown = fly_alike({autopilot_loop("built_in.toml"), fmu_loop("fmu.toml", fmu_keys()),
+                                fmu_loop("here.toml", fmu_keys("in_process = true\n"))});
   EXPECT_EQ(flown[1], flown[2]) << "the same bits in another process";
 }
 

@@ -30,18 +30,7 @@ std::string failing_ship() {
 }
 
 TEST(ProgramLoop, MovesLikeThePlantThatIsBuiltIn) {
-  std::vector<std::vector<double>> flown;
-  for (const std::string& scenario :
-       {autopilot_loop("built_in.toml"), autopilot_loop("ship.toml", ship_keys())}) {
-    const std::string csv = scratch("flown.csv");
-    const Ended ended =
-        hil_bench(fmt::format("run {} --lockstep {} --csv {}", scenario, steered_by_autopilot, csv));
-    ASSERT_EQ(ended.code, 3) << ended.out << ended.err;
-    flown.push_back(headings_of(csv));
-  }
-  ASSERT_EQ(flown[0].size(), 3001U);
-  ASSERT_EQ(flown[1].size(), 3001U);
-  for (std::size_t i = 0; i < flown[0].size(); ++i) ASSERT_NEAR(flown[0][i], flown[1][i], 1e-10) << i;
+  fly_alike({autopilot_loop("built_in.toml"), autopilot_loop("ship.toml", ship_keys())});
 }
 
 // The run ends with the reason, which is told once; the device is not blamed.
