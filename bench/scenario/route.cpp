@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 
@@ -77,16 +79,23 @@ std::optional<Slope> slope_of(const RoutePlan& plan, double length, double gain)
     const double duration = length / plan.speed;
     return Slope{.climb = gain / (duration - transition), .duration = duration};
   }
-  double climb = std::atan2(gain, length), level = 0;
-  for (int step = 0; step < 100; ++step) {
-    const auto at = [&](double x) { return climb * world::blend(0, 1, 1, x).value; };
-    level = blends * mean_of([&](double x) { return std::cos(at(x)); });
-    const double raised = blends * mean_of([&](double x) { return std::sin(at(x)); });
-    climb = std::atan2(gain - raised, length - level);
-  }
-  if (std::abs(climb) > steepest_climb) return std::nullopt;
+  const auto part = [&](double climb,
+                        auto of) {  // the way in the blends: over ground (cos), or upwards (sin)
+    return blends * mean_of([&](double x) { return of(climb * world::blend(0, 1, 1, x).value); });
+  };
+  const auto level = [&](double climb) { return part(climb, [](double angle) { return std::cos(angle); }); };
+  // The gain of height grows with the angle.
+  const auto missing = [&](double climb) {
+    return part(climb, [](double angle) { return std::sin(angle); }) +
+           (length - level(climb)) * std::tan(climb) - gain;
+  };
+  if (missing(-steepest_climb) > 0 || missing(steepest_climb) < 0) return std::nullopt;
+  std::uintmax_t most_steps = 100;
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      missing, -steepest_climb, steepest_climb, boost::math::tools::eps_tolerance<double>(), most_steps);
+  const double climb = 0.5 * (low + high);
   return Slope{.climb = climb,
-               .duration = 2 * transition + (length - level) / (plan.speed * std::cos(climb))};
+               .duration = 2 * transition + (length - level(climb)) / (plan.speed * std::cos(climb))};
 }
 
 /// The legs in the plane, and what is needed to compare their flight with the waypoints.

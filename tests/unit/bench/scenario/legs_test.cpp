@@ -228,6 +228,34 @@ TEST(Waypoints, ArePassedOnTheInsideAndTheLastIsReached) {
   EXPECT_LT(closest_approach(record, there(-500, 400, -10)).first, 0.02 + 1e-3) << "half a step at 2 m/s";
 }
 
+// The straight line between two turns is hardly longer than the begin and the end of the climb.
+TEST(Waypoints, AClimbOnAShortLineIsMet) {
+  RoutePlan plan{.carrier = {.vehicle = world::Vehicle::aircraft},
+                 .speed = 25,
+                 .turn_rate = 0.18,
+                 .transition_us = 2'000'000,
+                 .speed_us = 10'000'000};
+  const Position start{.latitude = 47 * deg, .longitude = 8 * deg, .height = 1200};
+  const auto there = [&](double north, double east, double height) {
+    Position position = world::displaced(start, {north, east, 0});
+    position.height = height;
+    return position;
+  };
+  for (const double east : {380.0, 400.0, 420.0, 500.0}) {
+    const std::vector<Position> waypoints{there(400, 0, 1200), there(400, east, 1230), there(0, 600, 1200)};
+    const auto route = plan_route(plan, start, waypoints);
+    ASSERT_TRUE(route) << east << ": " << route.error().what;
+    const FlightRecord record({.start = start,
+                               .motion = world::Legs{std::make_shared<const world::LegPath>(
+                                   plan.carrier, plan.speed, route->heading, route->legs)}},
+                              route->times_us.back() + 100'000, 10'000);
+    for (std::size_t i = 0; i < waypoints.size(); ++i)
+      EXPECT_NEAR(world::displacement_n(record.at(route->times_us[i]).position, waypoints[i]).norm(),
+                  route->passes[i], 0.02)
+          << east << " " << i;
+  }
+}
+
 TEST(Waypoints, OnALongRouteAndNearThePoleTooAreMet) {
   RoutePlan plan{.carrier = {.vehicle = world::Vehicle::aircraft},
                  .speed = 200,
