@@ -99,12 +99,12 @@ TEST(ClosedLoop, ADelayOfTheCommandFails) {
   EXPECT_EQ(outcomes["response overshoot of attitude.heading"], "fail");
 }
 
-// A device that answers 60 ms late, in real time. The host may be too late to judge, but it never passes.
+// A device that answers 60 ms late, in real time. The host may be too late to judge (3), but it never passes.
 TEST(ClosedLoop, ALateDeviceFailsByItsDelay) {
   const std::string report = scratch("late_device.json");
   const Ended ended = hil_bench(
       fmt::format("run {}autopilot.toml {} --defect late' --json {}", autopilot, autopilot_target, report));
-  EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
+  EXPECT_THAT(ended.code, testing::AnyOf(1, 3)) << ended.out << ended.err;
   auto outcomes = outcomes_of(report);
   EXPECT_NE(outcomes["command delay of rudder"], "pass");
   EXPECT_NE(outcomes["latency AP_Rudder"], "pass");
