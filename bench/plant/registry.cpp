@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "bench/plant/glide/read.hpp"
 #include "bench/plant/steered_heading.hpp"
 
 namespace canhil::plant {
@@ -12,8 +13,13 @@ constexpr std::array registered{
     &steered_heading,  // a ship or a car: heading by a rudder or a steering actuator
 };
 
+constexpr std::array with_tables{
+    &glide::table,  // a glider in the wind
+};
+
 }  // namespace
 
 std::span<const Kind* const> kinds() { return registered; }
+std::span<const scenario::PlantTable* const> tables() { return with_tables; }
 
 }  // namespace canhil::plant

@@ -34,9 +34,10 @@ std::vector<scenario::PlantFacts::Output> followed(const scenario::CheckContext&
 Finding unless_host_late(const Evidence& evidence, Finding finding) {
   constexpr double usual = 0.99;  // quantile
   if (finding.outcome != Outcome::fail || evidence.timing_unfit == virtual_time) return finding;
-  const world::PlantRecord* plant = evidence.truth.plant;
-  if (plant == nullptr || plant->commands.empty()) return finding;
-  const double step_s = 1e-6 * static_cast<double>(plant->commands.front().step_us);
+  const auto plant =
+      std::ranges::find_if(evidence.truth.plants, [](const auto* one) { return !one->commands.empty(); });
+  if (plant == evidence.truth.plants.end()) return finding;
+  const double step_s = 1e-6 * static_cast<double>((*plant)->commands.front().step_us);
   const std::string why = unfit(evidence, usual, step_s / lateness_share);
   if (!why.empty()) return {Outcome::not_measured, finding.measured + "; " + why, finding.expected};
   return unless_target_delayed(evidence, usual, step_s / lateness_share, std::move(finding));
@@ -44,10 +45,11 @@ Finding unless_host_late(const Evidence& evidence, Finding finding) {
 
 // Without a command, the plant only coasts.
 std::string missing_command(const Evidence& evidence, const scenario::Window& window) {
-  if (evidence.truth.plant == nullptr) return "";
-  for (const world::CommandRecord& one : evidence.truth.plant->commands) {
-    if (one.given.empty() || one.given.front().t_us > window.to_us)
-      return fmt::format("no command of '{}' came", one.input);
+  for (const world::PlantRecord* plant : evidence.truth.plants) {
+    for (const world::CommandRecord& one : plant->commands) {
+      if (one.given.empty() || one.given.front().t_us > window.to_us)
+        return fmt::format("no command of '{}' came", one.input);
+    }
   }
   return "";
 }
