@@ -43,7 +43,6 @@ class Bench {
       : node_(make({bound(seeker).table, config}, {.scenario = with(plan),
                                                    .index = 0,
                                                    .flight = flight(),
-                                                   .glide = nullptr,
                                                    .engagement = &record_})) {}
 
   /// The next sample; none if it was lost or the engagement has ended.

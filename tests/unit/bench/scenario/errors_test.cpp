@@ -33,7 +33,7 @@ std::string keys_of_a_file() {
     return keys;
   };
   return "title, duration_s, dbc, seed, target, engagement, glide, wind, airframe, " +
-         nodes_of("plant.height") + "truth, initial_error, " + nodes_of("") + nodes_of("plant.range") +
+         nodes_of("plant.height") + "plant, truth, initial_error, " + nodes_of("") + nodes_of("plant.range") +
          "event, fault, check";
 }
 
