@@ -6,7 +6,7 @@
 namespace canhil::estimators {
 
 world::Truths truths_of(const Truth& truth) {
-  return {.flight = truth.flight, .glide = truth.glide, .engagement = truth.engagement, .plant = truth.plant};
+  return {.flight = truth.flight, .engagement = truth.engagement, .plants = truth.plants};
 }
 
 void give_tracks(const Estimator& of, const checks::Observations& seen, const Truth& truth,

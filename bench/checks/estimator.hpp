@@ -18,7 +18,6 @@
 #include "bench/scenario/estimator_facts.hpp"
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
-#include "bench/world/glide/glide.hpp"
 #include "bench/world/truth_values.hpp"
 #include "dbc/spool/spool.hpp"
 
@@ -33,8 +32,7 @@ struct Truth {
   const world::FlightRecord& flight;
   std::int64_t duration_us = 0;                         ///< duration of the run
   const world::EngagementRecord* engagement = nullptr;  ///< null: the run has no engagement
-  const world::GlideRecord* glide = nullptr;            ///< null: the run has no glide
-  const world::PlantRecord* plant = nullptr;            ///< null: the run has no plant
+  world::PlantRecords plants{};                         ///< but for those whose sensors are recorded
 };
 /// The true values of a run.
 world::Truths truths_of(const Truth& truth);
@@ -107,8 +105,8 @@ struct Estimator {
   OfEstimator<std::unique_ptr<Reception>()> reception;
   /// The samples that a run contributes to a campaign; empty if there is no truth.
   OfEstimator<quantities::Samples(const checks::Observations& seen, const Truth& truth)> samples;
-  /// Passes the tracks of the run to `give`. Passes none if the estimator observes an engagement or a glide
-  /// that is null in `truth`.
+  /// Passes the tracks of the run to `give`. Passes none if the estimator observes an engagement or a plant
+  /// that is not in `truth`.
   OfEstimator<void(const checks::Observations& seen, const Truth& truth, const quantities::TrackSink& give)>
       tracks;
   /// All marks of the estimator, including marks that never occurred; these have no times. The first mark,

@@ -75,8 +75,8 @@ std::string unfit(const Evidence& evidence, double quantile, double bar_s) {
 
 std::string late_loop(const Evidence& evidence) {
   constexpr double usual = 0.99;  // quantile; a single late frame changes little
-  const world::PlantRecord* plant = evidence.truth.plant;
-  if (evidence.timing_unfit == virtual_time || plant == nullptr || plant->commands.empty()) return "";
+  const world::PlantRecord* plant = world::steered(evidence.truth.plants);
+  if (evidence.timing_unfit == virtual_time || plant == nullptr) return "";
   const double step_s = 1e-6 * static_cast<double>(plant->commands.front().step_us);
   const double late_s = evidence.seen.timing.lateness.quantile_ns(usual) * 1e-9;
   if (late_s <= step_s) return "";

@@ -43,9 +43,10 @@ std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, con
 constexpr std::string_view commands_kind = "commands";
 
 std::optional<CheckResult> open_loop(const Evidence& evidence) {
-  if (evidence.truth.plant == nullptr || !evidence.ended_early.empty()) return std::nullopt;
+  const world::PlantRecord* plant = world::steered(evidence.truth.plants);
+  if (plant == nullptr || !evidence.ended_early.empty()) return std::nullopt;
   std::vector<std::string_view> silent;
-  for (const world::CommandRecord& one : evidence.truth.plant->commands) {
+  for (const world::CommandRecord& one : plant->commands) {
     if (one.given.empty()) silent.push_back(one.input);
   }
   if (silent.empty()) return std::nullopt;

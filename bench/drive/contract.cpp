@@ -9,6 +9,7 @@
 #include "bench/faults/kinds.hpp"
 #include "bench/mapping/mapping.hpp"
 #include "bench/nodes/registry.hpp"
+#include "bench/plant/registry.hpp"
 #include "bench/plant/setup.hpp"
 #include "bench/scenario/binding.hpp"
 #include "bench/world/hash.hpp"
@@ -33,6 +34,7 @@ scenario::DbcVocabulary make_contract() {
                                    .nodes = nodes::tables(),
                                    .fault_kinds = faults::kinds(),
                                    .read_recorded = nodes::read_recorded,
+                                   .plants = plant::tables(),
                                    .read_plant = plant::read_setup,
                                    .named = nodes::named};
   return estimators::bound_to(std::move(contract), bindings::canhil());

@@ -17,20 +17,31 @@ namespace canhil::drive {
 namespace {
 
 /// The state that a carrier transfers to the glider at release: the truth plus errors that are drawn for this
-/// run.
-InitialState state_at_release(const world::GlideTruth& truth, const scenario::Glide& config,
-                              const scenario::InitialSigma& sigma, world::Stream& stream) {
-  const scenario::ReleaseError& error = config.release;
-  const world::Vector3 turn = error.attitude * stream.normal3();
-  world::Euler angles = world::euler_from(truth.C_bn);
-  angles = {angles.roll + turn.x(), angles.pitch + turn.y(), angles.heading + turn.z()};
-  InitialState state = initial_state({.t_us = truth.t_us,
-                                      .position = {.height = truth.height},
-                                      .v_eb_n = truth.v_eb_n + error.velocity * stream.normal3(),
-                                      .C_bn = C_bn_from(angles)},
-                                     sigma);
-  const world::Vector3 rates = truth.omega_nb_b + error.rate * stream.normal3();
-  state.air = initial_air(rates, truth.v_a + error.air_velocity * stream.normal3());
+/// run. None: no plant shows such a state.
+std::optional<InitialState> state_at_release(const scenario::Scenario& scenario, const PerRunTruth& own,
+                                             std::int64_t t_us, const scenario::InitialSigma& sigma,
+                                             world::Stream& stream) {
+  using Columns = world::PlantColumns<13>;
+  constexpr Columns::Names names{"attitude.roll",        "attitude.pitch",       "attitude.heading",
+                                 "velocity.north",       "velocity.east",        "velocity.down",
+                                 "plant.body_rate.x",    "plant.body_rate.y",    "plant.body_rate.z",
+                                 "plant.air_velocity.x", "plant.air_velocity.y", "plant.air_velocity.z",
+                                 "plant.height"};
+  const scenario::PlantFacts* plant = scenario.plant_with(names.back());
+  const auto columns = Columns::find(plants_of(own), names);
+  const auto now = columns ? columns->at(t_us) : std::nullopt;
+  if (plant == nullptr || !now) return std::nullopt;
+  const auto three = [&](std::size_t from) { return world::Vector3(&(*now)[from]); };
+  const scenario::ReleaseError& error = plant->release;
+  const world::Vector3 angles = three(0) + error.attitude * stream.normal3();
+  InitialState state = initial_state(
+      {.t_us = t_us,
+       .position = {.height = now->back()},
+       .v_eb_n = three(3) + error.velocity * stream.normal3(),
+       .C_bn = C_bn_from(world::Euler{.roll = angles.x(), .pitch = angles.y(), .heading = angles.z()})},
+      sigma);
+  const world::Vector3 rates = three(6) + error.rate * stream.normal3();
+  state.air = initial_air(rates, three(9) + error.air_velocity * stream.normal3());
   return state;
 }
 
@@ -42,35 +53,33 @@ bool starts_by_own_truth(const scenario::TargetSetup& target) {
 Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                        std::uint64_t run_index) {
   PerRunTruth own;
+  const auto begin = [&](const scenario::PlantFacts& facts) {
+    return plant::Simulation::begin(*facts.setup, {.seed = scenario.seed, .run_index = run_index},
+                                    {.start = scenario.truth.start,
+                                     .duration_us = scenario.duration_us,
+                                     .interval_us = truth.interval_us()});
+  };
   if (scenario.plant.setup != nullptr) {
-    auto plant =
-        plant::Simulation::begin(*scenario.plant.setup, {.seed = scenario.seed, .run_index = run_index},
-                                 {.start = scenario.truth.start,
-                                  .duration_us = scenario.duration_us,
-                                  .interval_us = truth.interval_us()});
+    auto plant = begin(scenario.plant);
     if (!plant) return tl::unexpected(plant.error());
     own.plant = std::move(*plant);
   }
-  if (scenario.glide) {
-    const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
-    own.glide.emplace(scenario.glide->plan, scenario.duration_us, stream("glide.coefficients"),
-                      stream("glide.gusts"));
-    const double missing_s = 1e-6 * static_cast<double>(scenario.duration_us - own.glide->end_us());
-    if (missing_s >= 1e-6 * static_cast<double>(world::GlideRecord::step_us)) {
-      return failure(
-          fmt::format("key 'duration_s': the glide of run {} ends {:g} s before it, at a height of {:.0f} m, "
-                      "expected to be in the air to the end",
-                      run_index, missing_s, own.glide->epochs().back().height));
-    }
-  }
-  const auto is_recorded = [&](scenario::TruthOf sampled) {
+  const auto is_recorded = [&](std::string_view samples) {
     return std::ranges::any_of(scenario.nodes, [&](const scenario::NodeSettings& node) {
-      return node.is_recorded() && node.table().samples == sampled;
+      return node.is_recorded() && node.table().samples == samples;
     });
   };
-  own.glide_is_sampled = !is_recorded(scenario::TruthOf::glide);
+  for (const scenario::PlantFacts& facts : scenario.of_tables) {
+    auto plant = begin(facts);
+    if (!plant) return tl::unexpected(plant.error());
+    if (facts.setup->plan->flown_ahead) (*plant)->advance(scenario.duration_us);
+    if (const auto& why = (*plant)->why_failed())
+      return failure(fmt::format("key 'duration_s': run {}: {}, expected a shorter run", run_index, *why));
+    const bool is_sampled = std::ranges::none_of(facts.table->shows, is_recorded);
+    own.of_tables.push_back({.plant = std::move(*plant), .is_sampled = is_sampled});
+  }
   // If the seeker is recorded, there is no simulated engagement.
-  if (scenario.engagement && !is_recorded(scenario::TruthOf::engagement)) own.engagement.emplace();
+  if (scenario.engagement && !is_recorded("plant.range")) own.engagement.emplace();
   return own;
 }
 
@@ -124,11 +133,19 @@ const world::FlightRecord& flight_of(const world::FlightRecord& of_all_runs, con
   return own.plant && own.plant->flight() != nullptr ? *own.plant->flight() : of_all_runs;
 }
 
+world::PlantRecords plants_of(const PerRunTruth& own, bool sampled) {
+  world::PlantRecords records;
+  for (const PerRunTruth::OfTable& one : own.of_tables) {
+    if (one.is_sampled || !sampled) records.push_back(&one.plant->record());
+  }
+  if (own.plant) records.push_back(&own.plant->record());
+  return records;
+}
+
 world::Truths truths_of(const world::FlightRecord& flight, const PerRunTruth& own) {
   return {.flight = flight_of(flight, own),
-          .glide = own.glide ? &*own.glide : nullptr,
           .engagement = own.engagement ? &*own.engagement : nullptr,
-          .plant = own.plant ? &own.plant->record() : nullptr};
+          .plants = plants_of(own)};
 }
 
 estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth& own,
@@ -136,8 +153,7 @@ estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth&
   return {.flight = flight_of(flight, own),
           .duration_us = duration_us,
           .engagement = own.engagement ? &*own.engagement : nullptr,
-          .glide = own.glide && own.glide_is_sampled ? &*own.glide : nullptr,
-          .plant = own.plant ? &own.plant->record() : nullptr};
+          .plants = plants_of(own, true)};
 }
 
 Ending with_end_of_plant(Ending ending, const PerRunTruth& own, std::int64_t duration_us) {
@@ -182,14 +198,16 @@ std::vector<InitialState> initial_states(const scenario::Scenario& scenario, con
                                          const PerRunTruth& per_run_truth, std::uint64_t run_index,
                                          std::int64_t t_us) {
   std::vector<InitialState> states;
-  const auto& glide = per_run_truth.glide;
   const world::FlightRecord& flown = flight_of(truth, per_run_truth);
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream stream(scenario.seed, run_index, "initial_error");
     const world::InitialErrorModel error = target.initial_error.value_or(scenario.initial_error);
+    std::optional<InitialState> released;
+    if (starts_by_own_truth(target))
+      released = state_at_release(scenario, per_run_truth, t_us, target.initial_sigma, stream);
     states.push_back(
-        glide && starts_by_own_truth(target)
-            ? state_at_release(glide->at(t_us), *scenario.glide, target.initial_sigma, stream)
+        released
+            ? std::move(*released)
             : initial_state(initial_solution(flown.at(std::min(t_us, flown.known_until_us())), error, stream),
                             target.initial_sigma));
   }
@@ -201,9 +219,8 @@ sensors::Run run_of(const scenario::Scenario& scenario, const world::FlightRecor
   return {.scenario = scenario,
           .index = run_index,
           .flight = flight_of(truth, per_run_truth),
-          .glide = per_run_truth.glide ? &*per_run_truth.glide : nullptr,
           .engagement = per_run_truth.engagement ? &*per_run_truth.engagement : nullptr,
-          .plant = per_run_truth.plant ? &per_run_truth.plant->record() : nullptr,
+          .plants = plants_of(per_run_truth),
           .faults = faults};
 }
 

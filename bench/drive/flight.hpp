@@ -13,7 +13,6 @@
 #include "bench/scenario/scenario.hpp"
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
-#include "bench/world/glide/glide.hpp"
 #include "bench/world/truth_values.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -27,13 +26,19 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 struct PerRunTruth {
   std::optional<world::EngagementRecord> engagement{};  ///< none: the scenario has no engagement, or its
                                                         ///< seeker is recorded; filled during the flight
-  std::optional<world::GlideRecord> glide{};            ///< none: not in the scenario
-  bool glide_is_sampled = true;                ///< false: the nodes send a recording of another glide
-  std::unique_ptr<plant::Simulation> plant{};  ///< null: the scenario has no plant
+  std::unique_ptr<plant::Simulation> plant{};           ///< of [plant]; null: the scenario has none
+  /// A plant with tables of its own.
+  struct OfTable {
+    std::unique_ptr<plant::Simulation> plant;
+    bool is_sampled = true;  ///< false: its nodes send a recording of what another plant did
+  };
+  std::vector<OfTable> of_tables{};  ///< as Scenario::of_tables
 };
 
 /// The flight of a run: that of the plant if it moves the carrier, otherwise the flight of all runs.
 const world::FlightRecord& flight_of(const world::FlightRecord& of_all_runs, const PerRunTruth& own);
+/// The records of the plants of a run. `sampled`: but for those whose nodes are recorded.
+world::PlantRecords plants_of(const PerRunTruth& own, bool sampled = false);
 /// The true values of a run.
 world::Truths truths_of(const world::FlightRecord& flight, const PerRunTruth& own);
 
@@ -53,8 +58,8 @@ struct Flight {
   std::vector<InitialState> initial;
 };
 
-/// The flight of run `run_index`. Error, one line: the glide ends before the end of the run, the plant cannot
-/// be made, or the bus cannot carry the initial state.
+/// The flight of run `run_index`. Error, one line: a plant ends before the end of the run or cannot be
+/// made, or the bus cannot carry the initial state.
 Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index);
 

@@ -131,8 +131,9 @@ std::unique_ptr<Node> make(const NodeSettings& node, const Run& run) {
   return std::make_unique<BoundSensor>(make_sensor(node, run), kind_of(node.table()));
 }
 
-// The nodes are first ordered by the truth that they sample (TruthOf), then by bus priority (the lower id
-// first). So a fin deflection arrives before the navigation group of the same instant is complete.
+// The nodes are first ordered by what they sample (NodeTable::samples), the carrier first, then by bus
+// priority (the lower id first). So a fin deflection arrives before the navigation group of the same instant
+// is complete.
 std::vector<std::unique_ptr<Node>> make(const Run& run) {
   std::vector<const Kind*> kinds(all().begin(), all().end());
   std::ranges::sort(kinds, {},

@@ -62,6 +62,9 @@ class Plan {
   std::vector<Variable> inputs{}, outputs{};
   /// Its step, unless the scenario says another; commands act from the start of a step on.
   std::int64_t step_us = 10'000;
+  /// Nothing steers it, and it advances to the end before the run: an end of its own is then an error before
+  /// the run.
+  bool flown_ahead = false;
 };
 
 struct Kind {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "bench/plant/fmu/fmu.hpp"
+#include "bench/plant/glide/read.hpp"
 #include "bench/plant/hover.hpp"
 #include "bench/plant/program/program.hpp"
 #include "bench/plant/steered_heading.hpp"
@@ -18,8 +19,13 @@ constexpr std::array registered{
     &steered_heading,  // a ship or a car: heading by a rudder or a steering actuator
 };
 
+constexpr std::array with_tables{
+    &glide::table,  // a glider in the wind
+};
+
 }  // namespace
 
 std::span<const Kind* const> kinds() { return registered; }
+std::span<const scenario::PlantTable* const> tables() { return with_tables; }
 
 }  // namespace canhil::plant

@@ -150,37 +150,55 @@ bool Setup::moves_the_carrier() const {
   return std::ranges::any_of(motion, [](const auto& value) { return value.has_value(); });
 }
 
+std::string Setup::shown(const Variable& output) const {
+  const bool is_truth =
+      shows_truths && std::ranges::find(world::truth_values(), output.name, &world::TruthValue::name) !=
+                          world::truth_values().end();
+  return is_truth ? output.name : std::string(world::plant_prefix) + output.name;
+}
+
 bool Setup::shows(std::string_view name) const {
-  return name.starts_with(world::plant_prefix) &&
-         std::ranges::find(plan->outputs, name.substr(world::plant_prefix.size()), &Variable::name) !=
-             plan->outputs.end();
+  return std::ranges::any_of(plan->outputs, [&](const Variable& one) { return shown(one) == name; });
+}
+
+scenario::PlantFacts facts_of(Setup setup) {
+  scenario::PlantFacts facts{.moves_the_carrier = setup.moves_the_carrier()};
+  for (const Variable& one : setup.plan->outputs)
+    facts.outputs.push_back({.name = setup.shown(one), .si = one.si, .turns = one.turns});
+  for (const Command& one : setup.commands) facts.steered.push_back(setup.plan->inputs[one.input].name);
+  facts.setup = std::make_shared<const Setup>(std::move(setup));
+  return facts;
+}
+
+scenario::PlantFacts facts_of(const scenario::PlantTable& table, std::shared_ptr<const Plan> plan) {
+  Setup setup;
+  setup.kind = table.key;
+  setup.plan = std::move(plan);
+  setup.shows_truths = true;
+  scenario::PlantFacts facts = facts_of(std::move(setup));
+  facts.table = &table;
+  return facts;
 }
 
 scenario::PlantFacts read_setup(Section& section, const Binding& binding) {
   std::vector<std::string> names;
   for (const Kind* kind : kinds()) names.emplace_back(kind->key);
-  auto setup = std::make_shared<Setup>();
+  Setup setup;
   if (!section.has("kind"))  // without it, nothing is known of the other keys
     section.reject("kind", "is missing", fmt::format("one of: {}", fmt::join(names, ", ")));
-  setup->kind = section.one_of({"kind", "What moves."}, names);
+  setup.kind = section.one_of({"kind", "What moves."}, names);
   std::unique_ptr<Plan> plan;
   for (const Kind* kind : kinds()) {
-    if (kind->key == setup->kind) plan = kind->read(section);
+    if (kind->key == setup.kind) plan = kind->read(section);
   }
   if (plan == nullptr || section.error()) return {};
   plan->step_us = section.time_us({"step_ms", "Step of the plant. Commands act from the start of a step on."},
                                   Limits::between(0.1, 1000), 1e-3 * static_cast<double>(plan->step_us));
-  setup->plan = std::move(plan);
-  CommandReader(section, binding, *setup).read();
-  read_motion(section, *setup);
+  setup.plan = std::move(plan);
+  CommandReader(section, binding, setup).read();
+  read_motion(section, setup);
   if (section.error()) return {};
-  scenario::PlantFacts facts{.moves_the_carrier = setup->moves_the_carrier()};
-  for (const Variable& one : setup->plan->outputs)
-    facts.outputs.push_back(
-        {.name = std::string(world::plant_prefix) + one.name, .si = one.si, .turns = one.turns});
-  for (const Command& one : setup->commands) facts.steered.push_back(setup->plan->inputs[one.input].name);
-  facts.setup = std::move(setup);
-  return facts;
+  return facts_of(std::move(setup));
 }
 
 }  // namespace canhil::plant

@@ -39,13 +39,23 @@ struct Setup {
   std::shared_ptr<const Plan> plan;
   std::vector<double> start;  ///< for each input: its value before the first command
   std::vector<Command> commands;
+  /// Whether an output with the name of a true value is this value. Otherwise, and with other names, it is
+  /// the true value "plant.NAME".
+  bool shows_truths = false;
   /// For each of motion_values: an expression over the outputs; none: zero.
   std::array<std::optional<scenario::Expression>, motion_values.size()> motion{};
 
   [[nodiscard]] bool moves_the_carrier() const;
-  /// Whether the plant has this output; `name`: as a true value, "plant.rudder".
+  /// The name of an output as a true value: "plant.rudder".
+  [[nodiscard]] std::string shown(const Variable& output) const;
+  /// Whether the plant has this output; `name`: as a true value.
   [[nodiscard]] bool shows(std::string_view name) const;
 };
+
+/// What a scenario knows of a plant.
+scenario::PlantFacts facts_of(Setup setup);
+/// What a scenario knows of a plant with tables of its own.
+scenario::PlantFacts facts_of(const scenario::PlantTable& table, std::shared_ptr<const Plan> plan);
 
 /// Reads the table [plant]. Errors are reported to the section; then there is no setup.
 scenario::PlantFacts read_setup(scenario::Section& section, const scenario::Binding& binding);

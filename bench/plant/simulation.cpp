@@ -10,10 +10,10 @@
 namespace canhil::plant {
 namespace {
 
-world::PlantRecord record_for(const Plan& plan) {
+world::PlantRecord record_for(const Setup& setup) {
   std::vector<world::PlantRecord::Column> columns;
-  for (const Variable& one : plan.outputs)
-    columns.push_back({.name = one.name, .turns = one.turns, .steps = one.steps});
+  for (const Variable& one : setup.plan->outputs)
+    columns.push_back({.name = setup.shown(one), .turns = one.turns, .steps = one.steps});
   return world::PlantRecord(std::move(columns));
 }
 
@@ -38,7 +38,7 @@ Simulation::Simulation(const Setup& setup, std::unique_ptr<Plant> plant, const C
     : setup_(setup),
       plant_(std::move(plant)),
       end_us_(carrier.duration_us),
-      record_(record_for(*setup.plan)),
+      record_(record_for(setup)),
       next_(setup.commands.size(), 0) {
   for (const Command& one : setup.commands) {
     record_.commands.push_back({.input = setup.plan->inputs[one.input].name,
@@ -102,7 +102,7 @@ void Simulation::move() {
 }
 
 world::GrownPath::Point Simulation::point() const {
-  const world::Truths truths{.flight = no_flight(), .plant = &record_};
+  const world::Truths truths{.flight = no_flight(), .plants = {&record_}};
   std::array<double, motion_values.size()> now{};
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (setup_.motion[i]) now[i] = setup_.motion[i]->at(truths, t_us_).value_or(std::nan(""));

@@ -10,7 +10,6 @@
 #include "bench/plant/steered_heading.hpp"
 #include "bench/reference/tables.hpp"
 #include "bench/scenario/engagement.hpp"
-#include "bench/scenario/glide.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/truth.hpp"
 
@@ -51,7 +50,7 @@ std::vector<AskedKey> keys_of_sinusoid() {
 
 }  // namespace
 
-Part truth_part() {
+Part truth_part(const scenario::DbcVocabulary& contract) {
   Part part{
       .title = "Truth and initial errors",
       .about = "",
@@ -93,16 +92,18 @@ Part truth_part() {
            .about = "A missile and its flight target, which is the object that the missile flies to. Random "
                     "values are drawn for each run.",
            .keys = keys_of([](Section& section) { scenario::read_engagement(section); })}}};
-  const auto keys = keys_of([](Section& root) {
-    Section section = root.table("glide");
-    scenario::read_glide(root, section);
-  });
-  for (const std::string_view table : scenario::glide_tables) {
-    for (const std::string& path : {std::string(table), fmt::format("{}.initial_error", table)}) {
-      auto own = in_table(keys, path);
+  for (const scenario::PlantTable* plant : contract.plants) {
+    const auto keys = keys_of([&](Section& root) {
+      Section section = root.table(plant->key);
+      plant->read(root, section, *contract.binding);
+    });
+    std::vector<std::string> tables{std::string(plant->key), fmt::format("{}.initial_error", plant->key)};
+    for (const std::string_view table : plant->further_tables) tables.emplace_back(table);
+    for (const std::string& table : tables) {
+      auto own = in_table(keys, table);
       if (!own.empty())
         part.tables.push_back(
-            {.name = fmt::format("[{}]", path), .about = "For an unpowered glider.", .keys = std::move(own)});
+            {.name = fmt::format("[{}]", table), .about = std::string(plant->about), .keys = std::move(own)});
     }
   }
   return part;

@@ -255,7 +255,7 @@ std::vector<Part> parts() {
            .tables = {{.name = "Scenario", .about = "", .keys = keys_of_file(contract)}}},
           target_part(contract),
           parameters_part(),
-          truth_part(),
+          truth_part(contract),
           plants_part(),
           nodes_part(contract),
           faults_part(contract),

@@ -10,6 +10,7 @@
 #include "bench/reference/explore.hpp"
 #include "bench/reference/parts.hpp"
 #include "bench/scenario/binding.hpp"
+#include "bench/scenario/contract.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::reference {
@@ -49,7 +50,7 @@ inline std::vector<AskedKey> in_table(const std::vector<AskedKey>& keys, std::st
 }
 
 /// The parts about what moves.
-Part truth_part();
+Part truth_part(const scenario::DbcVocabulary& contract);
 Part plants_part();
 
 }  // namespace canhil::reference

@@ -27,12 +27,12 @@ void csv(const scenario::Scenario& scenario, const drive::Run& run, const Sink& 
                        field(point.truth), field(error), field(point.sigma)));
     }
   });
-  if (const world::PlantRecord* plant = plant_of(run)) {
-    for (std::size_t column = 0; column < plant->columns().size(); ++column) {
-      const scenario::PlantFacts::Output& output = scenario.plant.outputs[column];
-      for (std::size_t i = 0; i < plant->times_us().size(); ++i)
-        give(fmt::format("{:.6f},plant,{},{},,{},,\n", static_cast<double>(plant->times_us()[i]) * 1e-6,
-                         for_csv(output.name), for_csv(output.si), plant->value(column, i)));
+  for (const auto& [facts, record] : plants_of(scenario, run)) {
+    for (std::size_t column = 0; column < facts.outputs.size(); ++column) {
+      const scenario::PlantFacts::Output& output = facts.outputs[column];
+      for (std::size_t i = 0; i < record.times_us().size(); ++i)
+        give(fmt::format("{:.6f},plant,{},{},,{},,\n", static_cast<double>(record.times_us()[i]) * 1e-6,
+                         for_csv(output.name), for_csv(output.si), record.value(column, i)));
     }
   }
   give_flags(scenario, run, [&](std::string_view estimator, std::string_view flag, const auto& changes) {

@@ -103,14 +103,15 @@ class PlantSeries {
 
 std::vector<Series> series_of_plant(const scenario::Scenario& scenario, const drive::Run& run) {
   std::vector<Series> all;
-  const world::PlantRecord* plant = plant_of(run);
-  if (plant == nullptr) return all;
-  for (std::size_t column = 0; column < plant->columns().size(); ++column) {
-    const scenario::PlantFacts::Output& output = scenario.plant.outputs[column];
-    PlantSeries series(output.name, output.si, scenario.duration_us);
-    for (std::size_t i = 0; i < plant->times_us().size(); ++i)
-      series.take(plant->times_us()[i], plant->value(column, i));
-    all.push_back(std::move(series).series());
+  for (const auto& [facts, record] : plants_of(scenario, run)) {
+    if (facts.table != nullptr) continue;
+    for (std::size_t column = 0; column < facts.outputs.size(); ++column) {
+      const scenario::PlantFacts::Output& output = facts.outputs[column];
+      PlantSeries series(output.name, output.si, scenario.duration_us);
+      for (std::size_t i = 0; i < record.times_us().size(); ++i)
+        series.take(record.times_us()[i], record.value(column, i));
+      all.push_back(std::move(series).series());
+    }
   }
   return all;
 }
@@ -188,8 +189,15 @@ void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, cons
   }
 }
 
-const world::PlantRecord* plant_of(const drive::Run& run) {
-  return is_cut_off(run) || !run.per_run_truth.plant ? nullptr : &run.per_run_truth.plant->record();
+std::vector<OwnPlant> plants_of(const scenario::Scenario& scenario, const drive::Run& run) {
+  std::vector<OwnPlant> all;
+  if (is_cut_off(run)) return all;
+  const drive::PerRunTruth& own = run.per_run_truth;
+  for (std::size_t i = 0; i < own.of_tables.size(); ++i) {
+    if (own.of_tables[i].is_sampled) all.push_back({scenario.of_tables[i], own.of_tables[i].plant->record()});
+  }
+  if (own.plant) all.push_back({scenario.plant, own.plant->record()});
+  return all;
 }
 
 std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run) {

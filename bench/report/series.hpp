@@ -69,11 +69,15 @@ using TrackOf = std::function<void(std::string_view estimator, const quantities:
 /// Passes on the tracks of the scenario's estimators, one estimator after another.
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give);
 
-/// The outputs of the plant over the run, as PlantFacts::outputs; null: there is no plant, or the run was cut
-/// off.
-const world::PlantRecord* plant_of(const drive::Run& run);
+/// A plant of a run: its outputs over the run, as PlantFacts::outputs.
+struct OwnPlant {
+  const scenario::PlantFacts& facts;
+  const world::PlantRecord& record;
+};
+/// The plants of a run; none if the run was cut off.
+std::vector<OwnPlant> plants_of(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// The series of all estimators of the scenario, and of the outputs of the plant.
+/// The series of all estimators of the scenario, and of the outputs of [plant].
 std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

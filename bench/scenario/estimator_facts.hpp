@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -13,14 +12,14 @@ namespace canhil::scenario {
 /// Which initial state the target receives.
 enum class Start : std::uint8_t {
   navigation,     ///< the carrier's state, with the errors of [initial_error]
-  per_run_truth,  ///< the state of the estimator's own truth (a glide), with the errors of `start_errors`
+  per_run_truth,  ///< the state of the estimator's own plant, with the errors of `start_errors`
   nothing         ///< the estimator uses no initial state
 };
 
 struct EstimatorFacts {
   std::span<const std::string_view> parameters{};  ///< used for suggestions if a name is misspelt; empty: any
   std::span<const std::string_view> nodes{};       ///< tables of the nodes that must be present
-  std::optional<TruthOf> truth{};                  ///< the table of this truth is required
+  std::string_view truth{};  ///< the plant with this output (PlantTable::shows) is required; empty: none is
   Start start = Start::navigation;
   std::string_view start_errors{};  ///< the table of initial errors for the estimator's own truth
   std::string_view aided_by{};      ///< parameter that selects the source of the fixes; empty: no fixes

@@ -22,10 +22,6 @@ namespace canhil::scenario {
 class NodeSettings;
 class Section;
 
-/// The truth that a node samples. These are the tables [truth], [glide] and [engagement] of a scenario. A
-/// scenario with [glide] or [engagement] must also have the nodes that sample this truth.
-enum class TruthOf : std::uint8_t { navigation, glide, engagement };
-
 /// The properties of a node whose fixes an aided estimator uses.
 struct Aid {
   double aiding = 0;  ///< value of the parameter EstimatorFacts::aided_by that selects these fixes
@@ -41,7 +37,9 @@ struct NodeTable {
   const MessageInfo* closes = nullptr;
   std::int64_t period_us = 0;             ///< unless the table has the key `period_ms`
   const sensors::Kind* sensor = nullptr;  ///< what measures its samples
-  TruthOf samples = TruthOf::navigation;
+  /// An output that only the plant has which the node samples (PlantTable::shows); empty: the node samples
+  /// the flight of the carrier. A scenario with a plant of its own tables must also have its nodes.
+  std::string_view samples{};
   bool only_named = false;  ///< it is no table, but a [[sensor]] that a mapping declares
   /// Reads the table; unknown keys are detected afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;

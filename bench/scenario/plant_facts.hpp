@@ -1,8 +1,13 @@
-// What the rest of a scenario knows of its plant (bench/plant reads it).
+// What the rest of a scenario knows of its plants (bench/plant reads them).
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace canhil::plant {
@@ -10,6 +15,18 @@ struct Setup;
 }
 
 namespace canhil::scenario {
+
+struct Binding;
+struct PlantTable;
+class Section;
+
+/// Errors of the state that the target receives when a plant begins to move: 1-sigma of each component.
+struct ReleaseError {
+  double air_velocity = 0;  ///< body [m/s]
+  double velocity = 0;      ///< NED [m/s]
+  double attitude = 0;      ///< roll, pitch, heading [rad]
+  double rate = 0;          ///< body [rad/s]
+};
 
 struct PlantFacts {
   struct Output {
@@ -21,6 +38,29 @@ struct PlantFacts {
   std::vector<Output> outputs{};
   std::vector<std::string> steered{};  ///< the inputs that the target commands
   bool moves_the_carrier = false;
+  const PlantTable* table = nullptr;  ///< its own tables; null: [plant]
+  ReleaseError release{};
+
+  /// Whether it has an output with this name as a true value.
+  [[nodiscard]] bool shows(std::string_view name) const {
+    return std::ranges::find(outputs, name, &Output::name) != outputs.end();
+  }
+};
+
+/// A plant that a scenario describes in tables of its own instead of [plant].
+struct PlantTable {
+  std::string_view key;                                ///< its table
+  std::span<const std::string_view> further_tables{};  ///< further tables about it
+  std::string_view about;                              ///< for the reference
+  /// Outputs that only this plant has: nodes and estimators name one of them (NodeTable::samples).
+  std::span<const std::string_view> shows;
+  std::int64_t sampled_every_us = 1;  ///< the periods of its sensors are multiples of this time
+  /// `root`: the whole file; `table`: the table `key`. Errors are reported to the sections.
+  PlantFacts (*read)(Section& root, Section& table, const Binding& binding) = nullptr;
+
+  [[nodiscard]] bool has(std::string_view output) const {
+    return std::ranges::find(shows, output) != shows.end();
+  }
 };
 
 }  // namespace canhil::scenario

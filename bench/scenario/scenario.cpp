@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "bench/scenario/binding.hpp"
@@ -23,11 +24,16 @@ namespace {
 constexpr std::string_view no_start =
     "has no effect: with a mapping, only the sensor [start] tells the target a start state";
 
-/// The keys of a truth, followed by the keys of the nodes that sample it.
-std::vector<std::string_view> keys_of(TruthOf truth, const DbcVocabulary& contract,
+/// Whether a node samples what moves: a plant, or without one the carrier.
+bool samples(const NodeTable& node, const PlantTable* plant) {
+  return plant == nullptr ? node.samples.empty() : plant->has(node.samples);
+}
+
+/// The keys of what moves, followed by the keys of the nodes that sample it.
+std::vector<std::string_view> keys_of(const PlantTable* plant, const DbcVocabulary& contract,
                                       std::vector<std::string_view> keys) {
   for (const NodeTable* node : contract.nodes) {
-    if (node->samples == truth) keys.push_back(node->key);
+    if (samples(*node, plant)) keys.push_back(node->key);
   }
   return keys;
 }
@@ -47,18 +53,25 @@ bool read_node(Section& section, const NodeTable& node, Scenario& scenario, cons
                                     : node.read(node, section));
   // Error models and faults apply to simulated measurements, not to recorded ones.
   section.finish(recorded ? "has no effect beside 'recorded'" : "is unknown");
-  return recorded || node.samples != TruthOf::navigation || scenario.truth_is_known();
+  const PlantFacts* plant = scenario.plant_with(node.samples);
+  if (!recorded && plant != nullptr && plant->table != nullptr &&
+      scenario.nodes.back().period_us() % plant->table->sampled_every_us != 0)
+    section.reject(
+        "period_ms", "is not a multiple of the truth's step",
+        fmt::format("a multiple of {:g}", 1e-3 * static_cast<double>(plant->table->sampled_every_us)));
+  return recorded || !node.samples.empty() || scenario.truth_is_known();
 }
 
 constexpr std::string_view no_truth = "has no truth to measure, as trajectory is \"unknown\"";
 constexpr std::string_view what_was_measured = "'recorded', and what was measured";
 
-/// Reads the nodes that sample a truth.
-void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract, TruthOf truth) {
-  const bool per_run_truth =
-      (truth == TruthOf::glide && scenario.glide) || (truth == TruthOf::engagement && scenario.engagement);
+constexpr std::array<std::string_view, 1> engagement_shows{"plant.range"};
+constexpr PlantTable engagement_table{.key = "engagement", .about = "", .shows = engagement_shows};
+
+/// Reads the nodes that sample a plant, or null: the carrier.
+void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract, const PlantTable* plant) {
   for (const NodeTable* node : contract.nodes) {
-    if (node->samples != truth) continue;
+    if (!samples(*node, plant)) continue;
     if (node->only_named) {
       if (root.has(node->key)) root.reject(node->key, "is no table", "a [[sensor]] of this kind");
       continue;
@@ -69,7 +82,8 @@ void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract
                     "a target with a mapping");
       continue;
     }
-    const bool needed = per_run_truth || any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
+    const bool needed = (plant == &engagement_table ? scenario.engagement.has_value() : plant != nullptr) ||
+                        any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
                           return std::ranges::find(facts.nodes, node->key) != facts.nodes.end();
                         });
     std::optional<Section> section = needed ? root.table(node->key) : root.optional_table(node->key);
@@ -90,28 +104,29 @@ void read_sensors(Section& root, Scenario& scenario, const DbcVocabulary& contra
   for (Section& section : root.tables("sensor")) {
     const NodeTable* node = read_sensor_name(section, contract, scenario.nodes);
     if (node == nullptr) continue;
-    if (node->samples == TruthOf::glide && !scenario.glide)
-      section.reject("kind", "has nothing to measure", "a table [glide] beside it");
+    const auto plant =
+        std::ranges::find_if(contract.plants, [&](const PlantTable* one) { return one->has(node->samples); });
+    if (plant != contract.plants.end() && scenario.plant_with(node->samples) == nullptr)
+      section.reject("kind", "has nothing to measure", fmt::format("a table [{}] beside it", (*plant)->key));
     if (!read_node(section, *node, scenario, contract)) section.reject("kind", no_truth, what_was_measured);
   }
 }
 
-/// The truth and the nodes of the glider.
-void read_glider(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
-  const auto parts = keys_of(TruthOf::glide, contract, {glide_tables.begin(), glide_tables.end()});
-  const bool wanted = any_runs(scenario, contract,
-                               [](const EstimatorFacts& facts) { return facts.truth == TruthOf::glide; }) ||
-                      std::ranges::any_of(parts, [&](std::string_view key) { return root.has(key); });
+/// A plant with tables of its own, and its nodes.
+void read_plant(Section& root, Scenario& scenario, const DbcVocabulary& contract, const PlantTable& plant) {
+  std::vector<std::string_view> keys{plant.key};
+  keys.insert(keys.end(), plant.further_tables.begin(), plant.further_tables.end());
+  keys = keys_of(&plant, contract, std::move(keys));
+  const bool wanted =
+      any_runs(scenario, contract, [&](const EstimatorFacts& facts) { return plant.has(facts.truth); }) ||
+      std::ranges::any_of(keys, [&](std::string_view key) { return root.has(key); });
   if (!wanted) {
-    for (const std::string_view key : parts) root.optional(key);
+    for (const std::string_view key : keys) root.optional(key);
     return;
   }
-  Section glide = root.table("glide");
-  if (!contract.binding->handshake)
-    glide.refuse("initial_error", "has no effect: a target with a mapping is not told this state",
-                 "no such table");
-  scenario.glide = read_glide(root, glide);
-  read_nodes(root, scenario, contract, TruthOf::glide);
+  Section table = root.table(plant.key);
+  scenario.of_tables.push_back(plant.read(root, table, *contract.binding));
+  read_nodes(root, scenario, contract, &plant);
 }
 
 /// Whether the scenario selects the DBC of CAN FD; none: it selects no DBC.
@@ -139,10 +154,16 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Db
     faults.push_back({fault.name, {fault.from_us, std::min(fault.to_us, scenario.duration_us)}});
   std::int64_t latency_us = 0;
   for (const NodeSettings& node : scenario.nodes) latency_us = std::max(latency_us, node.latency_us());
+  PlantFacts plant = scenario.plant;
+  for (const PlantFacts& one : scenario.of_tables) {
+    for (const PlantFacts::Output& output : one.outputs) {
+      if (output.name.starts_with(world::plant_prefix)) plant.outputs.push_back(output);
+    }
+  }
   const CheckContext context{.duration_us = scenario.duration_us,
                              .contract = contract,
                              .estimators = estimators,
-                             .plant = scenario.plant,
+                             .plant = plant,
                              .faults = faults,
                              .latency_us = latency_us};
   std::vector<Check> checks;
@@ -164,16 +185,17 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Db
   return checks;
 }
 
-/// Reads the carrier's flight. The table [truth] may be absent if there is an engagement or a glide; then no
-/// table that depends on [truth] is allowed.
+/// Reads the carrier's flight. The table [truth] may be absent if a plant with tables of its own moves; then
+/// no table that depends on [truth] is allowed.
 void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
-  if (root.has("truth") || scenario.plant.moves_the_carrier || !(scenario.engagement || scenario.glide)) {
+  if (root.has("truth") || scenario.plant.moves_the_carrier ||
+      (!scenario.engagement && scenario.of_tables.empty())) {
     Section truth = root.table("truth");
     scenario.truth = read_truth(truth, scenario.duration_us, scenario.plant.moves_the_carrier);
     return;
   }
   root.optional("truth");
-  for (const std::string_view key : keys_of(TruthOf::navigation, contract, {"initial_error"})) {
+  for (const std::string_view key : keys_of(nullptr, contract, {"initial_error"})) {
     if (root.has(key)) root.reject(key, "depends on a truth", "a table [truth] beside it");
   }
 }
@@ -244,31 +266,35 @@ std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) 
 
 std::string why_no_truth(const Scenario& scenario, const world::TruthValue& value) {
   using enum world::TruthIn;
-  const world::TruthIn truth = value.in;
-  if (truth == plant) {
-    std::vector<std::string> shown;
-    for (const PlantFacts::Output& one : scenario.plant.outputs) shown.push_back(one.name);
-    if (std::ranges::find(shown, value.name) != shown.end()) return "";
-    if (scenario.plant.setup == nullptr)
-      return fmt::format("no truth of {}: the scenario has no [plant]", value.name);
-    return fmt::format("no truth of {}: the plant has only {}", value.name, fmt::join(shown, ", "));
-  }
-  if (truth == engagement) return why_no_truth(scenario, TruthOf::engagement);
-  // A glide replaces the flight of the carrier.
-  const bool glides = truth == glide || (truth == motion && scenario.glide);
-  return why_no_truth(scenario, glides ? TruthOf::glide : TruthOf::navigation);
+  if (value.in == engagement) return why_no_truth(scenario, engagement_shows.front());
+  const PlantFacts* shown = scenario.plant_with(value.name);
+  // A plant that shows the motion of its own replaces the flight of the carrier.
+  if (value.in == motion && shown == nullptr) shown = scenario.plant_with("velocity.north");
+  if (shown != nullptr)
+    return shown->table == nullptr ? "" : why_no_truth(scenario, shown->table->shows.front());
+  if (value.in != plant) return why_no_truth(scenario, "");
+  if (!value.name.starts_with(world::plant_prefix))
+    return fmt::format("no truth of {}: no plant of the scenario has it", value.name);
+  if (scenario.plant.setup == nullptr)
+    return fmt::format("no truth of {}: the scenario has no [plant]", value.name);
+  std::vector<std::string> outputs;
+  for (const PlantFacts::Output& one : scenario.plant.outputs) outputs.push_back(one.name);
+  return fmt::format("no truth of {}: the plant has only {}", value.name, fmt::join(outputs, ", "));
 }
 
-// If a node of a glide or an engagement is recorded, the truth that the bench simulates is unrelated to the
-// recording.
-std::string why_no_truth(const Scenario& scenario, TruthOf truth) {
-  if (truth == TruthOf::navigation)
-    return scenario.truth_is_known() ? "" : "no truth: trajectory is \"unknown\"";
-  if (truth == TruthOf::glide && !scenario.glide) return "no truth: the scenario has no [glide]";
-  if (truth == TruthOf::engagement && !scenario.engagement)
-    return "no truth: the scenario has no [engagement]";
+// If a node of a plant is recorded, the plant that the bench simulates is unrelated to the recording.
+std::string why_no_truth(const Scenario& scenario, std::string_view samples) {
+  if (samples.empty()) return scenario.truth_is_known() ? "" : "no truth: trajectory is \"unknown\"";
+  if (samples == engagement_shows.front()) {
+    if (!scenario.engagement) return "no truth: the scenario has no [engagement]";
+  } else if (scenario.plant_with(samples) == nullptr) {
+    return fmt::format("no truth: no plant of the scenario has {}", samples);
+  }
+  const PlantFacts* of = scenario.plant_with(samples);
   const auto recorded = std::ranges::find_if(scenario.nodes, [&](const NodeSettings& node) {
-    return node.table().samples == truth && node.is_recorded();
+    const bool same =
+        of == nullptr ? node.table().samples == samples : scenario.plant_with(node.table().samples) == of;
+    return same && node.is_recorded();
   });
   return recorded == scenario.nodes.end() ? ""
                                           : fmt::format("no truth: [{}] is recorded", recorded->table().key);
@@ -279,7 +305,7 @@ std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts) 
   for (const NodeSettings& node : scenario.nodes) {
     if (std::ranges::find(facts.nodes, node.table().key) == facts.nodes.end()) continue;
     if (std::string why = why_no_truth(scenario, node.table().samples); !why.empty()) return why;
-    if (node.table().samples == TruthOf::navigation) break;
+    if (node.table().samples.empty()) break;
   }
   return "";
 }
@@ -310,7 +336,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
       engagement->reject("guidance", "is 'target', but the mapping has no answers that guide the missile",
                          "'truth', or answers with los.rate.pitch and los.rate.yaw");
   }
-  read_glider(root, scenario, contract);
+  for (const PlantTable* plant : contract.plants) read_plant(root, scenario, contract, *plant);
   if (contract.read_plant != nullptr && root.has("plant")) {
     std::vector<std::string> recordings = std::exchange(root.files(), {});
     Section plant = root.table("plant");
@@ -326,12 +352,12 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   if (auto initial_error = root.optional_table("initial_error")) {
     scenario.initial_error = read_initial_error(*initial_error);
   }
-  read_nodes(root, scenario, contract, TruthOf::navigation);
+  read_nodes(root, scenario, contract, nullptr);
   if (!contract.binding->any_sensor) expect_aid(root, scenario, contract);
-  read_nodes(root, scenario, contract, TruthOf::engagement);
+  read_nodes(root, scenario, contract, &engagement_table);
   read_sensors(root, scenario, contract);
   for (const NodeSettings& node : scenario.nodes) {
-    if (node.table().samples == TruthOf::engagement && !scenario.engagement)
+    if (node.table().samples == engagement_shows.front() && !scenario.engagement)
       root.reject("engagement", "is missing", fmt::format("a table beside [{}]", node.table().key));
   }
   if (!scenario.truth_is_known()) refuse_errors_of_start(root, scenario);

@@ -21,7 +21,6 @@
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/events.hpp"
 #include "bench/scenario/faults.hpp"
-#include "bench/scenario/glide.hpp"
 #include "bench/scenario/node.hpp"
 #include "bench/scenario/plant_facts.hpp"
 #include "bench/scenario/setting.hpp"
@@ -58,10 +57,10 @@ struct Scenario {
   world::Flight truth;                     ///< at rest if no estimator navigates
   world::InitialErrorModel
       initial_error;  ///< errors of the initial state for the target, relative to the truth at the start
-  std::optional<Glide> glide;  ///< truth of a glider, in addition to `truth`
   std::optional<world::EngagementPlan> engagement;
-  PlantFacts plant;
-  std::vector<NodeSettings> nodes;  ///< the nodes on the bus
+  PlantFacts plant;                   ///< the table [plant]
+  std::vector<PlantFacts> of_tables;  ///< plants with tables of their own, in addition to `truth`
+  std::vector<NodeSettings> nodes;    ///< the nodes on the bus
   std::vector<Event> events;
   std::vector<Fault> faults;
   std::vector<Check> checks;
@@ -69,6 +68,13 @@ struct Scenario {
   /// Whether what moves depends on the target's answers, so that no flight is known before its run.
   [[nodiscard]] bool closes_the_loop() const {
     return !plant.steered.empty() || (engagement && engagement->guidance == world::Guidance::target);
+  }
+  /// The plant with this output, a true value; null: no plant has it.
+  [[nodiscard]] const PlantFacts* plant_with(std::string_view output) const {
+    for (const PlantFacts& one : of_tables) {
+      if (one.shows(output)) return &one;
+    }
+    return plant.shows(output) ? &plant : nullptr;
   }
   /// If false, answers cannot be compared with the flight of the carrier.
   [[nodiscard]] bool truth_is_known() const { return !std::holds_alternative<world::Unknown>(truth.motion); }
@@ -98,8 +104,8 @@ Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_v
 /// Size limit of a scenario or campaign file.
 inline constexpr std::size_t most_toml_bytes = std::size_t{1} << 20U;
 
-/// Why the scenario does not know a truth; empty: the truth is known.
-std::string why_no_truth(const Scenario& scenario, TruthOf truth);
+/// Why the scenario does not know a truth; empty: the truth is known. `samples`: NodeTable::samples.
+std::string why_no_truth(const Scenario& scenario, std::string_view samples);
 std::string why_no_truth(const Scenario& scenario, const world::TruthValue& value);
 /// Why there is no truth to compare an estimator's answers with; empty: there is a truth, or the scenario has
 /// none of the estimator's nodes.

@@ -1,7 +1,6 @@
 #include "bench/scenario/schedule.hpp"
 
 #include "bench/scenario/section.hpp"
-#include "bench/world/glide/glide.hpp"
 
 namespace canhil::scenario {
 
@@ -27,13 +26,6 @@ Schedule read_schedule(Section& section) {
       {"sampling_jitter_us",
        "1-sigma of the time at which a sample is taken, about its time of validity; at most half a period."},
       Limits::at_least(0), 0);
-  return schedule;
-}
-
-Schedule read_glide_schedule(Section& section) {
-  const Schedule schedule = read_schedule(section);
-  if (schedule.period_us && *schedule.period_us % world::GlideRecord::step_us != 0)
-    section.reject("period_ms", "is not a multiple of the truth's step", "a multiple of 10");
   return schedule;
 }
 

@@ -23,8 +23,4 @@ Schedule read_constant_schedule(Section& section);
 /// Reads these keys, and those of the random parts of the times.
 Schedule read_schedule(Section& section);
 
-/// Reads the keys of read_schedule() for a node that samples a glide. The period of the node must be a
-/// multiple of the step of the truth.
-Schedule read_glide_schedule(Section& section);
-
 }  // namespace canhil::scenario

@@ -103,7 +103,6 @@ double pressure_altitude(double pressure) {
 }
 
 constinit const Kind air_data{.key = "air_data",
-                              .samples = scenario::TruthOf::navigation,
                               .read = read,
                               .make = make<AirData>,
                               .outputs = {.values = values},

@@ -49,7 +49,6 @@ class DepthGauge final : public LossySampler<DepthGaugeSettings> {
 }  // namespace
 
 constinit const Kind depth_gauge{.key = "depth_gauge",
-                                 .samples = scenario::TruthOf::navigation,
                                  .read = read,
                                  .make = make<DepthGauge>,
                                  .outputs = {.values = values},

@@ -63,7 +63,6 @@ class Dvl final : public LossySampler<DvlSettings> {
 }  // namespace
 
 constinit const Kind dvl{.key = "dvl",
-                         .samples = scenario::TruthOf::navigation,
                          .read = read,
                          .make = make<Dvl>,
                          .outputs = {.values = values, .flags = flags},

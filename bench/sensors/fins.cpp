@@ -1,5 +1,6 @@
 #include "bench/sensors/fins.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "bench/sensors/sampler.hpp"
@@ -11,7 +12,7 @@ constexpr std::array<Output, 3> values{{{"elevator", "rad"}, {"aileron", "rad"},
 
 NodeSettings read(const NodeTable& table, Section& section) {
   FinsSettings node;
-  node.schedule = read_glide_schedule(section);
+  node.schedule = read_schedule(section);
   node.stamp_error_us =
       section.time_us({"time_stamp_error_ms", "Error of the time of validity that the frames carry."},
                       Limits::between(-200, 200), 0);
@@ -21,20 +22,25 @@ NodeSettings read(const NodeTable& table, Section& section) {
 
 class Fins final : public LossySampler<FinsSettings> {
  public:
-  Fins(const NodeSettings& node, const Run& run) : LossySampler(node, run, "fins.loss") {}
+  Fins(const NodeSettings& node, const Run& run)
+      : LossySampler(node, run, "fins.loss"),
+        truth_(world::PlantColumns<3>::find(
+                   run.plants, {"plant.fins.elevator", "plant.fins.aileron", "plant.fins.rudder"})
+                   .value()) {}
 
  private:
   void fill(std::int64_t t_us, Sample& sample) override {
-    const world::glide::Fins& at = run_.glide->at(t_us).fins;
     sample.stamp_us += config_.stamp_error_us;
-    sample.values = {at.x(), at.y(), at.z()};
+    std::ranges::copy(*truth_.at(t_us), sample.values.begin());
   }
+
+  world::PlantColumns<3> truth_;
 };
 
 }  // namespace
 
 constinit const Kind fins{.key = "fins",
-                          .samples = scenario::TruthOf::glide,
+                          .samples = "plant.height",
                           .read = read,
                           .make = make<Fins>,
                           .outputs = {.values = values}};

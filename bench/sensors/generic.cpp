@@ -97,7 +97,7 @@ class Generic final : public LossySampler<GenericSettings> {
  public:
   Generic(const NodeSettings& node, const Run& run)
       : LossySampler(node, run, "generic.loss"),
-        truths_{.flight = run.flight, .glide = run.glide, .engagement = run.engagement, .plant = run.plant} {
+        truths_{.flight = run.flight, .engagement = run.engagement, .plants = run.plants} {
     const double dt = 1e-6 * static_cast<double>(node.period_us());
     const auto outputs = node.table().sensor->outputs.values;
     for (std::size_t i = 0; i < outputs.size(); ++i)
@@ -136,7 +136,6 @@ std::string why_no_truth(const NodeSettings& node, const scenario::Scenario& sce
 }  // namespace
 
 constinit const Kind generic{.key = "generic",
-                             .samples = scenario::TruthOf::navigation,
                              .read = read,
                              .make = make<Generic>,
                              .outputs = {},

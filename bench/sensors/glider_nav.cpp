@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 1> flags{"navigation"};
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   GliderNavSettings node;
-  node.schedule = read_glide_schedule(section);
+  node.schedule = read_schedule(section);
   node.velocity_noise =
       section.number({"velocity_noise_mps", "White noise of the velocity, 1-sigma of a sample."}, sigma, 0);
   node.rate_noise =
@@ -46,6 +46,7 @@ class GliderNav final : public LossySampler<GliderNavSettings> {
  public:
   GliderNav(const NodeSettings& node, const Run& run)
       : LossySampler(node, run, "glider_nav.loss"),
+        truth_(world::PlantColumns<10>::find(run.plants, names).value()),
         stream_(run.stream("glider_nav")),
         velocity_(noise(node)),
         rates_(noise(node)),
@@ -57,23 +58,22 @@ class GliderNav final : public LossySampler<GliderNavSettings> {
             1e-6 * static_cast<double>(node.period_us()), stream_};
   }
   void fill(std::int64_t t_us, Sample& sample) override {
-    const world::GlideTruth& truth = run_.glide->at(t_us);
-    const Vector3 velocity = truth.v_eb_n + config_.velocity_noise * velocity_.next(stream_);
-    const Vector3 rates = truth.omega_nb_b + config_.rate_noise * rates_.next(stream_);
-    const Vector3 turn = config_.attitude_noise * attitude_.next(stream_);
-    const world::Euler angles = world::euler_from(truth.C_bn);
-    sample.values = {velocity.x(),
-                     velocity.y(),
-                     truth.height,
-                     angles.roll + turn.x(),
-                     angles.pitch + turn.y(),
-                     angles.heading + turn.z(),
-                     rates.x(),
-                     rates.y(),
-                     rates.z(),
-                     velocity.z()};
+    const auto truth = *truth_.at(t_us);
+    const Vector3 velocity =
+        Vector3(truth[0], truth[1], truth[9]) + config_.velocity_noise * velocity_.next(stream_);
+    const Vector3 rates = Vector3(truth[6], truth[7], truth[8]) + config_.rate_noise * rates_.next(stream_);
+    const Vector3 angles =
+        Vector3(truth[3], truth[4], truth[5]) + config_.attitude_noise * attitude_.next(stream_);
+    sample.values = {velocity.x(), velocity.y(), truth[2],  angles.x(), angles.y(),
+                     angles.z(),   rates.x(),    rates.y(), rates.z(),  velocity.z()};
   }
 
+  // In the order of `values`.
+  static constexpr world::PlantColumns<10>::Names names{
+      "velocity.north",   "velocity.east",     "plant.height",      "attitude.roll",     "attitude.pitch",
+      "attitude.heading", "plant.body_rate.x", "plant.body_rate.y", "plant.body_rate.z", "velocity.down"};
+
+  world::PlantColumns<10> truth_;
   world::Stream stream_;
   world::CorrelatedNoise velocity_;
   world::CorrelatedNoise rates_;
@@ -83,7 +83,7 @@ class GliderNav final : public LossySampler<GliderNavSettings> {
 }  // namespace
 
 constinit const Kind glider_nav{.key = "glider_nav",
-                                .samples = scenario::TruthOf::glide,
+                                .samples = "plant.height",
                                 .read = read,
                                 .make = make<GliderNav>,
                                 .outputs = {.values = values, .flags = flags}};

@@ -71,7 +71,6 @@ class GnssVelocity final : public LossySampler<GnssVelocitySettings> {
 }  // namespace
 
 constinit const Kind gnss_velocity{.key = "gnss_velocity",
-                                   .samples = scenario::TruthOf::navigation,
                                    .read = read,
                                    .make = make<GnssVelocity>,
                                    .outputs = {.values = values, .flags = flags},

@@ -81,7 +81,6 @@ class Gps final : public Sampler<GpsSettings> {
 }  // namespace
 
 constinit const Kind gps{.key = "gps",
-                         .samples = scenario::TruthOf::navigation,
                          .read = read,
                          .make = make<Gps>,
                          .outputs = {.values = values, .flags = flags},

@@ -14,7 +14,6 @@
 #include "bench/sensors/sample.hpp"
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
-#include "bench/world/glide/glide.hpp"
 #include "bench/world/plant_record.hpp"
 #include "bench/world/stream.hpp"
 
@@ -32,9 +31,8 @@ struct Run {
   const scenario::Scenario& scenario;
   std::uint64_t index = 0;
   const world::FlightRecord& flight;              ///< from the start to the end of the run
-  const world::GlideRecord* glide = nullptr;      ///< null: the scenario has no [glide]
   world::EngagementRecord* engagement = nullptr;  ///< null: no [engagement]; filled during the flight
-  const world::PlantRecord* plant = nullptr;      ///< null: no [plant]; filled during the flight
+  world::PlantRecords plants{};                   ///< filled before or during the flight
   SensorFaults* faults = nullptr;                 ///< null: no faults
   std::string_view sensor{};                      ///< name of a named sensor, which has streams of its own
 
@@ -90,8 +88,8 @@ std::unique_ptr<Sensor> make(const NodeSettings& node, const Run& run) {
 }
 
 struct Kind {
-  std::string_view key;  ///< key of the sensor's table: "gps"
-  scenario::TruthOf samples = scenario::TruthOf::navigation;
+  std::string_view key;        ///< key of the sensor's table: "gps"
+  std::string_view samples{};  ///< NodeTable::samples
   /// Reads the table; unknown keys are detected afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
   std::unique_ptr<Sensor> (*make)(const NodeSettings& node, const Run& run) = nullptr;

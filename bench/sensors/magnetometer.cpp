@@ -100,7 +100,6 @@ class Magnetometer final : public LossySampler<MagnetometerSettings> {
 }  // namespace
 
 constinit const Kind magnetometer{.key = "magnetometer",
-                                  .samples = scenario::TruthOf::navigation,
                                   .read = read,
                                   .make = make<Magnetometer>,
                                   .outputs = {.values = values},

@@ -64,7 +64,6 @@ class MasterIns final : public LossySampler<MasterInsSettings> {
 }  // namespace
 
 constinit const Kind master_ins{.key = "master_ins",
-                                .samples = scenario::TruthOf::navigation,
                                 .read = read,
                                 .make = make<MasterIns>,
                                 .outputs = {.values = values, .flags = flags}};

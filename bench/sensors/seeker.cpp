@@ -232,7 +232,7 @@ void Seeker::guide(const Guidance& answer) {
 }  // namespace
 
 constinit const Kind seeker{.key = "seeker",
-                            .samples = scenario::TruthOf::engagement,
+                            .samples = "plant.range",
                             .read = read,
                             .make = make<Seeker>,
                             .outputs = {.values = values, .flags = flags}};

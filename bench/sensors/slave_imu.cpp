@@ -225,7 +225,6 @@ world::ImuIncrement increment_at_imu(const SlaveImuSettings& settings, const wor
 }
 
 constinit const Kind slave_imu{.key = "slave_imu",
-                               .samples = scenario::TruthOf::navigation,
                                .read = read,
                                .make = make<SlaveImu>,
                                .outputs = {.values = values, .flags = flags},

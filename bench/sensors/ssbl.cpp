@@ -77,7 +77,6 @@ class Ssbl final : public Sampler<SsblSettings> {
 }  // namespace
 
 constinit const Kind ssbl{.key = "ssbl",
-                          .samples = scenario::TruthOf::navigation,
                           .read = read,
                           .make = make<Ssbl>,
                           .outputs = {.values = values, .flags = flags},

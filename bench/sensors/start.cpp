@@ -74,7 +74,6 @@ class Start final : public Sampler<StartSettings> {
 }  // namespace
 
 constinit const Kind start{.key = "start",
-                           .samples = scenario::TruthOf::navigation,
                            .read = read,
                            .make = make<Start>,
                            .outputs = {.values = values},

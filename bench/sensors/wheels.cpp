@@ -58,7 +58,6 @@ class Wheels final : public LossySampler<WheelsSettings> {
 }  // namespace
 
 constinit const Kind wheels{.key = "wheels",
-                            .samples = scenario::TruthOf::navigation,
                             .read = read,
                             .make = make<Wheels>,
                             .outputs = {.values = values},

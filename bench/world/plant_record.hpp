@@ -1,6 +1,8 @@
 // What happened to a plant in a run: its outputs over time, and the commands that it got.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -33,7 +35,7 @@ struct CommandRecord {
 class PlantRecord {
  public:
   struct Column {
-    std::string name;
+    std::string name;    ///< as a true value: "plant.rudder"
     bool turns = false;  ///< an angle: between two values it takes the shorter way
     bool steps = false;  ///< keeps a value until the next
   };
@@ -54,6 +56,8 @@ class PlantRecord {
   [[nodiscard]] double value(std::size_t column, std::size_t index) const {
     return values_[index * columns_.size() + column];
   }
+  /// Whether there are values at exactly this time.
+  [[nodiscard]] bool has(std::int64_t t_us) const;
   /// The value at a time between the first and the last, interpolated on a straight line; none: any other
   /// time.
   [[nodiscard]] std::optional<double> at(std::size_t column, std::int64_t t_us) const;
@@ -62,6 +66,55 @@ class PlantRecord {
   std::vector<Column> columns_;
   Spool<std::int64_t> times_us_;
   Spool<double> values_;
+};
+
+/// The records of the plants of a run.
+using PlantRecords = std::vector<const PlantRecord*>;
+
+/// The record of the plant that commands steer; null: none of them is steered.
+inline const PlantRecord* steered(const PlantRecords& plants) {
+  const auto found = std::ranges::find_if(plants, [](const auto* one) { return !one->commands.empty(); });
+  return found == plants.end() ? nullptr : *found;
+}
+
+/// Columns of a record, looked up once by their names.
+template <std::size_t count>
+class PlantColumns {
+ public:
+  using Names = std::array<std::string_view, count>;
+
+  /// Of the first record that has all these columns; none: no record has them.
+  static std::optional<PlantColumns> find(const PlantRecords& plants, const Names& names) {
+    for (const PlantRecord* record : plants) {
+      PlantColumns found(*record);
+      std::size_t known = 0;
+      for (; known < count; ++known) {
+        const auto column = record->find(names[known]);
+        if (!column) break;
+        found.columns_[known] = *column;
+      }
+      if (known == count) return found;
+    }
+    return std::nullopt;
+  }
+
+  /// The values at a time, as PlantRecord::at().
+  [[nodiscard]] std::optional<std::array<double, count>> at(std::int64_t t_us) const {
+    std::array<double, count> values{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto value = record_->at(columns_[i], t_us);
+      if (!value) return std::nullopt;
+      values[i] = *value;
+    }
+    return values;
+  }
+  [[nodiscard]] const PlantRecord& record() const { return *record_; }
+
+ private:
+  explicit PlantColumns(const PlantRecord& record) : record_(&record) {}
+
+  const PlantRecord* record_;
+  std::array<std::size_t, count> columns_{};
 };
 
 }  // namespace canhil::world

@@ -10,7 +10,6 @@
 #include "bench/world/attitude.hpp"
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
-#include "bench/world/glide/glide.hpp"
 #include "bench/world/plant_record.hpp"
 
 namespace canhil::world {
@@ -26,35 +25,42 @@ Value flown(const Truths& truths, std::int64_t t_us, Of of) {
   if (!truths.flight.is_known() || t_us < 0 || t_us > truths.flight.known_until_us()) return std::nullopt;
   return of(truths.flight.at(t_us));
 }
-// A value from the glide record, at the last step at or before the time.
-template <class Of>
-Value glided(const Truths& truths, std::int64_t t_us, Of of) {
-  if (truths.glide == nullptr || t_us < 0 || t_us > truths.glide->end_us()) return std::nullopt;
-  return of(truths.glide->at(t_us));
-}
-// A value from the glide record if there is one, otherwise from the flight record.
+// A value of the motion: of a plant that shows the motion, otherwise of the flight.
+struct Motion {
+  Vector3 v_eb_n;
+  Matrix3 C_bn;
+};
 template <class Of>
 Value moved(const Truths& truths, std::int64_t t_us, Of of) {
-  return truths.glide != nullptr ? glided(truths, t_us, of) : flown(truths, t_us, of);
+  constexpr PlantColumns<6>::Names names{"velocity.north", "velocity.east",  "velocity.down",
+                                         "attitude.roll",  "attitude.pitch", "attitude.heading"};
+  const auto own = PlantColumns<6>::find(truths.plants, names);
+  if (!own) {
+    return flown(truths, t_us, [&](const Truth& at) { return of(Motion{at.v_eb_n, at.C_bn}); });
+  }
+  const auto at = own->at(t_us);
+  if (!at) return std::nullopt;
+  const auto& [north, east, down, roll, pitch, heading] = *at;
+  return of(Motion{{north, east, down}, C_bn_from({.roll = roll, .pitch = pitch, .heading = heading})});
 }
 
 template <double Euler::*angle>
 Value attitude(const Truths& truths, std::int64_t t_us) {
-  return moved(truths, t_us, [](const auto& at) { return euler_from(at.C_bn).*angle; });
+  return moved(truths, t_us, [](const Motion& at) { return euler_from(at.C_bn).*angle; });
 }
 template <int axis>
 Value velocity(const Truths& truths, std::int64_t t_us) {
-  return moved(truths, t_us, [](const auto& at) { return at.v_eb_n[axis]; });
+  return moved(truths, t_us, [](const Motion& at) { return at.v_eb_n[axis]; });
 }
 template <int axis>
 Value velocity_in_body(const Truths& truths, std::int64_t t_us) {
-  return moved(truths, t_us, [](const auto& at) { return at.C_bn.col(axis).dot(at.v_eb_n); });
+  return moved(truths, t_us, [](const Motion& at) { return at.C_bn.col(axis).dot(at.v_eb_n); });
 }
 Value ground_speed(const Truths& truths, std::int64_t t_us) {
-  return moved(truths, t_us, [](const auto& at) { return std::hypot(at.v_eb_n.x(), at.v_eb_n.y()); });
+  return moved(truths, t_us, [](const Motion& at) { return std::hypot(at.v_eb_n.x(), at.v_eb_n.y()); });
 }
 Value course(const Truths& truths, std::int64_t t_us) {
-  return moved(truths, t_us, [](const auto& at) -> Value {
+  return moved(truths, t_us, [](const Motion& at) -> Value {
     if (std::hypot(at.v_eb_n.x(), at.v_eb_n.y()) < slowest_on_course) return std::nullopt;
     return std::atan2(at.v_eb_n.y(), at.v_eb_n.x());
   });
@@ -70,10 +76,6 @@ Value rate(const Truths& truths, std::int64_t t_us) {
 template <int axis>
 Value force(const Truths& truths, std::int64_t t_us) {
   return flown(truths, t_us, [](const Truth& at) { return at.f_ib_b[axis]; });
-}
-template <int axis>
-Value wind(const Truths& truths, std::int64_t t_us) {
-  return glided(truths, t_us, [](const GlideTruth& at) { return at.wind_n[axis]; });
 }
 // A value from the engagement record, at a sample of the seeker.
 template <double Planes<double>::*plane>
@@ -107,9 +109,9 @@ constexpr std::array known{
     TruthValue{"specific_force.z", "m/s^2", false, flight, force<2>},
     TruthValue{"los.rate.pitch", "rad/s", false, engagement, los_rate<&Planes<double>::pitch>},
     TruthValue{"los.rate.yaw", "rad/s", false, engagement, los_rate<&Planes<double>::yaw>},
-    TruthValue{"wind.north", "m/s", false, glide, wind<0>},
-    TruthValue{"wind.east", "m/s", false, glide, wind<1>},
-    TruthValue{"wind.down", "m/s", false, glide, wind<2>},
+    TruthValue{"wind.north", "m/s", false, plant},
+    TruthValue{"wind.east", "m/s", false, plant},
+    TruthValue{"wind.down", "m/s", false, plant},
 };
 
 }  // namespace
@@ -138,10 +140,10 @@ const TruthValue& output_of_plant(std::string_view name) {
 }  // namespace
 
 std::optional<double> TruthValue::at(const Truths& truths, std::int64_t t_us) const {
-  if (of != nullptr) return of(truths, t_us);
-  if (truths.plant == nullptr) return std::nullopt;
-  const auto column = truths.plant->find(name.substr(plant_prefix.size()));
-  return column ? truths.plant->at(*column, t_us) : std::nullopt;
+  for (const PlantRecord* record : truths.plants) {
+    if (const auto column = record->find(name)) return record->at(*column, t_us);
+  }
+  return of == nullptr ? std::nullopt : of(truths, t_us);
 }
 
 const TruthValue* find_truth_value(std::string_view name) {

@@ -6,23 +6,22 @@
 #include <span>
 #include <string_view>
 
+#include "bench/world/plant_record.hpp"
+
 namespace canhil::world {
 
 struct EngagementRecord;
 class FlightRecord;
-class GlideRecord;
-class PlantRecord;
 
 /// The truths of a run.
 struct Truths {
   const FlightRecord& flight;
-  const GlideRecord* glide = nullptr;            ///< null: the run has no glide
   const EngagementRecord* engagement = nullptr;  ///< null: the run has no engagement
-  const PlantRecord* plant = nullptr;            ///< null: the run has no plant
+  PlantRecords plants{};
 };
 
-/// The truth that contains a value. `motion`: the glide if there is one, otherwise the flight.
-enum class TruthIn : std::uint8_t { flight, motion, glide, engagement, plant };
+/// The truth that contains a value. `motion`: a plant that shows the value itself, otherwise the flight.
+enum class TruthIn : std::uint8_t { flight, motion, engagement, plant };
 
 /// A true value, in SI. Axes: north, east, down, or those of the body (forward, right, down).
 struct TruthValue {
@@ -30,7 +29,7 @@ struct TruthValue {
   std::string_view si;    ///< SI unit
   bool turns = false;     ///< an angle: values that differ by a full turn are equal
   TruthIn in = TruthIn::flight;
-  /// Null: an output of the plant.
+  /// Null: an output of a plant.
   std::optional<double> (*of)(const Truths& truths, std::int64_t t_us) = nullptr;
 
   /// The value at a time [us] of the run; none: there is no truth at this time.

@@ -67,10 +67,13 @@ Finding CommandTime::judge(const Evidence& evidence) const {
   const double bar_s = 1e-6 * static_cast<double>(below_us);
   const std::string expected = fmt::format("{} of the command '{}' {} < {:g} ms {}", is_age ? "age" : "delay",
                                            input, quantile_name(quantile), bar_s * 1e3, seconds(window));
-  if (evidence.truth.plant == nullptr) return {Outcome::not_measured, "the run has no plant", expected};
-  const auto& commands = evidence.truth.plant->commands;
-  const auto record = std::ranges::find(commands, input, &CommandRecord::input);
-  if (record == commands.end() || record->given.empty())
+  if (evidence.truth.plants.empty()) return {Outcome::not_measured, "the run has no plant", expected};
+  const CommandRecord* record = nullptr;
+  for (const world::PlantRecord* plant : evidence.truth.plants) {
+    const auto found = std::ranges::find(plant->commands, input, &CommandRecord::input);
+    if (found != plant->commands.end()) record = &*found;
+  }
+  if (record == nullptr || record->given.empty())
     return {Outcome::fail, fmt::format("no command of '{}' came", input), expected};
   const std::vector<double> times = is_age ? ages(*record, window) : delays(*record, window);
   if (times.empty() && is_age) return {Outcome::not_measured, "the plant has no step there", expected};

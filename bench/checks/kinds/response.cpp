@@ -35,19 +35,20 @@ Finding unless_host_late(const Evidence& evidence, Finding finding) {
   if (evidence.timing_unfit == virtual_time) return finding;
   if (std::string late = late_loop(evidence); !late.empty())
     return {Outcome::not_measured, finding.measured + "; " + late, finding.expected};
-  const world::PlantRecord* plant = evidence.truth.plant;
-  if (plant == nullptr || plant->commands.empty()) return finding;
   constexpr double usual = 0.99;  // quantile
+  const world::PlantRecord* plant = world::steered(evidence.truth.plants);
+  if (plant == nullptr) return finding;
   const double step_s = 1e-6 * static_cast<double>(plant->commands.front().step_us);
   return unless_target_delayed(evidence, usual, step_s / lateness_share, std::move(finding));
 }
 
 // Without a command, the plant only coasts.
 std::string missing_command(const Evidence& evidence, const scenario::Window& window) {
-  if (evidence.truth.plant == nullptr) return "";
-  for (const world::CommandRecord& one : evidence.truth.plant->commands) {
-    if (one.given.empty() || one.given.front().t_us > window.to_us)
-      return fmt::format("no command of '{}' came", one.input);
+  for (const world::PlantRecord* plant : evidence.truth.plants) {
+    for (const world::CommandRecord& one : plant->commands) {
+      if (one.given.empty() || one.given.front().t_us > window.to_us)
+        return fmt::format("no command of '{}' came", one.input);
+    }
   }
   return "";
 }

@@ -1,5 +1,7 @@
 #include "bench/estimators/wind/answers.hpp"
 
+#include <optional>
+
 namespace canhil::estimators {
 namespace {
 
@@ -36,20 +38,16 @@ struct WindGroup : AnswerGroup<WindVector, WindSpeed, WindSigma, WindCorrelation
   }
 };
 
-bool lies_within(const WindAnswer& answer, const world::GlideRecord& glide) {
-  return answer.started && answer.cause_us >= 0 && answer.cause_us <= glide.end_us() &&
-         answer.cause_us % world::GlideRecord::step_us == 0;
-}
-
-WindError error_of(const WindAnswer& answer, const world::GlideRecord& glide) {
-  const world::GlideTruth& truth = glide.at(answer.cause_us);
-  const Vector3 v = truth.C_bn * truth.v_a;
-  const Eigen::Vector2d along = Eigen::Vector2d(v.x(), v.y()).normalized();
-  const Vector3 error = answer.wind_n - truth.wind_n;
-  return {.t_us = answer.cause_us,
-          .error_n = error,
-          .along_track = along.x() * error.x() + along.y() * error.y(),
-          .cross_track = -along.y() * error.x() + along.x() * error.y()};
+// None: the filter does not run, or the cause is no time of the record.
+std::optional<WindError> error_of(const WindAnswer& answer, const TrueAir& air) {
+  if (!answer.started || !air.record().has(answer.cause_us)) return std::nullopt;
+  const auto [north, east, down, v_north, v_east, v_down] = *air.at(answer.cause_us);
+  const Eigen::Vector2d along = Eigen::Vector2d(v_north, v_east).normalized();
+  const Vector3 error = answer.wind_n - Vector3(north, east, down);
+  return WindError{.t_us = answer.cause_us,
+                   .error_n = error,
+                   .along_track = along.x() * error.x() + along.y() * error.y(),
+                   .cross_track = -along.y() * error.x() + along.x() * error.y()};
 }
 
 }  // namespace
@@ -58,12 +56,13 @@ std::unique_ptr<Reception> wind_reception() {
   return std::make_unique<ReceptionOf<WindAnswers, WindGroup>>();
 }
 
-Spool<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecord& glide) {
+Spool<WindError> wind_errors(const WindAnswers& answers, const TrueAir& air) {
   Spool<WindError> errors;
   for (std::size_t index = 0; index < answers.size(); ++index) {
-    if (!lies_within(answers[index], glide)) continue;
-    errors.push_back(error_of(answers[index], glide));
-    errors.back().answer = index;
+    auto error = error_of(answers[index], air);
+    if (!error) continue;
+    error->answer = index;
+    errors.push_back(*error);
   }
   return errors;
 }
@@ -76,12 +75,11 @@ Spool<quantities::TrackPoint> nis_of(const WindAnswers& answers) {
   return all;
 }
 
-Spool<quantities::TrackPoint> nees_of(const WindAnswers& answers, const world::GlideRecord& glide) {
+Spool<quantities::TrackPoint> nees_of(const WindAnswers& answers, const TrueAir& air) {
   Spool<quantities::TrackPoint> all;
   for (const WindAnswer& answer : answers) {
-    if (!lies_within(answer, glide)) continue;
-    const Vector3 error = error_of(answer, glide).error_n;
-    all.push_back({answer.cause_us, nees(error, answer.sigma, answer.correlation)});
+    if (const auto error = error_of(answer, air))
+      all.push_back({answer.cause_us, nees(error->error_n, answer.sigma, answer.correlation)});
   }
   return all;
 }

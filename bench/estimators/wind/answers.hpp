@@ -4,7 +4,8 @@
 #include <memory>
 
 #include "bench/estimators/navigation.hpp"
-#include "bench/world/glide/glide.hpp"
+#include "bench/world/attitude.hpp"
+#include "bench/world/plant_record.hpp"
 
 namespace canhil::estimators {
 
@@ -41,13 +42,22 @@ struct WindError {
   std::size_t answer = 0;                           ///< index of the answer
 };
 
-/// Errors of all answers of a running filter whose cause lies within the record.
-Spool<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecord& glide);
+/// The wind and the velocity through the air, both NED [m/s].
+using TrueAir = world::PlantColumns<6>;
+inline constexpr TrueAir::Names true_air{"wind.north",
+                                         "wind.east",
+                                         "wind.down",
+                                         "plant.air_velocity.north",
+                                         "plant.air_velocity.east",
+                                         "plant.air_velocity.down"};
+
+/// Errors of all answers of a running filter whose cause is a time of the record.
+Spool<WindError> wind_errors(const WindAnswers& answers, const TrueAir& air);
 
 /// NIS (9 degrees of freedom) of each update.
 Spool<quantities::TrackPoint> nis_of(const WindAnswers& answers);
 /// NEES of the wind (3 degrees of freedom), with the covariance on the bus.
-Spool<quantities::TrackPoint> nees_of(const WindAnswers& answers, const world::GlideRecord& glide);
+Spool<quantities::TrackPoint> nees_of(const WindAnswers& answers, const TrueAir& air);
 
 std::unique_ptr<Reception> wind_reception();
 

@@ -41,9 +41,10 @@ constexpr Layout layout{.kept = kept, .derived = derived};
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
-  if (truth.glide == nullptr) return samples;
-  const auto errors = wind_errors(seen.of<WindAnswers>(), *truth.glide);
-  const auto normalised = nees_of(seen.of<WindAnswers>(), *truth.glide);  // one for each error
+  const auto air = TrueAir::find(truth.plants, true_air);
+  if (!air) return samples;
+  const auto errors = wind_errors(seen.of<WindAnswers>(), *air);
+  const auto normalised = nees_of(seen.of<WindAnswers>(), *air);  // one for each error
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const WindAnswer& answer = seen.of<WindAnswers>()[errors[i].answer];
     const bool updated = answer.outcome == messages::WindOutcome::updated;
@@ -63,10 +64,11 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 }
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
-  if (truth.glide == nullptr) return;
+  const auto air = TrueAir::find(truth.plants, true_air);
+  if (!air) return;
   const WindAnswers& answers = seen.of<WindAnswers>();
-  const auto errors = wind_errors(answers, *truth.glide);
-  const Answering of{longest_wait_us(seen, messages::WindUpdate::info.name), truth.glide->end_us()};
+  const auto errors = wind_errors(answers, *air);
+  const Answering of{longest_wait_us(seen, messages::WindUpdate::info.name), truth.duration_us};
   const auto fill = [&](Track track, auto point_of) {
     for (const WindError& e : errors) {
       track.points.push_back(point_of(answers[e.answer], e));
@@ -96,7 +98,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   fill(judged(of.track(wind_norm, "wind error norm")),
        [](const auto&, const WindError& e) { return TrackPoint{.value = e.error_n.norm()}; });
   give(of.statistic(wind_nis, "normalised innovation squared", nis_of(answers)));
-  give(judged(of.statistic(wind_nees, "normalised error squared", nees_of(answers, *truth.glide))));
+  give(judged(of.statistic(wind_nees, "normalised error squared", nees_of(answers, *air))));
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {
@@ -114,10 +116,11 @@ std::vector<Mark> marks_of(const checks::Observations& seen) {
 
 std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
                                    std::string_view /*algorithm*/) {
-  if (truth.glide == nullptr) return {};
+  const auto air = TrueAir::find(truth.plants, true_air);
+  if (!air) return {};
   constexpr std::int64_t from_us = 10'000'000;  // until then the filter settles
   Spool<WindError> errors;
-  for (const WindError& error : wind_errors(seen.of<WindAnswers>(), *truth.glide)) {
+  for (const WindError& error : wind_errors(seen.of<WindAnswers>(), *air)) {
     if (error.t_us >= from_us) errors.push_back(error);
   }
   ResultLine mean{.name = "mean_error", .what = "mean |error| from 10 s on"};
@@ -172,7 +175,7 @@ constexpr std::array<std::string_view, 4> plain_marks{"waiting", "started", "upd
 constinit const Estimator wind{.name = "wind",
                                .facts = {.parameters = parameters,
                                          .nodes = nodes,
-                                         .truth = scenario::TruthOf::glide,
+                                         .truth = "wind.north",
                                          .start = scenario::Start::per_run_truth,
                                          .start_errors = "[glide.initial_error]"},
                                .layout = layout,

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "bench/estimators/wind/quantities.hpp"
-#include "bench/world/glide/glide.hpp"
+#include "bench/plant/glide/glide.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::papers::wind {
@@ -96,12 +96,12 @@ void add_claims(Names& names, const Results& results) {
 
 template <class Value>
 Curve profile(std::string_view season, Value value) {
-  using world::glide::Season;
+  using plant::glide::Season;
   static const std::map<std::string_view, Season> seasons{{"March", Season::march},
                                                           {"June", Season::june},
                                                           {"September", Season::september},
                                                           {"December", Season::december}};
-  const world::glide::WindProfile wind(seasons.at(season));
+  const plant::glide::WindProfile wind(seasons.at(season));
   Curve curve;
   for (double km = 0; km <= 15; km += 0.25) curve.points.emplace_back(km, value(wind.at(1000 * km)));
   return curve;
@@ -112,15 +112,23 @@ double from_deg(const world::Vector3& wind_n) {
   return from < 0 ? from + 360 : from;
 }
 
-// The nominal glide, without errors and without a target.
-const world::GlideRecord& nominal_glide() {
-  static const world::GlideRecord record({}, 100'000'000, world::Stream(0, 0, "none"),
-                                         world::Stream(0, 0, "none"));
-  return record;
+// The nominal glide, without errors and without a target: a point every 250 ms over 100 s.
+const std::vector<plant::glide::Truth>& nominal_glide() {
+  static const auto flown = [] {
+    constexpr std::int64_t step_us = plant::glide::Glider::step_us;
+    plant::glide::Glider glider({}, world::Stream(0, 0, "none"), world::Stream(0, 0, "none"));
+    std::vector<plant::glide::Truth> points{glider.now()};
+    for (std::int64_t t_us = 0; t_us < 100'000'000 && glider.step(t_us, t_us + step_us, {});
+         t_us += step_us) {
+      if ((t_us + step_us) % 250'000 == 0) points.push_back(glider.now());
+    }
+    return points;
+  }();
+  return flown;
 }
 
 Curve glide(std::string_view what) {
-  using Truth = world::GlideTruth;
+  using plant::glide::Truth;
   static const std::map<std::string_view, double (*)(const Truth&)> values{
       {"air_speed", [](const Truth& t) { return t.v_a.norm(); }},
       {"north", [](const Truth& t) { return t.v_eb_n.x(); }},
@@ -132,9 +140,8 @@ Curve glide(std::string_view what) {
       {"attack", [](const Truth& t) { return std::atan2(t.v_a.z(), t.v_a.x()) / deg; }}};
   const auto value = values.at(what);
   Curve curve;
-  const auto epochs = nominal_glide().epochs();
-  for (std::size_t k = 0; k < epochs.size(); k += 25)
-    curve.points.emplace_back(static_cast<double>(epochs[k].t_us) * 1e-6, value(epochs[k]));
+  for (const Truth& point : nominal_glide())
+    curve.points.emplace_back(static_cast<double>(point.t_us) * 1e-6, value(point));
   return curve;
 }
 
@@ -145,7 +152,7 @@ Result<PageContent> page_content(const Results& results, const FlyOptions& /*opt
   PageContent content;
   add_scores(content.names, results);
   add_claims(content.names, results);
-  const world::GlideTruth& end = nominal_glide().epochs().back();
+  const plant::glide::Truth& end = nominal_glide().back();
   content.names["glide_end"] = [&end](Words&) {
     return fmt::format("{:.0f} m/s and {:.2f} km, heading {:+.1f} deg", end.v_a.norm(), end.height / 1000,
                        world::euler_from(end.C_bn).heading / deg);

@@ -36,9 +36,14 @@ NEVER_REACHES = {"bench/checks/": ("target/", "bench/nodes/")}
 ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/")
 
 # Code that may name an estimator: its folder and the registry; the papers, each about one estimator; the seeker,
-# which uses the answers of one estimator for guidance; and the truth of the glide, whose table [wind] has an
-# estimator's name.
-KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/sensors/seeker.", "bench/nodes/seeker.", "bench/nodes/bound_sensor.", "bench/scenario/glide.")
+# which uses the answers of one estimator for guidance; and the glider, whose table [wind] has an estimator's name.
+KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/sensors/seeker.", "bench/nodes/seeker.", "bench/nodes/bound_sensor.", "bench/plant/glide/")
+
+# Code that may name a plant with tables of its own (bench/plant/registry.cpp), also in a comment. All other code sees the
+# outputs of plants as named quantities. Exceptions:
+KNOW_PLANTS = ("bench/plant/",
+               "bench/estimators/wind/wind.",  # a message names the table of a scenario with the errors of the filter's start
+               "bench/papers/wind/")  # the paper's figures show the nominal flight and the profiles of this plant
 
 # Code that may know whose DBC it is: the bindings (canhil.dbc's, its sensors' and its estimators', and the mappings of other
 # DBC files), canhil's own protocol, and what is about that protocol alone (conformance, accept, the drawn faults of hil-target).
@@ -78,7 +83,7 @@ def check(root):
     return [*direct_breaches(graph), *reach_breaches(graph), *cycle_breaches(graph), *depth_breaches(graph), *size_breaches(sources),
             *name_breaches(texts), *machine_path_breaches(texts), *quantity_breaches(sources),
             *estimator_breaches(sources), *named_test_breaches(texts), *node_breaches(sources, graph), *whose_dbc_breaches(sources),
-            *dbc_breaches(texts, sources)]
+            *plant_breaches(sources), *dbc_breaches(texts, sources)]
 
 
 def without_comments(text, keep_strings=True):
@@ -251,6 +256,17 @@ def node_breaches(sources, graph):
         if named and not name.startswith(("bench/sensors/", "bench/nodes/")) and (found := named.search(clean := without_comments(text))):
             line = clean.count("\n", 0, found.start()) + 1
             yield f"{name}:{line}: names {found[0]}, expected scenario::NodeSettings: its table stands in bench/sensors"
+
+
+def plant_breaches(sources):
+    plants = re.findall(r"&(\w+)::table\b", sources.get("bench/plant/registry.cpp", ""))
+    named = re.compile("|".join(rf"\b(?:{p}|{p.capitalize()}(?:[A-Z]\w*)?)\b" for p in sorted(plants))) if plants else None
+    for name, text in sources.items():
+        if not named or not name.startswith("bench/") or name.startswith(KNOW_PLANTS):
+            continue
+        for found in named.finditer(text):
+            line = text.count("\n", 0, found.start()) + 1
+            yield f"{name}:{line}: names {found[0]}, expected an output of a plant: what is particular stands in bench/plant"
 
 
 def whose_dbc_breaches(sources):

@@ -75,6 +75,14 @@ class Checker(unittest.TestCase):
         self.expect_include("target/estimators/filtering/update.hpp", "target/estimators/wind/model.hpp")
         self.expect_include("target/estimators/all.hpp", "target/estimators/wind/model.hpp")
 
+    def test_only_its_folder_names_a_plant(self):
+        glide = {"bench/plant/glide/glide.hpp": "class Glider {};\n", "bench/plant/registry.cpp": "int glide = &glide::table;\n",
+                 "bench/papers/wind/page_content.cpp": "int glide;\n"}
+        self.assertEqual(breaches_of(glide | {"bench/drive/flight.cpp": "int glider, glides;\n"}), [])
+        for line in ("// The glide ends.\n", "int Glide;\n", 'auto key = "glide";\n', "GlidePlan plan;\n"):
+            with self.subTest(line):
+                self.expect("bench/drive/flight.cpp:1: names", glide | {"bench/drive/flight.cpp": line})
+
     def test_what_works_on_quantities_names_no_estimator(self):
         wind = {"bench/estimators/wind/wind.hpp": "int wind;\n"}
         for name in ("bench/campaign/series.cpp", "bench/quantities/samples.cpp", "bench/report/series.cpp", "bench/report/csv.cpp"):

@@ -83,8 +83,9 @@ TEST(WindSeries, IsWhatTheChecksSee) {
   const auto flown = drive::run_in_process(scenario, *truth, 2);
   ASSERT_TRUE(flown) << flown.error().message;
   const RunSeries series = series_of(2, *flown, *truth, estimators::of(scenario));
-  const auto errors =
-      estimators::wind_errors(flown->seen.of<estimators::WindAnswers>(), *flown->per_run_truth.glide);
+  const auto air = estimators::TrueAir::find(drive::plants_of(flown->per_run_truth), estimators::true_air);
+  ASSERT_TRUE(air);
+  const auto errors = estimators::wind_errors(flown->seen.of<estimators::WindAnswers>(), *air);
   ASSERT_EQ(&series.samples.layout(), &estimators::wind.layout);
   EXPECT_TRUE(series_of(2, *flown, *truth, estimators::los_rate).samples.empty()) << "flew no engagement";
   ASSERT_EQ(series.samples.size(), errors.size());

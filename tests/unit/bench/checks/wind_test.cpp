@@ -12,6 +12,7 @@
 #include "dbc/wire/transmit.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
 #include "tests/unit/bench/edited.hpp"
+#include "tests/unit/bench/plant/glide/flown.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -29,8 +30,8 @@ using world::Vector3;
 constexpr std::int64_t duration_us = 10'000'000;
 constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
 
-world::GlidePlan heading_east() {
-  world::GlidePlan plan;
+plant::glide::Settings heading_east() {
+  plant::glide::Settings plan;
   plan.heading = 1.5707963267948966;
   return plan;
 }
@@ -50,7 +51,7 @@ class Winds : public testing::Test {
   }
   template <class Rule>
   CheckResult judge(const Rule& rule) {
-    return judged(rule, seen_, {.flight = rest_, .duration_us = duration_us, .glide = &glide_});
+    return judged(rule, seen_, {.flight = rest_, .duration_us = duration_us, .plants = {&glide_.record()}});
   }
   CheckResult error(const quantities::Quantity& quantity, Error::Statistic statistic, double below) {
     return judge(error_of("wind", quantity, whole, below, statistic));
@@ -61,7 +62,8 @@ class Winds : public testing::Test {
         Consistency{.judged = {.estimator = "wind", .quantity = &quantity}, .window = whole, .bound = bound});
   }
 
-  world::GlideRecord glide_{heading_east(), duration_us, world::Stream(1, 0, "c"), world::Stream(1, 0, "g")};
+  plant::glide::Flown glide_{heading_east(), duration_us};
+  TrueAir air_ = TrueAir::find({&glide_.record()}, true_air).value();
   world::FlightRecord rest_{{.start = {}, .motion = world::Rest{}}, duration_us, 20'000};
   Observations seen_;
 };
@@ -70,7 +72,7 @@ TEST_F(Winds, ErrorsAreAlongAndAcrossTheAirVelocity) {
   seen_.of<WindAnswers>()[100].wind_n += Vector3(0, 3, 0);   // an error to the east: along the track
   seen_.of<WindAnswers>()[200].wind_n += Vector3(-2, 0, 0);  // an error to the south: to the right
   seen_.of<WindAnswers>()[300].wind_n += Vector3(0, 0, -1);
-  const auto errors = wind_errors(seen_.of<WindAnswers>(), glide_);
+  const auto errors = wind_errors(seen_.of<WindAnswers>(), air_);
   EXPECT_NEAR(errors[100].along_track, 3, 0.01);  // the glider weathercocks by a fraction of a degree
   EXPECT_NEAR(errors[100].cross_track, 0, 0.1);
   EXPECT_NEAR(errors[200].cross_track, 2, 0.01);
@@ -100,15 +102,15 @@ TEST_F(Winds, SilenceAndNansNeverPass) {
 
 TEST_F(Winds, AFilterThatWaitsHasNoError) {
   for (WindAnswer& answer : test::Edited(seen_.of<WindAnswers>())) answer.started = false;
-  EXPECT_TRUE(wind_errors(seen_.of<WindAnswers>(), glide_).empty());
+  EXPECT_TRUE(wind_errors(seen_.of<WindAnswers>(), air_).empty());
 }
 
 TEST_F(Winds, NeesTakesTheCorrelationIn) {
   seen_.of<WindAnswers>()[0].wind_n += Vector3(1, 2, 3);
   seen_.of<WindAnswers>()[0].sigma = {1, 2, 3};
-  EXPECT_NEAR(nees_of(seen_.of<WindAnswers>(), glide_)[0].value, 3, 1e-9);
+  EXPECT_NEAR(nees_of(seen_.of<WindAnswers>(), air_)[0].value, 3, 1e-9);
   seen_.of<WindAnswers>()[0].correlation = {0.5, 0, 0};
-  EXPECT_NEAR(nees_of(seen_.of<WindAnswers>(), glide_)[0].value, 2.0 / 1.5 + 1,
+  EXPECT_NEAR(nees_of(seen_.of<WindAnswers>(), air_)[0].value, 2.0 / 1.5 + 1,
               1e-9);  // (1 + 1 - 2 r) / (1 - r^2), plus 1 for down
 }
 
@@ -116,7 +118,7 @@ TEST_F(Winds, ACovarianceThatIsNoneExplainsNothing) {
   seen_.of<WindAnswers>()[0].wind_n += Vector3(1, -1, 0);
   // Not positive definite: no three quantities have these correlations.
   seen_.of<WindAnswers>()[0].correlation = {0.9, 0.9, -0.9};
-  EXPECT_TRUE(std::isinf(nees_of(seen_.of<WindAnswers>(), glide_)[0].value));
+  EXPECT_TRUE(std::isinf(nees_of(seen_.of<WindAnswers>(), air_)[0].value));
   EXPECT_EQ(consistency(quantities::wind_nees, MeanBetween{.low = 0, .high = 1e9}).outcome, Outcome::fail);
 }
 

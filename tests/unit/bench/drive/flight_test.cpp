@@ -143,8 +143,11 @@ TEST(Nodes, SendInAnOrderThatNeverChanges) {
   const world::FlightRecord truth = make_truth(all).value();
   Flight flight = make_flight(all, truth, 0).value();
   PerRunTruth& own = flight.per_run_truth;
-  const auto sensors = nodes::make(
-      {.scenario = all, .index = 0, .flight = truth, .glide = &*own.glide, .engagement = &*own.engagement});
+  const auto sensors = nodes::make({.scenario = all,
+                                    .index = 0,
+                                    .flight = truth,
+                                    .engagement = &*own.engagement,
+                                    .plants = plants_of(own)});
   std::vector<std::string_view> senders;
   for (const auto& node : sensors) {
     nodes::Transmission out;

@@ -8,6 +8,7 @@
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
 #include "tests/unit/bench/nodes/made.hpp"
+#include "tests/unit/bench/plant/glide/flown.hpp"
 
 namespace canhil::nodes {
 namespace {
@@ -19,10 +20,9 @@ using world::units::deg;
 
 constexpr std::int64_t end_us = 20'000'000;
 
-const world::GlideRecord& glide() {
-  static const world::GlideRecord record({}, end_us, world::Stream(1, 0, "coefficients"),
-                                         world::Stream(1, 0, "gusts"));
-  return record;
+const plant::glide::Flown& glide() {
+  static const plant::glide::Flown flown({}, end_us);
+  return flown;
 }
 
 // A flight record as long as the run.
@@ -47,7 +47,7 @@ struct Sample {
 
 std::vector<Sample> navigation(const GliderNavSettings& config) {
   using namespace messages;
-  const auto node = made(glider_nav, config, flight(), &glide());
+  const auto node = made(glider_nav, config, flight(), {&glide().record()});
   std::vector<Sample> all;
   Transmission out;
   for (; node->due_us() != never_us; out.clear()) {
@@ -72,7 +72,7 @@ std::vector<Sample> navigation(const GliderNavSettings& config) {
   return all;
 }
 
-Vector3 angles(const world::GlideTruth& truth) {
+Vector3 angles(const plant::glide::Truth& truth) {
   const world::Euler e = world::euler_from(truth.C_bn);
   return {e.roll, e.pitch, e.heading};
 }
@@ -84,7 +84,7 @@ TEST(GliderNav, SendsTheTruthOfItsTimeOfValidity) {
   ASSERT_EQ(samples.size(), 998U);  // every 20 ms; only samples that arrive before the end of the run
   for (const Sample& sample : samples) {
     EXPECT_EQ(sample.due_us, sample.valid_us + 30'000);
-    const world::GlideTruth& truth = glide().at(sample.valid_us);
+    const plant::glide::Truth& truth = glide().at(sample.valid_us);
     EXPECT_LT((sample.velocity - truth.v_eb_n).cwiseAbs().maxCoeff(), 0.0101);
     EXPECT_LT((sample.rates - truth.omega_nb_b).cwiseAbs().maxCoeff(), 0.00251 * deg);
     EXPECT_LT((sample.angles - angles(truth)).cwiseAbs().maxCoeff(), 0.00151 * deg);
@@ -98,7 +98,7 @@ TEST(GliderNav, ErrorsHaveTheirSigmas) {
   Vector3 velocity = Vector3::Zero(), rates = velocity, attitude = velocity;
   const double count = static_cast<double>(samples.size());
   for (const Sample& sample : samples) {
-    const world::GlideTruth& truth = glide().at(sample.valid_us);
+    const plant::glide::Truth& truth = glide().at(sample.valid_us);
     velocity += (sample.velocity - truth.v_eb_n).cwiseAbs2() / count;
     rates += (sample.rates - truth.omega_nb_b).cwiseAbs2() / count;
     attitude += (sample.angles - angles(truth)).cwiseAbs2() / count;
@@ -142,7 +142,7 @@ TEST(GliderNav, LossesAndOutagesLeaveAGapInTheCounter) {
 TEST(Fins, SendTheDeflectionOfTheirTimeOfValidity) {
   FinsSettings config;
   config.schedule.latency_us = 50'000;
-  const auto node = made(fins, config, flight(), &glide());
+  const auto node = made(fins, config, flight(), {&glide().record()});
   Transmission out;
   int count = 0;
   for (; node->due_us() != never_us; out.clear()) {
@@ -161,7 +161,7 @@ TEST(Fins, SendTheDeflectionOfTheirTimeOfValidity) {
 TEST(Fins, AWrongStampIsWrongByWhatIsAskedFor) {
   FinsSettings config;
   config.stamp_error_us = 40'000;
-  const auto node = made(fins, config, flight(), &glide());
+  const auto node = made(fins, config, flight(), {&glide().record()});
   Transmission out;
   const std::int64_t due_us = node->due_us();
   node->transmit(out);

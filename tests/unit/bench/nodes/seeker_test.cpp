@@ -40,11 +40,8 @@ Message message(const Transmission& out, std::size_t place) {
 class Bench {
  public:
   explicit Bench(const SeekerSettings& config = {}, const world::EngagementPlan& plan = {})
-      : node_(make({bound(seeker).table, config}, {.scenario = with(plan),
-                                                   .index = 0,
-                                                   .flight = flight(),
-                                                   .glide = nullptr,
-                                                   .engagement = &record_})) {}
+      : node_(make({bound(seeker).table, config},
+                   {.scenario = with(plan), .index = 0, .flight = flight(), .engagement = &record_})) {}
 
   /// The next sample; none if it was lost or the engagement has ended.
   std::optional<Sample> next() {

@@ -9,6 +9,7 @@
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/estimators/vocabulary.hpp"
+#include "bench/plant/registry.hpp"
 #include "bench/sensors/gps.hpp"
 #include "bench/sensors/master_ins.hpp"
 #include "bench/sensors/slave_imu.hpp"
@@ -55,7 +56,8 @@ DbcVocabulary of_the_dbc() {
           .known = estimators::all(),
           .facts = estimators::bound_to({}, bindings::canhil()).facts,
           .nodes = nodes::tables(),
-          .binding = bindings::canhil()};
+          .binding = bindings::canhil(),
+          .plants = plant::tables()};
 }
 
 TEST(ScenarioFiles, AreAllValid) {

@@ -12,6 +12,7 @@
 #include "bench/estimators/registry.hpp"
 #include "bench/estimators/vocabulary.hpp"
 #include "bench/nodes/registry.hpp"
+#include "bench/plant/registry.hpp"
 #include "bench/scenario/scenario.hpp"
 
 namespace canhil::scenario {
@@ -25,7 +26,8 @@ inline const DbcVocabulary contract{.estimators = {"transfer_alignment", "inflig
                                     .known = estimators::all(),
                                     .facts = estimators::bound_to({}, bindings::canhil()).facts,
                                     .nodes = nodes::tables(),
-                                    .binding = bindings::canhil()};
+                                    .binding = bindings::canhil(),
+                                    .plants = plant::tables()};
 
 inline constexpr std::string_view valid = R"(title = "A title"
 duration_s = 20.0

@@ -1,7 +1,7 @@
 // The standard atmosphere (ISO 2533), troposphere and lower stratosphere.
 #pragma once
 
-namespace canhil::world::glide {
+namespace canhil::plant::glide {
 
 struct Air {
   double density = 0;         ///< [kg/m^3]
@@ -12,4 +12,4 @@ struct Air {
 /// returned.
 Air standard_air(double height);
 
-}  // namespace canhil::world::glide
+}  // namespace canhil::plant::glide

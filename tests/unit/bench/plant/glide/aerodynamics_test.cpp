@@ -1,13 +1,13 @@
 // The bench's aerodynamics and atmosphere, compared with the published table and with the independently
 // written models of the target.
-#include "bench/world/glide/aerodynamics.hpp"
+#include "bench/plant/glide/aerodynamics.hpp"
 
 #include <gtest/gtest.h>
 
 #include "target/estimators/wind/aerodynamics.hpp"
 #include "target/estimators/wind/airframe_table.hpp"
 
-namespace canhil::world::glide {
+namespace canhil::plant::glide {
 namespace {
 
 struct Case {
@@ -93,4 +93,4 @@ TEST(GlideAerodynamics, NoSpeedIsNoTrouble) {
 }
 
 }  // namespace
-}  // namespace canhil::world::glide
+}  // namespace canhil::plant::glide

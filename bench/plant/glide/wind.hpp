@@ -7,7 +7,10 @@
 
 #include "bench/world/stream.hpp"
 
-namespace canhil::world::glide {
+namespace canhil::plant::glide {
+
+using world::Stream;
+using world::Vector3;
 
 enum class Season : std::uint8_t { march, june, september, december };
 inline constexpr std::array<std::string_view, 4> season_names{"march", "june", "september", "december"};
@@ -53,4 +56,4 @@ class Gusts {
   Vector3 now_;
 };
 
-}  // namespace canhil::world::glide
+}  // namespace canhil::plant::glide

@@ -1,4 +1,4 @@
-#include "bench/world/glide/wind.hpp"
+#include "bench/plant/glide/wind.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,10 @@
 #include "bench/world/gauss_markov.hpp"
 #include "bench/world/units.hpp"
 
-namespace canhil::world::glide {
+namespace canhil::plant::glide {
 namespace {
+
+namespace units = world::units;
 
 struct Table {
   std::array<double, WindProfile::levels> speed;
@@ -64,7 +66,7 @@ Gusts::Gusts(const GustModel& model, Stream stream)
     : model_(model), stream_(stream), now_(model.sigma * stream_.normal3()) {}
 
 void Gusts::advance(double dt) {
-  now_ = GaussMarkov(dt / model_.time, model_.sigma).next(now_, stream_.normal3());
+  now_ = world::GaussMarkov(dt / model_.time, model_.sigma).next(now_, stream_.normal3());
 }
 
-}  // namespace canhil::world::glide
+}  // namespace canhil::plant::glide

@@ -1,6 +1,6 @@
-#include "bench/world/glide/coefficient_errors.hpp"
+#include "bench/plant/glide/coefficient_errors.hpp"
 
-namespace canhil::world::glide {
+namespace canhil::plant::glide {
 
 CoefficientErrors::CoefficientErrors(const CoefficientErrorModel& model, Stream stream)
     : model_(model), stream_(stream) {
@@ -31,4 +31,4 @@ void CoefficientErrors::draw(const GaussMarkov& process) {
   }
 }
 
-}  // namespace canhil::world::glide
+}  // namespace canhil::plant::glide

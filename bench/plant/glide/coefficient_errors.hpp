@@ -6,11 +6,14 @@
 #include <cstdint>
 #include <string_view>
 
+#include "bench/plant/glide/aerodynamics.hpp"
 #include "bench/world/gauss_markov.hpp"
-#include "bench/world/glide/aerodynamics.hpp"
 #include "bench/world/stream.hpp"
 
-namespace canhil::world::glide {
+namespace canhil::plant::glide {
+
+using world::GaussMarkov;
+using world::Stream;
 
 /// How the random number n of a coefficient's error changes with time.
 enum class ErrorKind : std::uint8_t {
@@ -47,4 +50,4 @@ class CoefficientErrors {
   Factors factors_ = nominal;
 };
 
-}  // namespace canhil::world::glide
+}  // namespace canhil::plant::glide

@@ -5,16 +5,21 @@
 #include "bench/checks/kinds/answers.hpp"
 #include "bench/checks/kinds/consistency.hpp"
 #include "bench/checks/kinds/error.hpp"
+#include "bench/plant/glide/glide.hpp"
+#include "bench/plant/registry.hpp"
+#include "bench/plant/setup.hpp"
 #include "bench/quantities/quantity.hpp"
 #include "bench/sensors/fins.hpp"
 #include "bench/sensors/glider_nav.hpp"
+#include "bench/world/truth_values.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 
 namespace canhil::scenario {
 namespace {
 
-using world::glide::ErrorKind;
+using plant::glide::ErrorKind;
+using plant::glide::Settings;
 using world::units::deg;
 
 const DbcVocabulary glider_contract{.estimators = {"transfer_alignment", "wind"},
@@ -26,7 +31,8 @@ const DbcVocabulary glider_contract{.estimators = {"transfer_alignment", "wind"}
                                     .known = estimators::all(),
                                     .facts = estimators::bound_to({}, bindings::canhil()).facts,
                                     .nodes = nodes::tables(),
-                                    .binding = bindings::canhil()};
+                                    .binding = bindings::canhil(),
+                                    .plants = plant::tables()};
 
 constexpr std::string_view glider = R"(title = "A glider"
 duration_s = 20.0
@@ -49,6 +55,9 @@ silent_at_most_s = 0.5
 )";
 
 Result<Scenario> read(std::string_view text) { return parse(text, "g.toml", glider_contract); }
+const Settings& settings_of(const Scenario& scenario) {
+  return dynamic_cast<const plant::glide::GliderPlan&>(*scenario.of_tables.at(0).setup->plan).settings();
+}
 Scenario glides(std::string_view text) {
   const auto scenario = read(text);
   if (scenario) return *scenario;
@@ -68,16 +77,17 @@ TEST(GlideSections, WhatTheWindFilterIsConfiguredWithIsWrongByTheGlide) {
 
 TEST(GlideSections, NeedNoTruthOfNavigation) {
   const Scenario s = glides(glider);
-  ASSERT_TRUE(s.glide);
-  EXPECT_NEAR(s.glide->plan.heading, 90 * deg, 1e-15);
-  EXPECT_EQ(s.glide->plan.speed, 250);
-  EXPECT_EQ(s.glide->plan.height, 10'000);
-  EXPECT_LT((s.glide->plan.wind.at(11'000) - world::glide::WindProfile(world::glide::Season::june).at(11'000))
-                .norm(),
-            1e-12);
-  EXPECT_EQ(s.glide->plan.coefficients.level, 0);
-  EXPECT_EQ(s.glide->plan.density_error, 0);
-  EXPECT_EQ(s.glide->release.air_velocity, 0);
+  ASSERT_EQ(s.of_tables.size(), 1U);
+  const Settings& settings = settings_of(s);
+  EXPECT_NEAR(settings.heading, 90 * deg, 1e-15);
+  EXPECT_EQ(settings.speed, 250);
+  EXPECT_EQ(settings.height, 10'000);
+  EXPECT_LT(
+      (settings.wind.at(11'000) - plant::glide::WindProfile(plant::glide::Season::june).at(11'000)).norm(),
+      1e-12);
+  EXPECT_EQ(settings.coefficients.level, 0);
+  EXPECT_EQ(settings.density_error, 0);
+  EXPECT_EQ(s.of_tables.front().release.air_velocity, 0);
   EXPECT_FALSE(node_of<sensors::FinsSettings>(s).schedule.period_us);
   EXPECT_TRUE(std::holds_alternative<world::Rest>(s.truth.motion));
 }
@@ -99,7 +109,7 @@ TEST(GlideSections, CarryEveryKey) {
               "0.25\ncorrelated_fraction = 0.5\ncorrelation_time_s = 30\noutage_s = 1\noutage_every_s = 10",
               text);
   const Scenario s = glides(text);
-  const world::GlidePlan& plan = s.glide->plan;
+  const Settings& plan = settings_of(s);
   EXPECT_EQ(plan.wind.at(3000), world::Vector3(1, -20, 0.5));
   EXPECT_EQ(plan.gusts.sigma, 1.5);
   EXPECT_EQ(plan.gusts.time, 2);
@@ -109,10 +119,10 @@ TEST(GlideSections, CarryEveryKey) {
   EXPECT_FALSE(plan.coefficients.per_part);
   EXPECT_FALSE(plan.coefficients.moments);
   EXPECT_NEAR(plan.density_error, -0.03, 1e-15);
-  EXPECT_EQ(s.glide->release.air_velocity, 1);
-  EXPECT_EQ(s.glide->release.velocity, 0.5);
-  EXPECT_NEAR(s.glide->release.attitude, 0.1 * deg, 1e-15);
-  EXPECT_NEAR(s.glide->release.rate, 0.01 * deg, 1e-15);
+  EXPECT_EQ(s.of_tables.front().release.air_velocity, 1);
+  EXPECT_EQ(s.of_tables.front().release.velocity, 0.5);
+  EXPECT_NEAR(s.of_tables.front().release.attitude, 0.1 * deg, 1e-15);
+  EXPECT_NEAR(s.of_tables.front().release.rate, 0.01 * deg, 1e-15);
   const auto fins = node_of<sensors::FinsSettings>(s);
   EXPECT_EQ(fins.schedule.period_us, 20'000);
   EXPECT_EQ(fins.schedule.latency_us, 50'000);
@@ -150,6 +160,22 @@ TEST(GlideSections, ChecksOfTheWind) {
   EXPECT_EQ(answers.counts[0].at_least, 5);
   EXPECT_EQ(answers.counts[1].mark, "fins_late");
   EXPECT_EQ(rule_of<checks::Consistency>(s.checks.at(2)).judged.quantity->degrees_of_freedom, 9);
+}
+
+TEST(GlideSections, ItsOutputsCanBeJudgedByName) {
+  const Scenario s =
+      glides(with("[[check]]",
+                  "[[check]]\nkind = 'response'\nquantity = 'plant.height'\nstatistic = 'steady_error'\n"
+                  "setpoint_m = 9900\nbelow_m = 200\n[[check]]",
+                  glider));
+  EXPECT_EQ(s.checks.at(0).name, "response steady_error of plant.height");
+  EXPECT_EQ(s.plant_with("wind.down"), &s.of_tables.front());
+  EXPECT_EQ(s.plant_with("plant.rudder"), nullptr);
+  EXPECT_EQ(why_no_truth(s, *world::find_truth_value("wind.down")), "");
+  EXPECT_EQ(why_no_truth(s, *world::find_truth_value("plant.height")), "");
+  const Scenario none;
+  EXPECT_EQ(why_no_truth(none, *world::find_truth_value("wind.down")),
+            "no truth of wind.down: no plant of the scenario has it");
 }
 
 TEST(GlideSections, WrongOnesGiveOneLine) {

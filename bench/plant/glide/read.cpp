@@ -1,32 +1,39 @@
-#include "bench/scenario/glide.hpp"
+#include "bench/plant/glide/read.hpp"
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "bench/plant/glide/glide.hpp"
+#include "bench/plant/setup.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/read_enum.hpp"
 #include "bench/scenario/section.hpp"
 
-namespace canhil::scenario {
+namespace canhil::plant::glide {
 namespace {
 
-namespace glide = world::glide;
+using scenario::Limits;
+using scenario::read_enum;
+using scenario::ReleaseError;
+using scenario::Section;
 
-glide::WindProfile read_profile(Section& section) {
+WindProfile read_profile(Section& section) {
   if (section.has("season") || !section.has("steady_mps")) {
     if (section.has("steady_mps")) section.reject("steady_mps", "is given beside season", "one of the two");
     section.optional("steady_mps");
-    return glide::WindProfile(read_enum<glide::Season>(
-        section, {"season", "Month whose mean wind is used. The wind depends on the height."},
-        glide::season_names));
+    return WindProfile(read_enum<Season>(
+        section, {"season", "Month whose mean wind is used. The wind depends on the height."}, season_names));
   }
   section.optional("season");
-  return glide::WindProfile(section.three({"steady_mps",
-                                           "Constant wind [N, E, D], in place of `season`. One of the keys "
-                                           "`season` and `steady_mps` is required."},
-                                          Limits::between(-150, 150)));
+  return WindProfile(section.three({"steady_mps",
+                                    "Constant wind [N, E, D], in place of `season`. One of the keys "
+                                    "`season` and `steady_mps` is required."},
+                                   Limits::between(-150, 150)));
 }
 
-void read_wind(Section section, world::GlidePlan& plan) {
+void read_wind(Section section, Settings& plan) {
   plan.wind = read_profile(section);
   plan.gusts.sigma =
       section.number({"gust_sigma_mps", "1-sigma of Dryden gusts."}, Limits::between(0, 20), 0);
@@ -38,9 +45,8 @@ void read_wind(Section section, world::GlidePlan& plan) {
   section.finish();
 }
 
-void read_airframe(Section section, world::GlidePlan& plan) {
-  using glide::ErrorKind;
-  glide::CoefficientErrorModel& errors = plan.coefficients;
+void read_airframe(Section section, Settings& plan) {
+  CoefficientErrorModel& errors = plan.coefficients;
   errors.level = section.number(
       {"coefficient_error_percent",
        "1-sigma of the errors by which the true aerodynamic coefficients differ from the filter's model."},
@@ -50,7 +56,7 @@ void read_airframe(Section section, world::GlidePlan& plan) {
       {"coefficient_error",
        "How the errors change with time. `white`: drawn again at each step of the truth; `held`: drawn again "
        "every `hold_ms`; `markov`: correlated over `markov_time_s`; `constant`: drawn once for each run."},
-      glide::error_kind_names, ErrorKind::held);
+      error_kind_names, ErrorKind::held);
   const std::int64_t hold_us = section.time_us({"hold_ms", "Time for which `held` errors stay constant."},
                                                Limits::between(10, 1e6), 50);
   if (errors.kind != ErrorKind::markov)
@@ -96,18 +102,34 @@ ReleaseError read_release(Section section) {
   return error;
 }
 
-}  // namespace
+constexpr std::array<std::string_view, 2> further_tables{"wind", "airframe"};
+constexpr std::array<std::string_view, 4> shows{"wind.north", "wind.east", "wind.down", "plant.height"};
 
-Glide read_glide(Section& root, Section& section) {
-  Glide glide;
-  glide.plan.heading = section.number({"heading_deg", "Heading at the release."}, Limits::between(-180, 360));
-  glide.plan.speed = section.number({"speed_mps", "Speed at the release."}, Limits::between(80, 300));
-  glide.plan.height = section.number({"height_m", "Height at the release."}, Limits::between(100, 15'000));
-  if (auto release = section.optional_table("initial_error")) glide.release = read_release(*release);
+scenario::PlantFacts read_glide(Section& root, Section& section, const scenario::Binding& binding) {
+  Settings settings;
+  if (!binding.handshake)
+    section.refuse("initial_error", "has no effect: a target with a mapping is not told this state",
+                   "no such table");
+  settings.heading = section.number({"heading_deg", "Heading at the release."}, Limits::between(-180, 360));
+  settings.speed = section.number({"speed_mps", "Speed at the release."}, Limits::between(80, 300));
+  settings.height = section.number({"height_m", "Height at the release."}, Limits::between(100, 15'000));
+  ReleaseError release;
+  if (auto errors = section.optional_table("initial_error")) release = read_release(*errors);
   section.finish();
-  read_wind(root.table("wind"), glide.plan);
-  if (auto airframe = root.optional_table("airframe")) read_airframe(*airframe, glide.plan);
-  return glide;
+  read_wind(root.table("wind"), settings);
+  if (auto airframe = root.optional_table("airframe")) read_airframe(*airframe, settings);
+  auto facts = facts_of(table, std::make_shared<GliderPlan>(settings));
+  facts.release = release;
+  return facts;
 }
 
-}  // namespace canhil::scenario
+}  // namespace
+
+constinit const scenario::PlantTable table{.key = "glide",
+                                           .further_tables = further_tables,
+                                           .about = "For an unpowered glider.",
+                                           .shows = shows,
+                                           .sampled_every_us = Glider::step_us,
+                                           .read = read_glide};
+
+}  // namespace canhil::plant::glide

@@ -1,13 +1,13 @@
-#include "bench/world/glide/wind.hpp"
+#include "bench/plant/glide/wind.hpp"
 
 #include <gtest/gtest.h>
 
 #include "bench/world/units.hpp"
 
-namespace canhil::world::glide {
+namespace canhil::plant::glide {
 namespace {
 
-using units::deg;
+using world::units::deg;
 
 TEST(WindProfile, IsTheTableAtItsLevels) {
   const WindProfile march(Season::march);
@@ -59,4 +59,4 @@ TEST(Gusts, NoneWithoutSigma) {
 }
 
 }  // namespace
-}  // namespace canhil::world::glide
+}  // namespace canhil::plant::glide

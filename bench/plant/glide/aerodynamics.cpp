@@ -1,9 +1,9 @@
-#include "bench/world/glide/aerodynamics.hpp"
+#include "bench/plant/glide/aerodynamics.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace canhil::world::glide {
+namespace canhil::plant::glide {
 namespace {
 
 constexpr double area = 0.65;   // [m^2]
@@ -93,4 +93,4 @@ Loads loads(const Vector3& v_a, const Vector3& omega, const Fins& fins, const Ai
           .moment = pressure_area * Vector3(span * roll, chord * pitch, span * yaw)};
 }
 
-}  // namespace canhil::world::glide
+}  // namespace canhil::plant::glide

@@ -1,10 +1,10 @@
-#include "bench/world/glide/coefficient_errors.hpp"
+#include "bench/plant/glide/coefficient_errors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace canhil::world::glide {
+namespace canhil::plant::glide {
 namespace {
 
 constexpr std::int64_t step_us = 10'000;
@@ -78,4 +78,4 @@ TEST(CoefficientErrors, NoneAtLevelZero) {
 }
 
 }  // namespace
-}  // namespace canhil::world::glide
+}  // namespace canhil::plant::glide

@@ -9,10 +9,13 @@
 #include <array>
 #include <cstdint>
 
+#include "bench/plant/glide/atmosphere.hpp"
 #include "bench/world/attitude.hpp"
-#include "bench/world/glide/atmosphere.hpp"
 
-namespace canhil::world::glide {
+namespace canhil::plant::glide {
+
+using world::Matrix3;
+using world::Vector3;
 
 inline constexpr double mass = 300;  // [kg]
 
@@ -55,4 +58,4 @@ struct Loads {
 Loads loads(const Vector3& v_a, const Vector3& omega, const Fins& fins, const Air& air,
             const Factors& factors = nominal);
 
-}  // namespace canhil::world::glide
+}  // namespace canhil::plant::glide
