@@ -5,16 +5,18 @@
 
 namespace canhil::estimators {
 
-world::Truths truths_of(const Truth& truth) {
-  return {.flight = truth.flight, .engagement = truth.engagement, .plants = truth.plants};
-}
+world::Truths truths_of(const Truth& truth) { return {.flight = truth.flight, .plants = truth.plants}; }
 
 void give_tracks(const Estimator& of, const checks::Observations& seen, const Truth& truth,
                  const quantities::TrackSink& give_away) {
+  const auto to_go = world::PlantColumns<1>::find(truth.plants, {"plant.time_to_go"});
   const auto give = [&](quantities::Track track) {
-    if (track.quantity->of_engagement && truth.engagement != nullptr) {
-      for (const world::EngagementTruth& epoch : truth.engagement->epochs)
-        track.to_go.push_back({.t_us = epoch.t_us, .to_go_s = epoch.time_to_go()});
+    if (track.quantity->has_time_to_go && to_go) {
+      const world::PlantRecord& record = to_go->record();
+      for (std::size_t row = 1; row < record.times_us().size(); ++row) {  // the first sample is later than 0
+        const std::int64_t t_us = record.times_us()[row];
+        if (t_us != record.ended_us) track.to_go.push_back({.t_us = t_us, .to_go_s = to_go->of_row(row)[0]});
+      }
     }
     give_away(std::move(track));
   };

@@ -16,7 +16,6 @@
 #include "bench/quantities/track.hpp"
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/estimator_facts.hpp"
-#include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/truth_values.hpp"
 #include "dbc/spool/spool.hpp"
@@ -30,9 +29,8 @@ namespace canhil::estimators {
 /// The truth that answers are compared with.
 struct Truth {
   const world::FlightRecord& flight;
-  std::int64_t duration_us = 0;                         ///< duration of the run
-  const world::EngagementRecord* engagement = nullptr;  ///< null: the run has no engagement
-  world::PlantRecords plants{};                         ///< but for those whose sensors are recorded
+  std::int64_t duration_us = 0;  ///< duration of the run
+  world::PlantRecords plants{};  ///< but for those whose sensors are recorded
 };
 /// The true values of a run.
 world::Truths truths_of(const Truth& truth);
@@ -105,7 +103,7 @@ struct Estimator {
   OfEstimator<std::unique_ptr<Reception>()> reception;
   /// The samples that a run contributes to a campaign; empty if there is no truth.
   OfEstimator<quantities::Samples(const checks::Observations& seen, const Truth& truth)> samples;
-  /// Passes the tracks of the run to `give`. Passes none if the estimator observes an engagement or a plant
+  /// Passes the tracks of the run to `give`. Passes none if the estimator observes a plant
   /// that is not in `truth`.
   OfEstimator<void(const checks::Observations& seen, const Truth& truth, const quantities::TrackSink& give)>
       tracks;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 #include <variant>
 
 #include "bench/estimators/registry.hpp"
@@ -50,14 +52,26 @@ bool starts_by_own_truth(const scenario::TargetSetup& target) {
   return estimator != nullptr && estimator->facts.start == scenario::Start::per_run_truth;
 }
 
+/// The longest time [us] of which the periods of all sensors of a plant are multiples; 0: none measures it.
+std::int64_t common_period_us(const scenario::Scenario& scenario, const scenario::PlantFacts& plant) {
+  std::int64_t common_us = 0;
+  for (const scenario::NodeSettings& node : scenario.nodes) {
+    if (!node.is_recorded() && plant.shows(node.table().samples))
+      common_us = std::gcd(common_us, node.period_us());
+  }
+  return common_us;
+}
+
 Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                        std::uint64_t run_index) {
   PerRunTruth own;
   const auto begin = [&](const scenario::PlantFacts& facts) {
-    return plant::Simulation::begin(*facts.setup, {.seed = scenario.seed, .run_index = run_index},
-                                    {.start = scenario.truth.start,
-                                     .duration_us = scenario.duration_us,
-                                     .interval_us = truth.interval_us()});
+    return plant::Simulation::begin(
+        *facts.setup,
+        {.seed = scenario.seed, .run_index = run_index, .sensors_us = common_period_us(scenario, facts)},
+        {.start = scenario.truth.start,
+         .duration_us = scenario.duration_us,
+         .interval_us = truth.interval_us()});
   };
   if (scenario.plant.setup != nullptr) {
     auto plant = begin(scenario.plant);
@@ -72,14 +86,12 @@ Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, const
   for (const scenario::PlantFacts& facts : scenario.of_tables) {
     auto plant = begin(facts);
     if (!plant) return tl::unexpected(plant.error());
-    if (facts.setup->plan->flown_ahead) (*plant)->advance(scenario.duration_us);
+    if ((*plant)->flown_ahead()) (*plant)->advance(scenario.duration_us);
     if (const auto& why = (*plant)->why_failed())
       return failure(fmt::format("key 'duration_s': run {}: {}, expected a shorter run", run_index, *why));
     const bool is_sampled = std::ranges::none_of(facts.table->shows, is_recorded);
     own.of_tables.push_back({.plant = std::move(*plant), .is_sampled = is_sampled});
   }
-  // If the seeker is recorded, there is no simulated engagement.
-  if (scenario.engagement && !is_recorded("plant.range")) own.engagement.emplace();
   return own;
 }
 
@@ -113,6 +125,23 @@ Result<void> check_epochs(const scenario::Scenario& scenario) {
   return {};
 }
 
+/// A plant whose step is the period of its sensors must not need a much shorter one for all of them.
+Result<void> check_steps(const scenario::Scenario& scenario) {
+  constexpr std::int64_t shortest_us = 100;
+  for (const scenario::PlantFacts& plant : scenario.of_tables) {
+    const std::int64_t step_us = common_period_us(scenario, plant);
+    const auto is_its_own = [&](const scenario::NodeSettings& node) {
+      return plant.shows(node.table().samples) && node.period_us() == step_us;
+    };
+    if (step_us == 0 || step_us >= shortest_us || std::ranges::any_of(scenario.nodes, is_its_own)) continue;
+    return failure(fmt::format(
+        "the periods of the sensors of [{}] are multiples of {:g} ms only, expected "
+        "multiples of {:g} ms",
+        plant.table->key, 1e-3 * static_cast<double>(step_us), 1e-3 * static_cast<double>(shortest_us)));
+  }
+  return {};
+}
+
 /// The motion between recorded samples is unknown, so an IMU must not sample much faster than the recording.
 Result<void> check_density(const scenario::Scenario& scenario) {
   constexpr std::int64_t most_intervals = 10;
@@ -129,6 +158,20 @@ Result<void> check_density(const scenario::Scenario& scenario) {
 
 }  // namespace
 
+std::vector<plant::Simulation*> PerRunTruth::plants() const {
+  std::vector<plant::Simulation*> all;
+  for (const OfTable& one : of_tables) all.push_back(one.plant.get());
+  if (plant) all.push_back(plant.get());
+  return all;
+}
+
+std::optional<std::string> PerRunTruth::why_failed() const {
+  for (const plant::Simulation* one : plants()) {
+    if (one->why_failed()) return one->why_failed();
+  }
+  return std::nullopt;
+}
+
 const world::FlightRecord& flight_of(const world::FlightRecord& of_all_runs, const PerRunTruth& own) {
   return own.plant && own.plant->flight() != nullptr ? *own.plant->flight() : of_all_runs;
 }
@@ -142,28 +185,33 @@ world::PlantRecords plants_of(const PerRunTruth& own, bool sampled) {
   return records;
 }
 
+world::PlantRecords growing_plants_of(const PerRunTruth& own) {
+  world::PlantRecords records;
+  for (const plant::Simulation* one : own.plants()) {
+    if (!one->flown_ahead()) records.push_back(&one->record());
+  }
+  return records;
+}
+
 world::Truths truths_of(const world::FlightRecord& flight, const PerRunTruth& own) {
-  return {.flight = flight_of(flight, own),
-          .engagement = own.engagement ? &*own.engagement : nullptr,
-          .plants = plants_of(own)};
+  return {.flight = flight_of(flight, own), .plants = plants_of(own)};
 }
 
 estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth& own,
                            std::int64_t duration_us) {
-  return {.flight = flight_of(flight, own),
-          .duration_us = duration_us,
-          .engagement = own.engagement ? &*own.engagement : nullptr,
-          .plants = plants_of(own, true)};
+  return {.flight = flight_of(flight, own), .duration_us = duration_us, .plants = plants_of(own, true)};
 }
 
 Ending with_end_of_plant(Ending ending, const PerRunTruth& own, std::int64_t duration_us) {
-  if (own.plant == nullptr) return ending;
-  if (ending.kind == Ending::Kind::completed) own.plant->advance(duration_us);
-  if (!own.plant->why_failed()) return ending;
-  return {Ending::Kind::plant_failed, ending.t_us, *own.plant->why_failed()};
+  if (ending.kind == Ending::Kind::completed) {
+    for (plant::Simulation* one : own.plants()) one->advance(duration_us);
+  }
+  const auto why = own.why_failed();
+  return why ? Ending{Ending::Kind::plant_failed, ending.t_us, *why} : ending;
 }
 
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
+  if (auto common = check_steps(scenario); !common) return tl::unexpected(common.error());
   if (auto whole = check_epochs(scenario); !whole) return tl::unexpected(whole.error());
   if (auto dense = check_density(scenario); !dense) return tl::unexpected(dense.error());
   world::FlightRecord truth(world::drawn(scenario.truth, scenario.seed), scenario.duration_us,
@@ -216,12 +264,19 @@ std::vector<InitialState> initial_states(const scenario::Scenario& scenario, con
 
 sensors::Run run_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                     PerRunTruth& per_run_truth, std::uint64_t run_index, sensors::SensorFaults* faults) {
-  return {.scenario = scenario,
-          .index = run_index,
-          .flight = flight_of(truth, per_run_truth),
-          .engagement = per_run_truth.engagement ? &*per_run_truth.engagement : nullptr,
-          .plants = plants_of(per_run_truth),
-          .faults = faults};
+  sensors::Run run{.scenario = scenario,
+                   .index = run_index,
+                   .flight = flight_of(truth, per_run_truth),
+                   .plants = plants_of(per_run_truth),
+                   .faults = faults};
+  for (std::size_t i = 0; i < scenario.of_tables.size(); ++i) {
+    if (scenario.of_tables[i].guidance)
+      run.guide = [plant = per_run_truth.of_tables[i].plant.get()](std::int64_t from_us,
+                                                                   std::span<const double> inputs) {
+        plant->guide(from_us, inputs);
+      };
+  }
+  return run;
 }
 
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
@@ -231,7 +286,7 @@ Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRe
     faults = std::make_unique<faults::Faults>(scenario, run_index, scenario.binding->messages);
   auto nodes = nodes::make(run_of(scenario, truth, per_run_truth, run_index, faults.get()));
   return {std::move(nodes), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding,
-          std::move(faults), per_run_truth.plant.get()};
+          std::move(faults), per_run_truth.plants()};
 }
 
 }  // namespace canhil::drive

@@ -11,7 +11,6 @@
 #include "bench/drive/schedule.hpp"
 #include "bench/plant/simulation.hpp"
 #include "bench/scenario/scenario.hpp"
-#include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/truth_values.hpp"
 #include "dbc/wire/result.hpp"
@@ -22,23 +21,27 @@ namespace canhil::drive {
 /// only once. Error, one line: no run of the scenario can be flown.
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 
-/// Truth that differs from run to run, because errors are drawn or guidance uses the answers.
+/// Truth that differs from run to run, because errors are drawn or the target steers.
 struct PerRunTruth {
-  std::optional<world::EngagementRecord> engagement{};  ///< none: the scenario has no engagement, or its
-                                                        ///< seeker is recorded; filled during the flight
-  std::unique_ptr<plant::Simulation> plant{};           ///< of [plant]; null: the scenario has none
+  std::unique_ptr<plant::Simulation> plant{};  ///< of [plant]; null: the scenario has none
   /// A plant with tables of its own.
   struct OfTable {
     std::unique_ptr<plant::Simulation> plant;
     bool is_sampled = true;  ///< false: its nodes send a recording of what another plant did
   };
   std::vector<OfTable> of_tables{};  ///< as Scenario::of_tables
+
+  [[nodiscard]] std::vector<plant::Simulation*> plants() const;
+  /// Why a plant does not advance; none: each does.
+  [[nodiscard]] std::optional<std::string> why_failed() const;
 };
 
 /// The flight of a run: that of the plant if it moves the carrier, otherwise the flight of all runs.
 const world::FlightRecord& flight_of(const world::FlightRecord& of_all_runs, const PerRunTruth& own);
 /// The records of the plants of a run. `sampled`: but for those whose nodes are recorded.
 world::PlantRecords plants_of(const PerRunTruth& own, bool sampled = false);
+/// The records that grow during the run, in its thread.
+world::PlantRecords growing_plants_of(const PerRunTruth& own);
 /// The true values of a run.
 world::Truths truths_of(const world::FlightRecord& flight, const PerRunTruth& own);
 
@@ -46,7 +49,7 @@ world::Truths truths_of(const world::FlightRecord& flight, const PerRunTruth& ow
 estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth& own,
                            std::int64_t duration_us);
 
-/// Advances the plant to the end of a completed run: the truth of the last samples needs it. Returns how the
+/// Advances the plants to the end of a completed run: the truth of the last samples needs it. Returns how the
 /// run ended, which a plant that failed decides.
 Ending with_end_of_plant(Ending ending, const PerRunTruth& own, std::int64_t duration_us);
 

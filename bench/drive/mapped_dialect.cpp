@@ -153,12 +153,12 @@ class MappedDialect final : public Dialect {
         conversation_,
         run_of(of_.scenario, of_.truth, of_.flight.per_run_truth, of_.run_index, faults.get())));
     if (!of_.of_log && !of_.scenario.events.empty()) players.push_back(talker(scenario::Phase::during));
-    plant::Simulation* plant = of_.flight.per_run_truth.plant.get();
     if (!of_.scenario.plant.steered.empty())
-      players.push_back(
-          std::make_unique<mapping::CommandReceiver>(conversation_, *of_.scenario.plant.setup, *plant));
+      players.push_back(std::make_unique<mapping::CommandReceiver>(conversation_, *of_.scenario.plant.setup,
+                                                                   *of_.flight.per_run_truth.plant));
     return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
-                                      Rounding::as_on_the_bus, std::move(faults), plant);
+                                      Rounding::as_on_the_bus, std::move(faults),
+                                      of_.flight.per_run_truth.plants());
   }
   // Watchers look up played messages in the conversation, and the player changes the conversation.
   [[nodiscard]] bool watches_frames_alone() const override { return false; }

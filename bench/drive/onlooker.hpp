@@ -18,7 +18,7 @@ namespace canhil::drive {
 struct Departure {
   const scenario::Scenario& scenario;
   const world::FlightRecord& truth;
-  const PerRunTruth& per_run_truth;  ///< its engagement grows during the flight, in the flight's thread
+  const PerRunTruth& per_run_truth;  ///< its plants advance during the flight, in the flight's thread
   bool real_time = false;
   BusFormat format = BusFormat::classic;
   WireFacts wire{};

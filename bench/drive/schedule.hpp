@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bench/drive/link.hpp"
@@ -22,11 +23,11 @@ class Schedule final : public observe::Observer {
  public:
   /// `keeper`: the node whose frame closes a step. The keeper transmits last among the nodes that are due at
   /// the same time, and the schedule ends with the keeper's last transmission. `faults`: faults of the run;
-  /// null: none. `plant`: advances before each transmission; null: none.
+  /// null: none. `plants`: advance before each transmission.
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
            Rounding rounding = Rounding::as_on_the_bus, std::unique_ptr<faults::Faults> faults = nullptr,
-           plant::Simulation* plant = nullptr)
-      : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)), plant_(plant) {
+           std::vector<plant::Simulation*> plants = {})
+      : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)), plants_(std::move(plants)) {
     nodes_.push_back(std::move(keeper));
     for (const auto& node : nodes_) {
       if (node->listens()) listeners_.push_back(due_us_.size());
@@ -44,7 +45,7 @@ class Schedule final : public observe::Observer {
   /// Makes the next transmission; the returned frames are valid until the next call.
   std::span<const Frame> take() {
     const std::int64_t t_us = taken_us_ = due_us();
-    if (plant_ != nullptr) plant_->advance(t_us);
+    for (plant::Simulation* plant : plants_) plant->advance(t_us);
     std::size_t injected = 0;  // index of the first injector whose apply() is called below
     if (injected_us_ == t_us) {
       frames_.clear();
@@ -126,7 +127,7 @@ class Schedule final : public observe::Observer {
   nodes::Transmission out_;
   std::vector<Frame> frames_;
   std::unique_ptr<faults::Faults> faults_;
-  plant::Simulation* plant_;
+  std::vector<plant::Simulation*> plants_;
   std::span<const std::unique_ptr<faults::Injector>> injectors_;
   std::int64_t injected_us_ = nodes::never_us;  // when the next injector acts
 };

@@ -185,8 +185,8 @@ class Session {
   // Why waiting for the target is pointless; none: the bench can wait.
   std::optional<std::string> gone(bool stop) {
     if (stop) return "interrupted";
-    const plant::Simulation* plant = flight_.per_run_truth.plant.get();
-    return plant != nullptr && plant->why_failed() ? plant->why_failed() : targets_.ended();
+    const auto failed = flight_.per_run_truth.why_failed();
+    return failed ? failed : targets_.ended();
   }
 
   [[nodiscard]] Departure departure() {

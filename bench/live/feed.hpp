@@ -4,9 +4,12 @@
 #include <atomic>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "bench/drive/onlooker.hpp"
-#include "bench/world/engagement/engagement.hpp"
+#include "bench/world/plant_record.hpp"
 
 namespace canhil::live {
 
@@ -23,16 +26,16 @@ struct Event {
 /// that does not fit is dropped and counted.
 class Feed final : public observe::Observer {
  public:
-  static constexpr std::size_t frames = 32'768;  // 4 MiB; more than ten seconds of a full bus of 1 Mbit/s
-  static constexpr std::size_t epochs = 8'192;
+  static constexpr std::size_t frames = 32'768;   // 4 MiB; more than ten seconds of a full bus of 1 Mbit/s
+  static constexpr std::size_t values = 262'144;  // 2 MiB of the plants' outputs
 
-  explicit Feed(std::size_t room = frames) : events_(room), epochs_(epochs) {}
+  explicit Feed(std::size_t room = frames) : events_(room), values_(values) {}
 
-  /// Sets the record to which the flight adds epochs; the feed copies these epochs. Null: the flight has no
-  /// engagement. Must be called before the first frame.
-  void follow(const world::EngagementRecord* engagement) {
-    engagement_ = engagement;
-    followed_ = 0;
+  /// Sets the records to which the flight adds rows; the feed copies these rows. Must be called before the
+  /// first frame.
+  void follow(world::PlantRecords plants) {
+    plants_ = std::move(plants);
+    followed_.assign(plants_.size(), 0);
   }
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
@@ -47,10 +50,10 @@ class Feed final : public observe::Observer {
     put({.kind = Event::Kind::interface_changed, .up = up, .t_ns = t_ns});
   }
 
-  /// Removes the events that are now in the queue, passes them to `to` in order, and then copies the epochs
-  /// of the engagement. An epoch is queued before its frames, so no epoch is missing. Returns the number of
-  /// events.
-  std::uint64_t drain(observe::Observer& to, world::EngagementRecord* engagement);
+  /// Removes the events that are now in the queue, passes them to `to` in order, and then adds the new rows
+  /// of the plants to their copies, in the order of follow(). A row is queued before its frames, so no row is
+  /// missing. Returns the number of events.
+  std::uint64_t drain(observe::Observer& to, std::span<world::PlantRecord> copies);
 
   [[nodiscard]] std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
@@ -61,10 +64,12 @@ class Feed final : public observe::Observer {
   void drop() { dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }
 
   boost::lockfree::spsc_queue<Event> events_;
-  boost::lockfree::spsc_queue<world::EngagementTruth> epochs_;
+  boost::lockfree::spsc_queue<double>
+      values_;  // rows: plant, number of outputs, time [us], whether it ended, outputs
   std::atomic<std::uint64_t> dropped_ = 0;
-  const world::EngagementRecord* engagement_ = nullptr;
-  std::size_t followed_ = 0;
+  world::PlantRecords plants_;
+  std::vector<std::size_t> followed_;  // for each plant: number of rows that were queued
+  std::vector<double> row_;
 };
 
 }  // namespace canhil::live

@@ -132,7 +132,8 @@ FlightInProgress::FlightInProgress(const drive::Departure& departure)
     : departure_(departure),
       load_(departure.format, departure.load_by),
       judged_at_us_(departure.scenario.checks.size(), -1) {
-  if (departure_.per_run_truth.engagement) engagement_.emplace();
+  for (const world::PlantRecord* one : drive::growing_plants_of(departure_.per_run_truth))
+    plants_.emplace_back(one->columns());
   if (!departure_.watcher) return;
   whole_ = departure_.watcher(true);
   recent_ = departure_.watcher(true);
@@ -181,7 +182,9 @@ std::int64_t FlightInProgress::now_us() const {
 estimators::Truth FlightInProgress::truth() const {
   const scenario::Scenario& scenario = departure_.scenario;
   estimators::Truth truth = drive::truth_of(departure_.truth, departure_.per_run_truth, scenario.duration_us);
-  truth.engagement = engagement_ ? &*engagement_ : nullptr;
+  const world::PlantRecords growing = drive::growing_plants_of(departure_.per_run_truth);
+  for (std::size_t i = 0; i < growing.size(); ++i)
+    std::ranges::replace(truth.plants, growing[i], static_cast<const world::PlantRecord*>(&plants_[i]));
   return truth;
 }
 

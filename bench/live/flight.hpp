@@ -3,13 +3,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "bench/drive/onlooker.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/live/snapshot.hpp"
-#include "bench/world/engagement/engagement.hpp"
+#include "bench/world/plant_record.hpp"
 
 namespace canhil::live {
 
@@ -33,8 +34,8 @@ class FlightInProgress final : public observe::Observer {
   void interface_changed(bool up, std::int64_t t_ns) override;
 
   [[nodiscard]] bool real_time() const { return departure_.real_time; }
-  /// The record that receives epochs of the engagement; null: the flight has no engagement.
-  [[nodiscard]] world::EngagementRecord* engagement() { return engagement_ ? &*engagement_ : nullptr; }
+  /// The records that receive the rows of drive::growing_plants_of().
+  [[nodiscard]] std::span<world::PlantRecord> plants() { return plants_; }
 
   /// Updates `flight` to the current time. `all_seen`: the view missed no frame, so checks may be judged. A
   /// series ends 1.5 s before now, because the sigma of a late fix arrives late. `landed`: the run is over,
@@ -59,7 +60,7 @@ class FlightInProgress final : public observe::Observer {
   [[nodiscard]] estimators::Truth truth() const;
 
   drive::Departure departure_;
-  std::optional<world::EngagementRecord> engagement_{};  // a copy of the record that the flight extends
+  std::vector<world::PlantRecord> plants_{};  // copies of the records that the flight extends
   observe::LoadMeter load_;
   std::unique_ptr<observe::Watcher> whole_;  // for the whole flight: times and checks
   // Two watchers for tracks. The older watcher has received all frames since it started: at the beginning of

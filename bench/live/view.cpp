@@ -63,7 +63,7 @@ void View::close() {
 
 void View::Tap::departs(const drive::Departure& departure) {
   const std::scoped_lock lock(view_.mutex_);
-  view_.feed_.follow(departure.per_run_truth.engagement ? &*departure.per_run_truth.engagement : nullptr);
+  view_.feed_.follow(drive::growing_plants_of(departure.per_run_truth));
   view_.requests_.departure.emplace(departure);
   view_.requests_.landing = false;
   view_.asked_ = true;
@@ -73,7 +73,7 @@ void View::Tap::departs(const drive::Departure& departure) {
 // view no longer uses them.
 void View::Tap::landed() {
   std::unique_lock lock(view_.mutex_);
-  view_.feed_.follow(nullptr);
+  view_.feed_.follow({});
   view_.requests_.landing = true;
   view_.asked_ = true;
   // The flight now waits for the view, so the view's thread returns to normal scheduling, if that is
@@ -119,7 +119,7 @@ void View::look_at_requests() {
 }
 
 void View::look_at_frames() {
-  if (flight_) snapshot_.frames += feed_.drain(*flight_, flight_->engagement());
+  if (flight_) snapshot_.frames += feed_.drain(*flight_, flight_->plants());
   snapshot_.dropped = feed_.dropped();
 }
 

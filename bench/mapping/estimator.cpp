@@ -54,11 +54,11 @@ void tracks_of(const MappedTarget& target, const checks::Observations& seen, con
   for (const quantities::Quantity* quantity : target.quantities) {
     const ReferenceQuantity& of = reference_of(target, *quantity);
     const std::string_view message = hear_of(target, sources_of(target, *quantity).back()).of.message->name;
-    const bool ends_early = quantity->of_engagement && truth.engagement != nullptr;
     const estimators::Answering answering{
         .longest_wait_us = estimators::longest_wait_us(seen, message),
-        .answers_end_us = ends_early ? estimators::answers_end_us(*truth.engagement, truth.duration_us)
-                                     : truth.duration_us};
+        .answers_end_us = quantity->has_time_to_go
+                              ? estimators::answers_end_us(truth.plants, truth.duration_us)
+                              : truth.duration_us};
     Track track = answering.track(*quantity, std::string(quantity->meaning));
     track.kind = kind_of(*quantity);
     track.only_if_judged = !of.of.empty();
@@ -146,7 +146,7 @@ std::vector<estimators::ResultLine> results_of(const MappedTarget& target, const
     // A position is shown in metres, which are derived from its coordinates. The last error of a LOS rate
     // says nothing, because the rate grows beyond all bounds at the passage.
     const bool is_derived = !of.of.empty();
-    const bool shown = !quantity.of_engagement &&
+    const bool shown = !quantity.has_time_to_go &&
                        is_derived == is_on_the_ground(is_derived ? reference_of(target, *of.of.front()) : of);
     const bool certain = ambiguous(target, seen, quantity).empty();
     if (shown && certain)
@@ -161,7 +161,8 @@ std::vector<estimators::ResultLine> results_of(const MappedTarget& target, const
               : fmt::format("{} not measured ({})", name, delay.error().message));
   });
   std::vector<estimators::ResultLine> lines;
-  if (truth.engagement != nullptr) lines.push_back(estimators::end_of_flight(*truth.engagement));
+  if (const auto passage = estimators::Passage::find(truth.plants))
+    lines.push_back(estimators::end_of_flight(*passage));
   if (lines.empty() || !end.figures.empty()) lines.push_back(std::move(end));
   lines.push_back(std::move(delays));
   return lines;

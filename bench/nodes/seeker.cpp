@@ -1,7 +1,6 @@
 // Whether the samples of the seeker fit into their signals, and the answers that guide its missile.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <type_traits>
 
 #include "bench/nodes/bound_sensor.hpp"
@@ -16,22 +15,23 @@ using namespace messages;
 
 Result<void> seeker_fits(const NodeSettings& node, const scenario::Scenario& scenario,
                          const world::FlightRecord& /*flight*/) {
-  const world::EngagementPlan& engagement = *scenario.engagement;
+  const scenario::PlantFacts& missile = *scenario.plant_with(node.table().samples);
   const std::int64_t interval_us = node.period_us();
   if (auto checked = check_interval("key 'seeker.period_ms': seeker interval", interval_us,
                                     SeekerAngles::info, SeekerAngles::signals());
       !checked)
     return checked;
-  const double roll = std::abs(engagement.roll_rate) * 1e-6 * static_cast<double>(interval_us);
+  const double roll = missile.largest_roll_rate * 1e-6 * static_cast<double>(interval_us);
   const SignalInfo& signal = SeekerAntenna::signals()[0];
   if (roll > signal.maximum) return failure(misfit("roll increment", roll, SeekerAntenna::info, signal));
   // In lockstep the bench receives an answer one Sync cycle after it sent the sample.
   const std::int64_t least_us = Sync::info.cycle_time_us;
-  if (engagement.guidance == world::Guidance::target && engagement.guidance_delay_us < least_us) {
-    return failure(fmt::format(
-        "key 'engagement.guidance_delay_ms': {:g} is less than the bus takes in "
-        "lockstep, expected at least {:g}, the cycle of Sync",
-        1e-3 * static_cast<double>(engagement.guidance_delay_us), 1e-3 * static_cast<double>(least_us)));
+  if (missile.guidance && missile.guidance->delay_us < least_us) {
+    return failure(
+        fmt::format("key '{}.guidance_delay_ms': {:g} is less than the bus takes in "
+                    "lockstep, expected at least {:g}, the cycle of Sync",
+                    missile.table->key, 1e-3 * static_cast<double>(missile.guidance->delay_us),
+                    1e-3 * static_cast<double>(least_us)));
   }
   return {};
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "bench/plant/engagement/read.hpp"
 #include "bench/plant/fmu/fmu.hpp"
 #include "bench/plant/glide/read.hpp"
 #include "bench/plant/hover.hpp"
@@ -20,7 +21,8 @@ constexpr std::array registered{
 };
 
 constexpr std::array with_tables{
-    &glide::table,  // a glider in the wind
+    &engagement::table,  // a missile and its flight target
+    &glide::table,       // a glider in the wind
 };
 
 }  // namespace

@@ -29,21 +29,24 @@ Result<std::unique_ptr<Simulation>> Simulation::begin(const Setup& setup, const 
                                                       const Carrier& carrier) {
   auto plant = setup.plan->make(draw);
   if (!plant) return tl::unexpected(plant.error());
-  std::unique_ptr<Simulation> simulation(new Simulation(setup, std::move(*plant), carrier));
+  const bool with_sensors = setup.plan->steps_with_sensors && draw.sensors_us > 0;
+  const std::int64_t step_us = with_sensors ? draw.sensors_us : setup.plan->step_us;
+  std::unique_ptr<Simulation> simulation(new Simulation(setup, std::move(*plant), step_us, carrier));
   if (simulation->failure_) return failure(*simulation->failure_);
   return simulation;
 }
 
-Simulation::Simulation(const Setup& setup, std::unique_ptr<Plant> plant, const Carrier& carrier)
+Simulation::Simulation(const Setup& setup, std::unique_ptr<Plant> plant, std::int64_t step_us,
+                       const Carrier& carrier)
     : setup_(setup),
       plant_(std::move(plant)),
+      step_us_(step_us),
       end_us_(carrier.duration_us),
       record_(record_for(setup)),
       next_(setup.commands.size(), 0) {
   for (const Command& one : setup.commands) {
-    record_.commands.push_back({.input = setup.plan->inputs[one.input].name,
-                                .delay_us = one.delay_us,
-                                .step_us = setup.plan->step_us});
+    record_.commands.push_back(
+        {.input = setup.plan->inputs[one.input].name, .delay_us = one.delay_us, .step_us = step_us});
   }
   if (!observe() || !setup.moves_the_carrier()) return;
   path_ = std::make_shared<world::GrownPath>(point());
@@ -56,6 +59,10 @@ void Simulation::give(std::size_t command, const world::Given& given) {
     record_.commands[command].given.push_back(given);
   else
     ++record_.commands[command].invalid;
+}
+
+void Simulation::guide(std::int64_t from_us, std::span<const double> inputs) {
+  if (!plant_->guide(from_us, inputs)) ++record_.late;
 }
 
 std::vector<double> Simulation::inputs_at(std::int64_t t_us) {
@@ -77,8 +84,13 @@ std::vector<double> Simulation::inputs_at(std::int64_t t_us) {
   return inputs;
 }
 
-// Records the outputs. Returns false if one is not finite.
+// Records the outputs, at the end of the motion if it ended. Returns false if one is not finite.
 bool Simulation::observe() {
+  record_.ended_us = plant_->ended_us();
+  if (record_.ended_us) {
+    t_us_ = *record_.ended_us;
+    if (!record_.times_us().empty() && record_.times_us().back() == t_us_) return true;
+  }
   const auto outputs = plant_->outputs();
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (std::isfinite(outputs[i])) continue;
@@ -114,9 +126,10 @@ world::GrownPath::Point Simulation::point() const {
 
 void Simulation::advance(std::int64_t t_us) {
   using Clock = std::chrono::steady_clock;
-  while (t_us_ < std::min(t_us, end_us_)) {
+  const std::int64_t until_us = std::min(t_us, end_us_) - (setup_.plan->never_ahead ? step_us_ - 1 : 0);
+  while (t_us_ < until_us && !record_.ended_us) {
     const std::int64_t from_us = t_us_;
-    t_us_ += setup_.plan->step_us;
+    t_us_ += step_us_;
     if (!failure_) {
       const std::vector<double> inputs = inputs_at(from_us);
       const auto begun = Clock::now();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,18 +32,21 @@ class Simulation {
   /// A command arrives; in order of time. `command`: index in Setup::commands. A value that is not finite
   /// counts as no command.
   void give(std::size_t command, const world::Given& given);
-  /// Advances so far that everything is known up to a time [us] of the run. After a failure, nothing moves
-  /// any more.
+  /// Commands values of Plan::inputs that act from a time [us] on; in order of time (Plant::guide()).
+  void guide(std::int64_t from_us, std::span<const double> inputs);
+  /// Advances so far that everything is known up to a time [us] of the run, or up to the last step before it
+  /// (Plan::never_ahead). After a failure or an end of its own, nothing moves any more.
   void advance(std::int64_t t_us);
 
   [[nodiscard]] const world::PlantRecord& record() const { return record_; }
+  [[nodiscard]] bool flown_ahead() const { return setup_.plan->flown_ahead; }
   /// The flight of the carrier; null: the plant does not move it.
   [[nodiscard]] const world::FlightRecord* flight() const { return flight_ ? &*flight_ : nullptr; }
   /// Why the plant does not advance; none: it does.
   [[nodiscard]] const std::optional<std::string>& why_failed() const { return failure_; }
 
  private:
-  Simulation(const Setup& setup, std::unique_ptr<Plant> plant, const Carrier& carrier);
+  Simulation(const Setup& setup, std::unique_ptr<Plant> plant, std::int64_t step_us, const Carrier& carrier);
   [[nodiscard]] std::vector<double> inputs_at(std::int64_t t_us);
   bool observe();
   void move();
@@ -50,7 +54,7 @@ class Simulation {
 
   const Setup& setup_;
   std::unique_ptr<Plant> plant_;
-  std::int64_t t_us_ = 0, end_us_ = 0;
+  std::int64_t step_us_, t_us_ = 0, end_us_ = 0;
   world::PlantRecord record_;
   std::vector<std::size_t>
       next_;  // for each command: the first of world::CommandRecord::given that does not act yet

@@ -24,14 +24,14 @@ constexpr std::string_view si_name(const Unit& unit) {
 /// A quantity. There is one object for each quantity, and its address identifies the quantity. The values of
 /// a quantity are in SI.
 struct Quantity {
-  std::string_view name;       ///< "attitude.heading"
-  std::string_view meaning;    ///< description for people, without a full stop
-  Unit unit{};                 ///< the unit in reports
-  int degrees_of_freedom = 0;  ///< if the quantity is a normalised error squared; otherwise 0
-  bool white = false;          ///< true for an innovation or its square: successive values are independent
-  bool nan_allowed = false;    ///< true: a value may be NaN, which means that the sample has no such value
-  bool of_whole_run = false;   ///< true: all samples of a run have the same value, which never becomes stale
-  bool of_engagement = false;  ///< true: its values belong to samples of the seeker, which have a time to go
+  std::string_view name;        ///< "attitude.heading"
+  std::string_view meaning;     ///< description for people, without a full stop
+  Unit unit{};                  ///< the unit in reports
+  int degrees_of_freedom = 0;   ///< if the quantity is a normalised error squared; otherwise 0
+  bool white = false;           ///< true for an innovation or its square: successive values are independent
+  bool nan_allowed = false;     ///< true: a value may be NaN, which means that the sample has no such value
+  bool of_whole_run = false;    ///< true: all samples of a run have the same value, which never becomes stale
+  bool has_time_to_go = false;  ///< true: its values belong to samples of a seeker, which have a time to go
   /// The components of the quantity; each component has its own track. Empty: the quantity has no components,
   /// and has one track.
   std::span<const Quantity* const> parts{};

@@ -44,7 +44,7 @@ struct Track {
   std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
   double longest_wait_us = 0;       ///< the longest time between answers that does not count as silence
   std::int64_t answers_end_us = 0;  ///< no answers are expected after this time
-  /// The time to go at one stimulus. Only tracks of quantities of an engagement have it.
+  /// The time to go at one stimulus. Only tracks of quantities with a time to go have it.
   struct ToGo {
     std::int64_t t_us = 0;
     double to_go_s = 0;

@@ -9,7 +9,6 @@
 #include "bench/plant/setup.hpp"
 #include "bench/plant/steered_heading.hpp"
 #include "bench/reference/tables.hpp"
-#include "bench/scenario/engagement.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/truth.hpp"
 
@@ -87,11 +86,7 @@ Part truth_part(const scenario::DbcVocabulary& contract) {
           {.name = "[initial_error]",
            .about =
                "The initial state that the bench sends to the target is the true state plus these errors.",
-           .keys = keys_of([](Section& section) { scenario::read_initial_error(section); })},
-          {.name = "[engagement]",
-           .about = "A missile and its flight target, which is the object that the missile flies to. Random "
-                    "values are drawn for each run.",
-           .keys = keys_of([](Section& section) { scenario::read_engagement(section); })}}};
+           .keys = keys_of([](Section& section) { scenario::read_initial_error(section); })}}};
   for (const scenario::PlantTable* plant : contract.plants) {
     const auto keys = keys_of([&](Section& root) {
       Section section = root.table(plant->key);

@@ -28,6 +28,12 @@ struct ReleaseError {
   double rate = 0;          ///< body [rad/s]
 };
 
+/// How the target's answers to a sensor's samples guide what moves.
+struct Guidance {
+  std::int64_t delay_us = 0;  ///< from sending a sample to the command that uses its answer
+  bool predicts = false;      ///< extrapolates the answer to the time of the command
+};
+
 struct PlantFacts {
   struct Output {
     std::string name;    ///< as a true value: "plant.rudder"
@@ -40,6 +46,9 @@ struct PlantFacts {
   bool moves_the_carrier = false;
   const PlantTable* table = nullptr;  ///< its own tables; null: [plant]
   ReleaseError release{};
+  std::optional<Guidance> guidance{};  ///< none: the target does not guide it
+  double to_go_s = 0;                  ///< time until its own end, at the start; 0: it has none
+  double largest_roll_rate = 0;        ///< of the antenna, apart from what the servo does [rad/s]
 
   /// Whether it has an output with this name as a true value.
   [[nodiscard]] bool shows(std::string_view name) const {
@@ -55,6 +64,7 @@ struct PlantTable {
   /// Outputs that only this plant has: nodes and estimators name one of them (NodeTable::samples).
   std::span<const std::string_view> shows;
   std::int64_t sampled_every_us = 1;  ///< the periods of its sensors are multiples of this time
+  bool nodes_last = false;            ///< its nodes transmit after those of the carrier
   /// `root`: the whole file; `table`: the table `key`. Errors are reported to the sections.
   PlantFacts (*read)(Section& root, Section& table, const Binding& binding) = nullptr;
 

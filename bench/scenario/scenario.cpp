@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "bench/scenario/binding.hpp"
-#include "bench/scenario/engagement.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/scenario/sensor_name.hpp"
@@ -65,9 +64,6 @@ bool read_node(Section& section, const NodeTable& node, Scenario& scenario, cons
 constexpr std::string_view no_truth = "has no truth to measure, as trajectory is \"unknown\"";
 constexpr std::string_view what_was_measured = "'recorded', and what was measured";
 
-constexpr std::array<std::string_view, 1> engagement_shows{"plant.range"};
-constexpr PlantTable engagement_table{.key = "engagement", .about = "", .shows = engagement_shows};
-
 /// Reads the nodes that sample a plant, or null: the carrier.
 void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract, const PlantTable* plant) {
   for (const NodeTable* node : contract.nodes) {
@@ -82,8 +78,7 @@ void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract
                     "a target with a mapping");
       continue;
     }
-    const bool needed = (plant == &engagement_table ? scenario.engagement.has_value() : plant != nullptr) ||
-                        any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
+    const bool needed = plant != nullptr || any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
                           return std::ranges::find(facts.nodes, node->key) != facts.nodes.end();
                         });
     std::optional<Section> section = needed ? root.table(node->key) : root.optional_table(node->key);
@@ -112,7 +107,16 @@ void read_sensors(Section& root, Scenario& scenario, const DbcVocabulary& contra
   }
 }
 
-/// A plant with tables of its own, and its nodes.
+/// The nodes of the plants with tables of their own that the scenario has.
+void read_nodes_of_plants(Section& root, Scenario& scenario, const DbcVocabulary& contract, bool last) {
+  for (const PlantTable* plant : contract.plants) {
+    const bool moves =
+        std::ranges::find(scenario.of_tables, plant, &PlantFacts::table) != scenario.of_tables.end();
+    if (moves && plant->nodes_last == last) read_nodes(root, scenario, contract, plant);
+  }
+}
+
+/// A plant with tables of its own.
 void read_plant(Section& root, Scenario& scenario, const DbcVocabulary& contract, const PlantTable& plant) {
   std::vector<std::string_view> keys{plant.key};
   keys.insert(keys.end(), plant.further_tables.begin(), plant.further_tables.end());
@@ -126,7 +130,6 @@ void read_plant(Section& root, Scenario& scenario, const DbcVocabulary& contract
   }
   Section table = root.table(plant.key);
   scenario.of_tables.push_back(plant.read(root, table, *contract.binding));
-  read_nodes(root, scenario, contract, &plant);
 }
 
 /// Whether the scenario selects the DBC of CAN FD; none: it selects no DBC.
@@ -188,8 +191,7 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Db
 /// Reads the carrier's flight. The table [truth] may be absent if a plant with tables of its own moves; then
 /// no table that depends on [truth] is allowed.
 void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
-  if (root.has("truth") || scenario.plant.moves_the_carrier ||
-      (!scenario.engagement && scenario.of_tables.empty())) {
+  if (root.has("truth") || scenario.plant.moves_the_carrier || scenario.of_tables.empty()) {
     Section truth = root.table("truth");
     scenario.truth = read_truth(truth, scenario.duration_us, scenario.plant.moves_the_carrier);
     return;
@@ -266,7 +268,6 @@ std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) 
 
 std::string why_no_truth(const Scenario& scenario, const world::TruthValue& value) {
   using enum world::TruthIn;
-  if (value.in == engagement) return why_no_truth(scenario, engagement_shows.front());
   const PlantFacts* shown = scenario.plant_with(value.name);
   // A plant that shows the motion of its own replaces the flight of the carrier.
   if (value.in == motion && shown == nullptr) shown = scenario.plant_with("velocity.north");
@@ -285,16 +286,10 @@ std::string why_no_truth(const Scenario& scenario, const world::TruthValue& valu
 // If a node of a plant is recorded, the plant that the bench simulates is unrelated to the recording.
 std::string why_no_truth(const Scenario& scenario, std::string_view samples) {
   if (samples.empty()) return scenario.truth_is_known() ? "" : "no truth: trajectory is \"unknown\"";
-  if (samples == engagement_shows.front()) {
-    if (!scenario.engagement) return "no truth: the scenario has no [engagement]";
-  } else if (scenario.plant_with(samples) == nullptr) {
-    return fmt::format("no truth: no plant of the scenario has {}", samples);
-  }
   const PlantFacts* of = scenario.plant_with(samples);
+  if (of == nullptr) return fmt::format("no truth: no plant of the scenario has {}", samples);
   const auto recorded = std::ranges::find_if(scenario.nodes, [&](const NodeSettings& node) {
-    const bool same =
-        of == nullptr ? node.table().samples == samples : scenario.plant_with(node.table().samples) == of;
-    return same && node.is_recorded();
+    return scenario.plant_with(node.table().samples) == of && node.is_recorded();
   });
   return recorded == scenario.nodes.end() ? ""
                                           : fmt::format("no truth: [{}] is recorded", recorded->table().key);
@@ -330,13 +325,8 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
                                               0));
   scenario.binding = contract.binding;
   scenario.targets = read_targets(root, contract);
-  if (auto engagement = root.optional_table("engagement")) {
-    scenario.engagement = read_engagement(*engagement);
-    if (!contract.binding->closes_loop && scenario.engagement->guidance == world::Guidance::target)
-      engagement->reject("guidance", "is 'target', but the mapping has no answers that guide the missile",
-                         "'truth', or answers with los.rate.pitch and los.rate.yaw");
-  }
   for (const PlantTable* plant : contract.plants) read_plant(root, scenario, contract, *plant);
+  read_nodes_of_plants(root, scenario, contract, false);
   if (contract.read_plant != nullptr && root.has("plant")) {
     std::vector<std::string> recordings = std::exchange(root.files(), {});
     Section plant = root.table("plant");
@@ -354,12 +344,8 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   }
   read_nodes(root, scenario, contract, nullptr);
   if (!contract.binding->any_sensor) expect_aid(root, scenario, contract);
-  read_nodes(root, scenario, contract, &engagement_table);
+  read_nodes_of_plants(root, scenario, contract, true);
   read_sensors(root, scenario, contract);
-  for (const NodeSettings& node : scenario.nodes) {
-    if (node.table().samples == engagement_shows.front() && !scenario.engagement)
-      root.reject("engagement", "is missing", fmt::format("a table beside [{}]", node.table().key));
-  }
   if (!scenario.truth_is_known()) refuse_errors_of_start(root, scenario);
   scenario.events = read_events(root, *contract.binding, scenario.duration_us);
   read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},

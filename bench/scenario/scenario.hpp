@@ -25,7 +25,6 @@
 #include "bench/scenario/plant_facts.hpp"
 #include "bench/scenario/setting.hpp"
 #include "bench/scenario/target_setup.hpp"
-#include "bench/world/engagement/plan.hpp"
 #include "bench/world/motion.hpp"
 #include "bench/world/navigation_errors.hpp"
 #include "dbc/wire/result.hpp"
@@ -57,8 +56,7 @@ struct Scenario {
   world::Flight truth;                     ///< at rest if no estimator navigates
   world::InitialErrorModel
       initial_error;  ///< errors of the initial state for the target, relative to the truth at the start
-  std::optional<world::EngagementPlan> engagement;
-  PlantFacts plant;                   ///< the table [plant]
+  PlantFacts plant;   ///< the table [plant]
   std::vector<PlantFacts> of_tables;  ///< plants with tables of their own, in addition to `truth`
   std::vector<NodeSettings> nodes;    ///< the nodes on the bus
   std::vector<Event> events;
@@ -67,7 +65,8 @@ struct Scenario {
 
   /// Whether what moves depends on the target's answers, so that no flight is known before its run.
   [[nodiscard]] bool closes_the_loop() const {
-    return !plant.steered.empty() || (engagement && engagement->guidance == world::Guidance::target);
+    return !plant.steered.empty() ||
+           std::ranges::any_of(of_tables, [](const PlantFacts& one) { return one.guidance.has_value(); });
   }
   /// The plant with this output, a true value; null: no plant has it.
   [[nodiscard]] const PlantFacts* plant_with(std::string_view output) const {

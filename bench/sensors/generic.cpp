@@ -96,8 +96,7 @@ class Value {
 class Generic final : public LossySampler<GenericSettings> {
  public:
   Generic(const NodeSettings& node, const Run& run)
-      : LossySampler(node, run, "generic.loss"),
-        truths_{.flight = run.flight, .engagement = run.engagement, .plants = run.plants} {
+      : LossySampler(node, run, "generic.loss"), truths_{.flight = run.flight, .plants = run.plants} {
     const double dt = 1e-6 * static_cast<double>(node.period_us());
     const auto outputs = node.table().sensor->outputs.values;
     for (std::size_t i = 0; i < outputs.size(); ++i)

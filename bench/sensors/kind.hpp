@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,8 +13,8 @@
 #include "bench/scenario/scenario.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/sensors/sample.hpp"
-#include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
+#include "bench/world/planes.hpp"
 #include "bench/world/plant_record.hpp"
 #include "bench/world/stream.hpp"
 
@@ -30,11 +31,12 @@ class SensorFaults;
 struct Run {
   const scenario::Scenario& scenario;
   std::uint64_t index = 0;
-  const world::FlightRecord& flight;              ///< from the start to the end of the run
-  world::EngagementRecord* engagement = nullptr;  ///< null: no [engagement]; filled during the flight
-  world::PlantRecords plants{};                   ///< filled before or during the flight
-  SensorFaults* faults = nullptr;                 ///< null: no faults
-  std::string_view sensor{};                      ///< name of a named sensor, which has streams of its own
+  const world::FlightRecord& flight;  ///< from the start to the end of the run
+  world::PlantRecords plants{};       ///< filled before or during the flight
+  SensorFaults* faults = nullptr;     ///< null: no faults
+  std::string_view sensor{};          ///< name of a named sensor, which has streams of its own
+  /// Guides the plant that the target's answers guide (plant::Simulation::guide()); empty: there is none.
+  std::function<void(std::int64_t from_us, std::span<const double> inputs)> guide{};
 
   /// A stream of random numbers. The name must never change: the results depend on it.
   [[nodiscard]] world::Stream stream(std::string_view name) const {

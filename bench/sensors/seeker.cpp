@@ -1,12 +1,14 @@
 #include "bench/sensors/seeker.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <optional>
 
 #include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/kind.hpp"
-#include "bench/world/engagement/engagement.hpp"
+#include "bench/world/plant_record.hpp"
 
 namespace canhil::sensors {
 namespace {
@@ -42,7 +44,7 @@ constexpr double largest_error = 0.655;
 
 double detected(double error) { return std::clamp(error, -largest_error, largest_error); }
 
-world::SeekerErrorModel read_errors(Section& section) {
+SeekerErrorModel read_errors(Section& section) {
   const Limits sigma = Limits::at_least(0);
   return {
       .thermal = section.number({"thermal_noise_radpm2",
@@ -105,20 +107,20 @@ class Seeker final : public Sensor {
  public:
   Seeker(const NodeSettings& node, const Run& run)
       : run_(run),
-        engagement_(*run.scenario.engagement, run.stream("engagement")),
+        truth_(Columns::find(run.plants, names).value()),
+        guidance_(run.scenario.plant_with(node.table().samples)->guidance),
         errors_(node.own<SeekerSettings>()->errors, run.stream("seeker")),
         config_(*node.own<SeekerSettings>()),
         faults_(run.stream("seeker.faults")),
-        guided_(run.scenario.engagement->guidance == world::Guidance::target),
         period_us_(node.period_us()) {
     advance();
   }
 
   [[nodiscard]] std::int64_t due_us() const override {
-    return engagement_.over() || due_us_ > run_.flight.end_us() ? never_us : due_us_;
+    return over_ || due_us_ > run_.flight.end_us() ? never_us : due_us_;
   }
   Sample measure() override;
-  [[nodiscard]] bool is_guided() const override { return guided_; }
+  [[nodiscard]] bool is_guided() const override { return guidance_.has_value(); }
   void guide(const Guidance& answer) override;
 
  private:
@@ -126,21 +128,54 @@ class Seeker final : public Sensor {
   struct Sent {
     std::int64_t valid_us = 0;
     std::int64_t sent_us = 0;
-    world::Matrix3 C_na;
-    double range = 0, closing_speed = 0;           ///< as measured [m], [m/s]
+    world::Matrix3 C_na;                  ///< transforms from antenna axes to axes that do not rotate
+    double range = 0, closing_speed = 0;  ///< as measured [m], [m/s]
     world::Planes<double> missile_acceleration{};  ///< as measured [m/s^2]
   };
 
-  Sample sampled(const world::SeekerMeasurement& measured);
+  // In the order of Columns::Names.
+  enum : std::size_t {
+    range,
+    closing_speed,
+    error_pitch,
+    error_yaw,
+    q_w,
+    q_x,
+    q_y,
+    q_z,
+    roll,
+    pitch,
+    yaw,
+    v_y,
+    v_z
+  };
+  using Columns = world::PlantColumns<13>;
+  static constexpr Columns::Names names{"plant.range",
+                                        "plant.closing_speed",
+                                        "plant.error.pitch",
+                                        "plant.error.yaw",
+                                        "plant.antenna.w",
+                                        "plant.antenna.x",
+                                        "plant.antenna.y",
+                                        "plant.antenna.z",
+                                        "plant.antenna_increment.roll",
+                                        "plant.antenna_increment.pitch",
+                                        "plant.antenna_increment.yaw",
+                                        "plant.velocity_increment.y",
+                                        "plant.velocity_increment.z"};
+
+  [[nodiscard]] std::optional<SeekerTruth> truth() const;
+  Sample sampled(const SeekerMeasurement& measured);
   void advance();
   [[nodiscard]] static world::Vector3 rate_at_use(const Sent& sample, const Guidance& answer, double dt);
 
   Run run_;
-  world::Engagement engagement_;
-  world::ErroneousSeeker errors_;
+  Columns truth_;
+  std::optional<scenario::Guidance> guidance_;  // none: the answers guide nothing
+  ErroneousSeeker errors_;
   SeekerSettings config_;
   world::Stream faults_;  // separate from the measurements, which losses and jitter must not change
-  bool guided_;
+  bool over_ = false;     // after the closest approach there is nothing to see
   std::int64_t period_us_;
   std::int64_t valid_us_ = 0;
   std::int64_t due_us_ = 0;
@@ -154,22 +189,39 @@ void Seeker::advance() {
   due_us_ = std::max(due_us_, valid_us_ + config_.schedule.latency_us + static_cast<std::int64_t>(jitter_us));
 }
 
+// Increments are those of each step of the plant: a sample has the sum over its period.
+std::optional<SeekerTruth> Seeker::truth() const {
+  const world::PlantRecord& record = truth_.record();
+  const auto row = record.row(valid_us_);
+  if (!row || (record.ended_us && *record.ended_us <= valid_us_)) return std::nullopt;
+  auto now = truth_.of_row(*row);
+  for (std::size_t i = *row; i-- > 0 && record.times_us()[i] > valid_us_ - period_us_;) {
+    const auto before = truth_.of_row(i);
+    for (std::size_t value = roll; value <= v_z; ++value) now[value] += before[value];
+  }
+  const double dt = 1e-6 * static_cast<double>(period_us_);
+  return SeekerTruth{.t_us = valid_us_,
+                     .interval_us = period_us_,
+                     .range = now[range],
+                     .closing_speed = now[closing_speed],
+                     .error = {.pitch = now[error_pitch], .yaw = now[error_yaw]},
+                     .delta_theta = {now[roll], now[pitch], now[yaw]},
+                     .mean_acceleration = world::Vector3(0, now[v_y], now[v_z]) / dt};
+}
+
 Sample Seeker::measure() {
-  engagement_.fly_to(valid_us_);
-  const world::SeekerIncrement increment = engagement_.take_increment();
-  if (engagement_.over()) {
-    run_.engagement->miss_n = engagement_.miss_n();
-    run_.engagement->passage_us = engagement_.t_us();
+  const auto now = truth();
+  if (!now) {
+    over_ = true;
     return {.fate = Sample::Fate::none};
   }
-  const world::EngagementTruth now = engagement_.truth();
-  run_.engagement->epochs.push_back(now);
-  const world::SeekerMeasurement measured = errors_.measure(now, increment);
+  const SeekerMeasurement measured = errors_.measure(*now);
   const Sample sample = sampled(measured);
-  if (guided_) {
+  if (guidance_) {
+    const auto at = *truth_.at(valid_us_);
     sent_.push_back({.valid_us = valid_us_,
                      .sent_us = due_us_,
-                     .C_na = now.C_na,
+                     .C_na = Eigen::Quaterniond(at[q_w], at[q_x], at[q_y], at[q_z]).toRotationMatrix(),
                      .range = measured.range,
                      .closing_speed = measured.closing_speed,
                      .missile_acceleration = measured.missile_acceleration});
@@ -179,7 +231,7 @@ Sample Seeker::measure() {
 }
 
 // An invalid sample has no angle, no range, no closing speed.
-Sample Seeker::sampled(const world::SeekerMeasurement& measured) {
+Sample Seeker::sampled(const SeekerMeasurement& measured) {
   const bool lost = faults_.uniform() < config_.loss_probability;
   const bool invalid = faults_.uniform() < config_.invalid_probability;
   const bool range_invalid = faults_.uniform() < config_.invalid_range_probability;
@@ -215,18 +267,17 @@ world::Vector3 Seeker::rate_at_use(const Sent& sample, const Guidance& answer, d
 // Commands the guidance with the answer's LOS rate. The antenna's axes and the closing speed are those of the
 // sample that the answer responds to.
 void Seeker::guide(const Guidance& answer) {
-  const world::EngagementPlan& plan = *run_.scenario.engagement;
   while (!sent_.empty() && sent_.front().valid_us < answer.cause_us) sent_.pop_front();
   if (sent_.empty() || sent_.front().valid_us != answer.cause_us) return;
   const Sent& sample = sent_.front();
-  const std::int64_t use_us = sample.sent_us + plan.guidance_delay_us;
+  const std::int64_t use_us = sample.sent_us + guidance_->delay_us;
   const std::int64_t half_period_us = period_us_ / 2;
   const double age = 1e-6 * static_cast<double>(use_us - answer.cause_us + half_period_us);
-  const world::Vector3 omega_los_a = plan.guidance_predicts && sample.range > 0
+  const world::Vector3 omega_los_a = guidance_->predicts && sample.range > 0
                                          ? rate_at_use(sample, answer, age)
                                          : world::Vector3(0, answer.los_rate.pitch, answer.los_rate.yaw);
-  const bool in_time = engagement_.command(use_us, sample.C_na * omega_los_a, sample.closing_speed);
-  if (!in_time) ++run_.engagement->late_commands;
+  const world::Vector3 omega_los_n = sample.C_na * omega_los_a;
+  run_.guide(use_us, std::array{omega_los_n.x(), omega_los_n.y(), omega_los_n.z(), sample.closing_speed});
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // The missile's seeker, until the closest approach, and the guidance computer, which can use the target's
-// answers. Records the flight.
+// answers.
 #pragma once
 
 #include <optional>
 #include <utility>
 
 #include "bench/scenario/schedule.hpp"
-#include "bench/world/engagement/seeker_errors.hpp"
+#include "bench/sensors/seeker_errors.hpp"
 
 namespace canhil::sensors {
 
@@ -14,7 +14,7 @@ namespace canhil::sensors {
 struct SeekerSettings {
   scenario::Schedule schedule{};
   std::int64_t jitter_us = 0;  ///< added to the latency of each sample: uniform from 0 to this value
-  world::SeekerErrorModel errors{};
+  SeekerErrorModel errors{};
   double loss_probability = 0;           ///< a group is not sent, and its increments are lost
   double invalid_probability = 0;        ///< a missed radar pulse: the error angles of a group are invalid
   double invalid_range_probability = 0;  ///< range and closing speed of a group are invalid

@@ -17,7 +17,11 @@ std::optional<std::size_t> PlantRecord::find(std::string_view name) const {
   return static_cast<std::size_t>(found - columns_.begin());
 }
 
-bool PlantRecord::has(std::int64_t t_us) const { return std::ranges::binary_search(times_us_, t_us); }
+std::optional<std::size_t> PlantRecord::row(std::int64_t t_us) const {
+  const auto found = std::ranges::lower_bound(times_us_, t_us);
+  if (found == times_us_.end() || *found != t_us) return std::nullopt;
+  return static_cast<std::size_t>(found - times_us_.begin());
+}
 
 std::optional<double> PlantRecord::at(std::size_t column, std::int64_t t_us) const {
   const auto after = std::ranges::upper_bound(times_us_, t_us);

@@ -42,7 +42,9 @@ class PlantRecord {
   explicit PlantRecord(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
   std::vector<CommandRecord> commands{};
-  double longest_step_s = 0;  ///< the longest time that a step took, by the wall clock
+  double longest_step_s = 0;               ///< the longest time that a step took, by the wall clock
+  std::optional<std::int64_t> ended_us{};  ///< when the motion came to its own end; the last values are there
+  std::uint64_t late = 0;  ///< number of commands that came after the time from which they should have acted
 
   /// Adds the values at a time later than all others.
   void add(std::int64_t t_us, std::span<const double> values);
@@ -56,8 +58,8 @@ class PlantRecord {
   [[nodiscard]] double value(std::size_t column, std::size_t index) const {
     return values_[index * columns_.size() + column];
   }
-  /// Whether there are values at exactly this time.
-  [[nodiscard]] bool has(std::int64_t t_us) const;
+  /// The index of the values at exactly this time; none: there are none.
+  [[nodiscard]] std::optional<std::size_t> row(std::int64_t t_us) const;
   /// The value at a time between the first and the last, interpolated on a straight line; none: any other
   /// time.
   [[nodiscard]] std::optional<double> at(std::size_t column, std::int64_t t_us) const;
@@ -106,6 +108,12 @@ class PlantColumns {
       if (!value) return std::nullopt;
       values[i] = *value;
     }
+    return values;
+  }
+  /// The values at a row of record().
+  [[nodiscard]] std::array<double, count> of_row(std::size_t row) const {
+    std::array<double, count> values{};
+    for (std::size_t i = 0; i < count; ++i) values[i] = record_->value(columns_[i], row);
     return values;
   }
   [[nodiscard]] const PlantRecord& record() const { return *record_; }

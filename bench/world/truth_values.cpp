@@ -8,7 +8,6 @@
 #include <string>
 
 #include "bench/world/attitude.hpp"
-#include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/plant_record.hpp"
 
@@ -77,13 +76,6 @@ template <int axis>
 Value force(const Truths& truths, std::int64_t t_us) {
   return flown(truths, t_us, [](const Truth& at) { return at.f_ib_b[axis]; });
 }
-// A value from the engagement record, at a sample of the seeker.
-template <double Planes<double>::*plane>
-Value los_rate(const Truths& truths, std::int64_t t_us) {
-  const EngagementTruth* epoch = truths.engagement == nullptr ? nullptr : truths.engagement->at(t_us);
-  if (epoch == nullptr) return std::nullopt;
-  return epoch->los_rate.*plane;
-}
 
 using enum TruthIn;
 constexpr std::array known{
@@ -107,8 +99,8 @@ constexpr std::array known{
     TruthValue{"specific_force.x", "m/s^2", false, flight, force<0>},
     TruthValue{"specific_force.y", "m/s^2", false, flight, force<1>},
     TruthValue{"specific_force.z", "m/s^2", false, flight, force<2>},
-    TruthValue{"los.rate.pitch", "rad/s", false, engagement, los_rate<&Planes<double>::pitch>},
-    TruthValue{"los.rate.yaw", "rad/s", false, engagement, los_rate<&Planes<double>::yaw>},
+    TruthValue{"los.rate.pitch", "rad/s", false, plant},
+    TruthValue{"los.rate.yaw", "rad/s", false, plant},
     TruthValue{"wind.north", "m/s", false, plant},
     TruthValue{"wind.east", "m/s", false, plant},
     TruthValue{"wind.down", "m/s", false, plant},

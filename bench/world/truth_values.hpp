@@ -10,18 +10,16 @@
 
 namespace canhil::world {
 
-struct EngagementRecord;
 class FlightRecord;
 
 /// The truths of a run.
 struct Truths {
   const FlightRecord& flight;
-  const EngagementRecord* engagement = nullptr;  ///< null: the run has no engagement
   PlantRecords plants{};
 };
 
 /// The truth that contains a value. `motion`: a plant that shows the value itself, otherwise the flight.
-enum class TruthIn : std::uint8_t { flight, motion, engagement, plant };
+enum class TruthIn : std::uint8_t { flight, motion, plant };
 
 /// A true value, in SI. Axes: north, east, down, or those of the body (forward, right, down).
 struct TruthValue {

@@ -88,15 +88,15 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
     section.optional("time_to_go_s");
     return {.window = scenario::read_window(section, context.duration_us)};
   }
-  if (subject.quantity != nullptr && !subject.quantity->of_engagement)
+  if (subject.quantity != nullptr && !subject.quantity->has_time_to_go)
     section.reject("time_to_go_s", "is for flights that go to a target", "from_s and to_s");
   for (const std::string_view key : {"from_s", "to_s"})
     section.refuse(key, "has no effect beside time_to_go_s", "one of the two");
   return {.window = {.from_us = 0, .to_us = context.duration_us},
-          .to_go_s = section.interval(
-              {"time_to_go_s",
-               "Window of the time to go, in place of `from_s` and `to_s`; only for an engagement."},
-              scenario::Limits::at_least(0))};
+          .to_go_s = section.interval({"time_to_go_s",
+                                       "Window of the time to go, in place of `from_s` and `to_s`; only for "
+                                       "a missile that flies to a target."},
+                                      scenario::Limits::at_least(0))};
 }
 
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,

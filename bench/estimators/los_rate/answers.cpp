@@ -29,17 +29,19 @@ struct LosGroup : AnswerGroup<LosRateEstimate, LosRateSigma, LosRateTarget> {
 
 std::unique_ptr<Reception> los_reception() { return std::make_unique<ReceptionOf<LosAnswers, LosGroup>>(); }
 
-Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement) {
+Spool<LosError> los_errors(const LosAnswers& answers, const world::PlantRecords& plants) {
   Spool<LosError> errors;
+  const auto truth = TrueLos::find(plants, true_los);
+  if (!truth) return errors;
   errors.reserve(answers.size());
   for (std::size_t index = 0; index < answers.size(); ++index) {
     const LosAnswer& answer = answers[index];
-    const world::EngagementTruth* truth = engagement.at(answer.cause_us);
-    if (truth == nullptr || !has_estimate(answer.outcome)) continue;
+    const auto row = truth->record().row(answer.cause_us);
+    if (!row || !has_estimate(answer.outcome)) continue;
+    const auto [pitch, yaw, time_to_go] = truth->of_row(*row);
     errors.push_back({.t_us = answer.cause_us,
-                      .time_to_go = truth->time_to_go(),
-                      .rate = {.pitch = answer.rate.pitch - truth->los_rate.pitch,
-                               .yaw = answer.rate.yaw - truth->los_rate.yaw},
+                      .time_to_go = time_to_go,
+                      .rate = {.pitch = answer.rate.pitch - pitch, .yaw = answer.rate.yaw - yaw},
                       .sigma = answer.rate_sigma,
                       .trusted = !answer.blind && !answer.degraded,
                       .answer = index});

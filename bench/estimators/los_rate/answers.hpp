@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "bench/estimators/navigation.hpp"
-#include "bench/world/engagement/engagement.hpp"
+#include "bench/world/planes.hpp"
+#include "bench/world/plant_record.hpp"
 
 namespace canhil::estimators {
 
@@ -45,8 +46,12 @@ struct LosError {
   std::size_t answer = 0;         ///< index of the answer
 };
 
-/// Errors of all answers that have an estimate and whose time of cause is an epoch of the engagement.
-Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement);
+/// The true values at the times of the samples: LOS rate in pitch and yaw, time to go.
+using TrueLos = world::PlantColumns<3>;
+inline constexpr TrueLos::Names true_los{"los.rate.pitch", "los.rate.yaw", "plant.time_to_go"};
+
+/// Errors of all answers that have an estimate and whose time of cause is that of a sample.
+Spool<LosError> los_errors(const LosAnswers& answers, const world::PlantRecords& plants);
 
 /// The normalised innovation squared (NIS, 2 degrees of freedom) of each answer that was an update.
 Spool<quantities::TrackPoint> nis_of(const LosAnswers& answers);

@@ -57,14 +57,14 @@ struct Stretch {
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Samples samples(layout);
-  if (truth.engagement == nullptr) return samples;
-  const world::EngagementRecord& engagement = *truth.engagement;
+  const auto los = TrueLos::find(truth.plants, true_los);
+  if (!los) return samples;
   std::map<std::int64_t, Stretch> stretches;  // key: minus the time to go, in units of stretch_us
   const auto at = [&](double time_to_go) -> Stretch& {
     return stretches[-static_cast<std::int64_t>(
         std::floor(time_to_go * 1e6 / static_cast<double>(stretch_us)))];
   };
-  for (const LosError& error : los_errors(seen.of<LosAnswers>(), engagement)) {
+  for (const LosError& error : los_errors(seen.of<LosAnswers>(), truth.plants)) {
     Stretch& stretch = at(error.time_to_go);
     stretch.pitch_squares += error.rate.pitch * error.rate.pitch;
     stretch.yaw_squares += error.rate.yaw * error.rate.yaw;
@@ -79,13 +79,14 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
       ++stretch.untrusted;
   }
   for (const TrackPoint& update : nis_of(seen.of<LosAnswers>())) {
-    const world::EngagementTruth* epoch = engagement.at(update.t_us);
-    if (epoch == nullptr) continue;
-    Stretch& stretch = at(epoch->time_to_go());
+    const auto row = los->record().row(update.t_us);
+    if (!row) continue;
+    Stretch& stretch = at(los->of_row(*row).back());
     stretch.nis_sum += update.value;
     ++stretch.updates;
   }
-  const world::Vector3 miss_n = engagement.miss_n.value_or(world::Vector3::Constant(nan));
+  const auto passage = Passage::find(truth.plants);
+  const world::Vector3 miss_n = passage && passage->miss_n ? *passage->miss_n : world::Vector3::Constant(nan);
   for (const auto& [index, stretch] : stretches) {
     if (stretch.rates == 0) continue;
     const std::array<double, kept.size()> values{
@@ -104,16 +105,15 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 }
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
-  if (truth.engagement == nullptr) return;
+  if (!TrueLos::find(truth.plants, true_los)) return;
   const LosAnswers& answers = seen.of<LosAnswers>();
-  const world::EngagementRecord& engagement = *truth.engagement;
-  const auto errors = los_errors(answers, engagement);
+  const auto errors = los_errors(answers, truth.plants);
   // In the last moments before the passage the rate grows too large to draw.
   constexpr double least_to_go_s = 0.08;
   const auto last = std::find_if(errors.rbegin(), errors.rend(),
                                  [](const LosError& e) { return e.time_to_go >= least_to_go_s; });
   const Answering of{longest_wait_us(seen, messages::LosRateTarget::info.name),
-                     answers_end_us(engagement, truth.duration_us)};
+                     answers_end_us(truth.plants, truth.duration_us)};
   const auto plane = [&](const Quantity& quantity, const std::string& name,
                          double world::Planes<double>::*member) {
     Track track = of.track(quantity, "LOS rate error, " + name);
@@ -146,18 +146,18 @@ std::vector<Mark> marks_of(const checks::Observations& seen) {
 
 std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
                                    std::string_view /*algorithm*/) {
-  if (truth.engagement == nullptr) return {};
-  const world::EngagementRecord& engagement = *truth.engagement;
+  const auto passage = Passage::find(truth.plants);
+  if (!passage) return {};
   ResultLine rms{.name = "rms", .what = "RMS [mrad/s] by s to go"};
   constexpr std::array<std::pair<double, double>, 6> windows{
       {{4.5, 3}, {3, 2}, {2, 1}, {1, 0.5}, {0.5, 0.2}, {0.2, 0.08}}};
-  const auto errors = los_errors(seen.of<LosAnswers>(), engagement);
+  const auto errors = los_errors(seen.of<LosAnswers>(), truth.plants);
   for (const auto& [most, least] : windows) {
     const std::optional<double> value = los_rms(errors, least, most);
     const std::string name = fmt::format("{:g} to {:g}", most, least);
     rms.add(name, value, name + (value ? fmt::format(": {:.2f}", *value / mradps.factor) : ": no answers"));
   }
-  return {end_of_flight(engagement), std::move(rms)};
+  return {end_of_flight(*passage), std::move(rms)};
 }
 
 constexpr std::array closing{messages::LosRateTarget::info.name};
@@ -166,12 +166,11 @@ constexpr std::array check_kinds{checks::check_kind<MissDistance>};
 
 Freshness freshness_of(const scenario::Scenario& scenario) {
   const scenario::NodeSettings* seeker = scenario.node("seeker");
-  if (!scenario.engagement || seeker == nullptr) return {};
-  const world::EngagementPlan& plan = *scenario.engagement;
-  const double to_go_s = plan.range / (plan.missile_speed + plan.target_speed);  // at the start
+  const scenario::PlantFacts* missile = scenario.plant_with("plant.time_to_go");
+  if (missile == nullptr || seeker == nullptr) return {};
   return {.age_limit_us = std::llround(checks::longest_wait_us(period_us(*seeker))),
           .end_us = 0,
-          .begin_us = -std::llround(to_go_s * 1e6),
+          .begin_us = -std::llround(missile->to_go_s * 1e6),
           .sample_us = std::max(stretch_us, seeker->period_us())};
 }
 
@@ -191,19 +190,21 @@ constexpr std::array<std::string_view, 4> plain_marks{"waiting", "started", "sta
 
 }  // namespace
 
-constinit const Estimator los_rate{
-    .name = "los_rate",
-    .facts = {.parameters = parameters, .nodes = nodes, .start = scenario::Start::nothing},
-    .layout = layout,
-    .of_runs = of_runs,
-    .reception = los_reception,
-    .samples = samples_of,
-    .tracks = tracks_of,
-    .marks = marks_of,
-    .plain_marks = plain_marks,
-    .results = results_of,
-    .closing = closing,
-    .check_kinds = check_kinds,
-    .freshness = freshness_of};
+constinit const Estimator los_rate{.name = "los_rate",
+                                   .facts = {.parameters = parameters,
+                                             .nodes = nodes,
+                                             .truth = "plant.range",
+                                             .start = scenario::Start::nothing},
+                                   .layout = layout,
+                                   .of_runs = of_runs,
+                                   .reception = los_reception,
+                                   .samples = samples_of,
+                                   .tracks = tracks_of,
+                                   .marks = marks_of,
+                                   .plain_marks = plain_marks,
+                                   .results = results_of,
+                                   .closing = closing,
+                                   .check_kinds = check_kinds,
+                                   .freshness = freshness_of};
 
 }  // namespace canhil::estimators

@@ -6,6 +6,7 @@
 
 #include "bench/checks/estimator.hpp"
 #include "bench/checks/evidence.hpp"
+#include "bench/estimators/end_of_flight.hpp"
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/section.hpp"
 
@@ -15,11 +16,12 @@ MissDistance MissDistance::read(scenario::Section& section, const scenario::Chec
   MissDistance rule;
   for (const Estimator* one : context.contract.known) {
     const bool runs = std::ranges::find(context.estimators, one->name) != context.estimators.end();
-    if (runs && std::ranges::any_of(one->of_runs, &quantities::Quantity::of_engagement))
+    if (runs && std::ranges::any_of(one->of_runs, &quantities::Quantity::has_time_to_go))
       rule.estimators.emplace_back(one->name);
   }
   if (rule.estimators.empty())
-    section.reject("kind", "needs an engagement to be judged", "estimator los_rate in the scenario");
+    section.reject("kind", "needs a missile and its target to be judged",
+                   "estimator los_rate in the scenario");
   rule.below = section.number({"below_m", "The closest approach must be below this value."},
                               scenario::Limits::above(0));
   return rule;
@@ -30,10 +32,10 @@ std::vector<std::string> MissDistance::held_against_truth() const { return estim
 checks::Finding MissDistance::judge(const checks::Evidence& evidence) const {
   using checks::Outcome;
   const std::string expected = fmt::format("miss < {:g} m", below);
-  const world::EngagementRecord* engagement = evidence.truth.engagement;
-  if (engagement == nullptr || !engagement->miss_n)
+  const auto end = Passage::find(evidence.truth.plants);
+  if (!end || !end->miss_n)
     return {Outcome::fail, "the missile did not pass the target before the end", expected};
-  const double miss = engagement->miss_n->norm();
+  const double miss = end->miss_n->norm();
   return {checks::pass_if(miss < below), fmt::format("{:.3f} m", miss), expected};
 }
 

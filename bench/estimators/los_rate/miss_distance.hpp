@@ -10,7 +10,7 @@ struct MissDistance {
   static constexpr std::string_view meaning =
       "Passes when the closest approach of missile and flight target is below `below_m`.";
   double below = 0;                       ///< [m]
-  std::vector<std::string> estimators{};  ///< those whose answers are about the engagement
+  std::vector<std::string> estimators{};  ///< those whose answers are about what the missile flies to
 
   static MissDistance read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::vector<std::string> held_against_truth() const;

@@ -13,18 +13,18 @@ inline constexpr Quantity los_rate_pitch{
     .name = "los.rate.pitch",
     .meaning = "error of the LOS rate in pitch, antenna axes; in campaigns RMS over 20 ms of the time to go",
     .unit = mradps,
-    .of_engagement = true};
+    .has_time_to_go = true};
 inline constexpr Quantity los_rate_yaw{
     .name = "los.rate.yaw",
     .meaning = "error of the LOS rate in yaw, antenna axes; in campaigns RMS over 20 ms of the time to go",
     .unit = mradps,
-    .of_engagement = true};
+    .has_time_to_go = true};
 inline constexpr std::array<const Quantity*, 2> los_rate_planes{&los_rate_pitch, &los_rate_yaw};
 inline constexpr Quantity los_rate_both{
     .name = "los.rate",
     .meaning = "error of the LOS rate: RMS over both planes and over 20 ms of the time to go",
     .unit = mradps,
-    .of_engagement = true,
+    .has_time_to_go = true,
     .parts = los_rate_planes};
 /// The reported sigma, RMS of both planes.
 inline constexpr Quantity los_rate_sigma{.name = "los.rate.sigma",
@@ -68,6 +68,6 @@ inline constexpr Quantity los_nis{.name = "los.nis",
                                   .degrees_of_freedom = 2,
                                   .white = true,
                                   .nan_allowed = true,
-                                  .of_engagement = true};
+                                  .has_time_to_go = true};
 
 }  // namespace canhil::quantities

@@ -40,7 +40,7 @@ struct WindGroup : AnswerGroup<WindVector, WindSpeed, WindSigma, WindCorrelation
 
 // None: the filter does not run, or the cause is no time of the record.
 std::optional<WindError> error_of(const WindAnswer& answer, const TrueAir& air) {
-  if (!answer.started || !air.record().has(answer.cause_us)) return std::nullopt;
+  if (!answer.started || !air.record().row(answer.cause_us)) return std::nullopt;
   const auto [north, east, down, v_north, v_east, v_down] = *air.at(answer.cause_us);
   const Eigen::Vector2d along = Eigen::Vector2d(v_north, v_east).normalized();
   const Vector3 error = answer.wind_n - Vector3(north, east, down);

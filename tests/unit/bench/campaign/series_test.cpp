@@ -11,6 +11,7 @@
 #include "bench/drive/contract.hpp"
 #include "bench/drive/flight.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
+#include "tests/unit/bench/checks/fly_past.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -81,36 +82,33 @@ TEST(Series, QuantitiesThatFollowFromOthers) {
 }
 
 TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
-  drive::Collected flown{.ending = {}, .seen = {}};
-  world::EngagementRecord record;
+  checks::Observations seen;
+  checks::Flown flown;
   // At 1000 m/s, answers at 100 Hz give two answers for each sample. In each sample, the errors in pitch are
   // 3 and 4 mrad/s, and the errors in yaw are 1 mrad/s.
   for (std::int64_t t_us = 10'000; t_us <= 90'000; t_us += 10'000) {
-    world::EngagementTruth epoch;
-    epoch.t_us = t_us;
-    epoch.range = 100.5 - 1e-3 * static_cast<double>(t_us);
-    epoch.closing_speed = 1000;
-    epoch.velocity_n = {-1000, 0, 0};
-    record.epochs.push_back(epoch);
+    flown.epochs.push_back({.t_us = t_us, .range = 100.5 - 1e-3 * static_cast<double>(t_us)});
     estimators::LosAnswer answer;
     answer.cause_us = t_us;
     answer.outcome = messages::LosRateOutcome::updated;
     answer.rate = {.pitch = t_us % 20'000 == 0 ? 4e-3 : -3e-3, .yaw = 1e-3};
     answer.rate_sigma = {.pitch = 1e-3, .yaw = 2e-3};
     answer.nis = t_us % 20'000 == 0 ? 1 : 2;
-    flown.seen.of<estimators::LosAnswers>().push_back(answer);
+    seen.of<estimators::LosAnswers>().push_back(answer);
   }
-  flown.seen.of<estimators::LosAnswers>()[0].outcome =
+  seen.of<estimators::LosAnswers>()[0].outcome =
       messages::LosRateOutcome::coasting;  // sent, but not from an update
-  flown.seen.of<estimators::LosAnswers>()[1].outcome = messages::LosRateOutcome::waiting;
-  flown.seen.of<estimators::LosAnswers>()[8].rate.pitch = 1;
-  flown.seen.of<estimators::LosAnswers>()[8].blind = true;
-  flown.seen.of<estimators::LosAnswers>()[7].degraded = true;
-  record.miss_n = world::Vector3(0, 0.3, -0.4);
-  flown.per_run_truth.engagement = record;
-  flown.seen.of<estimators::TransferAnswers>().navigation.push_back({});
-  const RunSeries series = series_of(
-      7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000), estimators::los_rate);
+  seen.of<estimators::LosAnswers>()[1].outcome = messages::LosRateOutcome::waiting;
+  seen.of<estimators::LosAnswers>()[8].rate.pitch = 1;
+  seen.of<estimators::LosAnswers>()[8].blind = true;
+  seen.of<estimators::LosAnswers>()[7].degraded = true;
+  flown.miss_n = world::Vector3(0, 0.3, -0.4);
+  flown.passage_us = 100'500;
+  const world::PlantRecord record = flown.record();
+  seen.of<estimators::TransferAnswers>().navigation.push_back({});
+  const world::FlightRecord rest({.start = {}, .motion = world::Rest{}}, 0, 10'000);
+  const RunSeries series{.samples = estimators::los_rate.samples(
+                             seen, {.flight = rest, .duration_us = 100'500, .plants = {&record}})};
   ASSERT_EQ(&series.samples.layout(), &estimators::los_rate.layout)
       << "by what was asked for, whatever else was seen";
   // The times to go of the answers, grouped by sample: 90.5, 80.5 | 70.5, 60.5 | 50.5, 40.5 | 30.5, 20.5 |
@@ -170,19 +168,19 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   const world::FlightRecord truth({.start = start, .motion = world::Rest{}}, 3'000'000, 20'000);
   drive::Collected flown{.ending = {}, .seen = {}};
   for (const std::int64_t t_us : {1'000'000, 1'500'000, 2'000'000})
-    flown.seen.of<estimators::InflightAnswers>().navigation.push_back(
+    seen.of<estimators::InflightAnswers>().navigation.push_back(
         {.cause_us = t_us, .angles = {.heading = 1e-6 * static_cast<double>(t_us)}});
   estimators::FixAnswer fix{.cause_us = 500'000, .navigation_us = 1'000'000, .nis = 4};
   fix.position = displaced(start, {1, 2, 3});
   fix.attitude_sigma.z() = 0.5;
   fix.repairs = 6;
-  flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
+  seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::wrong_source;
-  flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
+  seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::gated;
   fix.cause_us = 1'500'000;
   fix.nis = 900;
-  flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
+  seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
   const RunSeries series = series_of(5, flown, truth, estimators::inflight_alignment);
   ASSERT_EQ(series.samples.size(), 2U) << "only of fixes that were considered";
   EXPECT_TRUE(std::isnan(series.samples.value(1, quantities::innovation_nis))) << "the filter did not use it";

@@ -28,7 +28,7 @@ struct Came {
 /// time on; so are heartbeats and counters. A test may change the run before it is judged.
 class Drawn {
  public:
-  Drawn(unsigned seed, const world::EngagementRecord& flight, std::int64_t duration_us) : random_(seed) {
+  Drawn(unsigned seed, const Flown& flight, std::int64_t duration_us) : random_(seed) {
     draw_host(flight);
     draw_answers(flight);
     draw_reports(duration_us);
@@ -64,10 +64,10 @@ class Drawn {
     const double from_us = one_of({1e9, 1e9, uniform() * 5e6});
     return {.from_us = from_us, .to_us = from_us + one_of({1e9, 2e5, 1.2e6})};
   }
-  void draw_host(const world::EngagementRecord& flight) {
+  void draw_host(const Flown& flight) {
     const double late_us = one_of({50, 50, 500, 3000}), growth = one_of({0, 0, 0.3, 2});
     std::int64_t sent_ns = 0;  // in order: no frame before the one before it
-    for (const world::EngagementTruth& epoch : flight.epochs) {
+    for (const Flown::Sample& epoch : flight.epochs) {
       const double grown = 1 + growth * static_cast<double>(epoch.t_us) * 1e-6;
       const std::int64_t due_ns = epoch.t_us * 1000;
       sent_ns = std::max<std::int64_t>(sent_ns + 1, due_ns + std::llround(uniform() * late_us * grown * 1e3));
@@ -78,7 +78,7 @@ class Drawn {
     frames_lost = static_cast<std::uint32_t>(one_of({0, 0, 10, 1000}));
     outages = uniform() < 0.2 ? 1 : 0;
   }
-  void draw_answers(const world::EngagementRecord& flight) {
+  void draw_answers(const Flown& flight) {
     constexpr double mrad = 1e-3;
     const double lost = one_of({0, 0, 0, 0.02, 0.3, 0.6}), late = one_of({0, 0.01, 0.5}),
                  twice = one_of({0, 0, 0.05, 0.5}), wrong = one_of({0, 0, 0, 0.001}),
@@ -90,7 +90,7 @@ class Drawn {
     const Silence degraded{.from_us = degraded_from_us, .to_us = degraded_from_us + one_of({1e9, 2e5, 1e6})};
     const auto error = [&] { return (uniform() < 0.005 ? 10 : 1) * scale * mrad * normal(); };
     auto late_by_ns = late_ns.begin();
-    for (const world::EngagementTruth& epoch : flight.epochs) {
+    for (const Flown::Sample& epoch : flight.epochs) {
       const std::int64_t sent_ns = epoch.t_us * 1000 + *late_by_ns++;
       if (uniform() < lost || silent.covers(epoch.t_us)) continue;
       const auto t_us = static_cast<double>(epoch.t_us);
@@ -152,8 +152,8 @@ class Drawn {
 };
 
 /// What the bench observes of a run, with the times that the checks need.
-inline Observations observed(const Drawn& run, const world::EngagementRecord& flight,
-                             std::int64_t duration_us, const std::vector<scenario::Check>& checks) {
+inline Observations observed(const Drawn& run, const Flown& flight, std::int64_t duration_us,
+                             const std::vector<scenario::Check>& checks) {
   Observations seen;
   seen.timing.windows = timed_windows(checks);
   observe::Stopwatch stopwatch(seen.timing);

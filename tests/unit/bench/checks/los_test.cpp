@@ -23,7 +23,7 @@ using testing::HasSubstr;
 class Engaged : public FlyPast {
  protected:
   Engaged() {
-    for (const world::EngagementTruth& epoch : flight_.epochs) {
+    for (const Flown::Sample& epoch : flight_.epochs) {
       LosAnswer answer;
       answer.cause_us = epoch.t_us;
       answer.outcome = LosRateOutcome::updated;
@@ -36,7 +36,7 @@ class Engaged : public FlyPast {
   template <class Rule>
   CheckResult judge(const Rule& rule) {
     estimators::Truth known = truth();
-    if (!present_) known.engagement = nullptr;
+    if (!present_) known.plants.clear();
     return judged(rule, seen_, known);
   }
   LosAnswer& answer_at(double to_go) {

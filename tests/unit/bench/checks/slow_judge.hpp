@@ -53,14 +53,14 @@ struct Row {
 struct PlainRun {
   static constexpr double longest_wait_us = 1.01e6;  ///< one period and a second
   const Drawn& run;
-  const world::EngagementRecord& flight;
+  const Flown& flight;
   std::int64_t duration_us = 0;
   std::vector<Row> rows{};  ///< in order of the samples, and of the arrival of the answers to one sample
   std::vector<std::int64_t> all{};  ///< the samples of all answers
 
-  PlainRun(const Drawn& of, const world::EngagementRecord& flown, std::int64_t lasts_us)
+  PlainRun(const Drawn& of, const Flown& flown, std::int64_t lasts_us)
       : run(of), flight(flown), duration_us(lasts_us) {
-    for (const world::EngagementTruth& epoch : flight.epochs) {
+    for (const Flown::Sample& epoch : flight.epochs) {
       for (const auto& [t_ns, answer] : run.answers) {
         if (answer.cause_us != epoch.t_us) continue;
         all.push_back(epoch.t_us);
@@ -91,7 +91,7 @@ struct PlainRun {
     if (in.empty()) return "no answers";
     if (stretch.to_go_s) {
       int samples = 0, answered = 0;
-      for (const world::EngagementTruth& epoch : flight.epochs) {
+      for (const Flown::Sample& epoch : flight.epochs) {
         if (!lies_in_stretch(stretch, epoch.t_us, epoch.time_to_go())) continue;
         ++samples;
         bool found = false;
@@ -131,7 +131,7 @@ struct PlainRun {
   /// after it.
   [[nodiscard]] Due due_in(const Stretch& stretch) const {
     Due found;
-    for (const world::EngagementTruth& epoch : flight.epochs) {
+    for (const Flown::Sample& epoch : flight.epochs) {
       if (!lies_in_stretch(stretch, epoch.t_us, epoch.time_to_go())) continue;
       if (run.fault && run.fault->count > 0 && epoch.t_us >= run.fault->valid_from_us &&
           epoch.t_us <= run.fault->window.to_us + 100'000)

@@ -27,14 +27,14 @@ std::vector<PlainSign> signs_of(const PlainRun& of) {
     }
     signs.push_back({.name = name, .by = by, .t_us = {t_us}});
   };
-  for (const world::EngagementTruth& epoch : of.flight.epochs) {
+  for (const Flown::Sample& epoch : of.flight.epochs) {
     for (const auto& [t_ns, answer] : of.run.answers) {
       if (answer.cause_us == epoch.t_us && answer.outcome == messages::LosRateOutcome::coasting)
         add("coasting", "an answer", epoch.t_us);
     }
   }
   for (const char* mark : {"degraded", "blind"}) {
-    for (const world::EngagementTruth& epoch : of.flight.epochs) {
+    for (const Flown::Sample& epoch : of.flight.epochs) {
       for (const auto& [t_ns, answer] : of.run.answers) {
         const bool has = *mark == 'd' ? answer.degraded : answer.blind;
         if (answer.cause_us == epoch.t_us && has) add(mark, "an answer", epoch.t_us);

@@ -227,7 +227,7 @@ Judged own_times(const PlainRun& of, const OwnTimes& /*rule*/) {
   if (!of.run.timing_unfit.empty()) return not_measured(of.run.timing_unfit);
   if (of.run.timings.empty()) return fail("no TargetTiming");
   std::vector<std::int64_t> first_answers;  // of each answered sample
-  for (const world::EngagementTruth& epoch : of.flight.epochs) {
+  for (const Flown::Sample& epoch : of.flight.epochs) {
     const auto first = std::ranges::find_if(of.run.answers,
                                             [&](const auto& one) { return one.what.cause_us == epoch.t_us; });
     if (first != of.run.answers.end()) first_answers.push_back(first->t_ns);

@@ -143,11 +143,8 @@ TEST(Nodes, SendInAnOrderThatNeverChanges) {
   const world::FlightRecord truth = make_truth(all).value();
   Flight flight = make_flight(all, truth, 0).value();
   PerRunTruth& own = flight.per_run_truth;
-  const auto sensors = nodes::make({.scenario = all,
-                                    .index = 0,
-                                    .flight = truth,
-                                    .engagement = &*own.engagement,
-                                    .plants = plants_of(own)});
+  const auto sensors = nodes::make({.scenario = all, .index = 0, .flight = truth, .plants = plants_of(own)});
+  for (plant::Simulation* one : own.plants()) one->advance(all.duration_us);
   std::vector<std::string_view> senders;
   for (const auto& node : sensors) {
     nodes::Transmission out;

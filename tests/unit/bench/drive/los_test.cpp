@@ -8,6 +8,7 @@
 #include "bench/drive/contract.hpp"
 #include "bench/drive/flight.hpp"
 #include "bench/drive/session.hpp"
+#include "bench/estimators/end_of_flight.hpp"
 #include "bench/estimators/los_rate/answers.hpp"
 #include "bench/estimators/registry.hpp"
 
@@ -26,13 +27,16 @@ struct Flown {
     EXPECT_NE(found, verdict.checks.end()) << name;
     return *found;
   }
-  [[nodiscard]] const world::EngagementRecord& engagement() const { return *run.per_run_truth.engagement; }
+  [[nodiscard]] world::PlantRecords plants() const { return plants_of(run.per_run_truth); }
+  [[nodiscard]] estimators::Passage passage() const { return estimators::Passage::find(plants()).value(); }
+  /// The number of samples that the seeker took.
+  [[nodiscard]] std::size_t samples() const { return plants()[0]->times_us().size() - 2; }  // start, passage
   [[nodiscard]] double rms(double least, double most) const {
-    return estimators::los_rms(estimators::los_errors(run.seen.of<estimators::LosAnswers>(), engagement()),
-                               least, most)
+    return estimators::los_rms(estimators::los_errors(run.seen.of<estimators::LosAnswers>(), plants()), least,
+                               most)
         .value();
   }
-  [[nodiscard]] double miss() const { return engagement().miss_n.value().norm(); }
+  [[nodiscard]] double miss() const { return passage().miss_n.value().norm(); }
 };
 
 scenario::Setting set(std::string key, std::string value) {
@@ -75,7 +79,7 @@ void expect_outputs_pass(const Flown& flown) {
 TEST(Los, EveryAlgorithmSeesTheSameFlight) {
   const Flown combined = fly("los_quick");
   expect_outputs_pass(combined);
-  EXPECT_EQ(combined.run.seen.of<estimators::LosAnswers>().size(), combined.engagement().epochs.size());
+  EXPECT_EQ(combined.run.seen.of<estimators::LosAnswers>().size(), combined.samples());
   for (const char* algorithm : {"\"kalman\"", "\"switched_table\"", "\"low_pass\""}) {
     const Flown other = fly("los_quick", {set("target.algorithm", algorithm)});
     EXPECT_EQ(other.miss(), combined.miss()) << "guidance is on the truth";
@@ -100,7 +104,7 @@ TEST(Los, WithoutNoiseTheErrorIsThatOfTheBus) {
 TEST(Los, TheLoopIsClosedOverTheBus) {
   const Flown closed = fly("los_closed_loop");
   expect_outputs_pass(closed);
-  EXPECT_EQ(closed.engagement().late_commands, 0U) << "in lockstep every answer is in time";
+  EXPECT_EQ(closed.passage().late_commands, 0U) << "in lockstep every answer is in time";
   const Flown other = fly("los_closed_loop", {set("target.algorithm", "\"kalman\"")});
   EXPECT_NE(closed.miss(), other.miss()) << "each flies its own estimate";
   const Flown slow = fly("los_closed_loop", {set("seeker.latency_ms", "300")});
@@ -111,7 +115,7 @@ TEST(Los, TheLoopIsClosedOverTheBus) {
 TEST(Los, LostSamplesAreBridgedAndSoIsABlackout) {
   const Flown lossy = fly("los_quick", {set("seeker.loss_percent", "5")});
   EXPECT_LT(lossy.rms(1, 2), 6e-3);
-  EXPECT_LT(lossy.run.seen.of<estimators::LosAnswers>().size(), lossy.engagement().epochs.size());
+  EXPECT_LT(lossy.run.seen.of<estimators::LosAnswers>().size(), lossy.samples());
   const Flown black = fly("los_quick", {set("seeker.blackout_s", "[3.0, 3.2]")});
   EXPECT_EQ(black.check("answers coasting").outcome, Outcome::fail);
   EXPECT_EQ(black.check("answers coasting").measured, "coasting 41");

@@ -42,7 +42,7 @@ TEST(LiveFeed, GivesWhatWasSeenInOrder) {
   feed.time_set(30);
   feed.transmitted({.id = 2}, 40, 3);
   Seen seen;
-  EXPECT_EQ(feed.drain(seen, nullptr), 4U);
+  EXPECT_EQ(feed.drain(seen, {}), 4U);
   EXPECT_EQ(seen.sent, (std::vector<std::uint32_t>{1, 2}));
   EXPECT_EQ(seen.answers, std::vector<std::int64_t>{20});
   EXPECT_EQ(seen.virtual_ns, 30);
@@ -56,25 +56,36 @@ TEST(LiveFeed, DropsAndCountsWhatFindsNoRoom) {
   for (std::uint32_t id = 0; id < 20; ++id) feed.transmitted({.id = id}, 0, 0);
   EXPECT_EQ(feed.dropped(), 12U);
   Seen seen;
-  EXPECT_EQ(feed.drain(seen, nullptr), 8U);
+  EXPECT_EQ(feed.drain(seen, {}), 8U);
   EXPECT_EQ(seen.sent.back(), 7U);  // a full feed keeps its frames and drops new ones
   feed.transmitted({.id = 20}, 0, 0);
-  EXPECT_EQ(feed.drain(seen, nullptr), 1U);
+  EXPECT_EQ(feed.drain(seen, {}), 1U);
   EXPECT_EQ(feed.dropped(), 12U);
 }
 
-TEST(LiveFeed, CopiesTheEpochsOfAnEngagement) {
-  world::EngagementRecord flown, copy;
+TEST(LiveFeed, CopiesTheRowsOfEachPlant) {
+  std::vector<world::PlantRecord> flown, copies;
+  for (auto* records : {&flown, &copies}) {
+    records->emplace_back(std::vector<world::PlantRecord::Column>{{.name = "plant.a"}, {.name = "plant.b"}});
+    records->emplace_back(std::vector<world::PlantRecord::Column>{{.name = "plant.c"}});
+  }
   Feed feed;
-  feed.follow(&flown);
-  for (std::int64_t t_us : {0, 5000, 10'000}) {
-    flown.epochs.push_back({.t_us = t_us, .range = 1000});
+  feed.follow({&flown[0], &flown[1]});
+  for (const std::int64_t t_us : {0, 5000, 10'000}) {
+    const auto t = static_cast<double>(t_us);
+    flown[0].add(t_us, std::array{t, -t});
+    if (t_us > 0) flown[1].add(t_us, std::array{2 * t});
+    if (t_us == 10'000) flown[0].ended_us = t_us;
     feed.transmitted({}, t_us * 1000, 0);
   }
   Seen seen;
-  feed.drain(seen, &copy);
-  ASSERT_EQ(copy.epochs.size(), 3U);
-  EXPECT_EQ(copy.epochs.back().t_us, 10'000);
+  feed.drain(seen, copies);
+  for (std::size_t i = 0; i < flown.size(); ++i) {
+    EXPECT_EQ(copies[i].times_us(), flown[i].times_us());
+    EXPECT_EQ(copies[i].ended_us, flown[i].ended_us);
+    for (std::size_t column = 0; column < flown[i].columns().size(); ++column)
+      EXPECT_EQ(copies[i].value(column, 1), flown[i].value(column, 1));
+  }
 }
 
 TEST(LiveFeed, DoesNotAllocateWhereTheFlightIs) {
@@ -96,8 +107,8 @@ TEST(LiveFeed, LosesNothingUncountedBetweenTwoThreads) {
   Seen seen;
   std::atomic<bool> over = false;
   std::thread reader([&] {
-    while (!over) feed.drain(seen, nullptr);
-    feed.drain(seen, nullptr);
+    while (!over) feed.drain(seen, {});
+    feed.drain(seen, {});
   });
   for (std::uint32_t id = 0; id < frames; ++id) feed.transmitted({.id = id}, id, 0);
   over = true;

@@ -31,9 +31,16 @@ class LooksOn final : public drive::Onlooker {
     in_progress_.reset();
   }
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override {
-    if (in_progress_->engagement() != nullptr) {
-      for (; epochs_ < of_->engagement->epochs.size(); ++epochs_)
-        in_progress_->engagement()->epochs.push_back(of_->engagement->epochs[epochs_]);
+    const world::PlantRecords growing = drive::growing_plants_of(*of_);
+    for (std::size_t i = 0; i < growing.size(); ++i) {
+      world::PlantRecord& copy = in_progress_->plants()[i];
+      for (std::size_t row = copy.times_us().size(); row < growing[i]->times_us().size(); ++row) {
+        std::vector<double> values;
+        for (std::size_t column = 0; column < copy.columns().size(); ++column)
+          values.push_back(growing[i]->value(column, row));
+        copy.add(growing[i]->times_us()[row], values);
+      }
+      copy.ended_us = growing[i]->ended_us;
     }
     in_progress_->transmitted(frame, t_ns, late_ns);
   }
@@ -48,7 +55,6 @@ class LooksOn final : public drive::Onlooker {
  private:
   Flight& flight_;
   const drive::PerRunTruth* of_ = nullptr;
-  std::size_t epochs_ = 0;
   std::int64_t next_ns_ = 0;
   std::optional<FlightInProgress> in_progress_;
 };

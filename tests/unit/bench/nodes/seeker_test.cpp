@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "bench/nodes/registry.hpp"
+#include "bench/plant/engagement/engagement.hpp"
 #include "dbc/wire/time_base.hpp"
+#include "tests/unit/bench/plant/engagement/flown.hpp"
 
 namespace canhil::nodes {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 using namespace sensors;
 
 using namespace messages;
+using plant::engagement::Epoch;
+using plant::engagement::Flown;
 
 // A flight record as long as the run.
 const world::FlightRecord& flight() {
@@ -39,14 +43,22 @@ Message message(const Transmission& out, std::size_t place) {
 /// A seeker with its record and its outbox.
 class Bench {
  public:
-  explicit Bench(const SeekerSettings& config = {}, const world::EngagementPlan& plan = {})
-      : node_(make({bound(seeker).table, config},
-                   {.scenario = with(plan), .index = 0, .flight = flight(), .engagement = &record_})) {}
+  explicit Bench(const SeekerSettings& config = {}, const plant::engagement::Settings& settings = {})
+      : flown_(settings, config.schedule.period_us.value_or(5000)),
+        node_(make({bound(seeker).table, config},
+                   {.scenario = with(flown_),
+                    .index = 0,
+                    .flight = flight(),
+                    .plants = {&flown_.record()},
+                    .guide = [this](std::int64_t from_us, std::span<const double> inputs) {
+                      flown_.simulation().guide(from_us, inputs);
+                    }})) {}
 
   /// The next sample; none if it was lost or the engagement has ended.
   std::optional<Sample> next() {
     out_.clear();
     const std::int64_t due_us = node_->due_us();
+    flown_.simulation().advance(due_us);
     node_->transmit(out_);
     if (out_.frames().empty()) return std::nullopt;
     EXPECT_EQ(out_.frames().size(), 4U);
@@ -85,16 +97,16 @@ class Bench {
   }
 
   Node& node() { return *node_; }
-  world::EngagementRecord& record() { return record_; }
+  [[nodiscard]] const Flown& flown() const { return flown_; }
 
  private:
-  const scenario::Scenario& with(const world::EngagementPlan& plan) {
+  const scenario::Scenario& with(const Flown& flown) {
     scenario_.seed = 1;
-    scenario_.engagement = plan;
+    scenario_.of_tables = {flown.facts()};
     return scenario_;
   }
   scenario::Scenario scenario_;
-  world::EngagementRecord record_;
+  Flown flown_;
   std::unique_ptr<Node> node_;
   Transmission out_;
   Outbox<3> answers_;
@@ -118,7 +130,8 @@ SeekerSettings exact() {
 TEST(Seeker, SendsTheTruthOfEachSampleRoundedToTheBus) {
   Bench bench(exact());
   const std::vector<Sample> samples = bench.all();
-  const auto& epochs = bench.record().epochs;
+  std::vector<Epoch> epochs;
+  for (std::size_t i = 0; i < bench.flown().epochs(); ++i) epochs.push_back(bench.flown().epoch(i));
   ASSERT_EQ(samples.size(), epochs.size());
   ASSERT_GT(samples.size(), 1000U);
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -142,8 +155,9 @@ TEST(Seeker, SendsTheTruthOfEachSampleRoundedToTheBus) {
     ASSERT_EQ(angles.error_validity, Validity::valid);
     ASSERT_EQ(range.range_validity, Validity::valid);
   }
-  EXPECT_TRUE(bench.record().miss_n.has_value());
-  EXPECT_NEAR(static_cast<double>(bench.record().passage_us), static_cast<double>(epochs.back().t_us), 5000);
+  EXPECT_TRUE(bench.flown().passage().miss_n.has_value());
+  EXPECT_NEAR(static_cast<double>(bench.flown().passage().t_us), static_cast<double>(epochs.back().t_us),
+              5000);
 }
 
 TEST(Seeker, IncrementsCarryTheirRemainders) {
@@ -152,7 +166,7 @@ TEST(Seeker, IncrementsCarryTheirRemainders) {
   std::vector<double> sums;
   for (const Sample& sample : bench.all()) sums.push_back(sent += sample.antenna.antenna_increment_pitch_rad);
   // The sum of the sent increments equals the true rotation of the antenna within half a step, at any time.
-  world::Engagement same(world::EngagementPlan{}, world::Stream(1, 0, "engagement"));
+  plant::engagement::Engagement same({}, world::Stream(1, 0, "engagement"));
   double turned = 0;
   for (std::size_t i = 0; i < 1000; ++i) {
     same.fly_to(5000 * (static_cast<std::int64_t>(i) + 1));
@@ -186,7 +200,7 @@ TEST(Seeker, ALostGroupIsCountedAsSent) {
   config.loss_probability = 0.2;
   Bench bench(config);
   const std::vector<Sample> samples = bench.all();
-  const auto flown = static_cast<double>(bench.record().epochs.size());
+  const auto flown = static_cast<double>(bench.flown().epochs());
   const double lost = flown - static_cast<double>(samples.size());
   EXPECT_NEAR(lost / flown, 0.2, 5 * std::sqrt(0.2 * 0.8 / flown));
   for (const Sample& sample : samples)
@@ -233,9 +247,9 @@ TEST(Seeker, FlagsWhatItDoesNotSee) {
 // Closed loop: guidance uses the answers that the node receives.
 class GuidedSeeker : public testing::Test {
  protected:
-  static world::EngagementPlan guided() {
-    world::EngagementPlan plan;
-    plan.guidance = world::Guidance::target;
+  static plant::engagement::Settings guided() {
+    plant::engagement::Settings plan;
+    plan.guidance = plant::engagement::Guidance::target;
     plan.guidance_delay_us = 10'000;
     return plan;
   }
@@ -243,29 +257,27 @@ class GuidedSeeker : public testing::Test {
   template <class Answer>
   double miss(Bench& bench, Answer answer) {
     while (bench.node().due_us() != never_us) {
-      bench.next();
-      if (bench.record().miss_n) break;
-      answer(bench, bench.record().epochs.back());
+      const auto sample = bench.next();
+      if (!sample) break;
+      answer(bench, bench.flown().epoch(sample->range.time_of_validity_us / 5000 - 1));
     }
-    return bench.record().miss_n.value().norm();
+    return bench.flown().passage().miss_n.value().norm();
   }
-  static void truthful(Bench& bench, const world::EngagementTruth& epoch) {
-    bench.answer(epoch.t_us, epoch.los_rate);
-  }
+  static void truthful(Bench& bench, const Epoch& epoch) { bench.answer(epoch.t_us, epoch.los_rate); }
 };
 
 TEST_F(GuidedSeeker, FliesOnTheAnswers) {
   Bench bench(exact(), guided());
   EXPECT_TRUE(bench.node().listens());
   EXPECT_LT(miss(bench, truthful), 0.5);
-  EXPECT_EQ(bench.record().late_commands, 0U);
+  EXPECT_EQ(bench.flown().passage().late_commands, 0U);
   Bench deaf(exact(), guided());
   EXPECT_GT(miss(deaf, [](Bench&, const auto&) {}), 20) << "without answers it flies straight on";
   EXPECT_FALSE(Bench(exact()).node().listens()) << "guided by the truth";
 }
 
 TEST_F(GuidedSeeker, AnswersInTheAxesOfARollingAntenna) {
-  world::EngagementPlan rolling = guided();
+  plant::engagement::Settings rolling = guided();
   rolling.roll_rate = 3;
   Bench bench(exact(), rolling);
   EXPECT_LT(miss(bench, truthful), 0.5);
@@ -277,11 +289,11 @@ TEST_F(GuidedSeeker, AnswersInTheAxesOfARollingAntenna) {
 TEST_F(GuidedSeeker, ReckonsTheAnswerOnToItsUse) {
   SeekerSettings late = exact();
   late.schedule.latency_us = 90'000;
-  const auto with_acceleration = [](Bench& bench, const world::EngagementTruth& epoch) {
+  const auto with_acceleration = [](Bench& bench, const Epoch& epoch) {
     bench.answer(epoch.t_us, epoch.los_rate, LosRateOutcome::updated, false, false, epoch.target);
   };
   for (const double roll : {0.0, 3.0}) {
-    world::EngagementPlan plan = guided();
+    plant::engagement::Settings plan = guided();
     plan.roll_rate = roll;
     Bench as_it_was(late, plan);
     const double before = miss(as_it_was, with_acceleration);
@@ -290,13 +302,13 @@ TEST_F(GuidedSeeker, ReckonsTheAnswerOnToItsUse) {
     EXPECT_GT(before, 1);
     EXPECT_LT(miss(predicting, with_acceleration), 0.25 * before);
     EXPECT_GT(miss(unaware, truthful), 0.5 * before) << "without the target's acceleration";
-    EXPECT_EQ(predicting.record().late_commands, 0U);
+    EXPECT_EQ(predicting.flown().passage().late_commands, 0U);
   }
 }
 
 TEST_F(GuidedSeeker, HoldsItsCommandOnAnswersThatAreNoEstimate) {
   const auto nonsense = [](LosRateOutcome outcome, bool blind, bool spoilt) {
-    return [=](Bench& bench, const world::EngagementTruth& epoch) {
+    return [=](Bench& bench, const Epoch& epoch) {
       if (epoch.t_us % 10'000 == 0) return truthful(bench, epoch);
       bench.answer(epoch.t_us, {.pitch = 1, .yaw = -1}, outcome, blind, spoilt);
     };
@@ -314,11 +326,10 @@ TEST_F(GuidedSeeker, HoldsItsCommandOnAnswersThatAreNoEstimate) {
 TEST_F(GuidedSeeker, TheSameFlightHoweverEarlyAnswersAreHeard) {
   Bench at_once(exact(), guided()), in_pairs(exact(), guided());
   const double first = miss(at_once, truthful);
-  const double second = miss(in_pairs, [](Bench& bench, const world::EngagementTruth& epoch) {
+  const double second = miss(in_pairs, [](Bench& bench, const Epoch& epoch) {
     // Samples are taken every 5 ms; every 10 ms, the answers to the last two samples arrive together.
     if (epoch.t_us % 10'000 != 0) return;
-    const auto& epochs = bench.record().epochs;
-    if (epochs.size() > 1) truthful(bench, epochs[epochs.size() - 2]);
+    if (bench.flown().epochs() > 1) truthful(bench, bench.flown().epoch(bench.flown().epochs() - 2));
     truthful(bench, epoch);
   });
   EXPECT_EQ(first, second);
@@ -328,9 +339,9 @@ TEST_F(GuidedSeeker, LateAnswersAreCounted) {
   Bench bench(exact(), guided());
   for (int i = 0; i < 5; ++i) bench.next();
   bench.answer(5000, {});
-  EXPECT_EQ(bench.record().late_commands, 1U) << "flown to 25 ms, due at 15 ms";
+  EXPECT_EQ(bench.flown().passage().late_commands, 1U) << "flown to 25 ms, due at 15 ms";
   bench.answer(20'000, {});
-  EXPECT_EQ(bench.record().late_commands, 1U);
+  EXPECT_EQ(bench.flown().passage().late_commands, 1U);
 }
 
 }  // namespace

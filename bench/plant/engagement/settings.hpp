@@ -1,6 +1,6 @@
-// The plan of an engagement: a missile flies by proportional navigation at a target that may manoeuvre, and
-// the antenna of its seeker follows the line of sight. By default, missile and target fly towards each other
-// from a distance of 5 km, with a closing speed of 900 m/s.
+// The settings of an engagement: a missile flies by proportional navigation at a target that may manoeuvre,
+// and the antenna of its seeker follows the line of sight. By default, missile and target fly towards each
+// other from a distance of 5 km, with a closing speed of 900 m/s.
 //
 // The axes n do not rotate: x is along the line of sight at the start, y to the right, z down. Gravity is
 // omitted, because gravity acts on missile and target alike. The axes a are those of the antenna: x forward,
@@ -10,18 +10,12 @@
 #include <cstdint>
 #include <optional>
 
-#include "bench/world/attitude.hpp"
+#include "bench/world/planes.hpp"
 #include "bench/world/units.hpp"
 
-namespace canhil::world {
+namespace canhil::plant::engagement {
 
-/// A pair of values, one for each plane: pitch (about y of the antenna, positive nose up) and yaw (about z,
-/// positive nose right).
-template <class Value>
-struct Planes {
-  Value pitch{}, yaw{};
-  bool operator==(const Planes&) const = default;
-};
+namespace units = world::units;
 
 /// The acceleration of the target, which is perpendicular to the target's velocity. For each run, the sign of
 /// the acceleration in each plane is drawn.
@@ -40,7 +34,7 @@ enum class Guidance : std::uint8_t { truth, target };
 /// The planes in which heading error and manoeuvre act. Noise always acts in both planes.
 enum class ActivePlanes : std::uint8_t { both, pitch, yaw };
 
-struct EngagementPlan {
+struct Settings {
   double range = 5000;         ///< at the start [m]
   double missile_speed = 600;  ///< constant [m/s]
   double target_speed = 300;   ///< constant, towards the missile [m/s]
@@ -60,4 +54,4 @@ struct EngagementPlan {
   bool guidance_predicts = false;           ///< extrapolates the answer to the time of the command
 };
 
-}  // namespace canhil::world
+}  // namespace canhil::plant::engagement

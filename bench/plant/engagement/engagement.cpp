@@ -1,11 +1,11 @@
-#include "bench/world/engagement/engagement.hpp"
+#include "bench/plant/engagement/engagement.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace canhil::world {
+namespace canhil::plant::engagement {
 namespace {
 
 constexpr std::int64_t longest_step_us = 1000;
@@ -32,44 +32,39 @@ double side(Stream& stream) { return stream.uniform() < 0.5 ? -1.0 : 1.0; }
 
 }  // namespace
 
-const EngagementTruth* EngagementRecord::at(std::int64_t t_us) const {
-  const auto found = std::ranges::lower_bound(epochs, t_us, {}, &EngagementTruth::t_us);
-  return found == epochs.end() || found->t_us != t_us ? nullptr : &*found;
-}
-
-Engagement::Engagement(const EngagementPlan& plan, Stream stream) : plan_(plan) {
-  // Takes ten numbers from the stream, whatever the plan is.
+Engagement::Engagement(const Settings& settings, Stream stream) : settings_(settings) {
+  // Takes ten numbers from the stream, whatever the settings are.
   const Planes<double> heading{.pitch = stream.normal(), .yaw = stream.normal()};
   const Planes<double> pointing{.pitch = stream.normal(), .yaw = stream.normal()};
   const Planes<double> sides{.pitch = side(stream), .yaw = side(stream)};
   const Planes<double> heading_sides{.pitch = side(stream), .yaw = side(stream)};
   phase_ = {.pitch = 2 * std::numbers::pi * stream.uniform(), .yaw = 2 * std::numbers::pi * stream.uniform()};
 
-  const double in_pitch = plan.planes == ActivePlanes::yaw ? 0 : 1;
-  const double in_yaw = plan.planes == ActivePlanes::pitch ? 0 : 1;
+  const double in_pitch = settings.planes == ActivePlanes::yaw ? 0 : 1;
+  const double in_yaw = settings.planes == ActivePlanes::pitch ? 0 : 1;
   const auto angle = [&](double drawn, double to_side) {
-    return plan.heading_error_sigma * drawn + plan.heading_error * to_side;
+    return settings.heading_error_sigma * drawn + settings.heading_error * to_side;
   };
-  const Matrix3 C_missile = C_bn_from({.roll = 0,
-                                       .pitch = in_pitch * angle(heading.pitch, heading_sides.pitch),
-                                       .heading = in_yaw * angle(heading.yaw, heading_sides.yaw)});
-  state_.segment<3>(relative) = plan.range * Vector3::UnitX();
-  state_.segment<3>(missile) = plan.missile_speed * C_missile.col(0);
-  state_.segment<3>(target) = -plan.target_speed * Vector3::UnitX();
-  const Matrix3 C_na = C_bn_from({.roll = 0,
-                                  .pitch = plan.pointing_error_sigma * pointing.pitch,
-                                  .heading = plan.pointing_error_sigma * pointing.yaw});
+  const Matrix3 C_missile = world::C_bn_from({.roll = 0,
+                                              .pitch = in_pitch * angle(heading.pitch, heading_sides.pitch),
+                                              .heading = in_yaw * angle(heading.yaw, heading_sides.yaw)});
+  state_.segment<3>(relative) = settings.range * Vector3::UnitX();
+  state_.segment<3>(missile) = settings.missile_speed * C_missile.col(0);
+  state_.segment<3>(target) = -settings.target_speed * Vector3::UnitX();
+  const Matrix3 C_na = world::C_bn_from({.roll = 0,
+                                         .pitch = settings.pointing_error_sigma * pointing.pitch,
+                                         .heading = settings.pointing_error_sigma * pointing.yaw});
   state_.segment<4>(attitude) = Quaternion(C_na).coeffs();
   // The acceleration of the target is omega x v, and v has the direction -x. So a turn about y accelerates
   // along z, and a turn about z accelerates along y.
-  if (plan.target_speed > 0)
-    turn_ = plan.manoeuvre.acceleration / plan.target_speed *
+  if (settings.target_speed > 0)
+    turn_ = settings.manoeuvre.acceleration / settings.target_speed *
             Vector3(0, in_pitch * sides.pitch, in_yaw * sides.yaw);
   look_for_manoeuvre();
 }
 
 Vector3 Engagement::target_acceleration(double t, const State& state) const {
-  const Manoeuvre& manoeuvre = plan_.manoeuvre;
+  const Manoeuvre& manoeuvre = settings_.manoeuvre;
   if (!manoeuvring_ || manoeuvre.kind == Manoeuvre::Kind::none) return Vector3::Zero();
   const Vector3 v = state.segment<3>(target);
   if (manoeuvre.kind == Manoeuvre::Kind::step) return turn_.cross(v);
@@ -82,13 +77,13 @@ Vector3 Engagement::target_acceleration(double t, const State& state) const {
 // v; its size is limited.
 Vector3 Engagement::navigation_law(const Vector3& omega_los_n, double closing_speed,
                                    const Vector3& v_missile) const {
-  const Vector3 a = plan_.navigation_constant * closing_speed * omega_los_n.cross(v_missile.normalized());
+  const Vector3 a = settings_.navigation_constant * closing_speed * omega_los_n.cross(v_missile.normalized());
   const double size = a.norm();
-  return size > plan_.acceleration_limit ? Vector3(a * (plan_.acceleration_limit / size)) : a;
+  return size > settings_.acceleration_limit ? Vector3(a * (settings_.acceleration_limit / size)) : a;
 }
 
 Vector3 Engagement::demanded(const State& state) const {
-  if (plan_.guidance == Guidance::target) return held_;
+  if (settings_.guidance == Guidance::target) return held_;
   const Vector3 r = state.segment<3>(relative);
   const Vector3 v_missile = state.segment<3>(missile);
   const Vector3 v = state.segment<3>(target) - v_missile;
@@ -103,13 +98,14 @@ Engagement::State Engagement::derivative(double t, const State& state) const {
   const Vector3 ahead = v_missile.normalized();
   const Vector3 a_missile = state.segment<3>(achieved) - ahead * ahead.dot(state.segment<3>(achieved));
   const Planes<double> error = error_angles(q_na.conjugate() * state.segment<3>(relative));
-  const Vector3 omega_na_a(plan_.roll_rate, plan_.servo_gain * error.pitch, plan_.servo_gain * error.yaw);
+  const Vector3 omega_na_a(settings_.roll_rate, settings_.servo_gain * error.pitch,
+                           settings_.servo_gain * error.yaw);
 
   State rate;
   rate.segment<3>(relative) = state.segment<3>(target) - v_missile;
   rate.segment<3>(missile) = a_missile;
   rate.segment<3>(target) = target_acceleration(t, state);
-  rate.segment<3>(achieved) = (demand - state.segment<3>(achieved)) / plan_.autopilot_lag;
+  rate.segment<3>(achieved) = (demand - state.segment<3>(achieved)) / settings_.autopilot_lag;
   rate.segment<4>(attitude) =
       0.5 * (q_na * Quaternion(0, omega_na_a.x(), omega_na_a.y(), omega_na_a.z())).coeffs();
   rate.segment<3>(turned) = omega_na_a;
@@ -133,7 +129,7 @@ void Engagement::step(std::int64_t dt_us) {
 void Engagement::look_for_manoeuvre() {
   const Vector3 r = state_.segment<3>(relative);
   const Vector3 v = state_.segment<3>(target) - state_.segment<3>(missile);
-  const Manoeuvre& manoeuvre = plan_.manoeuvre;
+  const Manoeuvre& manoeuvre = settings_.manoeuvre;
   const bool begins = manoeuvre.at_time_to_go ? r.squaredNorm() <= *manoeuvre.at_time_to_go * -r.dot(v)
                                               : 1e-6 * static_cast<double>(t_us_) >= manoeuvre.from_s;
   manoeuvring_ = manoeuvring_ || begins;
@@ -157,6 +153,7 @@ void Engagement::fly_to(std::int64_t t_us) {
     const double to_approach = closing / v.squaredNorm();
     if (to_approach <= 1e-6 * static_cast<double>(end_us - t_us_)) {
       miss_n_ = r + v * std::max(to_approach, 0.0);
+      state_.segment<3>(relative) = *miss_n_;
       t_us_ += std::llround(1e6 * std::max(to_approach, 0.0));
       return;
     }
@@ -169,15 +166,15 @@ bool Engagement::command(std::int64_t from_us, const Vector3& omega_los_n, doubl
   return from_us >= t_us_;
 }
 
-EngagementTruth Engagement::truth() const {
+Truth Engagement::truth() const {
   const Quaternion q_na = quaternion_of(state_);
   const Quaternion q_an = q_na.conjugate();
-  EngagementTruth now;
+  Truth now;
   now.t_us = t_us_;
   now.relative_n = state_.segment<3>(relative);
   now.velocity_n = state_.segment<3>(target) - state_.segment<3>(missile);
   now.omega_los_n = los_rate(now.relative_n, now.velocity_n);
-  now.C_na = q_na.toRotationMatrix();
+  now.q_na = q_na;
   now.range = now.relative_n.norm();
   now.closing_speed = -now.relative_n.dot(now.velocity_n) / now.range;
   now.error = error_angles(q_an * now.relative_n);
@@ -192,17 +189,13 @@ EngagementTruth Engagement::truth() const {
   return now;
 }
 
-SeekerIncrement Engagement::take_increment() {
-  SeekerIncrement increment{.interval_us = t_us_ - taken_us_,
+Increment Engagement::take_increment() {
+  const Increment increment{.interval_us = t_us_ - taken_us_,
                             .delta_theta = state_.segment<3>(turned),
-                            .mean_acceleration = Vector3::Zero()};
-  if (increment.interval_us > 0) {
-    increment.mean_acceleration =
-        state_.segment<3>(accelerated) / (1e-6 * static_cast<double>(increment.interval_us));
-  }
+                            .delta_v = state_.segment<3>(accelerated)};
   state_.segment<6>(turned).setZero();
   taken_us_ = t_us_;
   return increment;
 }
 
-}  // namespace canhil::world
+}  // namespace canhil::plant::engagement

@@ -2,10 +2,18 @@
 // 1710 m and by glint below this range.
 #pragma once
 
-#include "bench/world/engagement/engagement.hpp"
+#include "bench/world/attitude.hpp"
+#include "bench/world/planes.hpp"
 #include "bench/world/stream.hpp"
+#include "bench/world/units.hpp"
 
-namespace canhil::world {
+namespace canhil::sensors {
+
+namespace units = world::units;
+using world::Planes;
+using world::RandomValue;
+using world::Stream;
+using world::Vector3;
 
 /// Each noise is given as the 1-sigma of a sample. All noises are white except the glint. The correlation of
 /// the glint is exp(-t / tau).
@@ -26,6 +34,17 @@ struct SeekerErrorModel {
   double field_of_view = 8 * units::deg;                   ///< the largest measurable error angle [rad]
 };
 
+/// What a seeker measures: the values at a time, and the integrals over the interval before it.
+struct SeekerTruth {
+  std::int64_t t_us = 0;
+  std::int64_t interval_us = 0;
+  double range = 0;                             ///< [m]
+  double closing_speed = 0;                     ///< [m/s]
+  Planes<double> error{};                       ///< line of sight relative to the antenna's axis [rad]
+  Vector3 delta_theta = Vector3::Zero();        ///< inertial rotation of the antenna: roll, pitch, yaw [rad]
+  Vector3 mean_acceleration = Vector3::Zero();  ///< of the missile, axes of the antenna [m/s^2]
+};
+
 /// One sample.
 struct SeekerMeasurement {
   std::int64_t t_us = 0;
@@ -43,7 +62,7 @@ class ErroneousSeeker {
   ErroneousSeeker(const SeekerErrorModel& model, Stream stream);
 
   /// Takes thirteen numbers from the stream, whatever the sigmas are.
-  SeekerMeasurement measure(const EngagementTruth& truth, const SeekerIncrement& increment);
+  SeekerMeasurement measure(const SeekerTruth& truth);
 
  private:
   Planes<double> glint(double dt);
@@ -57,4 +76,4 @@ class ErroneousSeeker {
   bool glinting_ = false;
 };
 
-}  // namespace canhil::world
+}  // namespace canhil::sensors

@@ -1,18 +1,26 @@
-// One flight of an engagement. The flight is computed on demand, because in closed loop it depends on the
-// answers of the device under test. In this file, 'target' is the object that the missile flies to.
+// One flight of an engagement. In this file, 'target' is the object that the missile flies to.
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
 #include <deque>
+#include <optional>
 
-#include "bench/world/engagement/plan.hpp"
+#include "bench/plant/engagement/settings.hpp"
+#include "bench/world/attitude.hpp"
+#include "bench/world/planes.hpp"
 #include "bench/world/stream.hpp"
-#include "dbc/spool/spool.hpp"
 
-namespace canhil::world {
+namespace canhil::plant::engagement {
+
+using world::Matrix3;
+using world::Planes;
+using world::Stream;
+using world::Vector3;
 
 /// The truth at one instant. Angles and rates are in the axes of the antenna.
-struct EngagementTruth {
+struct Truth {
   std::int64_t t_us = 0;
   double range = 0;                       ///< [m]
   double closing_speed = 0;               ///< -d(range)/dt [m/s]
@@ -23,36 +31,24 @@ struct EngagementTruth {
   Vector3 relative_n = Vector3::Zero();   ///< target position relative to the missile [m]
   Vector3 velocity_n = Vector3::Zero();   ///< target velocity relative to the missile [m/s]
   Vector3 omega_los_n = Vector3::Zero();  ///< rate vector, perpendicular to the line of sight [rad/s]
-  Matrix3 C_na = Matrix3::Identity();     ///< transforms from antenna axes to n
+  Eigen::Quaterniond q_na = Eigen::Quaterniond::Identity();  ///< from antenna axes to n
 
   /// Time to the closest approach [s] if missile and target no longer accelerate. Except in the last metres,
   /// this time equals range over closing speed.
   [[nodiscard]] double time_to_go() const { return range * closing_speed / velocity_n.squaredNorm(); }
 };
 
-/// The integral of the antenna's gyros and the mean of the missile's accelerometers over an interval, in the
+/// The integrals of the antenna's gyros and of the missile's accelerometers over an interval, in the
 /// antenna's axes.
-struct SeekerIncrement {
+struct Increment {
   std::int64_t interval_us = 0;
-  Vector3 delta_theta = Vector3::Zero();        ///< inertial rotation of the antenna: roll, pitch, yaw [rad]
-  Vector3 mean_acceleration = Vector3::Zero();  ///< of the missile [m/s^2]
-};
-
-/// The record of an engagement for checks and reports.
-struct EngagementRecord {
-  Spool<EngagementTruth> epochs;  ///< at the times of the seeker's samples, ascending
-  std::optional<Vector3>
-      miss_n;                   ///< target relative to missile at the closest approach [m]; none: not reached
-  std::int64_t passage_us = 0;  ///< time of the closest approach
-  std::size_t late_commands = 0;  ///< number of commands that came after their effective time
-
-  /// The truth at a time; null: no epoch has this time.
-  [[nodiscard]] const EngagementTruth* at(std::int64_t t_us) const;
+  Vector3 delta_theta = Vector3::Zero();  ///< inertial rotation of the antenna: roll, pitch, yaw [rad]
+  Vector3 delta_v = Vector3::Zero();      ///< of the missile [m/s]
 };
 
 class Engagement {
  public:
-  Engagement(const EngagementPlan& plan, Stream stream);
+  Engagement(const Settings& settings, Stream stream);
 
   /// Flies to a time [us] or to the closest approach. The method is fourth-order Runge-Kutta with steps of at
   /// most 1 ms.
@@ -64,9 +60,9 @@ class Engagement {
   /// already passed from_us; then the command takes effect at once.
   bool command(std::int64_t from_us, const Vector3& omega_los_n, double closing_speed);
 
-  [[nodiscard]] EngagementTruth truth() const;
+  [[nodiscard]] Truth truth() const;
   /// The integrals since the last call.
-  SeekerIncrement take_increment();
+  Increment take_increment();
 
   [[nodiscard]] bool over() const { return miss_n_.has_value(); }
   /// The position of the target relative to the missile at the closest approach [m]. None: the flight has not
@@ -92,7 +88,7 @@ class Engagement {
   void step(std::int64_t dt_us);
   void look_for_manoeuvre();
 
-  EngagementPlan plan_;
+  Settings settings_;
   State state_ = State::Zero();
   std::int64_t t_us_ = 0;
   std::int64_t taken_us_ = 0;  // end of the last increment
@@ -104,4 +100,4 @@ class Engagement {
   std::optional<Vector3> miss_n_;
 };
 
-}  // namespace canhil::world
+}  // namespace canhil::plant::engagement

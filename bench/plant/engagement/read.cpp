@@ -1,15 +1,22 @@
-#include "bench/scenario/engagement.hpp"
+#include "bench/plant/engagement/read.hpp"
 
 #include <array>
+#include <cmath>
+#include <memory>
 #include <string_view>
 
+#include "bench/plant/engagement/plan.hpp"
+#include "bench/plant/setup.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/read_enum.hpp"
 #include "bench/scenario/section.hpp"
 
-namespace canhil::scenario {
+namespace canhil::plant::engagement {
 namespace {
 
-using world::Manoeuvre;
+using scenario::Limits;
+using scenario::read_enum;
+using scenario::Section;
 
 // A step or a weave begins at a given time or at a given time to go.
 Manoeuvre read_manoeuvre(Section& section) {
@@ -46,67 +53,95 @@ Manoeuvre read_manoeuvre(Section& section) {
   return manoeuvre;
 }
 
-}  // namespace
-
-world::EngagementPlan read_engagement(Section& section) {
+Settings read_settings(Section& section) {
   static constexpr std::array<std::string_view, 2> guidances{"truth", "target"};
   static constexpr std::array<std::string_view, 3> planes{"both", "pitch", "yaw"};
   const Limits sigma = Limits::at_least(0);
-  world::EngagementPlan plan;
-  plan.range = section.number(
+  Settings settings;
+  settings.range = section.number(
       {"range_m", "Distance between missile and flight target at the start. They fly towards each other."},
       Limits::between(100, 26'000), 5000);
-  plan.missile_speed =
+  settings.missile_speed =
       section.number({"missile_speed_mps", "Speed of the missile, constant."}, Limits::above(0, 3000), 600);
-  plan.target_speed = section.number({"target_speed_mps", "Speed of the flight target, constant."},
-                                     Limits::above(0, 1000), 300);
-  plan.heading_error = section.number({"heading_error_deg",
-                                       "Error of the missile's direction of flight at the start, in each "
-                                       "plane that `planes` selects. The sign of the error is random."},
-                                      Limits::between(-45, 45), 0);
-  plan.heading_error_sigma = section.number(
+  settings.target_speed = section.number({"target_speed_mps", "Speed of the flight target, constant."},
+                                         Limits::above(0, 1000), 300);
+  settings.heading_error = section.number({"heading_error_deg",
+                                           "Error of the missile's direction of flight at the start, in each "
+                                           "plane that `planes` selects. The sign of the error is random."},
+                                          Limits::between(-45, 45), 0);
+  settings.heading_error_sigma = section.number(
       {"heading_error_sigma_deg",
        "1-sigma of a random heading error, drawn for each run and added to `heading_error_deg`."},
       Limits::between(0, 15), 3);
-  plan.pointing_error_sigma =
+  settings.pointing_error_sigma =
       section.number({"pointing_error_sigma_mrad", "1-sigma of the antenna's pointing error at the start."},
                      Limits::between(0, 100), 5);
-  plan.planes = read_enum<world::ActivePlanes>(
+  settings.planes = read_enum<ActivePlanes>(
       section,
       {"planes",
        "Planes in which the missile has a heading error and in which the flight target makes its manoeuvre. "
        "The antenna has a pointing error in both planes."},
-      planes, world::ActivePlanes::both);
-  plan.manoeuvre = read_manoeuvre(section);
-  plan.navigation_constant =
+      planes, ActivePlanes::both);
+  settings.manoeuvre = read_manoeuvre(section);
+  settings.navigation_constant =
       section.number({"navigation_constant", "Navigation constant of the guidance law."}, sigma, 4);
-  plan.autopilot_lag = section.number({"autopilot_lag_s", "Time constant of the missile's autopilot."},
-                                      Limits::between(0.01, 10), 0.15);
-  plan.acceleration_limit = section.number({"acceleration_limit_g", "Largest acceleration of the missile."},
-                                           Limits::above(0, 100), 35);
-  plan.servo_gain =
+  settings.autopilot_lag = section.number({"autopilot_lag_s", "Time constant of the missile's autopilot."},
+                                          Limits::between(0.01, 10), 0.15);
+  settings.acceleration_limit = section.number(
+      {"acceleration_limit_g", "Largest acceleration of the missile."}, Limits::above(0, 100), 35);
+  settings.servo_gain =
       section.number({"antenna_servo_per_s", "Gain of the antenna's servo."}, Limits::between(0, 200), 12);
-  plan.roll_rate =
+  settings.roll_rate =
       section.number({"roll_rate_radps", "Roll rate of the missile."}, Limits::between(-20, 20), 0);
-  plan.guidance = read_enum<world::Guidance>(
+  settings.guidance = read_enum<Guidance>(
       section,
       {"guidance",
        "LOS rate that proportional navigation uses. `truth`: the true LOS rate; `target`: the LOS rate in "
        "the answers of the target under test, so the miss distance depends on the target and on the bus."},
       guidances);
-  plan.guidance_delay_us = section.time_us(
+  settings.guidance_delay_us = section.time_us(
       {"guidance_delay_ms",
        "Time from the transmission of a seeker sample to the guidance command that uses the answer to this "
        "sample. With `guidance` `target` this time must be at least 10 ms, the cycle time of Sync."},
       Limits::between(0, 1000), 10);
-  if (plan.guidance == world::Guidance::truth)
+  if (settings.guidance == Guidance::truth)
     section.refuse("guidance_predicts", "has no effect here", "guidance = \"target\"");
-  plan.guidance_predicts =
+  settings.guidance_predicts =
       section.flag({"guidance_predicts",
                     "If true, the LOS rate of the answer is extrapolated to the middle of the time for which "
                     "the guidance command is held. Only with `guidance` `target`."});
   section.finish();
-  return plan;
+  return settings;
 }
 
-}  // namespace canhil::scenario
+constexpr std::array<std::string_view, 3> shows{"plant.range", "los.rate.pitch", "los.rate.yaw"};
+
+scenario::PlantFacts read_engagement(Section& /*root*/, Section& section, const scenario::Binding& binding) {
+  const Settings settings = read_settings(section);
+  if (settings.guidance == Guidance::target && !binding.closes_loop)
+    section.reject("guidance", "is 'target', but the mapping has no answers that guide the missile",
+                   "'truth', or answers with los.rate.pitch and los.rate.yaw");
+  return facts_of(settings);
+}
+
+}  // namespace
+
+scenario::PlantFacts facts_of(const Settings& settings) {
+  auto facts = plant::facts_of(table, std::make_shared<MissilePlan>(settings));
+  facts.to_go_s = settings.range / (settings.missile_speed + settings.target_speed);
+  facts.largest_roll_rate = std::abs(settings.roll_rate);
+  if (settings.guidance == Guidance::target)
+    facts.guidance = {.delay_us = settings.guidance_delay_us, .predicts = settings.guidance_predicts};
+  return facts;
+}
+
+constinit const scenario::PlantTable table{
+    .key = "engagement",
+    .about =
+        "A missile and its flight target, which is the object that the missile flies to. Random values "
+        "are drawn for each run.",
+    .shows = shows,
+    .nodes_last = true,
+    .read = read_engagement};
+
+}  // namespace canhil::plant::engagement

@@ -1,12 +1,14 @@
-#include "bench/world/engagement/seeker_errors.hpp"
+#include "bench/sensors/seeker_errors.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "bench/world/gauss_markov.hpp"
 
-namespace canhil::world {
+namespace canhil::sensors {
 namespace {
+
+using world::GaussMarkov;
 
 Vector3 draw3(const RandomValue& constant, Stream& stream) {
   return Vector3::Constant(constant.value) + constant.sigma * stream.normal3();
@@ -37,8 +39,8 @@ Planes<double> ErroneousSeeker::glint(double dt) {
   return glint_;
 }
 
-SeekerMeasurement ErroneousSeeker::measure(const EngagementTruth& truth, const SeekerIncrement& increment) {
-  const double dt = 1e-6 * static_cast<double>(increment.interval_us);
+SeekerMeasurement ErroneousSeeker::measure(const SeekerTruth& truth) {
+  const double dt = 1e-6 * static_cast<double>(truth.interval_us);
   const double thermal_sigma = model_.thermal * truth.range * truth.range;
   const Planes<double> thermal = normals(stream_);
   const Planes<double> scintillation = glint(dt);
@@ -50,18 +52,18 @@ SeekerMeasurement ErroneousSeeker::measure(const EngagementTruth& truth, const S
     return thermal_sigma * of_thermal + model_.glint / truth.range * of_glint + model_.constant * of_constant;
   };
 
-  SeekerMeasurement measured{.t_us = truth.t_us, .interval_us = increment.interval_us};
+  SeekerMeasurement measured{.t_us = truth.t_us, .interval_us = truth.interval_us};
   measured.in_view = std::max(std::abs(truth.error.pitch), std::abs(truth.error.yaw)) <= model_.field_of_view;
   measured.error = {.pitch = truth.error.pitch + noise(thermal.pitch, scintillation.pitch, constant.pitch),
                     .yaw = truth.error.yaw + noise(thermal.yaw, scintillation.yaw, constant.yaw)};
-  measured.antenna = increment.delta_theta + dt * (gyro_bias_ + model_.gyro_noise * gyro);
+  measured.antenna = truth.delta_theta + dt * (gyro_bias_ + model_.gyro_noise * gyro);
   measured.missile_acceleration = {
-      .pitch = increment.mean_acceleration.z() + accel_bias_.pitch + model_.accel_noise * accel.pitch,
-      .yaw = increment.mean_acceleration.y() + accel_bias_.yaw + model_.accel_noise * accel.yaw};
+      .pitch = truth.mean_acceleration.z() + accel_bias_.pitch + model_.accel_noise * accel.pitch,
+      .yaw = truth.mean_acceleration.y() + accel_bias_.yaw + model_.accel_noise * accel.yaw};
   measured.range = truth.range + scale * (range_bias_ + model_.range_noise * stream_.normal());
   measured.closing_speed =
       truth.closing_speed + closing_speed_bias_ + model_.closing_speed_noise * stream_.normal();
   return measured;
 }
 
-}  // namespace canhil::world
+}  // namespace canhil::sensors

@@ -1,12 +1,12 @@
 // The levels of the noises and biases of the seeker.
-#include "bench/world/engagement/seeker_errors.hpp"
+#include "bench/sensors/seeker_errors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-namespace canhil::world {
+namespace canhil::sensors {
 namespace {
 
 constexpr SeekerErrorModel exact{.thermal = 0,
@@ -19,17 +19,14 @@ constexpr SeekerErrorModel exact{.thermal = 0,
                                  .range_bias = {},
                                  .closing_speed_noise = 0,
                                  .closing_speed_bias = {}};
-const SeekerIncrement increment{
-    .interval_us = 5000, .delta_theta = {0.01, 2e-4, -3e-4}, .mean_acceleration = {1, 20, -30}};
-
-EngagementTruth at(double range) {
+SeekerTruth at(double range) {
   return {.t_us = 5000,
+          .interval_us = 5000,
           .range = range,
           .closing_speed = 900,
           .error = {.pitch = 0.01, .yaw = -0.02},
-          .los_rate = {},
-          .target = {},
-          .missile = {}};
+          .delta_theta = {0.01, 2e-4, -3e-4},
+          .mean_acceleration = {1, 20, -30}};
 }
 
 /// Mean and variance of a number over many samples of one run.
@@ -42,7 +39,7 @@ Moments moments(const SeekerErrorModel& model, double range,
   ErroneousSeeker seeker(model, Stream(1, run, "seeker"));
   double sum = 0, squares = 0;
   for (int i = 0; i < samples; ++i) {
-    const double x = number(seeker.measure(at(range), increment));
+    const double x = number(seeker.measure(at(range)));
     sum += x;
     squares += x * x;
   }
@@ -55,9 +52,9 @@ void expect_sigma(const Moments& found, double sigma) {
 }
 
 TEST(ErroneousSeeker, WithoutErrorsIsExact) {
-  const SeekerMeasurement m = ErroneousSeeker(exact, Stream(1, 0, "seeker")).measure(at(2000), increment);
+  const SeekerMeasurement m = ErroneousSeeker(exact, Stream(1, 0, "seeker")).measure(at(2000));
   EXPECT_EQ(m.error, (Planes<double>{.pitch = 0.01, .yaw = -0.02}));
-  EXPECT_EQ(m.antenna, increment.delta_theta);
+  EXPECT_EQ(m.antenna, at(2000).delta_theta);
   EXPECT_EQ(m.missile_acceleration, (Planes<double>{.pitch = -30, .yaw = 20})) << "z in pitch, y in yaw";
   EXPECT_EQ(m.range, 2000);
   EXPECT_EQ(m.closing_speed, 900);
@@ -85,7 +82,7 @@ TEST(ErroneousSeeker, GlintIsWhiteOrCorrelated) {
     double before = 0, product = 0, square = 0;
     constexpr int many = 200'000;
     for (int i = 0; i < many; ++i) {
-      const double x = seeker.measure(at(100), increment).error.pitch - 0.01;
+      const double x = seeker.measure(at(100)).error.pitch - 0.01;
       product += x * before;
       square += x * x;
       before = x;
@@ -102,7 +99,7 @@ TEST(ErroneousSeeker, GyrosAndAccelerometers) {
   SeekerErrorModel biased = exact;
   biased.gyro_bias.value = 1e-3;
   biased.accel_bias.value = 0.5;
-  const SeekerMeasurement m = ErroneousSeeker(biased, Stream(1, 0, "seeker")).measure(at(2000), increment);
+  const SeekerMeasurement m = ErroneousSeeker(biased, Stream(1, 0, "seeker")).measure(at(2000));
   EXPECT_NEAR(m.antenna.z(), -3e-4 + 5e-6, 1e-15);
   EXPECT_NEAR(m.missile_acceleration.pitch, -29.5, 1e-12);
 }
@@ -124,8 +121,8 @@ TEST(ErroneousSeeker, BiasesAreConstantInARunAndDrawnOverRuns) {
   double squares = 0;
   for (std::uint64_t run = 0; run < 2000; ++run) {
     ErroneousSeeker seeker(model, Stream(1, run, "seeker"));
-    const double bias = seeker.measure(at(2000), increment).closing_speed - 900;
-    ASSERT_EQ(seeker.measure(at(2000), increment).closing_speed - 900, bias);
+    const double bias = seeker.measure(at(2000)).closing_speed - 900;
+    ASSERT_EQ(seeker.measure(at(2000)).closing_speed - 900, bias);
     squares += bias * bias;
   }
   EXPECT_NEAR(squares / 2000, 25, 5 * 25 * std::sqrt(2.0 / 2000));
@@ -135,11 +132,11 @@ TEST(ErroneousSeeker, SeesNothingBeyondItsFieldOfView) {
   SeekerErrorModel model = exact;
   model.field_of_view = 0.015;
   ErroneousSeeker seeker(model, Stream(1, 0, "seeker"));
-  EXPECT_FALSE(seeker.measure(at(2000), increment).in_view) << "yaw is at -0.02";
-  EngagementTruth inside = at(2000);
+  EXPECT_FALSE(seeker.measure(at(2000)).in_view) << "yaw is at -0.02";
+  SeekerTruth inside = at(2000);
   inside.error.yaw = -0.0149;
-  EXPECT_TRUE(seeker.measure(inside, increment).in_view);
+  EXPECT_TRUE(seeker.measure(inside).in_view);
 }
 
 }  // namespace
-}  // namespace canhil::world
+}  // namespace canhil::sensors

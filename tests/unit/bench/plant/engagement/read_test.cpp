@@ -3,15 +3,17 @@
 
 #include "bench/checks/kinds/error.hpp"
 #include "bench/estimators/los_rate/miss_distance.hpp"
+#include "bench/plant/engagement/plan.hpp"
+#include "bench/plant/setup.hpp"
 #include "bench/quantities/quantity.hpp"
 #include "bench/sensors/seeker.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 
-namespace canhil::scenario {
+namespace canhil::plant::engagement {
 namespace {
 
-using world::Manoeuvre;
+using namespace scenario;
 using world::units::deg;
 using world::units::mrad;
 
@@ -33,9 +35,13 @@ std::string los_with(std::string_view section, std::string_view lines) {
   return with(section, std::string(section) + "\n" + std::string(lines), los);
 }
 
+const Settings& settings_of(const Scenario& scenario) {
+  return dynamic_cast<const MissilePlan&>(*scenario.of_tables.at(0).setup->plan).settings();
+}
+
 TEST(EngagementFields, DefaultsAreThoseOfTheWorld) {
   const Scenario s = parsed(los);
-  const world::EngagementPlan plan = s.engagement.value(), standard;
+  const Settings plan = settings_of(s), standard;
   EXPECT_EQ(plan.range, standard.range);
   EXPECT_EQ(plan.missile_speed, standard.missile_speed);
   EXPECT_EQ(plan.target_speed, standard.target_speed);
@@ -47,9 +53,11 @@ TEST(EngagementFields, DefaultsAreThoseOfTheWorld) {
   EXPECT_EQ(plan.manoeuvre.kind, standard.manoeuvre.kind);
   EXPECT_DOUBLE_EQ(plan.manoeuvre.acceleration, standard.manoeuvre.acceleration);
   EXPECT_EQ(plan.manoeuvre.at_time_to_go, standard.manoeuvre.at_time_to_go);
-  EXPECT_EQ(plan.guidance, world::Guidance::truth);
+  EXPECT_EQ(plan.guidance, Guidance::truth);
   EXPECT_EQ(plan.guidance_delay_us, standard.guidance_delay_us);
   EXPECT_FALSE(plan.guidance_predicts);
+  EXPECT_FALSE(s.of_tables[0].guidance.has_value());
+  EXPECT_FALSE(s.closes_the_loop());
   const auto seeker = node_of<sensors::SeekerSettings>(s), usual = sensors::SeekerSettings{};
   EXPECT_EQ(seeker.errors.thermal, usual.errors.thermal);
   EXPECT_EQ(seeker.errors.glint, usual.errors.glint);
@@ -64,7 +72,7 @@ TEST(EngagementFields, DefaultsAreThoseOfTheWorld) {
 }
 
 TEST(EngagementFields, EveryKey) {
-  const auto plan =
+  const Scenario s =
       parsed(with("guidance = \"truth\"",
                   "guidance = \"target\"\nguidance_delay_ms = 20\nguidance_predicts = true\nrange_m = "
                   "4000\nmissile_speed_mps = 700\n"
@@ -73,9 +81,15 @@ TEST(EngagementFields, EveryKey) {
                   "manoeuvre_period_s = 1.5\nmanoeuvre_from_s = 0.5\nnavigation_constant = 3\n"
                   "autopilot_lag_s = 0.2\nacceleration_limit_g = 20\nantenna_servo_per_s = 15\n"
                   "roll_rate_radps = 3",
-                  los))
-          .engagement.value();
-  EXPECT_EQ(plan.guidance, world::Guidance::target);
+                  los));
+  const Settings plan = settings_of(s);
+  ASSERT_TRUE(s.of_tables[0].guidance.has_value());
+  EXPECT_EQ(s.of_tables[0].guidance->delay_us, 20'000);
+  EXPECT_TRUE(s.of_tables[0].guidance->predicts);
+  EXPECT_TRUE(s.closes_the_loop());
+  EXPECT_DOUBLE_EQ(s.of_tables[0].to_go_s, 4000.0 / 900);
+  EXPECT_EQ(s.of_tables[0].largest_roll_rate, 3);
+  EXPECT_EQ(plan.guidance, Guidance::target);
   EXPECT_EQ(plan.guidance_delay_us, 20'000);
   EXPECT_TRUE(plan.guidance_predicts);
   EXPECT_EQ(plan.range, 4000);
@@ -84,7 +98,7 @@ TEST(EngagementFields, EveryKey) {
   EXPECT_DOUBLE_EQ(plan.heading_error, 2 * deg);
   EXPECT_DOUBLE_EQ(plan.heading_error_sigma, 1 * deg);
   EXPECT_DOUBLE_EQ(plan.pointing_error_sigma, 3 * mrad);
-  EXPECT_EQ(plan.planes, world::ActivePlanes::yaw);
+  EXPECT_EQ(plan.planes, ActivePlanes::yaw);
   EXPECT_EQ(plan.manoeuvre.kind, Manoeuvre::Kind::weave);
   EXPECT_DOUBLE_EQ(plan.manoeuvre.acceleration, 5 * 9.80665);
   EXPECT_EQ(plan.manoeuvre.period, 1.5);
@@ -95,10 +109,10 @@ TEST(EngagementFields, EveryKey) {
   EXPECT_DOUBLE_EQ(plan.acceleration_limit, 20 * 9.80665);
   EXPECT_EQ(plan.servo_gain, 15);
   EXPECT_EQ(plan.roll_rate, 3);
-  EXPECT_EQ(parsed(los_with("[engagement]", "manoeuvre = \"none\"")).engagement->manoeuvre.kind,
+  EXPECT_EQ(settings_of(parsed(los_with("[engagement]", "manoeuvre = \"none\""))).manoeuvre.kind,
             Manoeuvre::Kind::none);
   EXPECT_EQ(
-      parsed(los_with("[engagement]", "manoeuvre_at_to_go_s = 2.5")).engagement->manoeuvre.at_time_to_go,
+      settings_of(parsed(los_with("[engagement]", "manoeuvre_at_to_go_s = 2.5"))).manoeuvre.at_time_to_go,
       2.5);
 }
 
@@ -176,17 +190,17 @@ TEST(EngagementErrors, AreReportedInOneLine) {
 TEST(EngagementErrors, WhatBelongsTogether) {
   EXPECT_EQ(error_of(with("[seeker]\n", "", los)), "s.toml:1: key 'seeker': is missing, expected a table");
   EXPECT_EQ(error_of(with("[engagement]\nguidance = \"truth\"\n", "", los)),
-            "s.toml:1: key 'engagement': is missing, expected a table beside [seeker]");
+            "s.toml:1: key 'engagement': is missing, expected a table");
   EXPECT_EQ(error_of(with("[seeker]", "[slave_imu]\n[seeker]", los)),
             "s.toml:9: key 'slave_imu': depends on a truth, expected a table [truth] beside it");
 }
 
 TEST(EngagementErrors, NothingIsJudgedAgainstATruthThatIsNotThere) {
-  EXPECT_EQ(
-      error_of(with("kind = \"heartbeat\"\nsilent_at_most_s = 0.5", "kind = \"miss_distance\"\nbelow_m = 1",
-                    valid)),
-      "s.toml:17: key 'check[1].kind': needs an engagement to be judged, expected estimator los_rate in the "
-      "scenario");
+  EXPECT_EQ(error_of(with("kind = \"heartbeat\"\nsilent_at_most_s = 0.5",
+                          "kind = \"miss_distance\"\nbelow_m = 1", valid)),
+            "s.toml:17: key 'check[1].kind': needs a missile and its target to be judged, expected estimator "
+            "los_rate in the "
+            "scenario");
   EXPECT_EQ(
       error_of(with("kind = \"miss_distance\"\nbelow_m = 1.0",
                     "kind = 'error'\nquantity = 'velocity.norm'\nbelow_mps = 1", los)),
@@ -196,4 +210,4 @@ TEST(EngagementErrors, NothingIsJudgedAgainstATruthThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace canhil::scenario
+}  // namespace canhil::plant::engagement
