@@ -186,7 +186,7 @@ std::string silence(const Track& track, const Stretch& stretch, const Places& pa
 }
 
 std::optional<Finding> no_evidence(const Track& track, const Stretch& stretch, const Places& part,
-                                   const std::string& expected) {
+                                   const Expected& expected) {
   if (std::string gap = silence(track, stretch, part); !gap.empty())
     return Finding{Outcome::fail, std::move(gap), expected};
   if (!part.empty()) return std::nullopt;
