@@ -79,10 +79,13 @@ Finding Consistency::judge(const Evidence& evidence) const {
   if (auto why = not_finite.to_text(part.size()); !why.empty())
     return {Outcome::fail, std::move(why), expected};
   const double mean = sum / static_cast<double>(part.size());
+  const bool too_small = mean < low;  // then no single value is the worst
   return {pass_if(mean >= low && mean <= high),
           fmt::format("mean {:.3f} of {}", mean, part.size()),
           expected,
-          {.value = mean, .count = part.size(), .worst_at_us = largest_at_us}};
+          {.value = mean,
+           .count = part.size(),
+           .worst_at_us = too_small ? std::nullopt : std::optional(largest_at_us)}};
 }
 
 }  // namespace canhil::checks
