@@ -555,6 +555,7 @@ TEST_F(Judged, TimingIsNotMeasuredWithLostFrames) {
 TEST_F(Judged, ARunThatEndedEarlyFailsWhateverItsChecksSay) {
   ended_early_ = "target silent since t=1 s";
   EXPECT_EQ(judge(attitude).outcome, Outcome::not_measured);
+  EXPECT_FALSE(judge(attitude).judgement.measurement.value);
   EXPECT_EQ(verdict_.outcome, Outcome::fail);
   EXPECT_EQ(verdict_.reason, ended_early_);
 }
