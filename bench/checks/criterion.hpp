@@ -38,7 +38,7 @@ struct Measurement {
   std::optional<double> value{};         ///< in the unit of the criterion
   std::optional<std::uint64_t> count{};  ///< how many values were judged
   /// When the worst of these values came: its time of validity in the run. For a mean or RMS: the largest
-  /// value of those in it.
+  /// value of those in it. For a silence: its begin.
   std::optional<std::int64_t> worst_at_us{};
 };
 

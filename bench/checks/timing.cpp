@@ -149,12 +149,14 @@ PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, dou
   return found;
 }
 
-double longest_silence_s(const Observations& seen, std::string_view message) {
+Silence longest_silence(const Observations& seen, std::string_view message) {
   const MessageInfo* info = info_of(seen, message);
-  if (info == nullptr) return static_cast<double>(seen.last_ns - seen.first_ns) * 1e-9;
+  if (info == nullptr) return {.from_ns = seen.first_ns, .length_ns = seen.last_ns - seen.first_ns};
   const AnswerTiming& timing = timing_of(seen, *info);
-  const std::int64_t at_the_end_ns = seen.last_ns - timing.last_ns.value_or(seen.first_ns);
-  return static_cast<double>(std::max(timing.longest_silence_ns, at_the_end_ns)) * 1e-9;
+  const std::int64_t last_ns = timing.last_ns.value_or(seen.first_ns);
+  if (seen.last_ns - last_ns >= timing.longest_silence_ns)
+    return {.from_ns = last_ns, .length_ns = seen.last_ns - last_ns};
+  return {.from_ns = timing.silent_from_ns, .length_ns = timing.longest_silence_ns};
 }
 
 double ended_before_s(const Observations& seen, const TimedWindow& window) {

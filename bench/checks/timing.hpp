@@ -63,9 +63,13 @@ struct PeriodDeviation {
 PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double begin_s, double end_s,
                                  double quantile, double permitted_s);
 
-/// The longest time [s] without the given message. The times before the first arrival and after the last
-/// arrival count too.
-double longest_silence_s(const Observations& seen, std::string_view message);
+/// The longest time without the given message. The times before the first arrival and after the last arrival
+/// count too.
+struct Silence {
+  std::int64_t from_ns = 0;  ///< when it began, by the stamp clock
+  std::int64_t length_ns = 0;
+};
+Silence longest_silence(const Observations& seen, std::string_view message);
 
 /// The period [s] that a message should have. For an answer, this is the period at which its stimuli were
 /// sent or, if that is longer, the minimum interval of its answer group. 0: the answer has stimuli of more

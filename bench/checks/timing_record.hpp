@@ -71,6 +71,7 @@ struct AnswerTiming {
                                    ///< to this message, occupied the wire
   std::optional<std::int64_t> last_ns{};  ///< last arrival
   std::int64_t longest_silence_ns = 0;    ///< longest wait before an arrival
+  std::int64_t silent_from_ns = 0;        ///< when this wait began
 };
 
 /// Lateness of a message of the bench.

@@ -127,7 +127,10 @@ void Stopwatch::arrived(std::size_t index, const Received& received) {
     wire_ns_[carriers_[index].first] = on_wire_ns(*on_wire);
   checks::AnswerTiming& timing = record_.answers[index];
   const std::int64_t heard_ns = timing.last_ns.value_or(first_ns_.value_or(arrival.t_ns));
-  timing.longest_silence_ns = std::max(timing.longest_silence_ns, arrival.t_ns - heard_ns);
+  if (arrival.t_ns - heard_ns > timing.longest_silence_ns) {
+    timing.longest_silence_ns = arrival.t_ns - heard_ns;
+    timing.silent_from_ns = heard_ns;
+  }
   timing.last_ns = arrival.t_ns;
   ++timing.count;
 

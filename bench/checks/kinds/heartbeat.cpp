@@ -34,12 +34,14 @@ Finding Heartbeat::judge(const Evidence& evidence) const {
           .quantity = message, .statistic = "longest silence", .upper = Limit{.value = most_s}, .unit = "s"}};
   if (auto why = unfit(evidence, 1, most_s); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
-  const double gap_s = longest_silence_s(evidence.seen, message);
-  return unless_target_delayed(evidence, 1, most_s,
-                               {pass_if(gap_s * 1e6 <= static_cast<double>(silent_at_most_us)),
-                                fmt::format("longest gap {:.3f} s", gap_s),
-                                expected,
-                                {.value = gap_s}});
+  const Silence gap = longest_silence(evidence.seen, message);
+  const double gap_s = static_cast<double>(gap.length_ns) * 1e-9;
+  return unless_target_delayed(
+      evidence, 1, most_s,
+      {pass_if(gap_s * 1e6 <= static_cast<double>(silent_at_most_us)),
+       fmt::format("longest gap {:.3f} s", gap_s),
+       expected,
+       {.value = gap_s, .worst_at_us = (gap.from_ns - evidence.seen.first_ns) / 1000}});
 }
 
 }  // namespace canhil::checks

@@ -307,13 +307,21 @@ TEST_F(Judged, OutputPeriodOfAMessageThatAnswersNothing) {
 TEST_F(Judged, HeartbeatUpToTheEndOfTheRun) {
   const Heartbeat rule{.silent_at_most_us = 500'000};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  const auto silent_from_us = [&] { return judge(rule).judgement.measurement.worst_at_us; };
+  const auto first_us = [&] { return seen_.first_ns / 1000; };
   auto& beats = came<messages::TargetHeartbeat>();
   const auto kept = beats;
   beats.resize(30);  // the last heartbeat is at 3 s; the run ends at 4 s
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  EXPECT_EQ(silent_from_us(), 3'000'000 - first_us());
   beats = kept;
   beats.erase(beats.begin(), beats.begin() + 7);
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  EXPECT_EQ(silent_from_us(), 0);
+  beats = kept;
+  beats.erase(beats.begin() + 10, beats.begin() + 17);
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  EXPECT_EQ(silent_from_us(), 1'000'000 - first_us());
   beats.clear();
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
