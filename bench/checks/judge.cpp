@@ -9,6 +9,7 @@
 
 #include "bench/checks/answer_faults.hpp"
 #include "bench/checks/answered.hpp"
+#include "bench/checks/condition.hpp"
 #include "bench/checks/events.hpp"
 #include "bench/checks/finding.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
@@ -63,7 +64,10 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
                                              const Evidence& evidence) {
   std::vector<Subject> wanted;
   for (const scenario::Check& check : checks) {
-    for (const Subject& subject : check.rule->subjects()) {
+    std::vector<Subject> subjects = check.rule->subjects();
+    if (const Condition* condition = check.rule->condition())
+      std::ranges::move(condition->subjects(), std::back_inserter(subjects));
+    for (const Subject& subject : subjects) {
       for (const quantities::Quantity* part : parts_of(*subject.quantity))
         wanted.push_back({.estimator = subject.estimator, .quantity = part});
     }
@@ -120,6 +124,23 @@ std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule&
       return why;
   }
   return "";
+}
+
+// Why it cannot be known when a condition holds; empty: it can, or there is none.
+std::string why_unknown(const scenario::Scenario& scenario, const Condition* condition,
+                        const Evidence& evidence) {
+  if (condition == nullptr) return "";
+  for (const world::TruthValue* value : condition->truths()) {
+    if (std::string why = scenario::why_no_truth(scenario, *value); !why.empty()) return why;
+  }
+  for (const Subject& subject : condition->errors()) {
+    const estimators::Estimator* one = estimators::find(evidence.estimators, subject.estimator);
+    if (one == nullptr) continue;
+    std::string why = one->why_no_truth == nullptr ? "" : one->why_no_truth(scenario, *subject.quantity);
+    if (why.empty()) why = scenario::why_no_truth(scenario, one->facts);
+    if (!why.empty()) return why;
+  }
+  return condition->why_unknown(evidence);
 }
 
 // The window that contains a stretch; to_us < from_us: the flight has no sample in the stretch.
@@ -222,6 +243,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
     }
     std::string why = why_no_truth(scenario, *check.rule, evidence);
     if (why.empty()) why = why_ambiguous(*check.rule, evidence);
+    if (why.empty()) why = why_unknown(scenario, check.rule->condition(), evidence);
     // The target did not get the stimuli that belong to the truth.
     if (why.empty() && !evidence.seen.clipped.empty() && !check.rule->subjects().empty())
       why = evidence.seen.clipped.front();
