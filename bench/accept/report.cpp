@@ -151,7 +151,8 @@ std::string junit(const Report& report) {
                          .expected = item.expected});
       }
     }
-    suites += report::junit_suite(suite.title, cases, suite.wall_s, report.started_s);
+    suites += report::junit_suite(suite.title, fmt::format("accept.{}", suite.estimator), cases, suite.wall_s,
+                                  report.started_s);
   }
   return report::junit_whole(suites);
 }

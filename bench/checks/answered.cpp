@@ -100,7 +100,7 @@ Answered answered(const Observations& seen, std::string_view message, const scen
 bool Answered::half() const { return static_cast<double>(came) >= least_answered * static_cast<double>(due); }
 
 Finding too_few(const Observations& seen, std::string_view message, const Answered& found,
-                std::string expected) {
+                Expected expected) {
   Finding why{.outcome = Outcome::fail,
               .measured = fmt::format("{}: answers to {} of {} samples", message, found.came, found.due),
               .expected = std::move(expected)};

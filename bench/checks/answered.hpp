@@ -36,7 +36,7 @@ std::optional<Finding> missing_answers(const Observations& seen, std::string_vie
 /// The finding for a check that fails because answers are missing. The outcome is 'not measured' if the
 /// target need not be the cause.
 Finding too_few(const Observations& seen, std::string_view message, const Answered& found,
-                std::string expected = "");
+                Expected expected = {});
 
 /// Whether a message is the last one of an answer group, or has no group. `index`: its index in `messages`.
 bool closes_answer(std::span<const MessageInfo> messages, std::size_t index);

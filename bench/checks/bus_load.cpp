@@ -30,10 +30,15 @@ Load bus_load(const Observations& seen, wire::BitRates rates) { return bus_load(
 
 Load bus_load(std::span<const wire::BitLength> seconds, wire::BitRates rates) {
   Load load;
+  std::int64_t index = 0;
   for (const wire::BitLength& second : seconds) {
     const double share = wire::bus_load(second, 1.0, rates);
     load.mean += share / static_cast<double>(seconds.size());
-    load.busiest = std::max(load.busiest, share);
+    if (share > load.busiest) {
+      load.busiest = share;
+      load.busiest_second = index;
+    }
+    ++index;
   }
   return load;
 }

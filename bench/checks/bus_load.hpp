@@ -12,7 +12,8 @@ namespace canhil::checks {
 /// How busy the bus is, as a fraction of time: 0 is an idle bus, 1 is a full bus.
 struct Load {
   double mean = 0;
-  double busiest = 0;  ///< load in the busiest second
+  double busiest = 0;               ///< load in the busiest second
+  std::int64_t busiest_second = 0;  ///< index of the first busiest second
 };
 
 /// The load over time. A short run has one value for each second. A long run has one value for each stretch

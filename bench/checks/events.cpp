@@ -32,15 +32,17 @@ std::string why_not_sent(const Event& event, std::span<const Event> events) {
   }
 }
 
-// The limits of an event, as text.
-std::string expected_of(const Event& event) {
-  std::string text = event.expected ? event.expected->to_text() : "a request";
-  if (event.within_us) text += fmt::format(" within {:g} ms", 1e-3 * static_cast<double>(*event.within_us));
-  return text;
+Expected expected_of(const Event& event) {
+  Expected expected{.text = event.expected ? event.expected->to_text() : "a request"};
+  if (!event.within_us) return expected;
+  const double within_ms = 1e-3 * static_cast<double>(*event.within_us);
+  expected.text += fmt::format(" within {:g} ms", within_ms);
+  expected.criterion = {.quantity = event.name, .upper = Limit{.value = within_ms}, .unit = "ms"};
+  return expected;
 }
 
 Finding judge_exchange(const Event& event, bool in_run, const Exchange& one, const Evidence& evidence) {
-  const std::string expected = expected_of(event);
+  const Expected expected = expected_of(event);
   if (!one.answer) {
     const std::int64_t left_us = (evidence.seen.last_ns - one.sent_ns) / 1000;
     if (in_run && left_us < event.patience_us())
@@ -58,10 +60,11 @@ Finding judge_exchange(const Event& event, bool in_run, const Exchange& one, con
     return {Outcome::pass, shown(one), expected};
   }
   const std::int64_t after_ns = one.answered_ns - one.sent_ns;
-  Finding finding{Outcome::pass,
-                  fmt::format("{} after {:.3g} ms", shown(one), 1e-6 * static_cast<double>(after_ns)),
-                  expected};
-  if (!event.within_us || after_ns <= *event.within_us * 1000) return finding;
+  const double after_ms = 1e-6 * static_cast<double>(after_ns);
+  Finding finding{Outcome::pass, fmt::format("{} after {:.3g} ms", shown(one), after_ms), expected};
+  if (!event.within_us) return finding;
+  finding.measurement = {.value = after_ms, .worst_at_us = (one.sent_ns - evidence.seen.first_ns) / 1000};
+  if (after_ns <= *event.within_us * 1000) return finding;
   finding.outcome = Outcome::fail;
   return unless_target_delayed(evidence, 1, 1e-6 * static_cast<double>(*event.within_us), finding);
 }
@@ -96,12 +99,7 @@ std::vector<CheckResult> judge_events(std::span<const Event> events, const Evide
             : judge_event(event, scenario::phase_of(events, event) == scenario::Phase::during, own, evidence);
     if (!evidence.ended_early.empty())
       finding = {Outcome::not_measured, "the run ended early", std::move(finding.expected)};
-    results.push_back({.name = event.name,
-                       .kind = std::string(event_kind),
-                       .requirement = event.requirement,
-                       .outcome = finding.outcome,
-                       .measured = std::move(finding.measured),
-                       .expected = std::move(finding.expected)});
+    results.push_back(result_of(event.name, event_kind, event.requirement, std::move(finding)));
   }
   return results;
 }

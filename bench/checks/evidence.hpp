@@ -43,7 +43,7 @@ std::string late_loop(const Evidence& evidence);
 
 /// The finding if an estimator has no track of a quantity although there is a truth: the target told no value
 /// of the quantity, or not all the values that it is made of.
-Finding no_values(const quantities::Quantity& quantity, std::string expected);
+Finding no_values(const quantities::Quantity& quantity, Expected expected);
 
 /// Returns why a quantile of the timing cannot be compared with the limit `bar_s`; empty: it can be compared.
 /// The bench can judge the target's deadlines only if the bench keeps its own deadlines.

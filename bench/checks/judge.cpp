@@ -210,7 +210,7 @@ std::string why_uncertain(const Evidence& evidence, std::string_view estimator,
   return one == nullptr || one->ambiguous == nullptr ? "" : one->ambiguous(evidence.seen, quantity);
 }
 
-Finding no_values(const quantities::Quantity& quantity, std::string expected) {
+Finding no_values(const quantities::Quantity& quantity, Expected expected) {
   return {Outcome::fail, fmt::format("no value of {} came", quantity.name), std::move(expected)};
 }
 
@@ -235,11 +235,16 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
   if (evidence.ended_early.empty()) evidence.tracks = tracks_for(all, evidence);
   for (const scenario::Check& check : all) {
     Finding finding = check.rule->judge(evidence);
+    // A value that is not judged is not reported: it is of too few answers, or of another run than the
+    // scenario describes.
+    const auto replace = [&finding](Outcome outcome, std::string why) {
+      finding.outcome = outcome;
+      finding.measured = std::move(why);
+      finding.measurement = {};
+    };
     if (finding.outcome == Outcome::pass) {
-      if (auto missing = missing_answers(*check.rule, evidence)) {
-        finding.outcome = missing->outcome;
-        finding.measured = std::move(missing->measured);
-      }
+      if (auto missing = missing_answers(*check.rule, evidence))
+        replace(missing->outcome, std::move(missing->measured));
     }
     std::string why = why_no_truth(scenario, *check.rule, evidence);
     if (why.empty()) why = why_ambiguous(*check.rule, evidence);
@@ -247,24 +252,14 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
     // The target did not get the stimuli that belong to the truth.
     if (why.empty() && !evidence.seen.clipped.empty() && !check.rule->subjects().empty())
       why = evidence.seen.clipped.front();
-    if (!why.empty()) {
-      finding.outcome = Outcome::not_measured;
-      finding.measured = std::move(why);
-    }
+    if (!why.empty()) replace(Outcome::not_measured, std::move(why));
     if (const std::string late = late_loop(evidence); finding.outcome == Outcome::fail && !late.empty()) {
       finding.outcome = Outcome::not_measured;
       finding.measured += "; " + late;
     }
-    if (!evidence.ended_early.empty()) {  // an incomplete run neither passes nor fails a check
-      finding.outcome = Outcome::not_measured;
-      finding.measured = "the run ended early";
-    }
-    verdict.checks.push_back({.name = check.name,
-                              .kind = check.kind,
-                              .requirement = check.requirement,
-                              .outcome = finding.outcome,
-                              .measured = std::move(finding.measured),
-                              .expected = std::move(finding.expected)});
+    // An incomplete run neither passes nor fails a check.
+    if (!evidence.ended_early.empty()) replace(Outcome::not_measured, "the run ended early");
+    verdict.checks.push_back(result_of(check.name, check.kind, check.requirement, std::move(finding)));
   }
   std::ranges::move(judge_events(scenario.events, evidence), std::back_inserter(verdict.checks));
   std::ranges::move(of_every_run(scenario, evidence.seen), std::back_inserter(verdict.checks));

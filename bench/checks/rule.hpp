@@ -2,7 +2,9 @@
 //
 // A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), its fields, and
 //   static Kind read(scenario::Section&, const scenario::CheckContext&)
-//   Finding judge(const Evidence&) const         an absent answer counts as a failure of the target
+//   Finding judge(const Evidence&) const         an absent answer counts as a failure of the target; the
+//                                                limits are in Finding::expected, the value in
+//                                                Finding::measurement
 // and, where they apply,
 //   std::string subject() const                  a text that distinguishes the checks of one kind
 //   std::vector<Subject> subjects() const        the quantities that the rule uses
@@ -60,13 +62,6 @@ std::vector<std::string> estimators_of(const std::vector<Subject>& subjects, Wan
   }
   return estimators;
 }
-
-/// Part of a run, by time of validity or, if the flight goes to a target, by time to go.
-struct Stretch {
-  scenario::Window window;
-  std::optional<std::pair<double, double>> to_go_s{};  ///< [least, most)
-  std::shared_ptr<const Condition> condition{};        ///< null: all of the stretch
-};
 
 /// The limit |quantity| < below.
 struct Bar {

@@ -95,7 +95,8 @@ struct TimedWindow {
   std::size_t message = 0;  ///< index in TimingRecord::messages
   scenario::Window window{};
   Histogram latency{};
-  Histogram period{};  ///< from one arrival to the next
+  std::optional<std::int64_t> slowest_us{};  ///< time of validity of the stimulus with the largest latency
+  Histogram period{};                        ///< from one arrival to the next
   /// The time from the deadline of a stimulus until the stimulus was on the bus. The host causes this delay.
   Histogram lateness{};
   /// How far the bench itself deviates from the period of the stimuli that the message answers. For two

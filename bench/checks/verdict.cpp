@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "bench/checks/finding.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -20,6 +23,17 @@ std::string names(const Verdict& verdict, Outcome outcome) {
 }
 
 }  // namespace
+
+CheckResult result_of(std::string name, std::string_view kind, std::string requirement, Finding finding) {
+  return {
+      .name = std::move(name),
+      .kind = std::string(kind),
+      .requirement = std::move(requirement),
+      .outcome = finding.outcome,
+      .measured = std::move(finding.measured),
+      .expected = std::move(finding.expected.text),
+      .judgement = {.criterion = std::move(finding.expected.criterion), .measurement = finding.measurement}};
+}
 
 void conclude(Verdict& verdict, const std::string& ended_early) {
   const auto count = [&](Outcome outcome) {

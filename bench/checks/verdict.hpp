@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/checks/criterion.hpp"
+
 namespace canhil::checks {
 
 enum class Outcome : std::uint8_t { pass, fail, not_measured };
@@ -45,6 +47,7 @@ struct CheckResult {
   Outcome outcome = Outcome::not_measured;
   std::string measured;  ///< the measured value with its unit, or why the check was not measured
   std::string expected;
+  Judgement judgement{};  ///< the same in numbers, where the kind has them
 };
 
 /// The verdict of a whole run: fail if a check failed; otherwise not measured if a check was not measured;

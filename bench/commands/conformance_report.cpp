@@ -53,7 +53,8 @@ std::string junit(const Report& report) {
                      .measured = kept ? "so" : finding.wrong,
                      .expected = finding.rule.text});
   }
-  return report::junit_whole(report::junit_suite("conformance", cases, report.wall_s, report.started_s));
+  return report::junit_whole(
+      report::junit_suite("conformance", "conformance", cases, report.wall_s, report.started_s));
 }
 
 }  // namespace canhil::conformance

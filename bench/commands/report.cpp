@@ -62,6 +62,7 @@ ExitCode rebuild_all(const std::vector<std::string>& paths) {
 struct Sides {
   std::string a, b;
   std::vector<std::string> before, after;
+  double tolerance_percent = 100 * report::usual_tolerance;
 };
 
 Result<report::Reports> read_all(const std::vector<std::string>& paths) {
@@ -92,7 +93,7 @@ ExitCode compare_sides(Sides sides) {
   if (!before) return complain(before.error());
   const auto after = read_all(sides.after);
   if (!after) return complain(after.error());
-  const auto compared = report::compare(*before, *after);
+  const auto compared = report::compare(*before, *after, sides.tolerance_percent / 100);
   if (!compared) return complain(compared.error());
   if (auto shown = report::show(compared->text); !shown) return complain(shown.error());
   return compared->outcome == report::Comparison::no_worse ? ExitCode::pass
@@ -118,6 +119,9 @@ void add_report(command_line::Command app, int& code) {
   compare.add_option("B.json", sides->b, "the report that is judged");
   compare.add_option("--before", sides->before, "several runs to compare with, in place of A.json");
   compare.add_option("--after", sides->after, "the runs that are judged, in place of B.json");
+  compare.add_number(
+      "--tolerance", sides->tolerance_percent,
+      "largest loss of a check's margin that is not worse, in percent of the limit; default 10", 0, 1000);
   compare.on_given([&code, sides] { code = static_cast<int>(compare_sides(*sides)); });
 }
 

@@ -296,8 +296,11 @@ void Stopwatch::forget_oldest(std::string_view name, Group& group) {
     if (!answers(window.message, name)) continue;
     if (checks::within(window.window, stimulus.valid_us)) {
       // A stimulus that was answered several times counts once, with the latency of its last answer.
-      if (const auto found = latest.find(window.message); found != latest.end())
+      if (const auto found = latest.find(window.message); found != latest.end()) {
+        if (!window.slowest_us || found->second > window.latency.max_ns())
+          window.slowest_us = stimulus.valid_us;
         window.latency.add(found->second);
+      }
       if (!window.first_stimulus_ns) window.first_stimulus_ns = stimulus.t_ns;
       window.lateness.add(stimulus.t_ns - stimulus.due_ns);
       if (group.before) add_deviation(window, *group.before, stimulus);

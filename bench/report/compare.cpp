@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bench/checks/evidence.hpp"
 #include "bench/report/differences.hpp"
 #include "bench/report/latency_tests.hpp"
 #include "bench/report/side_checks.hpp"
@@ -47,7 +48,8 @@ constexpr std::array<Named, 3> same{{{"/provenance/scenario_hash", "scenario"},
                                      {"/provenance/clock", "clock"}}};
 class Comparer {
  public:
-  Comparer(const Reports& before, const Reports& after) : before_(before), after_(after) {}
+  Comparer(const Reports& before, const Reports& after, double tolerance)
+      : before_(before), after_(after), tolerance_(tolerance) {}
 
   Compared operator()() {
     if (auto why = not_comparable()) {
@@ -57,7 +59,9 @@ class Comparer {
     }
     result_.text += differences(before_, after_);
     const bool lockstep = before_[0].at("provenance").at("clock") == "lockstep";
-    const ChecksCompared checks = compare_checks(before_, after_, lockstep);
+    const ChecksCompared checks = compare_checks(
+        before_, after_,
+        {.lockstep = lockstep, .repeatable = repeatable(), .tolerance = tolerance_, .largest_p = largest_p});
     result_.text += checks.text;
     if (checks.worse) result_.outcome = Comparison::worse;
     missing_answers();
@@ -90,6 +94,21 @@ class Comparer {
     return std::nullopt;
   }
 
+  // Whether equal runs give equal numbers: in virtual time, with the same seed and run of a campaign.
+  [[nodiscard]] bool repeatable() const {
+    const Json& first = before_[0].at("provenance");
+    if (first.at("clock") == "real time") return false;
+    for (const Reports* side : {&before_, &after_}) {
+      for (const Json& report : *side) {
+        for (const char* key : {"seed", "run"}) {
+          const Json& own = report.at("provenance");
+          if (own.value(key, Json()) != first.value(key, Json())) return false;
+        }
+      }
+    }
+    return true;
+  }
+
   // How many answers of a message were due in the runs of a side, and how many did not come although the bus
   // lost no frame of the target. Reports of earlier versions have no such counts.
   struct Missing {
@@ -120,7 +139,7 @@ class Comparer {
     }
   }
 
-  // False: one of the runs has no latencies to compare.
+  // False: one of the runs has no latencies to compare, or the host explains why they are longer.
   bool latencies(bool lockstep) {
     if (lockstep) {
       say("latency  none in virtual time");
@@ -148,18 +167,18 @@ class Comparer {
           "runs differ",
           least_share * 100);
     const double p_bar = largest_p / static_cast<double>(2 * messages.size());
+    bool known = true;
     for (const std::string& message : messages) {
       if (!std::ranges::all_of(after_, [&](const Json& report) { return answers(report, message); })) {
         result_.outcome = Comparison::worse;
         say("worse    latency of {}: no answers any more", message);
       } else if (one_a_side()) {
-        latency_of(message, before_[0].at("latency_s").at(message), after_[0].at("latency_s").at(message),
-                   p_bar);
+        if (!latency_of_two_runs(message, p_bar)) known = false;
       } else {
         latency_of(message, p_bar);
       }
     }
-    return true;
+    return known;
   }
 
   [[nodiscard]] bool one_a_side() const { return before_.size() == 1 && after_.size() == 1; }
@@ -183,13 +202,23 @@ class Comparer {
     return messages;
   }
 
-  void conclude(bool worse, const std::string& message, const std::string& figures) {
-    if (worse) result_.outcome = Comparison::worse;
-    say("{:<8} latency of {}: {}", worse ? "worse" : "same", message, figures);
+  void conclude(std::string_view what, const std::string& message, const std::string& figures) {
+    if (what == "worse") result_.outcome = Comparison::worse;
+    say("{:<8} latency of {}: {}", what, message, figures);
   }
 
-  // Compares the latencies of a message if each side has one run.
-  void latency_of(const std::string& message, const Json& before, const Json& after, double p_bar) {
+  // How late the bench itself was in the run after, as the host kept it from running [us].
+  [[nodiscard]] double lateness_us(const char* key) const {
+    const Json& report = after_[0];
+    return report.contains("bench_lateness_s") ? report.at("bench_lateness_s").at(key).get<double>() * 1e6
+                                               : 0;
+  }
+
+  // Compares the latencies of a message if each side has one run. False: they are longer, but in the run
+  // after the bench itself was so late that the host can have made them longer.
+  bool latency_of_two_runs(const std::string& message, double p_bar) {
+    const Json& before = before_[0].at("latency_s").at(message);
+    const Json& after = after_[0].at("latency_s").at(message);
     const Buckets a = buckets_of(before), b = buckets_of(after);
     const RankTest ranks = rank_test(a, b);
     const ShareTest tail = tail_test(a, b);
@@ -200,15 +229,24 @@ class Comparer {
       const double was_us = us(before, key);
       return us(after, key) - was_us > std::max(least_us, least_share * was_us);
     };
+    const auto is_of_host = [&](const char* key) {
+      return lateness_us(key) > checks::lateness_share * (us(after, key) - us(before, key));
+    };
     const bool slower = ranks.p < p_bar && ranks.effect >= least_effect && later("p50");
     const bool heavier =
         tail.p < p_bar && tail.share_b >= tail_times * std::max(tail.share_a, 0.01) && later("p99");
-    conclude(
-        slower || heavier, message,
-        fmt::format("p50 {:.0f} -> {:.0f} us, p99 {:.0f} -> {:.0f} us; P(later) {:.3f} (p {:.2g}); beyond "
-                    "the first p99 {:.2f} % -> {:.2f} % (p {:.2g})",
-                    us(before, "p50"), us(after, "p50"), us(before, "p99"), us(after, "p99"), ranks.effect,
-                    ranks.p, tail.share_a * 100, tail.share_b * 100, tail.p));
+    const bool worse = (slower && !is_of_host("p50")) || (heavier && !is_of_host("p99"));
+    const bool unknown = !worse && (slower || heavier);
+    std::string figures = fmt::format(
+        "p50 {:.0f} -> {:.0f} us, p99 {:.0f} -> {:.0f} us; P(later) {:.3f} (p {:.2g}); beyond "
+        "the first p99 {:.2f} % -> {:.2f} % (p {:.2g})",
+        us(before, "p50"), us(after, "p50"), us(before, "p99"), us(after, "p99"), ranks.effect, ranks.p,
+        tail.share_a * 100, tail.share_b * 100, tail.p);
+    if (unknown)
+      figures += fmt::format("; the host kept the bench itself late by {:.0f} us (p50), {:.0f} us (p99)",
+                             lateness_us("p50"), lateness_us("p99"));
+    conclude(worse ? "worse" : unknown ? "unknown" : "same", message, figures);
+    return !unknown;
   }
 
   // Compares the latencies of a message if the sides have several runs. The samples are the quantiles of the
@@ -225,25 +263,27 @@ class Comparer {
         return values_us;
       };
       const std::vector<double> a_us = of_runs(before_), b_us = of_runs(after_);
-      const RunTest test = run_test(a_us, b_us);
-      worse = worse || (test.p < p_bar && test.later_us > least_us);
+      constexpr double resolution_us = 1;  // of a quantile
+      const RunTest test = run_test(a_us, b_us, resolution_us);
+      worse = worse || (test.p < p_bar && test.increase > least_us);
       figures +=
           fmt::format("{}{} {:.0f}..{:.0f} -> {:.0f}..{:.0f} us (p {:.2g})", figures.empty() ? "" : ", ", key,
                       a_us.front(), a_us.back(), b_us.front(), b_us.back(), test.p);
     }
-    conclude(worse, message, figures);
+    conclude(worse ? "worse" : "same", message, figures);
   }
 
   const Reports& before_;
   const Reports& after_;
+  double tolerance_;
   Compared result_;
 };
 
 }  // namespace
 
-Result<Compared> compare(const Reports& before, const Reports& after) {
+Result<Compared> compare(const Reports& before, const Reports& after, double tolerance) {
   try {
-    return Comparer(before, after)();
+    return Comparer(before, after, tolerance)();
   } catch (const Json::exception& error) {
     return failure(fmt::format("a report is not whole: {}", error.what()));
   } catch (const UnknownOutcome& outcome) {

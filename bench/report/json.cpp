@@ -10,6 +10,7 @@
 #include "bench/checks/answered.hpp"
 #include "bench/checks/bus_load.hpp"
 #include "bench/report/flags.hpp"
+#include "bench/report/json_checks.hpp"
 #include "bench/report/json_timing.hpp"
 #include "bench/report/provenance.hpp"
 #include "bench/report/rounded.hpp"
@@ -239,14 +240,7 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
                               {"count", fault.count}});
   }
   page["checks"] = Json::array();
-  for (const checks::CheckResult& check : run.verdict.checks) {
-    page["checks"].push_back({{"name", check.name},
-                              {"kind", check.kind},
-                              {"requirement", check.requirement},
-                              {"outcome", checks::name(check.outcome)},
-                              {"measured", check.measured},
-                              {"expected", check.expected}});
-  }
+  for (const checks::CheckResult& check : run.verdict.checks) page["checks"].push_back(object(check));
   for (const EstimatorResults& one : results(scenario, run))
     page["results"][std::string(one.estimator)] = object(one.lines);
   page["timing"] = timing_judged(run);

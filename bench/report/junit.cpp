@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <filesystem>
 
 #include "bench/report/markup.hpp"
 #include "bench/report/provenance.hpp"
@@ -18,10 +19,36 @@ std::string property(std::string_view name, std::string_view value) {
   return fmt::format("<property name=\"{}\" value=\"{}\"/>", name, escaped(value));
 }
 
+// The numbers of a check. A test case without a number has no property for it.
+std::string numbers(const checks::Judgement& judgement) {
+  std::string page;
+  const auto& [criterion, measurement] = judgement;
+  const auto add = [&](std::string_view name, const std::optional<double>& value) {
+    if (value) page += property(name, fmt::format("{:.6g}", *value));
+  };
+  add("value", measurement.value);
+  if (const std::string limit = to_text(criterion); !limit.empty()) page += property("limit", limit);
+  if (!criterion.unit.empty()) page += property("unit", criterion.unit);
+  add("margin", margin(judgement));
+  if (measurement.worst_at_us) add("worst_at_s", static_cast<double>(*measurement.worst_at_us) / 1e6);
+  return page;
+}
+
+// The path of the scenario as a package: bench.flights.los_quick.
+std::string package_of(const std::string& file) {
+  std::string package;
+  for (const std::filesystem::path& part :
+       std::filesystem::path(file).lexically_normal().replace_extension().relative_path()) {
+    if (part != "..") package += (package.empty() ? "" : ".") + part.string();
+  }
+  return package;
+}
+
 }  // namespace
 
-std::string junit_suite(std::string_view name, const std::vector<CheckResult>& cases, double wall_s,
-                        std::int64_t started_s, const Properties& properties) {
+std::string junit_suite(std::string_view name, std::string_view package,
+                        const std::vector<CheckResult>& cases, double wall_s, std::int64_t started_s,
+                        const Properties& properties) {
   const auto count = [&](Outcome outcome) {
     return std::ranges::count(cases, outcome, &CheckResult::outcome);
   };
@@ -35,12 +62,13 @@ std::string junit_suite(std::string_view name, const std::vector<CheckResult>& c
     page += "    </properties>\n";
   }
   for (const CheckResult& check : cases) {
-    page += fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", escaped(check.kind),
-                        escaped(check.name));
+    page += fmt::format("    <testcase classname=\"{}{}{}\" name=\"{}\">\n", escaped(package),
+                        package.empty() ? "" : ".", escaped(check.kind), escaped(check.name));
     // Properties let a reader see a value approach its limit before the check fails.
     page += "      <properties>";
     if (!check.requirement.empty()) page += property("requirement", check.requirement);
     page += property("measured", check.measured) + property("expected", check.expected);
+    page += numbers(check.judgement);
     page += "</properties>\n";
     const std::string message = escaped(fmt::format("{}; expected {}", check.measured, check.expected));
     if (check.outcome == Outcome::fail) page += fmt::format("      <failure message=\"{}\"/>\n", message);
@@ -88,7 +116,8 @@ std::string junit(const scenario::Scenario& scenario, const drive::Run& run) {
                                                                  : Outcome::pass,
                                           .measured = early ? run.ending.detail : "completed",
                                           .expected = "completed"});
-  return junit_whole(junit_suite(scenario.title, cases, run.wall_s, run.started_s, properties_of(run)));
+  return junit_whole(junit_suite(scenario.title, package_of(scenario.file), cases, run.wall_s, run.started_s,
+                                 properties_of(run)));
 }
 
 }  // namespace canhil::report

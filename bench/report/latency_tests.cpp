@@ -81,17 +81,20 @@ ShareTest share_test(double k, double m, double l, double n) {
   return test;
 }
 
-RunTest run_test(std::span<const double> a_us, std::span<const double> b_us) {
-  const auto m = static_cast<double>(a_us.size()), n = static_cast<double>(b_us.size());
+RunTest run_test(std::span<const double> a, std::span<const double> b, double resolution) {
+  const auto m = static_cast<double>(a.size()), n = static_cast<double>(b.size());
   if (m < 1 || n < 1) return {};
-  const double mean_a = mean_of(a_us), mean_b = mean_of(b_us);
-  RunTest test{.later_us = mean_b - mean_a, .p = 1};
+  const double mean_a = mean_of(a), mean_b = mean_of(b);
+  RunTest test{.increase = mean_b - mean_a, .p = 1};
   const double freedom = m + n - 2;
   if (freedom < 1) return test;
-  // Quantiles have a resolution of 1 us, so even runs with equal quantiles have at least this variance.
-  constexpr double rounding = 1.0 / 12;
-  const double variance = (squares_about(a_us, mean_a) + squares_about(b_us, mean_b)) / freedom + rounding;
-  test.p = checks::student_t_above(freedom, test.later_us / std::sqrt(variance * (1 / m + 1 / n)));
+  const double rounding = resolution * resolution / 12;
+  const double variance = (squares_about(a, mean_a) + squares_about(b, mean_b)) / freedom + rounding;
+  if (!(variance > 0)) {  // a difference without any scatter is certain
+    test.p = test.increase > 0 ? 0 : 1;
+    return test;
+  }
+  test.p = checks::student_t_above(freedom, test.increase / std::sqrt(variance * (1 / m + 1 / n)));
   return test;
 }
 

@@ -1,4 +1,5 @@
-// Statistical tests for an increase of latencies: with one run per side, and with several runs per side.
+// Statistical tests for an increase: of latencies with one run per side, and of any number of a run with
+// several runs per side.
 #pragma once
 
 #include <span>
@@ -28,13 +29,15 @@ ShareTest share_test(double k, double m, double l, double n);
 /// Tests the shares that exceed the 99 % quantile of `a`.
 ShareTest tail_test(const Buckets& a, const Buckets& b);
 
-/// Student's t test of one quantile of each run [us]: each run is one sample, so the difference is compared
-/// with the scatter between runs.
+/// Student's t test of one number of each run, such as a quantile of its latencies: each run is one sample,
+/// so the difference is compared with the scatter between runs.
 struct RunTest {
-  double later_us = 0;  ///< mean of `b` minus mean of `a`
-  double p = 1;  ///< one-sided, null hypothesis: `b` is not later; p is 1 with one run per side, which shows
+  double increase = 0;  ///< mean of `b` minus mean of `a`
+  double p = 1;  ///< one-sided, null hypothesis: `b` is not larger; p is 1 with one run per side, which shows
                  ///< no scatter
 };
-RunTest run_test(std::span<const double> a_us, std::span<const double> b_us);
+/// `resolution`: of the numbers; runs whose numbers are equal have at least the scatter of the rounding to
+/// it.
+RunTest run_test(std::span<const double> a, std::span<const double> b, double resolution);
 
 }  // namespace canhil::report

@@ -21,13 +21,18 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run);
 
 /// The report for CI servers, JUnit XML: one test case for each check. A check that was not measured is
 /// reported as 'skipped', with the reason. The properties of a test case contain the measured value, the
-/// expected value and the id of the requirement. The time stamp of the suite is the start of the run (UTC).
+/// expected value and the id of the requirement, and, where the check has numbers, `value`, `limit`, `unit`,
+/// `margin` and `worst_at_s`, as in the JSON. The time stamp of the suite is the start of the run (UTC).
 std::string junit(const scenario::Scenario& scenario, const drive::Run& run);
 /// Properties of a whole suite: name and value.
 using Properties = std::vector<std::pair<std::string, std::string>>;
-/// A test suite for a JUnit file, with a test case for each check. `started_s`: start of the run; 0: unknown.
-std::string junit_suite(std::string_view name, const std::vector<checks::CheckResult>& cases, double wall_s,
-                        std::int64_t started_s, const Properties& properties = {});
+/// A test suite for a JUnit file, with a test case for each check. `package`: what the test cases belong to,
+/// such as the scenario; a class name is the package and the kind of check, because a CI server joins the
+/// files of a pipeline and knows a test case by class name and name. `started_s`: start of the run; 0:
+/// unknown.
+std::string junit_suite(std::string_view name, std::string_view package,
+                        const std::vector<checks::CheckResult>& cases, double wall_s, std::int64_t started_s,
+                        const Properties& properties = {});
 /// The JUnit file that contains the suites.
 std::string junit_whole(std::string_view suites);
 

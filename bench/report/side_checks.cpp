@@ -13,6 +13,8 @@
 
 #include "bench/checks/judge.hpp"
 #include "bench/checks/verdict.hpp"
+#include "bench/report/figures.hpp"
+#include "bench/report/json_checks.hpp"
 #include "dbc/text/escape.hpp"
 
 namespace canhil::report {
@@ -44,6 +46,7 @@ struct Key {
 struct Judged {
   Says outcome = pass;
   std::string measured;
+  checks::Judgement numbers;
 };
 struct Checks {
   std::map<Key, Judged> judged;
@@ -58,7 +61,7 @@ Checks judged_in(const Json& report) {
     key.nth = seen[key]++;
     const Says outcome =
         outcome_of(check.at("outcome").get<std::string>(), fmt::format("check '{}'", key.name));
-    all.judged.emplace(key, Judged{outcome, check.at("measured").get<std::string>()});
+    all.judged.emplace(key, Judged{outcome, check.at("measured").get<std::string>(), judgement_of(check)});
     all.in_order.push_back(std::move(key));
   }
   return all;
@@ -97,6 +100,17 @@ Tally tally_of(const std::vector<Checks>& side, const Key& key) {
   return tally;
 }
 
+// The numbers of a check in the runs that judged it.
+std::vector<checks::Judgement> numbers_of(const std::vector<Checks>& side, const Key& key) {
+  std::vector<checks::Judgement> numbers;
+  for (const Checks& run : side) {
+    const auto found = run.judged.find(key);
+    if (found == run.judged.end() || !found->second.numbers.measurement.value) continue;
+    if (found->second.outcome != not_measured) numbers.push_back(found->second.numbers);
+  }
+  return numbers;
+}
+
 bool got_worse(const Tally& before, const Tally& after) {
   const auto mostly = [](const Tally& tally) { return 2 * tally.saying[fail] > tally.runs(); };
   return (before.saying[fail] == 0 && after.saying[fail] > 0) || (mostly(after) && !mostly(before));
@@ -117,34 +131,55 @@ Tally verdicts(const Reports& side) {
   return tally;
 }
 
-}  // namespace
-
-ChecksCompared compare_checks(const Reports& before, const Reports& after, bool lockstep) {
-  const auto first = judged_in_all(before), second = judged_in_all(after);
+// The checks of all runs, in the order of the runs that are judged.
+std::vector<Key> keys_of(const std::vector<Checks>& before, const std::vector<Checks>& after) {
   std::vector<Key> keys;
   std::set<Key> known;
-  for (const auto* side : {&second, &first}) {
+  for (const auto* side : {&after, &before}) {
     for (const Checks& run : *side) {
       for (const Key& key : run.in_order) {
         if (known.insert(key).second) keys.push_back(key);
       }
     }
   }
+  return keys;
+}
+
+}  // namespace
+
+ChecksCompared compare_checks(const Reports& before, const Reports& after, const CheckRule& rule) {
+  const auto first = judged_in_all(before), second = judged_in_all(after);
+  const std::vector<Key> keys = keys_of(first, second);
+  const auto with_numbers = std::ranges::count_if(keys, [&](const Key& key) {
+    return !numbers_of(first, key).empty() && !numbers_of(second, key).empty();
+  });
+  const FigureRule figure_rule{
+      .tolerance = rule.tolerance,
+      .largest_p = rule.largest_p / static_cast<double>(std::max<std::ptrdiff_t>(with_numbers, 1)),
+      .repeatable = rule.repeatable};
   ChecksCompared result;
+  if (with_numbers > 0 && !rule.repeatable && before.size() + after.size() == 2)
+    result.text = "checks   one run a side: no margin counts as worse, because runs differ\n";
   for (const Key& key : keys) {
     const Tally was = tally_of(first, key), is = tally_of(second, key);
     const auto together = [&](Says what) { return was.saying[what] + is.saying[what]; };
-    const bool never_judged = together(not_measured) == was.runs() + is.runs() && lockstep;
-    const bool worse = got_worse(was, is);
+    const bool never_judged = together(not_measured) == was.runs() + is.runs() && rule.lockstep;
+    const auto figures = compare_figures(numbers_of(first, key), numbers_of(second, key), figure_rule);
+    using Change = FiguresCompared::Change;
+    const bool worse = got_worse(was, is) || (figures && figures->change == Change::worse);
     const bool unknown = together(not_there) > 0 || (together(not_measured) > 0 && !never_judged);
     result.worse = result.worse || worse;
     result.unknown = result.unknown || unknown;
     const std::string from = was.text(), to = is.text();
-    if (from == to && !unknown) continue;
-    const std::string_view what = worse ? "worse" : unknown ? "unknown" : "changed";
-    result.text += one_line(fmt::format("{:<8} check '{}': {} -> {}{}", what, key.name, from, to,
-                                        is.measured.empty() ? "" : fmt::format(" ({})", is.measured))) +
-                   "\n";
+    const bool told = from != to || unknown;  // by its outcomes
+    if (!told && !figures) continue;
+    const bool changed = from != to || (figures && figures->change == Change::changed);
+    const std::string_view what = worse ? "worse" : unknown ? "unknown" : changed ? "changed" : "same";
+    std::string line = fmt::format("{:<8} check '{}': {}", what, key.name, from);
+    if (told) line += " -> " + to;
+    if (told && !is.measured.empty()) line += fmt::format(" ({})", is.measured);
+    if (figures) line += "; " + figures->text;
+    result.text += one_line(line) + "\n";
   }
   const Tally was = verdicts(before), is = verdicts(after);
   if (!result.worse && got_worse(was, is)) {

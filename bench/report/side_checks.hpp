@@ -1,4 +1,4 @@
-// Compares the outcomes of checks between the runs of two sides.
+// Compares outcomes and numbers of checks between the runs of two sides.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,7 +10,7 @@ namespace canhil::report {
 struct ChecksCompared {
   bool worse = false;
   bool unknown = false;  ///< a check was not measured, or is missing, in one of the runs
-  std::string text;      ///< one line for each check that changed
+  std::string text;      ///< one line for each check that changed or has numbers
 };
 
 /// Thrown by compare_checks() if a report contains an unknown outcome.
@@ -18,10 +18,18 @@ struct UnknownOutcome {
   std::string what;  ///< one line
 };
 
-/// A check got worse in two cases: it fails in a run of `after` but in no run of `before`, or it fails in
-/// most runs of `after` but not in most runs of `before`. In lockstep, timing is never judged, so a check
-/// that no run measured does not count as unknown.
+/// What the runs of both sides have in common, and which difference counts.
+struct CheckRule {
+  bool lockstep = false;
+  bool repeatable = false;  ///< FigureRule::repeatable
+  double tolerance = 0;     ///< FigureRule::tolerance
+  double largest_p = 0;     ///< of a single test; divided by the number of checks with numbers
+};
+
+/// A check got worse in three cases: it fails in a run of `after` but in no run of `before`; it fails in most
+/// runs of `after` but not in most runs of `before`; or its margin got worse (compare_figures()). In
+/// lockstep, timing is never judged, so a check that no run measured does not count as unknown.
 ChecksCompared compare_checks(const std::vector<nlohmann::ordered_json>& before,
-                              const std::vector<nlohmann::ordered_json>& after, bool lockstep);
+                              const std::vector<nlohmann::ordered_json>& after, const CheckRule& rule);
 
 }  // namespace canhil::report

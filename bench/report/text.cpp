@@ -155,6 +155,14 @@ std::string wire_words(const checks::Observations& seen) {
   return lines;
 }
 
+// When the worst value of a check that failed came, unless its own words say so.
+std::string worst_words(const checks::CheckResult& check) {
+  const auto& worst_at_us = check.judgement.measurement.worst_at_us;
+  if (check.outcome != checks::Outcome::fail || !worst_at_us) return "";
+  const std::string at = fmt::format(" {:g} s", static_cast<double>(*worst_at_us) / 1e6);
+  return check.measured.find(at) != std::string::npos ? "" : ", worst at" + at;
+}
+
 }  // namespace
 
 std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
@@ -193,8 +201,8 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   std::size_t width = 5;
   for (const checks::CheckResult& check : run.verdict.checks) width = std::max(width, check.name.size());
   for (const checks::CheckResult& check : run.verdict.checks) {
-    page += one_line(fmt::format("  {:<12}  {:<{}}  {}  (expected {})", label(checks::name(check.outcome)),
-                                 check.name, width, check.measured, check.expected)) +
+    page += one_line(fmt::format("  {:<12}  {:<{}}  {}{}  (expected {})", label(checks::name(check.outcome)),
+                                 check.name, width, check.measured, worst_words(check), check.expected)) +
             "\n";
   }
 

@@ -136,6 +136,29 @@ void timing(const At& report) {
   }
 }
 
+// Its numbers are optional; a limit has all its parts.
+void one_check(const At& check) {
+  for (const char* key : {"name", "kind", "outcome", "measured", "expected"}) text(check[key]);
+  for (const char* key : {"quantity", "estimator", "statistic", "unit"}) {
+    if (check.has(key)) text(check[key]);
+  }
+  for (const char* key : {"value", "margin", "from_s", "to_s", "worst_at_s"}) {
+    if (check.has(key)) number(check[key]);
+  }
+  for (const std::string key : {"lower", "upper"}) {
+    if (!check.has(key)) continue;
+    number(check[key]);
+    flag(check[key + "_inclusive"]);
+    text(check["unit"]);
+  }
+  if (check.has("count")) count(check["count"]);
+  if (check.has("time_to_go_s")) {
+    const At ends = check["time_to_go_s"];
+    if (!ends.value.is_array() || ends.value.size() != 2) ends.expected("[least, most]");
+    ends.each([](const At& end) { number(end); });
+  }
+}
+
 }  // namespace
 
 std::string why_not_whole(const Json& report) {
@@ -145,9 +168,7 @@ std::string why_not_whole(const Json& report) {
     number(all["duration_s"]);
     for (const char* key : {"scenario", "scenario_hash", "contract", "bus", "clock", "date"})
       text(all["provenance"][key]);
-    all["checks"].each([](const At& check) {
-      for (const char* key : {"name", "kind", "outcome", "measured", "expected"}) text(check[key]);
-    });
+    all["checks"].each(one_check);
     if (all.has("results")) {
       all["results"].each_key([](const At& estimator) {
         estimator.each_key([](const At& line) {

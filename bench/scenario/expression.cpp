@@ -76,6 +76,7 @@ tl::expected<Expression, Expression::Wrong> Expression::parse(std::string_view t
     parser.DefineConst("pi", std::numbers::pi);
     parser.DefineConst("deg", world::units::deg);
     parser.DefineConst("g", world::units::standard_gravity);
+    parser.DefineInfixOprt("!", [](mu::value_type value) -> mu::value_type { return value == 0 ? 1 : 0; });
     parser.DefineVar(std::string(time_name), &parsed->t_s);
     double unused = 0;
     for (auto name = std::next(names.begin()); name != names.end(); ++name) parser.DefineVar(*name, &unused);

@@ -24,6 +24,7 @@ test_packages=(
   python3 python3-can python3-canmatrix tshark # independent programs for comparison: a CAN node, a DBC reader, a reader of captures
   python3-pandas # an example of docs/recordings.md
   python3-yaml # reads the pipelines in docs/examples
+  python3-jsonschema # validates reports by docs/report.schema.json
   can-utils iproute2 kmod busybox user-mode-linux # for tests on vcan; user-mode Linux provides vcan if the machine's kernel has no vcan
 )
 paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper, which refuses to run without it

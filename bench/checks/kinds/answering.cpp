@@ -56,7 +56,7 @@ Answering Answering::read(scenario::Section& /*section*/, const scenario::CheckC
 }
 
 Finding Answering::judge(const Evidence& evidence) const {
-  const std::string expected = "answers and heartbeats without a gap, all numbers, whole frames";
+  const Expected expected{.text = "answers and heartbeats without a gap, all numbers, whole frames"};
   const auto failed = [&](std::string why) { return Finding{Outcome::fail, std::move(why), expected}; };
   const Observations& seen = evidence.seen;
   if (seen.target_bad_crc > 0)
@@ -83,7 +83,7 @@ Finding Answering::judge(const Evidence& evidence) const {
         return failed("no heartbeat " + seconds(owed));
     }
   }
-  return {Outcome::pass, fmt::format("{} values", values), expected};
+  return {Outcome::pass, fmt::format("{} values", values), expected, {.count = values}};
 }
 
 }  // namespace canhil::checks

@@ -58,12 +58,16 @@ std::vector<std::string> Answers::needs_answers_of() const {
 }
 
 Finding Answers::judge(const Evidence& evidence) const {
-  Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
+  Finding finding{.outcome = Outcome::pass, .measured = "", .expected = {}};
+  std::vector<Judgement> judgements;
+  const auto judged = [&](const Count& wanted) -> Judgement& {
+    return judgements.emplace_back(Judgement{.criterion = {.quantity = wanted.mark, .estimator = estimator}});
+  };
   const auto add = [](std::string& text, const std::string& more) {
     text += (text.empty() ? "" : ", ") + more;
   };
   const auto expect = [&](const std::string& what, bool holds) {
-    add(finding.expected, what);
+    add(finding.expected.text, what);
     if (!holds) finding.outcome = Outcome::fail;
   };
   const estimators::Estimator* reported_by = estimators::find(evidence.estimators, estimator);
@@ -77,6 +81,11 @@ Finding Answers::judge(const Evidence& evidence) const {
       const auto count =
           std::ranges::count_if(times, [&](std::int64_t t_us) { return within(window, t_us); });
       add(finding.measured, fmt::format("{} {}", wanted.mark, count));
+      auto& [criterion, measurement] = judged(wanted);
+      if (wanted.at_least) criterion.lower = Limit{.value = static_cast<double>(*wanted.at_least)};
+      if (wanted.at_most) criterion.upper = Limit{.value = static_cast<double>(*wanted.at_most)};
+      criterion.stretch = Stretch{.window = window};
+      measurement.value = static_cast<double>(count);
       if (wanted.at_least)
         expect(fmt::format("{} >= {}", wanted.mark, *wanted.at_least), count >= *wanted.at_least);
       if (wanted.at_most)
@@ -86,10 +95,15 @@ Finding Answers::judge(const Evidence& evidence) const {
     const auto at_s = [](std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; };
     add(finding.measured, times.empty() ? fmt::format("never {}", wanted.mark)
                                         : fmt::format("{} at {:g} s", wanted.mark, at_s(times.front())));
+    auto& [criterion, measurement] = judged(wanted);
+    criterion.upper = exclusive(at_s(*wanted.before_us));
+    criterion.unit = "s";
+    if (!times.empty()) measurement = {.value = at_s(times.front()), .worst_at_us = times.front()};
     expect(fmt::format("{} before {:g} s", wanted.mark, at_s(*wanted.before_us)),
            !times.empty() && times.front() < *wanted.before_us);
   }
-  finding.expected += fmt::format(" {}", seconds(window));
+  finding.expected.text += fmt::format(" {}", seconds(window));
+  take_nearest_to_limit(finding, std::move(judgements));
   if (marks.empty() || marks.front().t_us.empty()) return {Outcome::fail, "no answers", finding.expected};
   return finding;
 }

@@ -66,17 +66,28 @@ Finding BusLoad::judge(const Evidence& evidence) const {
   // the rates of the rule would not be full.
   if (seen.bit_rates.nominal > 0 && !equally_fast(seen.bit_rates, buses.front(), seen))
     buses.push_back(seen.bit_rates);
+  constexpr double percent = 100;
   Finding finding{.outcome = Outcome::pass, .measured = {}, .expected = {}};
+  Load highest;
   for (const wire::BitRates& rates : buses) {
     const Load load = bus_load(seen, rates);
+    if (load.busiest > highest.busiest) highest = load;
     if (!(load.busiest > 0 && load.busiest < below)) finding.outcome = Outcome::fail;
     if (!finding.measured.empty())
       finding.measured += fmt::format("; at the {} of this run's bus ", to_text(rates));
     finding.measured += fmt::format("{:.1f} % in the busiest second, {:.1f} % in the mean",
-                                    load.busiest * 100, load.mean * 100);
+                                    load.busiest * percent, load.mean * percent);
   }
-  finding.expected = fmt::format("< {:g} % of {}", below * 100, to_text(buses.front()));
-  if (buses.size() > 1) finding.expected += ", and of this run's bus";
+  finding.expected = {.text = fmt::format("< {:g} % of {}", below * percent, to_text(buses.front())),
+                      .criterion = {.quantity = "bus load",
+                                    .statistic = "busiest second",
+                                    .upper = exclusive(below * percent),
+                                    .unit = "%"}};
+  if (buses.size() > 1) finding.expected.text += ", and of this run's bus";
+  if (const std::size_t count = whole_seconds(seen).size(); count > 0)
+    finding.measurement = {.value = highest.busiest * percent,
+                           .count = count,
+                           .worst_at_us = highest.busiest_second * 1'000'000};
   return finding;
 }
 

@@ -17,26 +17,42 @@ using scenario::Limits;
 using world::CommandRecord;
 using world::Given;
 
-// The time since the arrival of the newest command, at the start of each step of the plant [s]. The time
-// before the first command counts from the begin of the window.
-std::vector<double> ages(const CommandRecord& record, const scenario::Window& window) {
-  std::vector<double> all;
+struct Durations {
+  std::vector<double> s{};
+  std::int64_t longest_at_us = 0;
+  void add(std::int64_t at_us, std::int64_t duration_us) {
+    const double duration_s = 1e-6 * static_cast<double>(duration_us);
+    if (s.empty() || duration_s > longest_s_) {
+      longest_s_ = duration_s;
+      longest_at_us = at_us;
+    }
+    s.push_back(duration_s);
+  }
+
+ private:
+  double longest_s_ = 0;
+};
+
+// The time since the arrival of the newest command, at the start of each step of the plant. The time before
+// the first command counts from the begin of the window.
+Durations ages(const CommandRecord& record, const scenario::Window& window) {
+  Durations all;
   auto next = record.given.begin();
   std::int64_t newest_us = window.from_us;
   const std::int64_t first_us = (window.from_us + record.step_us - 1) / record.step_us * record.step_us;
   for (std::int64_t t_us = first_us; t_us <= window.to_us; t_us += record.step_us) {
     for (; next != record.given.end() && next->t_us <= t_us; ++next) newest_us = next->t_us;
-    all.push_back(1e-6 * static_cast<double>(t_us - newest_us));
+    all.add(t_us, t_us - newest_us);
   }
   return all;
 }
 
-// From the time of validity of the measurement to the effect of the command that answers it [s].
-std::vector<double> delays(const CommandRecord& record, const scenario::Window& window) {
-  std::vector<double> all;
+// From the time of validity of the measurement to the effect of the command that answers it.
+Durations delays(const CommandRecord& record, const scenario::Window& window) {
+  Durations all;
   for (const Given& one : record.given) {
     if (one.cause_us >= 0 && within(window, one.cause_us))
-      all.push_back(1e-6 * static_cast<double>(one.t_us + record.delay_us - one.cause_us));
+      all.add(one.cause_us, one.t_us + record.delay_us - one.cause_us);
   }
   return all;
 }
@@ -65,8 +81,14 @@ std::string CommandTime::subject() const {
 Finding CommandTime::judge(const Evidence& evidence) const {
   const bool is_age = statistic == Statistic::age;
   const double bar_s = 1e-6 * static_cast<double>(below_us);
-  const std::string expected = fmt::format("{} of the command '{}' {} < {:g} ms {}", is_age ? "age" : "delay",
-                                           input, quantile_name(quantile), bar_s * 1e3, seconds(window));
+  const Expected expected{
+      .text = fmt::format("{} of the command '{}' {} < {:g} ms {}", is_age ? "age" : "delay", input,
+                          quantile_name(quantile), bar_s * 1e3, seconds(window)),
+      .criterion = {.quantity = input,
+                    .statistic = quantile_name(quantile),
+                    .upper = exclusive(bar_s * 1e3),
+                    .unit = "ms",
+                    .stretch = Stretch{.window = window}}};
   if (evidence.truth.plants.empty()) return {Outcome::not_measured, "the run has no plant", expected};
   const CommandRecord* record = nullptr;
   for (const world::PlantRecord* plant : evidence.truth.plants) {
@@ -75,12 +97,14 @@ Finding CommandTime::judge(const Evidence& evidence) const {
   }
   if (record == nullptr || record->given.empty())
     return {Outcome::fail, fmt::format("no command of '{}' came", input), expected};
-  const std::vector<double> times = is_age ? ages(*record, window) : delays(*record, window);
-  if (times.empty() && is_age) return {Outcome::not_measured, "the plant has no step there", expected};
-  if (times.empty()) return {Outcome::not_measured, "no command there answers a measurement", expected};
-  const double value_s = checks::quantile(times, quantile);
-  Finding finding{pass_if(value_s < bar_s), fmt::format("{:.3f} ms of {}", value_s * 1e3, times.size()),
-                  expected};
+  const Durations times = is_age ? ages(*record, window) : delays(*record, window);
+  if (times.s.empty() && is_age) return {Outcome::not_measured, "the plant has no step there", expected};
+  if (times.s.empty()) return {Outcome::not_measured, "no command there answers a measurement", expected};
+  const double value_s = checks::quantile(times.s, quantile);
+  Finding finding{pass_if(value_s < bar_s),
+                  fmt::format("{:.3f} ms of {}", value_s * 1e3, times.s.size()),
+                  expected,
+                  {.value = value_s * 1e3, .count = times.s.size(), .worst_at_us = times.longest_at_us}};
   if (evidence.timing_unfit == virtual_time) {
     // An answer takes no virtual time, so that its delay is at least this.
     if (is_age || finding.outcome == Outcome::fail) return finding;

@@ -56,21 +56,38 @@ Finding Consistency::judge(const Evidence& evidence) const {
   const Stretch stretch{.window = window, .condition = condition};
   const Places part = tracks.empty() ? Places() : inside(*tracks.front(), stretch, evidence);
   const auto [low, high] = interval(*this, part.size());
-  const std::string expected = fmt::format("mean between {:.3g} and {:.3g} {}", low, high, to_text(stretch));
+  const Expected expected{
+      .text = fmt::format("mean between {:.3g} and {:.3g} {}", low, high, to_text(stretch)),
+      .criterion = {.quantity = std::string(judged.quantity->name),
+                    .estimator = judged.estimator,
+                    .statistic = "mean",
+                    .lower = Limit{.value = low},
+                    .upper = Limit{.value = high},
+                    .stretch = stretch}};
   if (tracks.empty()) return no_values(*judged.quantity, expected);
   if (auto gap = no_evidence(*tracks.front(), stretch, part, expected, evidence)) return *gap;
-  double sum = 0;
+  double sum = 0, largest = 0;
+  std::int64_t largest_at_us = 0;
   NotFinite not_finite;
   for (const std::size_t index : part) {
     const quantities::TrackPoint& point = tracks.front()->points[index];
     sum += point.value;
+    if (!(point.value <= largest)) {
+      largest = point.value;
+      largest_at_us = point.t_us;
+    }
     not_finite.take(point.t_us, point.value);
   }
   if (auto why = not_finite.to_text(part.size()); !why.empty())
     return {Outcome::fail, std::move(why), expected};
   const double mean = sum / static_cast<double>(part.size());
-  return {pass_if(mean >= low && mean <= high), fmt::format("mean {:.3f} of {}", mean, part.size()),
-          expected};
+  const bool too_small = mean < low;  // then no single value is the worst
+  return {pass_if(mean >= low && mean <= high),
+          fmt::format("mean {:.3f} of {}", mean, part.size()),
+          expected,
+          {.value = mean,
+           .count = part.size(),
+           .worst_at_us = too_small ? std::nullopt : std::optional(largest_at_us)}};
 }
 
 }  // namespace canhil::checks

@@ -33,8 +33,14 @@ std::optional<Bar> Convergence::bar() const {
 }
 
 Finding Convergence::judge(const Evidence& evidence) const {
-  const std::string expected = fmt::format("within {:g} {} for good before {:g} s", within / unit.factor,
-                                           unit.name, static_cast<double>(before_us) * 1e-6);
+  const double before_s = static_cast<double>(before_us) * 1e-6;
+  const Expected expected{
+      .text = fmt::format("within {:g} {} for good before {:g} s", within / unit.factor, unit.name, before_s),
+      .criterion = {.quantity = std::string(judged.quantity->name),
+                    .estimator = judged.estimator,
+                    .statistic = "time of convergence",
+                    .upper = exclusive(before_s),
+                    .unit = "s"}};
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return no_values(*judged.quantity, expected);
   const quantities::Track& track = *tracks.front();
@@ -48,7 +54,11 @@ Finding Convergence::judge(const Evidence& evidence) const {
   const auto t_us = entered_for_good_us(track.points, within,
                                         [](const quantities::TrackPoint& point) { return point.value; });
   if (!t_us) return {Outcome::fail, "not within at the end", expected};
-  return {pass_if(*t_us < before_us), fmt::format("{:.2f} s", static_cast<double>(*t_us) * 1e-6), expected};
+  const double t_s = static_cast<double>(*t_us) * 1e-6;
+  return {pass_if(*t_us < before_us),
+          fmt::format("{:.2f} s", t_s),
+          expected,
+          {.value = t_s, .count = track.points.size()}};
 }
 
 }  // namespace canhil::checks

@@ -32,14 +32,19 @@ Counters Counters::read(scenario::Section& section, const scenario::CheckContext
 }
 
 Finding within_limits(std::span<const CountLimit> limits) {
-  Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
+  Finding finding{.outcome = Outcome::pass, .measured = "", .expected = {}};
+  std::vector<Judgement> judgements;
   for (const CountLimit& limit : limits) {
     if (!limit.at_most) continue;
-    const std::string_view separator = finding.expected.empty() ? "" : ", ";
-    finding.expected += fmt::format("{}{} <= {}", separator, limit.what, *limit.at_most);
+    const std::string_view separator = finding.measured.empty() ? "" : ", ";
+    finding.expected.text += fmt::format("{}{} <= {}", separator, limit.what, *limit.at_most);
     finding.measured += fmt::format("{}{} {}", separator, limit.what, limit.value);
     if (std::cmp_greater(limit.value, *limit.at_most)) finding.outcome = Outcome::fail;
+    judgements.push_back({.criterion = {.quantity = std::string(limit.what),
+                                        .upper = Limit{.value = static_cast<double>(*limit.at_most)}},
+                          .measurement = {.value = static_cast<double>(limit.value)}});
   }
+  take_nearest_to_limit(finding, std::move(judgements));
   return finding;
 }
 
@@ -48,6 +53,7 @@ Finding of_the_whole_run(Finding finding, const Observations& seen) {
   const auto add = [&](Outcome outcome, const std::string& why) {
     finding.measured += "; " + why;
     finding.outcome = outcome;
+    finding.measurement = {};  // the counts are those of a part of the run
   };
   if (!reports.went_down().empty()) {
     add(Outcome::fail, "the counts went down: " + reports.went_down());

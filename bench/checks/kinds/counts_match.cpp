@@ -62,15 +62,21 @@ Finding CountsMatch::judge(const Evidence& evidence) const {
       count("bad CRC", seen.counters->bad_crc, least.bad_crc, most.bad_crc, bad_crc_slack),
       count("bad groups", seen.counters->bad_group, least.bad_group, most.bad_group, bad_group_slack),
       count("late", seen.counters->late, least.late, most.late, late_slack)};
-  Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
+  Finding finding{.outcome = Outcome::pass, .measured = "", .expected = {}};
+  std::vector<Judgement> judgements;
   for (const Count& one : counts) {
-    const std::string_view separator = finding.expected.empty() ? "" : ", ";
+    const std::string_view separator = finding.measured.empty() ? "" : ", ";
     finding.measured += fmt::format("{}{} {}", separator, one.what, one.reported);
-    finding.expected += fmt::format("{}{} {}", separator, one.what, one.least);
-    if (one.most > one.least) finding.expected += fmt::format(" to {}", one.most);
+    finding.expected.text += fmt::format("{}{} {}", separator, one.what, one.least);
+    if (one.most > one.least) finding.expected.text += fmt::format(" to {}", one.most);
     if (one.reported < one.least || one.reported > one.most) finding.outcome = Outcome::fail;
+    judgements.push_back({.criterion = {.quantity = std::string(one.what),
+                                        .lower = Limit{.value = static_cast<double>(one.least)},
+                                        .upper = Limit{.value = static_cast<double>(one.most)}},
+                          .measurement = {.value = static_cast<double>(one.reported)}});
   }
-  finding.expected += ", as the bench withheld and damaged";
+  finding.expected.text += ", as the bench withheld and damaged";
+  take_nearest_to_limit(finding, std::move(judgements));
   // If an outage of the bus lost frames, the target counts these frames too, although the bench did not
   // withhold them.
   if (const std::string away = seen.bus.outages(); finding.outcome == Outcome::fail && !away.empty()) {

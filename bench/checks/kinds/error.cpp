@@ -59,13 +59,20 @@ std::optional<Bar> Error::bar() const {
 }
 
 Finding Error::judge(const Evidence& evidence) const {
-  const std::string expected = fmt::format("{} < {:g} {} {}", asked[static_cast<std::size_t>(statistic)],
-                                           below / unit.factor, unit.name, to_text(stretch));
+  const Expected expected{.text = fmt::format("{} < {:g} {} {}", asked[static_cast<std::size_t>(statistic)],
+                                              below / unit.factor, unit.name, to_text(stretch)),
+                          .criterion = {.quantity = std::string(judged.quantity->name),
+                                        .estimator = judged.estimator,
+                                        .statistic = std::string(name(statistic)),
+                                        .upper = exclusive(below / unit.factor),
+                                        .unit = std::string(unit.name),
+                                        .stretch = stretch}};
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return no_values(*judged.quantity, expected);
   const Places part = inside(*tracks.front(), stretch, evidence);
   if (auto gap = no_evidence(*tracks.front(), stretch, part, expected, evidence)) return *gap;
   double worst = 0, sum = 0, squares = 0, last = 0;
+  std::int64_t worst_at_us = 0, last_at_us = 0;
   NotFinite not_finite;
   for (const std::size_t index : part) {
     last = 0;  // of the worst part
@@ -76,9 +83,13 @@ Finding Error::judge(const Evidence& evidence) const {
       all += error;
       squares += error * error;
     }
-    worst = std::max(worst, last);
+    last_at_us = tracks.front()->points[index].t_us;
+    if (last >= worst) {
+      worst = last;
+      worst_at_us = last_at_us;
+    }
     sum += all;
-    not_finite.take(tracks.front()->points[index].t_us, all);
+    not_finite.take(last_at_us, all);
   }
   if (auto why = not_finite.to_text(part.size()); !why.empty())
     return {Outcome::fail, std::move(why), expected};
@@ -89,7 +100,12 @@ Finding Error::judge(const Evidence& evidence) const {
   std::string measured = fmt::format("{} {:.{}f}", statistic == Statistic::rms ? "RMS" : name(statistic),
                                      value / unit.factor, digits);
   if (statistic == Statistic::mean) measured += fmt::format(", max {:.{}f}", worst / unit.factor, digits);
-  return {pass_if(value < below), fmt::format("{} {} of {}", measured, unit.name, part.size()), expected};
+  return {pass_if(value < below),
+          fmt::format("{} {} of {}", measured, unit.name, part.size()),
+          expected,
+          {.value = value / unit.factor,
+           .count = part.size(),
+           .worst_at_us = statistic == Statistic::final ? last_at_us : worst_at_us}};
 }
 
 }  // namespace canhil::checks

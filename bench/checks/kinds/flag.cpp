@@ -78,6 +78,28 @@ Counted count(const Spool<std::int64_t>& all, const Spool<std::int64_t>& set, co
   return counted;
 }
 
+constexpr double percent_of_share = 100;
+
+Criterion criterion_of_share(const Flag& rule) {
+  return {.quantity = rule.flag,
+          .estimator = rule.estimator,
+          .statistic = rule.set ? "share of the answers in which it is set" : "share in which it is clear",
+          .lower = Limit{.value = percent_of_share * rule.share},
+          .unit = "%",
+          .stretch = Stretch{.window = rule.window, .condition = rule.condition}};
+}
+
+Criterion criterion_of_starts(const Flag& rule) {
+  Criterion criterion{.quantity = rule.flag,
+                      .estimator = rule.estimator,
+                      .statistic = "starts",
+                      .stretch = Stretch{.window = rule.window, .condition = rule.condition}};
+  if (!rule.starts) return criterion;
+  criterion.lower = Limit{.value = static_cast<double>(rule.starts->first)};
+  criterion.upper = Limit{.value = static_cast<double>(rule.starts->second)};
+  return criterion;
+}
+
 }  // namespace
 
 Flag Flag::read(scenario::Section& section, const scenario::CheckContext& context) {
@@ -121,13 +143,15 @@ std::string Flag::subject() const {
 Finding Flag::judge(const Evidence& evidence) const {
   const std::string_view state = set ? "set" : "clear";
   const Stretch stretch{.window = window, .condition = condition};
-  std::string expected;
+  Expected expected;
   if (share > 0)
-    expected = share == 1 ? fmt::format("always {}", state)
-                          : fmt::format("{} in at least {:g} % of the answers", state, 100 * share);
+    expected.text = share == 1 ? fmt::format("always {}", state)
+                               : fmt::format("{} in at least {:g} % of the answers", state, 100 * share);
   if (starts)
-    expected += fmt::format("{}{} to {} starts", expected.empty() ? "" : ", ", starts->first, starts->second);
-  expected += " " + to_text(stretch);
+    expected.text +=
+        fmt::format("{}{} to {} starts", expected.text.empty() ? "" : ", ", starts->first, starts->second);
+  expected.text += " " + to_text(stretch);
+  expected.criterion = share > 0 ? criterion_of_share(*this) : criterion_of_starts(*this);
   if (std::string why = did_not_strike(evidence, fault); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
   const estimators::Estimator* by = estimators::find(evidence.estimators, estimator);
@@ -148,11 +172,24 @@ Finding Flag::judge(const Evidence& evidence) const {
   std::string measured = fmt::format("{} in {} of {} answers", state, right, total);
   if (wrong_us) measured += fmt::format(", not at {:g} s", static_cast<double>(*wrong_us) * 1e-6);
   bool good = static_cast<double>(right) >= share * static_cast<double>(total);
+  std::vector<Judgement> judgements;
+  const auto judged = [&](Criterion criterion, double value) {
+    judgements.push_back(
+        {.criterion = std::move(criterion),
+         .measurement = {
+             .value = value, .count = static_cast<std::uint64_t>(total), .worst_at_us = wrong_us}});
+  };
+  if (share > 0)
+    judged(criterion_of_share(*this),
+           percent_of_share * static_cast<double>(right) / static_cast<double>(total));
   if (starts) {
     measured += fmt::format(", {} starts", counted.starts);
     good = good && counted.starts >= starts->first && counted.starts <= starts->second;
+    judged(criterion_of_starts(*this), static_cast<double>(counted.starts));
   }
-  return {pass_if(good), std::move(measured), expected};
+  Finding finding{pass_if(good), std::move(measured), std::move(expected)};
+  take_nearest_to_limit(finding, std::move(judgements));
+  return finding;
 }
 
 }  // namespace canhil::checks

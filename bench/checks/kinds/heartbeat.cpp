@@ -28,13 +28,18 @@ Heartbeat Heartbeat::read(scenario::Section& section, const scenario::CheckConte
 
 Finding Heartbeat::judge(const Evidence& evidence) const {
   const double most_s = static_cast<double>(silent_at_most_us) * 1e-6;
-  const std::string expected = fmt::format("never silent for more than {:g} s", most_s);
+  const Expected expected{
+      .text = fmt::format("never silent for more than {:g} s", most_s),
+      .criterion = {
+          .quantity = message, .statistic = "longest silence", .upper = Limit{.value = most_s}, .unit = "s"}};
   if (auto why = unfit(evidence, 1, most_s); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
   const double gap_s = longest_silence_s(evidence.seen, message);
   return unless_target_delayed(evidence, 1, most_s,
                                {pass_if(gap_s * 1e6 <= static_cast<double>(silent_at_most_us)),
-                                fmt::format("longest gap {:.3f} s", gap_s), expected});
+                                fmt::format("longest gap {:.3f} s", gap_s),
+                                expected,
+                                {.value = gap_s}});
 }
 
 }  // namespace canhil::checks

@@ -45,8 +45,13 @@ std::vector<std::string> Honest::held_against_truth() const {
 }
 
 Finding Honest::judge(const Evidence& evidence) const {
-  const std::string expected =
-      fmt::format("no error beyond {:g} sigma where the answer is not degraded", over_sigma);
+  Expected expected{
+      .text = fmt::format("no error beyond {:g} sigma where the answer is not degraded", over_sigma),
+      .criterion = {.quantity = std::string(quantities::trusted_over_sigma.name),
+                    .estimator = named,
+                    .statistic = "max",
+                    .upper = Limit{.value = over_sigma},
+                    .unit = "sigma"}};
   // The samples of a long run take seconds to compute, and an interrupted command must end at once.
   if (!evidence.ended_early.empty()) return {Outcome::not_measured, evidence.ended_early, expected};
   double worst = 0;
@@ -65,6 +70,7 @@ Finding Honest::judge(const Evidence& evidence) const {
       any_trusted = any_trusted || samples.value(index, quantities::degraded) < 1;
       if (!(ratio > worst)) continue;
       worst = ratio;
+      expected.criterion.estimator = one->name;
       at_us = samples.times()[index];
       to_go = one->layout.to_go_stretch_us > 0;
     }
@@ -79,7 +85,8 @@ Finding Honest::judge(const Evidence& evidence) const {
   return {pass_if(worst <= over_sigma),
           fmt::format("{:.2f} sigma at {:g} s{}, the largest of {} errors", worst, to_go ? -at_s : at_s,
                       to_go ? " to go" : "", judged),
-          expected};
+          std::move(expected),
+          {.value = worst, .count = judged, .worst_at_us = to_go ? std::nullopt : std::optional(at_us)}};
 }
 
 }  // namespace canhil::checks

@@ -42,8 +42,13 @@ Latency Latency::read(scenario::Section& section, const scenario::CheckContext& 
 
 Finding Latency::judge(const Evidence& evidence) const {
   const double bar_s = static_cast<double>(below_us) * 1e-6;
-  const std::string expected =
-      fmt::format("{} {} < {:g} ms {}", message, quantile_name(quantile), bar_s * 1e3, seconds(window));
+  const Expected expected{.text = fmt::format("{} {} < {:g} ms {}", message, quantile_name(quantile),
+                                              bar_s * 1e3, seconds(window)),
+                          .criterion = {.quantity = message,
+                                        .statistic = quantile_name(quantile),
+                                        .upper = exclusive(bar_s * 1e3),
+                                        .unit = "ms",
+                                        .stretch = Stretch{.window = window}}};
   if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
   if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
@@ -61,8 +66,10 @@ Finding Latency::judge(const Evidence& evidence) const {
        .missing = came.missing(),
        .outside = timed->latency.count_above(bar_s * 1e9),
        .bench_off = timed->lateness},
-      {pass_if(*value < bar_s), fmt::format("{:.3f} ms of {}", *value * 1e3, timed->latency.count()),
-       expected});
+      {pass_if(*value < bar_s),
+       fmt::format("{:.3f} ms of {}", *value * 1e3, timed->latency.count()),
+       expected,
+       {.value = *value * 1e3, .count = timed->latency.count(), .worst_at_us = timed->slowest_us}});
 }
 
 }  // namespace canhil::checks

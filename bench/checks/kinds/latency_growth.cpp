@@ -28,8 +28,11 @@ LatencyGrowth LatencyGrowth::read(scenario::Section& section, const scenario::Ch
 
 Finding LatencyGrowth::judge(const Evidence& evidence) const {
   constexpr double median = 0.5;
-  const std::string expected = fmt::format("median latency of {} {} < {:g} times that {}", message,
-                                           seconds(last), ratio_below, seconds(first));
+  Expected expected{
+      .text = fmt::format("median latency of {} {} < {:g} times that {}", message, seconds(last), ratio_below,
+                          seconds(first)),
+      .criterion = {
+          .quantity = message, .statistic = "median", .unit = "ms", .stretch = Stretch{.window = last}}};
   const TimedWindow* early = find_window(evidence.seen.timing, message, first);
   const TimedWindow* late = find_window(evidence.seen.timing, message, last);
   if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
@@ -45,6 +48,7 @@ Finding LatencyGrowth::judge(const Evidence& evidence) const {
     return missing;
   }
   const double before_s = *before, after_s = *after;
+  expected.criterion.upper = exclusive(ratio_below * before_s * 1e3);
   // If the host slows down, both bench and target slow down. The target is judged only if the growth of the
   // bench's own lateness is small compared with the limit.
   const double host_s = (late->lateness.quantile_ns(median) - early->lateness.quantile_ns(median)) * 1e-9;
@@ -58,7 +62,8 @@ Finding LatencyGrowth::judge(const Evidence& evidence) const {
                                {pass_if(after_s < ratio_below * before_s),
                                 fmt::format("{:.3f} ms of {}, before {:.3f} ms of {}", after_s * 1e3,
                                             late->latency.count(), before_s * 1e3, early->latency.count()),
-                                expected});
+                                expected,
+                                {.value = after_s * 1e3, .count = late->latency.count()}});
 }
 
 }  // namespace canhil::checks

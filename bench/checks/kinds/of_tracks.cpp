@@ -194,7 +194,7 @@ std::string silence(const Track& track, const Stretch& stretch, const Places& pa
 }
 
 std::optional<Finding> no_evidence(const Track& track, const Stretch& stretch, const Places& part,
-                                   const std::string& expected, const Evidence& evidence) {
+                                   const Expected& expected, const Evidence& evidence) {
   // The target must answer in the whole stretch, also while the condition does not hold.
   const Stretch whole{.window = stretch.window, .to_go_s = stretch.to_go_s};
   const Places all = stretch.condition == nullptr ? Places() : inside(track, whole, evidence);

@@ -61,6 +61,6 @@ std::string silence(const quantities::Track& track, const Stretch& stretch, cons
 /// Why the track proves nothing in the stretch: answers are missing (fail), or the truth has no value there
 /// or the condition does not hold at any of them (not measured); none: it can be judged.
 std::optional<Finding> no_evidence(const quantities::Track& track, const Stretch& stretch, const Places& part,
-                                   const std::string& expected, const Evidence& evidence);
+                                   const Expected& expected, const Evidence& evidence);
 
 }  // namespace canhil::checks

@@ -54,8 +54,14 @@ OutputPeriod OutputPeriod::read(scenario::Section& section, const scenario::Chec
 
 Finding OutputPeriod::judge(const Evidence& evidence) const {
   const double nominal = nominal_period_s(evidence.seen, message);
-  const std::string expected = fmt::format("{} every {:g} ms +- {:g} % ({}) {}", message, nominal * 1e3,
-                                           within * 100, quantile_name(quantile), seconds(window));
+  Expected expected{
+      .text = fmt::format("{} every {:g} ms +- {:g} % ({}) {}", message, nominal * 1e3, within * 100,
+                          quantile_name(quantile), seconds(window)),
+      .criterion = {.quantity = message,
+                    .statistic = fmt::format("deviation from the period, {}", quantile_name(quantile)),
+                    .unit = "ms",
+                    .stretch = Stretch{.window = window}}};
+  if (nominal > 0) expected.criterion.upper = Limit{.value = nominal * within * 1e3};
   if (nominal <= 0) return {Outcome::not_measured, "the message has no period", expected};
   if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
@@ -75,7 +81,9 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
                                 .outside = off.outside,
                                 .bench_off = timed->stimulus_deviation},
                                {pass_if(off.off_s <= nominal * within),
-                                fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count), expected});
+                                fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count),
+                                expected,
+                                {.value = off.off_s * 1e3, .count = off.count}});
 }
 
 }  // namespace canhil::checks

@@ -13,7 +13,9 @@ OwnTimes OwnTimes::read(scenario::Section& /*section*/, const scenario::CheckCon
 }
 
 Finding OwnTimes::judge(const Evidence& evidence) const {
-  const std::string expected = "TargetTiming reports times above 0 and no longer than the latencies";
+  Expected expected{
+      .text = "TargetTiming reports times above 0 and no longer than the latencies",
+      .criterion = {.quantity = "TargetTiming", .statistic = "mean", .lower = exclusive(0), .unit = "us"}};
   if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
   if (!evidence.seen.target_timing_seen) return {Outcome::fail, "no TargetTiming", expected};
   const LatencyBreakdown& breakdown = evidence.seen.timing.breakdown;
@@ -26,10 +28,12 @@ Finding OwnTimes::judge(const Evidence& evidence) const {
   const double compute_us = mean_us(breakdown.target_compute_ns, breakdown.accounted);
   const double latency_us = mean_us(breakdown.latency_ns, breakdown.stimuli);
   const double reported_us = queue_us + compute_us;
+  expected.criterion.upper = Limit{.value = latency_us};
   return {pass_if(reported_us > 0 && reported_us <= latency_us),
           fmt::format("mean queueing {:.1f} us, computing {:.1f} us, latency {:.1f} us", queue_us, compute_us,
                       latency_us),
-          expected};
+          std::move(expected),
+          {.value = reported_us, .count = breakdown.accounted}};
 }
 
 }  // namespace canhil::checks

@@ -63,11 +63,18 @@ Stretch RecoversWithin::span() const {
 
 Finding RecoversWithin::judge(const Evidence& evidence) const {
   const auto seconds_of = [](std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; };
-  std::string expected =
-      fmt::format("{} from {:g} s after the end of {} on",
-                  by.empty() ? "no sign of it" : fmt::format("no {}", fmt::join(by, ", no ")),
-                  seconds_of(within_us), disturbance.to_text());
-  if (error) expected += fmt::format(", |{}| < {:g} {}", error->text, below / unit.factor, unit.name);
+  Expected expected{
+      .text = fmt::format("{} from {:g} s after the end of {} on",
+                          by.empty() ? "no sign of it" : fmt::format("no {}", fmt::join(by, ", no ")),
+                          seconds_of(within_us), disturbance.to_text()),
+      .criterion = {.quantity = error ? std::string(error->quantity->name) : disturbance.fault,
+                    .estimator = error ? error->estimator : "",
+                    .statistic = "time to recover",
+                    .upper = Limit{.value = seconds_of(within_us)},
+                    .unit = "s",
+                    .stretch = Stretch{.window = {.from_us = disturbance.window.to_us,
+                                                  .to_us = evidence.truth.duration_us}}}};
+  if (error) expected.text += fmt::format(", |{}| < {:g} {}", error->text, below / unit.factor, unit.name);
   const std::int64_t end_us = disturbance.window.to_us, due_us = end_us + within_us;
   const scenario::Window after{.from_us = due_us, .to_us = evidence.truth.duration_us};
   if (auto gap = silence_of(evidence, answering, after); !gap.empty())
@@ -81,8 +88,14 @@ Finding RecoversWithin::judge(const Evidence& evidence) const {
   if (!by.empty()) std::ranges::copy(signs.there_before, std::back_inserter(ending));
   bool holds = true;
   std::string measured = "no sign after its end";
+  std::optional<std::int64_t> disturbed_us;  // time of the last sign, or of the last error beyond the limit
+  const auto measurement = [&](std::optional<std::uint64_t> count = std::nullopt) -> Measurement {
+    if (!disturbed_us) return {.count = count};
+    return {.value = seconds_of(*disturbed_us - end_us), .count = count, .worst_at_us = disturbed_us};
+  };
   if (const auto last = last_after(ending, end_us)) {
     holds = last->t_us <= due_us;
+    disturbed_us = last->t_us;
     measured = fmt::format("last sign {:.3f} s after: {}", seconds_of(last->t_us - end_us), last->text);
   }
   // Without an error that is judged, only signs can show that there was something to recover from.
@@ -91,7 +104,7 @@ Finding RecoversWithin::judge(const Evidence& evidence) const {
             signs.there_before.empty() ? "no sign at any time: there was nothing to recover from"
                                        : signs.why_hidden(),
             expected};
-  if (!error) return {pass_if(holds), std::move(measured), std::move(expected)};
+  if (!error) return {pass_if(holds), std::move(measured), std::move(expected), measurement()};
   const auto tracks = tracks_of(evidence, error->estimator, *error->quantity);
   if (tracks.empty()) return no_values(*error->quantity, expected);
   std::int64_t beyond_us = -1;  // time of the last error that is not below the limit; -1: none
@@ -103,7 +116,9 @@ Finding RecoversWithin::judge(const Evidence& evidence) const {
   if (judged == 0) return {Outcome::fail, "no answers after that", expected};
   measured += beyond_us < 0 ? ", always below"
                             : fmt::format(", below from {:.3f} s after", seconds_of(beyond_us - end_us));
-  return {pass_if(holds && beyond_us <= due_us), std::move(measured), std::move(expected)};
+  if (beyond_us >= 0) disturbed_us = std::max(disturbed_us.value_or(beyond_us), beyond_us);
+  return {pass_if(holds && beyond_us <= due_us), std::move(measured), std::move(expected),
+          measurement(judged)};
 }
 
 }  // namespace canhil::checks

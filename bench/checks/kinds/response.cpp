@@ -34,7 +34,7 @@ std::vector<scenario::PlantFacts::Output> followed(const scenario::CheckContext&
 Finding unless_host_late(const Evidence& evidence, Finding finding) {
   if (evidence.timing_unfit == virtual_time) return finding;
   if (std::string late = late_loop(evidence); !late.empty())
-    return {Outcome::not_measured, finding.measured + "; " + late, finding.expected};
+    return {Outcome::not_measured, finding.measured + "; " + late, finding.expected, finding.measurement};
   constexpr double usual = 0.99;  // quantile
   const world::PlantRecord* plant = world::steered(evidence.truth.plants);
   if (plant == nullptr) return finding;
@@ -106,17 +106,27 @@ std::string Response::shown(double in_si) const {
 
 Finding Response::judge(const Evidence& evidence) const {
   const bool settles = statistic == Statistic::settling_time;
-  const std::string expected =
-      settles
-          ? fmt::format("within {} of {} in less than {:g} s {}", shown(band), shown(setpoint), below,
-                        seconds(window))
-          : fmt::format("{} < {} at {} {}", statistic == Statistic::overshoot ? "overshoot" : "steady error",
-                        shown(below), shown(setpoint), seconds(window));
+  Expected expected;
+  expected.text = settles ? fmt::format("within {} of {} in less than {:g} s {}", shown(band),
+                                        shown(setpoint), below, seconds(window))
+                          : fmt::format("{} < {} at {} {}",
+                                        statistic == Statistic::overshoot ? "overshoot" : "steady error",
+                                        shown(below), shown(setpoint), seconds(window));
+  const double factor = settles || ending.empty() ? 1 : scenario::factor_of(ending);
+  expected.criterion = {.quantity = std::string(value->name),
+                        .statistic = std::string(response_statistics[static_cast<std::size_t>(statistic)]),
+                        .upper = exclusive(below / factor),
+                        .unit = std::string(settles          ? "s"
+                                            : ending.empty() ? ""
+                                                             : scenario::unit_of(ending)),
+                        .stretch = Stretch{.window = window}};
   if (!evidence.ended_early.empty()) return {Outcome::not_measured, "the run ended early", expected};
   if (std::string missing = missing_command(evidence, window); !missing.empty())
     return {Outcome::fail, std::move(missing), expected};
   const world::Truths truths = estimators::truths_of(evidence.truth);
   std::optional<double> first, last, largest, beyond;
+  std::int64_t largest_at_us = window.from_us, beyond_at_us = window.from_us;
+  std::uint64_t count = 0;
   std::int64_t outside_us = -1;
   const std::int64_t step_us = evidence.truth.flight.interval_us();
   std::int64_t last_us = window.from_us;
@@ -131,25 +141,37 @@ Finding Response::judge(const Evidence& evidence) const {
     if (!first) first = off;
     if (!(std::abs(off) <= band)) outside_us = t_us;
     last = off;
+    if (!largest || std::abs(off) > *largest) largest_at_us = t_us;
     largest = std::max(largest.value_or(0), std::abs(off));
-    beyond = std::max(beyond.value_or(0), *first > 0 ? -off : off);
+    const double off_beyond = *first > 0 ? -off : off;
+    if (off_beyond > beyond.value_or(0)) beyond_at_us = t_us;
+    beyond = std::max(beyond.value_or(0), off_beyond);
     last_us = t_us;
+    ++count;
   }
-  const auto found = [&](bool good, std::string measured) {
-    return unless_host_late(evidence, {pass_if(good), std::move(measured), expected});
+  const auto found = [&](bool good, std::string measured, std::optional<double> figure,
+                         std::int64_t worst_at_us) {
+    if (figure) *figure /= factor;
+    return unless_host_late(evidence, {pass_if(good),
+                                       std::move(measured),
+                                       expected,
+                                       {.value = figure, .count = count, .worst_at_us = worst_at_us}});
   };
-  if (statistic == Statistic::steady_error) return found(*largest < below, "max " + shown(*largest));
+  if (statistic == Statistic::steady_error)
+    return found(*largest < below, "max " + shown(*largest), largest, largest_at_us);
   // A turn by more than half a circle has no side beyond the setpoint.
   if (statistic == Statistic::overshoot && !(std::abs(*first) > 0))
     return {Outcome::not_measured, "the response begins at its setpoint", expected};
   if (statistic == Statistic::overshoot)
     return found(*beyond < below,
-                 fmt::format("{}, {:.1f} % of the step", shown(*beyond), 100 * *beyond / std::abs(*first)));
+                 fmt::format("{}, {:.1f} % of the step", shown(*beyond), 100 * *beyond / std::abs(*first)),
+                 beyond, beyond_at_us);
   if (outside_us < 0) return {Outcome::not_measured, "the response begins in the band", expected};
   if (outside_us == last_us)
-    return found(false, fmt::format("not settled: {} off at the end", shown(std::abs(*last))));
+    return found(false, fmt::format("not settled: {} off at the end", shown(std::abs(*last))), std::nullopt,
+                 outside_us);
   const double settled_s = 1e-6 * static_cast<double>(outside_us + step_us - window.from_us);
-  return found(settled_s < below, fmt::format("settled after {:.3g} s", settled_s));
+  return found(settled_s < below, fmt::format("settled after {:.3g} s", settled_s), settled_s, outside_us);
 }
 
 }  // namespace canhil::checks

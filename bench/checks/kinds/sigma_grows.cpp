@@ -31,14 +31,19 @@ SigmaGrows SigmaGrows::read(scenario::Section& section, const scenario::CheckCon
 }
 
 Finding SigmaGrows::judge(const Evidence& evidence) const {
-  const std::string expected =
-      fmt::format("sigma grows to more than {:g} times {}", by,
-                  fault.empty() ? seconds(window) : fmt::format("through fault '{}'", fault));
+  const Stretch stretch{.window = window};
+  const Expected expected{
+      .text = fmt::format("sigma grows to more than {:g} times {}", by,
+                          fault.empty() ? seconds(window) : fmt::format("through fault '{}'", fault)),
+      .criterion = {.quantity = std::string(judged.quantity->name),
+                    .estimator = judged.estimator,
+                    .statistic = "growth of sigma",
+                    .lower = exclusive(by),
+                    .stretch = stretch}};
   if (auto why = did_not_strike(evidence, fault); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return no_values(*judged.quantity, expected);
-  const Stretch stretch{.window = window};
   if (fault.empty()) {  // a fault may leave nothing to be answered
     if (auto gap = no_evidence(*tracks.front(), stretch, inside(*tracks.front(), stretch, evidence), expected,
                                evidence))
@@ -64,7 +69,8 @@ Finding SigmaGrows::judge(const Evidence& evidence) const {
   return {pass_if(*last > by * *first),
           fmt::format("{:.{}f} to {:.{}f} {}", *first / unit.factor, digits, *last / unit.factor, digits,
                       unit.name),
-          expected};
+          expected,
+          {.value = *first > 0 ? std::optional(*last / *first) : std::nullopt, .count = in_window}};
 }
 
 }  // namespace canhil::checks

@@ -11,7 +11,7 @@ namespace {
 Finding against_bounds(const Observations& seen) {
   Finding finding{.outcome = Outcome::not_measured,
                   .measured = no_bounds(seen),
-                  .expected = "no frame takes longer over the bus than its bound"};
+                  .expected = {.text = "no frame takes longer over the bus than its bound"}};
   if (!finding.measured.empty()) return finding;
   const std::vector<WireBound> bounds = wire_bounds(seen);
   const auto share = [](const WireBound& bound) {
@@ -29,11 +29,16 @@ Finding against_bounds(const Observations& seen) {
     finding.measured = "no frame was seen";
     return finding;
   }
+  const auto in_ms = [](std::int64_t t_ns) { return static_cast<double>(t_ns) * 1e-6; };
+  finding.expected.criterion = {.quantity = std::string(worst->message),
+                                .statistic = "longest response",
+                                .upper = Limit{.value = in_ms(*worst->bound_ns)},
+                                .unit = "ms"};
+  finding.measurement = {.value = in_ms(worst->longest_ns), .count = worst->count};
   finding.outcome = pass_if(worst->longest_ns <= *worst->bound_ns);
-  finding.measured =
-      fmt::format("{}: {:.3f} of {:.3f} ms, the most of {} message{}", worst->message,
-                  static_cast<double>(worst->longest_ns) * 1e-6, static_cast<double>(*worst->bound_ns) * 1e-6,
-                  bounds.size(), bounds.size() == 1 ? "" : "s");
+  finding.measured = fmt::format("{}: {:.3f} of {:.3f} ms, the most of {} message{}", worst->message,
+                                 in_ms(worst->longest_ns), in_ms(*worst->bound_ns), bounds.size(),
+                                 bounds.size() == 1 ? "" : "s");
   return finding;
 }
 

@@ -31,12 +31,17 @@ std::vector<std::string> MissDistance::held_against_truth() const { return estim
 
 checks::Finding MissDistance::judge(const checks::Evidence& evidence) const {
   using checks::Outcome;
-  const std::string expected = fmt::format("miss < {:g} m", below);
+  const checks::Expected expected{
+      .text = fmt::format("miss < {:g} m", below),
+      .criterion = {.quantity = "miss.distance", .upper = checks::exclusive(below), .unit = "m"}};
   const auto end = Passage::find(evidence.truth.plants);
   if (!end || !end->miss_n)
     return {Outcome::fail, "the missile did not pass the target before the end", expected};
   const double miss = end->miss_n->norm();
-  return {checks::pass_if(miss < below), fmt::format("{:.3f} m", miss), expected};
+  return {checks::pass_if(miss < below),
+          fmt::format("{:.3f} m", miss),
+          expected,
+          {.value = miss, .worst_at_us = end->t_us}};
 }
 
 }  // namespace canhil::estimators

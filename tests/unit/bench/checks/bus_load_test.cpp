@@ -49,18 +49,18 @@ TEST(BusLoad, IsJudgedOnTheWireOfTheRunTooWhereItsDataRateAloneDiffers) {
       full.measured,
       "2.2 % in the busiest second, 2.2 % in the mean; at the 500 and 2000 kbit/s of this run's bus 4.0 % "
       "in the busiest second, 4.0 % in the mean");
-  EXPECT_EQ(full.expected, "< 3 % of 500 and 5000 kbit/s, and of this run's bus");
+  EXPECT_EQ(full.expected.text, "< 3 % of 500 and 5000 kbit/s, and of this run's bus");
   rule.data_bitrate = 2'000'000;
   rule.below = 0.05;
-  EXPECT_EQ(found(rule, seen).expected, "< 5 % of 500 and 2000 kbit/s");
+  EXPECT_EQ(found(rule, seen).expected.text, "< 5 % of 500 and 2000 kbit/s");
   // Classic frames have no data phase. Without a data rate, FD frames use the nominal rate throughout.
   seen.length_by_second = {{.nominal = 5'000}};
   rule.data_bitrate = 0;
-  EXPECT_EQ(found(rule, seen).expected, "< 5 % of 500 kbit/s");
+  EXPECT_EQ(found(rule, seen).expected.text, "< 5 % of 500 kbit/s");
   seen.length_by_second = {{.nominal = 5'000, .data = 60'000}};
   seen.bit_rates = {.nominal = 500'000, .data = 0};
   rule.data_bitrate = 500'000;
-  EXPECT_EQ(found(rule, seen).expected, "< 5 % of 500 and 500 kbit/s");
+  EXPECT_EQ(found(rule, seen).expected.text, "< 5 % of 500 and 500 kbit/s");
 }
 
 TEST(BusLoad, OfNothingIsNotAPass) {

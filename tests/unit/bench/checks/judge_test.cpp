@@ -276,8 +276,11 @@ TEST_F(Judged, LatencyAtItsQuantile) {
   EXPECT_THAT(judge(rule).expected, testing::StartsWith("AlignAttitude 99 % quantile < 1 ms from 0 to "));
   for (std::size_t k = 0; k < 4; ++k) came<messages::AlignAttitude>()[k * 50].t_ns += 5'000'000;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "4 of 400 are 1 %";
-  came<messages::AlignAttitude>()[222].t_ns += 5'000'000;
+  came<messages::AlignAttitude>()[222].t_ns += 6'000'000;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  const Measurement slow = judge(rule).judgement.measurement;
+  EXPECT_NEAR(*slow.value, 5.2, 0.1);
+  EXPECT_EQ(slow.worst_at_us, 2'230'000);
 }
 
 TEST_F(Judged, OutputPeriodCountsEveryMissingMessage) {
@@ -552,6 +555,7 @@ TEST_F(Judged, TimingIsNotMeasuredWithLostFrames) {
 TEST_F(Judged, ARunThatEndedEarlyFailsWhateverItsChecksSay) {
   ended_early_ = "target silent since t=1 s";
   EXPECT_EQ(judge(attitude).outcome, Outcome::not_measured);
+  EXPECT_FALSE(judge(attitude).judgement.measurement.value);
   EXPECT_EQ(verdict_.outcome, Outcome::fail);
   EXPECT_EQ(verdict_.reason, ended_early_);
 }

@@ -115,7 +115,10 @@ TEST_F(Engaged, EachSampleIsOwedAnAnswerInWhateverOrderTheSamplesWereSent) {
   for (std::size_t i = 0; i < flight_.epochs.size(); ++i)
     owed.push_back(
         {.valid_us = flight_.epochs[std::min(i ^ 1U, flight_.epochs.size() - 1)].t_us, .came = i % 4 != 0});
-  EXPECT_EQ(judge(error_rule(los_rate_both, rms)).measured, "LosRateTarget: answers to 75 of 100 samples");
+  const CheckResult found = judge(error_rule(los_rate_both, rms));
+  EXPECT_EQ(found.measured, "LosRateTarget: answers to 75 of 100 samples");
+  EXPECT_FALSE(found.judgement.measurement.value) << "the RMS of those that came is not that of the window";
+  EXPECT_TRUE(found.judgement.criterion.upper);
 }
 
 TEST_F(Engaged, AnswersThatAreNoEstimateTellNoRate) {

@@ -41,7 +41,7 @@ class SigmaCheck : public testing::Test {
 TEST_F(SigmaCheck, EachSigmaOfTheWindowLiesBetween) {
   EXPECT_EQ(judge(0.15, 0.35).outcome, Outcome::pass);
   EXPECT_EQ(judge(0.15, 0.35).measured, "0.200 to 0.300 mrad of 40");
-  EXPECT_EQ(judge(0.15, 0.35).expected, "sigma between 0.15 and 0.35 mrad from 0 to 4 s");
+  EXPECT_EQ(judge(0.15, 0.35).expected.text, "sigma between 0.15 and 0.35 mrad from 0 to 4 s");
   EXPECT_EQ(judge(0.15, 0.25).outcome, Outcome::fail) << "one is above";
   EXPECT_EQ(judge(0.25, 0.35).outcome, Outcome::fail) << "all but one are below";
   EXPECT_EQ(judge(0.15, 0.25, 3 * second_us).outcome, Outcome::pass) << "the one is before the window";

@@ -176,6 +176,22 @@ inline constexpr auto expect_equal = [](const Judged& found, const Judged& expec
   EXPECT_EQ(found, expected);
 };
 
+/// The numbers of a check tell the same as its outcome: a value is within its limits if the check passes, and
+/// beyond one of them if it fails.
+inline void expect_numbers_agree(const CheckResult& found) {
+  const auto& [criterion, measurement] = found.judgement;
+  if (!measurement.value || found.outcome == Outcome::not_measured) return;
+  ASSERT_TRUE(criterion.lower || criterion.upper) << found.kind;
+  const double value = *measurement.value;
+  bool good = true;
+  if (const auto& lower = criterion.lower)
+    good = good && (lower->inclusive ? value >= lower->value : value > lower->value);
+  if (const auto& upper = criterion.upper)
+    good = good && (upper->inclusive ? value <= upper->value : value < upper->value);
+  EXPECT_EQ(good, found.outcome == Outcome::pass) << found.kind << ": " << value << " " << criterion.unit
+                                                  << ", " << to_text(criterion) << "; " << found.measured;
+}
+
 class SlowJudge : public FlyPast {
  protected:
   /// Draws many runs and a rule for each, and expects that plain(run, rule) agrees with the bench and that
@@ -199,6 +215,7 @@ class SlowJudge : public FlyPast {
       const CheckResult found = checks::judge(scenario, std::move(evidence)).checks.at(0);
       const Judged expected = plain(PlainRun(run, flight_, duration_us), rule);
       same(Judged{found.outcome, found.measured}, expected);
+      expect_numbers_agree(found);
       ASSERT_FALSE(HasFailure()) << "seed " << seed << ", " << found.expected;
       ++times[expected.outcome];
     }

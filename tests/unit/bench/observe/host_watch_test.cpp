@@ -97,8 +97,8 @@ class Waited : public testing::Test {
     checks::Evidence evidence{.seen = seen, .truth = {.flight = flight_}};
     evidence.delays.waits.add(0, 100 - periods);
     if (periods > 0) evidence.delays.waits.add(3 * ms, periods);
-    return checks::unless_target_delayed(evidence, quantile, 5e-3,
-                                         {.outcome = outcome, .measured = "7 ms", .expected = "< 5 ms"});
+    return checks::unless_target_delayed(
+        evidence, quantile, 5e-3, {.outcome = outcome, .measured = "7 ms", .expected = {.text = "< 5 ms"}});
   }
   world::FlightRecord flight_{{.start = {}, .motion = world::Rest{}}, 0, 10'000};
 };
@@ -114,7 +114,8 @@ TEST_F(Waited, AStallOfTheCpusIsTheHostsToo) {
   const checks::Observations seen;
   checks::Evidence evidence{.seen = seen, .truth = {.flight = flight_}};
   evidence.delays.stalls.add(3 * ms);
-  const checks::Finding failed{.outcome = checks::Outcome::fail, .measured = "7 ms", .expected = "< 5 ms"};
+  const checks::Finding failed{
+      .outcome = checks::Outcome::fail, .measured = "7 ms", .expected = {.text = "< 5 ms"}};
   EXPECT_EQ(checks::unless_target_delayed(evidence, 1, 5e-3, failed).outcome, checks::Outcome::not_measured);
   EXPECT_EQ(checks::unless_target_delayed(evidence, 1, 7e-3, failed).outcome, checks::Outcome::fail);
 }
@@ -144,7 +145,7 @@ class Disturbed : public Waited {
     const checks::Times times{
         .nominal_s = 5e-3, .count = 1000, .missing = missing, .outside = outside, .bench_off = off};
     return checks::unless_host_disturbed(evidence, 0.99, 5e-3, times,
-                                         {.outcome = checks::Outcome::fail, .measured = "", .expected = ""})
+                                         {.outcome = checks::Outcome::fail, .measured = "", .expected = {}})
         .outcome;
   }
 };

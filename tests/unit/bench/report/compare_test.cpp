@@ -1,14 +1,11 @@
 #include "bench/report/compare.hpp"
 
-#include "bench/report/latency_tests.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <random>
+
+#include "tests/unit/bench/report/drawn_latencies.hpp"
 
 namespace canhil::report {
 namespace {
@@ -16,75 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 using testing::Not;
-
-Buckets buckets_of(const std::vector<int>& sample_us) {
-  std::map<int, std::uint64_t> counts;
-  for (const int us : sample_us) ++counts[us];
-  Buckets buckets;
-  for (const auto& [us, count] : counts) buckets.push_back({us, count});
-  return buckets;
-}
-
-std::vector<int> latencies_us(unsigned seed, double median_us, std::size_t count = 2000,
-                              double tail_share = 0) {
-  std::mt19937 random(seed);
-  std::lognormal_distribution<double> body(std::log(median_us), 0.1);
-  std::bernoulli_distribution late(tail_share);
-  std::vector<int> sample(count);
-  std::ranges::generate(sample, [&] { return static_cast<int>(body(random)) * (late(random) ? 4 : 1); });
-  return sample;
-}
-
-// The effect from the definition of U, which compares all pairs.
-double effect_by_pairs(const std::vector<int>& a, const std::vector<int>& b) {
-  double u = 0;
-  for (const int of_b : b)
-    for (const int of_a : a) u += of_b > of_a ? 1 : of_b == of_a ? 0.5 : 0;
-  return u / static_cast<double>(a.size() * b.size());
-}
-
-TEST(RankTest, IsThatOfAllPairs) {
-  const auto a = latencies_us(1, 30, 300), b = latencies_us(2, 31, 200);
-  EXPECT_NEAR(rank_test(buckets_of(a), buckets_of(b)).effect, effect_by_pairs(a, b), 1e-12);
-}
-
-// Computed by hand for the samples a = {1, 2, 2} and b = {2, 3, 3, 1}, which form 12 pairs. The four values
-// of b are greater than a in 1, 3, 3 and 0 pairs, in total in 7 pairs. In 3 pairs, both values are equal;
-// each of these pairs counts as a half. So U is 7 + 1.5. Among all N = 7 values, the value 1 occurs twice, 2
-// three times, and 3 twice. The sum of t^3 - t over these counts t is 6 + 24 + 6 = 36, so the variance is
-// 12/12 * (8 - 36/42) = 7.142857. Then z is (8.5 - 6 - 0.5) / 2.672612 = 0.748331, and P(Z > z) is 0.227130.
-TEST(RankTest, HandComputedWithTies) {
-  const RankTest test = rank_test(buckets_of({1, 2, 2}), buckets_of({2, 3, 3, 1}));
-  EXPECT_NEAR(test.effect, 8.5 / 12, 1e-12);
-  EXPECT_NEAR(test.p, 0.227130, 2e-5);
-}
-
-TEST(RankTest, EqualSamplesAndEmptyOnesSayNothing) {
-  EXPECT_EQ(rank_test(buckets_of({5, 5, 5}), buckets_of({5, 5})).effect, 0.5);
-  EXPECT_EQ(rank_test(buckets_of({5, 5, 5}), buckets_of({5, 5})).p, 1);
-  EXPECT_EQ(rank_test({}, buckets_of({5})).p, 1);
-}
-
-TEST(RankTest, FalseAlarmsAreAsRareAsPSays) {
-  int alarms = 0;
-  for (unsigned i = 0; i < 400; ++i) {
-    const auto test = rank_test(buckets_of(latencies_us(2 * i + 10, 200, 400)),
-                                buckets_of(latencies_us(2 * i + 11, 200, 400)));
-    alarms += test.p < 0.05 ? 1 : 0;
-  }
-  EXPECT_GT(alarms, 5);  // binomial of 400 and 0.05: 20 +- 4.4
-  EXPECT_LT(alarms, 36);
-}
-
-TEST(TailTest, SharesBeyondTheFirstP99) {
-  std::vector<int> a(99, 10), b(90, 10);
-  a.push_back(50);
-  b.insert(b.end(), 10, 40);
-  const ShareTest test = tail_test(buckets_of(a), buckets_of(b));
-  EXPECT_NEAR(test.share_a, 0.01, 1e-12);
-  EXPECT_NEAR(test.share_b, 0.10, 1e-12);
-  EXPECT_LT(test.p, 0.01);
-}
 
 Json distribution(const std::vector<int>& sample_us) {
   std::vector<int> sorted = sample_us;
@@ -176,6 +104,20 @@ TEST(Compare, ATailThatGrowsIsWorseThoughTheMedianStays) {
   const Compared result = compared(light, heavy);
   EXPECT_EQ(result.outcome, Comparison::worse) << result.text;
   EXPECT_EQ(compared(heavy, light).outcome, Comparison::no_worse);
+}
+
+// On a busy host the bench itself is late, and so is a target.
+TEST(Compare, ATailThatTheHostExplainsIsUnknown) {
+  const Json light = report_of(latencies_us(1, 200));
+  Json heavy = report_of(latencies_us(2, 200, 2000, 0.04));
+  heavy["bench_lateness_s"] = {{"p50", 20e-6}, {"p99", 250e-6}};  // more than half of 800 - 250 us
+  EXPECT_EQ(compared(light, heavy).outcome, Comparison::worse) << compared(light, heavy).text;
+  heavy["bench_lateness_s"]["p99"] = 900e-6;
+  EXPECT_EQ(compared(light, heavy).outcome, Comparison::not_comparable);
+  EXPECT_THAT(compared(light, heavy).text,
+              HasSubstr("; the host kept the bench itself late by 20 us (p50), 900 us (p99)\n"));
+  const Json slow = report_of(latencies_us(2, 420));
+  EXPECT_EQ(compared(light, slow).outcome, Comparison::worse) << "a quiet host explains nothing";
 }
 
 TEST(Compare, ADifferenceThatIsSureButSmallIsNotWorse) {

@@ -81,6 +81,70 @@ TEST(Junit, CarriesWhatAPassedCheckMeasuredAndWhenTheRunBegan) {
   EXPECT_EQ(properties, (std::map<std::string, std::string>{{"measured", "1"}, {"expected", "1"}}));
 }
 
+// A run whose last check has numbers.
+drive::Run run_with_numbers(Outcome outcome = Outcome::pass) {
+  drive::Run run = run_of();
+  checks::CheckResult& check = run.verdict.checks.back();
+  check.outcome = outcome;
+  check.judgement = {.criterion = {.quantity = "los.rate",
+                                   .estimator = "los_rate",
+                                   .statistic = "rms",
+                                   .upper = checks::exclusive(2.5),
+                                   .unit = "mrad/s",
+                                   .stretch = checks::Stretch{.window = {.from_us = 0, .to_us = 700'000}}},
+                     .measurement = {.value = 2, .count = 200, .worst_at_us = 555'000}};
+  return run;
+}
+
+TEST(Junit, CarriesTheNumbersOfACheck) {
+  const auto properties = properties_of(suite_of(run_with_numbers()).rbegin()->second);
+  EXPECT_EQ(properties, (std::map<std::string, std::string>{{"measured", "1"},
+                                                            {"expected", "1"},
+                                                            {"value", "2"},
+                                                            {"limit", "< 2.5 mrad/s"},
+                                                            {"unit", "mrad/s"},
+                                                            {"margin", "0.2"},
+                                                            {"worst_at_s", "0.555"}}));
+}
+
+TEST(Junit, NamesTheScenarioInTheClassName) {
+  const auto class_name = [](const std::string& file) {
+    scenario::Scenario scenario = scenario_of();
+    scenario.file = file;
+    std::istringstream text(junit(scenario, run_of()));
+    boost::property_tree::ptree xml;
+    read_xml(text, xml);
+    return xml.get_child("testsuites.testsuite").rbegin()->second.get<std::string>("<xmlattr>.classname");
+  };
+  EXPECT_EQ(class_name("flights/los quick.toml"), "flights.los quick.kind");
+  EXPECT_EQ(class_name("/a/b/./c.toml"), "a.b.c.kind");
+  EXPECT_EQ(class_name("../../c.toml"), "c.kind");
+  EXPECT_EQ(class_name(""), "kind");
+}
+
+TEST(JsonReport, CarriesTheNumbersOfACheck) {
+  const auto page = nlohmann::ordered_json::parse(json(scenario_of(), run_with_numbers()));
+  EXPECT_FALSE(page["checks"][0].contains("value"));
+  nlohmann::ordered_json check = page["checks"][2];
+  for (const char* key : {"name", "kind", "requirement", "outcome", "measured", "expected"}) check.erase(key);
+  EXPECT_EQ(check, nlohmann::ordered_json::parse(R"({"quantity": "los.rate", "estimator": "los_rate",
+      "statistic": "rms", "value": 2.0, "upper": 2.5, "upper_inclusive": false, "unit": "mrad/s",
+      "margin": 0.2, "count": 200, "from_s": 0.0, "to_s": 0.7, "worst_at_s": 0.555})"));
+  drive::Run by_time_to_go = run_with_numbers();
+  by_time_to_go.verdict.checks.back().judgement.criterion.stretch->to_go_s = {2, 3};
+  const auto other = nlohmann::json::parse(json(scenario_of(), by_time_to_go))["checks"][2];
+  EXPECT_EQ(other["time_to_go_s"], (nlohmann::json{2.0, 3.0}));
+  EXPECT_FALSE(other.contains("from_s"));
+}
+
+TEST(TextReport, SaysWhenTheWorstValueOfAFailedCheckCame) {
+  EXPECT_THAT(text(scenario_of(), run_with_numbers()), Not(HasSubstr("worst")));
+  drive::Run failed = run_with_numbers(Outcome::fail);
+  EXPECT_THAT(text(scenario_of(), failed), HasSubstr("1, worst at 0.555 s  (expected 1)\n"));
+  failed.verdict.checks.back().measured = "9 sigma at 0.555 s";
+  EXPECT_THAT(text(scenario_of(), failed), HasSubstr("9 sigma at 0.555 s  (expected 1)\n")) << "once";
+}
+
 TEST(Junit, EscapesWhatXmlForbids) {
   const auto suite = suite_of(run_of());
   const std::string readable = "a<b> & \"c\" 'd' \\x01 \xC2\xB5";

@@ -1,7 +1,7 @@
 // A report that was truncated or edited is rejected, and the error names the wrong key.
 #include "bench/report/whole.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <fstream>
 #include <functional>
@@ -42,6 +42,27 @@ TEST(WholeReport, AKeyThatIsMissingOrOfAnotherKind) {
   EXPECT_EQ(why([](Json& r) { r["latency_s"] = Json::array(); }), "key 'latency_s': is [], expected a table");
   EXPECT_EQ(why([](Json& r) { r["timing"]["judged"] = "yes"; }),
             "key 'timing.judged': is \"yes\", expected true or false");
+}
+
+TEST(WholeReport, NumbersOfACheckThatCannotBe) {
+  const auto wrong = [](const std::function<void(Json&)>& edit) {
+    return why([&](Json& r) { edit(r["checks"][0]); });
+  };
+  const Json whole = Json::parse(R"({"value": 2, "upper": 2.5, "upper_inclusive": false, "unit": "mrad",
+      "margin": 0.2, "count": 5, "from_s": 0, "to_s": 1, "worst_at_s": 0.5})");
+  EXPECT_EQ(wrong([&](Json& check) { check.update(whole); }), "");
+  for (const auto& [key, value] : whole.items()) {
+    const std::string name = key;
+    EXPECT_THAT(wrong([&](Json& check) {
+                  check.update(whole);
+                  check[name] = Json::array();
+                }),
+                testing::StartsWith("key 'checks[0]." + name + "': is [], expected "));
+  }
+  EXPECT_EQ(wrong([&](Json& check) { check["lower"] = 1; }),
+            "key 'checks[0].lower_inclusive' is missing, expected a whole report");
+  EXPECT_EQ(wrong([](Json& check) { check["time_to_go_s"] = {1}; }),
+            "key 'checks[0].time_to_go_s': is [1], expected [least, most]");
 }
 
 TEST(WholeReport, ABitRateThatCannotBe) {

@@ -1,0 +1,77 @@
+#include "bench/report/json_checks.hpp"
+
+#include <cmath>
+#include <string_view>
+
+#include "bench/checks/condition.hpp"
+
+namespace canhil::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double in_seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
+
+void add_number(Json& json, std::string_view key, const std::optional<double>& value) {
+  if (value && std::isfinite(*value)) json[std::string(key)] = *value;
+}
+
+void add_limit(Json& json, const std::string& key, const std::optional<checks::Limit>& limit) {
+  if (!limit) return;
+  json[key] = limit->value;
+  json[key + "_inclusive"] = limit->inclusive;
+}
+
+std::optional<double> number_in(const Json& json, std::string_view key) {
+  const auto found = json.find(key);
+  return found == json.end() ? std::nullopt : std::optional(found->get<double>());
+}
+
+std::optional<checks::Limit> limit_in(const Json& json, const std::string& key) {
+  const auto value = number_in(json, key);
+  if (!value) return std::nullopt;
+  return checks::Limit{.value = *value, .inclusive = json.value(key + "_inclusive", true)};
+}
+
+}  // namespace
+
+Json object(const checks::CheckResult& check) {
+  Json json{{"name", check.name},
+            {"kind", check.kind},
+            {"requirement", check.requirement},
+            {"outcome", checks::name(check.outcome)},
+            {"measured", check.measured},
+            {"expected", check.expected}};
+  const auto& [criterion, measurement] = check.judgement;
+  if (!criterion.quantity.empty()) json["quantity"] = criterion.quantity;
+  if (!criterion.estimator.empty()) json["estimator"] = criterion.estimator;
+  if (!criterion.statistic.empty()) json["statistic"] = criterion.statistic;
+  add_number(json, "value", measurement.value);
+  add_limit(json, "lower", criterion.lower);
+  add_limit(json, "upper", criterion.upper);
+  if (criterion.lower || criterion.upper) json["unit"] = criterion.unit;
+  add_number(json, "margin", checks::margin(check.judgement));
+  if (measurement.count) json["count"] = *measurement.count;
+  if (criterion.stretch && criterion.stretch->to_go_s) {
+    json["time_to_go_s"] = {criterion.stretch->to_go_s->first, criterion.stretch->to_go_s->second};
+  } else if (criterion.stretch) {
+    json["from_s"] = in_seconds(criterion.stretch->window.from_us);
+    json["to_s"] = in_seconds(criterion.stretch->window.to_us);
+  }
+  if (criterion.stretch && criterion.stretch->condition != nullptr)
+    json["while"] = criterion.stretch->condition->text();
+  if (measurement.worst_at_us) json["worst_at_s"] = in_seconds(*measurement.worst_at_us);
+  return json;
+}
+
+checks::Judgement judgement_of(const Json& check) {
+  return {.criterion = {.quantity = check.value("quantity", ""),
+                        .estimator = check.value("estimator", ""),
+                        .statistic = check.value("statistic", ""),
+                        .lower = limit_in(check, "lower"),
+                        .upper = limit_in(check, "upper"),
+                        .unit = check.value("unit", "")},
+          .measurement = {.value = number_in(check, "value")}};
+}
+
+}  // namespace canhil::report

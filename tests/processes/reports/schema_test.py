@@ -1,0 +1,179 @@
+"""Validates reports of several kinds of runs by docs/report.schema.json: schema_test.py HIL_BENCH SOURCE.
+
+The validator is python3-jsonschema. In this test the schema permits no key that it does not name, so a key that
+a report gains must be described.
+"""
+import copy
+import itertools
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+from pathlib import Path
+
+import jsonschema
+
+HIL_BENCH, SOURCE = sys.argv[1], Path(sys.argv[2])
+SCHEMA = json.loads((SOURCE / "docs/report.schema.json").read_text(encoding="utf-8"))
+FLIGHTS = sorted((SOURCE / "bench/flights").glob("*.toml"))
+EXAMPLES = SOURCE / "docs/examples"
+FAULT = """[[fault]]
+name = "noise"
+kind = "lost"
+messages = ["%s"]
+from_s = 1.0
+to_s = 1.5
+"""
+
+
+def strict(part):
+    """The schema with all keys named: without others, and with `allOf` and references merged."""
+    if isinstance(part, list):
+        return [strict(one) for one in part]
+    if not isinstance(part, dict):
+        return part
+    if "allOf" in part:
+        merged = {"properties": {}, "required": []}
+        for one in part["allOf"]:
+            one = SCHEMA["definitions"][one["$ref"].split("/")[-1]] if "$ref" in one else one
+            merged["properties"].update(one["properties"])
+            merged["required"] += one.get("required", [])
+        return strict({"type": "object", **merged})
+    result = {key: strict(value) for key, value in part.items()}
+    if isinstance(result.get("properties"), dict) and "additionalProperties" not in result:
+        result["additionalProperties"] = False
+    return result
+
+
+def in_limits(check):
+    value = check["value"]
+    lower, upper = check.get("lower"), check.get("upper")
+    above = lower is None or value > lower or (check["lower_inclusive"] and value == lower)
+    beneath = upper is None or value < upper or (check["upper_inclusive"] and value == upper)
+    return above and beneath
+
+
+def margin(check):
+    shares = [(check[key] - check["value"]) * (1 if key == "upper" else -1) / abs(check[key])
+              for key in ("lower", "upper") if check.get(key)]
+    return min(shares) if shares else None
+
+
+class Reports(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.reports = {}
+        for flight in FLIGHTS:
+            cls.fly(flight.stem, flight, "--bus", "in-process")
+        cls.fly("wire", SOURCE / "bench/flights/all_four.toml", "--bus", "in-process?bitrate=1000000")
+        cls.fly("fd wire", SOURCE / "bench/flights/wind_quick.toml", "--dbc", "canhil-fd",
+                "--bus", "in-process?bitrate=500000&data-bitrate=2000000")
+        cls.fly("real time", SOURCE / "bench/flights/los_quick.toml", "--operator", "Ada")
+        for name, message in (("los_quick", "SeekerAngles"), ("wind_quick", "GliderNavAttitude")):
+            faults = Path(cls.folder.name, f"{name}.faults.toml")
+            faults.write_text(FAULT % message, encoding="utf-8")
+            cls.fly(f"{name} with a fault", SOURCE / f"bench/flights/{name}.toml", "--bus", "in-process", "--faults", faults)
+        for name in ("own_ecu", "car", "marine", "uav", "auv", "odometer", "autopilot", "hover"):
+            device = EXAMPLES / name / name
+            cls.fly(name, f"{device}.toml", "--lockstep", "--target", f"/usr/bin/python3 {device}.py")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @classmethod
+    def path(cls, name):
+        return Path(cls.folder.name, f"{name}.json")
+
+    @classmethod
+    def fly(cls, name, scenario, *options):
+        junit = cls.path(name).with_suffix(".xml")
+        done = subprocess.run([HIL_BENCH, "run", scenario, "--json", cls.path(name), "--junit", junit, *options],
+                              capture_output=True, text=True, timeout=120, check=False)
+        assert done.returncode in (0, 1, 3), (name, done.stderr)
+        cls.reports[name] = json.loads(cls.path(name).read_text(encoding="utf-8"))
+
+    def checks(self):
+        for name, report in self.reports.items():
+            for check in report["checks"]:
+                yield f"{name}: {check['name']}", check
+
+    def compare(self, before, after, *options):
+        paths = []
+        for name, report in (("before", before), ("after", after)):
+            paths.append(self.path(name))
+            paths[-1].write_text(json.dumps(report), encoding="utf-8")
+        return subprocess.run([HIL_BENCH, "compare", *paths, *options], capture_output=True, text=True, timeout=60, check=False)
+
+    def test_fit_the_schema(self):
+        jsonschema.Draft7Validator.check_schema(SCHEMA)
+        validator = jsonschema.Draft7Validator(strict(SCHEMA))
+        for name, report in self.reports.items():
+            with self.subTest(name):
+                self.assertEqual([f"{list(error.path)}: {error.message[:200]}" for error in validator.iter_errors(report)], [])
+
+    def test_numbers_of_a_check_agree_with_its_outcome(self):
+        judged = set()
+        for name, check in self.checks():
+            if "value" not in check or check["outcome"] == "not measured":
+                continue
+            with self.subTest(name):
+                judged.add(check["kind"])
+                self.assertEqual(in_limits(check), check["outcome"] == "pass", check)
+                if "margin" in check:
+                    self.assertAlmostEqual(check["margin"], margin(check), 12)
+                self.assertLessEqual(check.get("worst_at_s", 0), check.get("to_s", 1e9))
+        self.assertGreaterEqual(judged, {"error", "consistency", "miss_distance", "answers", "counters", "convergence", "sigma",
+                                         "latency", "output_period", "heartbeat", "response", "bus_load", "flag"})
+
+    def test_a_check_without_a_value_is_one_that_has_none(self):
+        without = {check["kind"] for _, check in self.checks() if check["outcome"] == "pass" and "value" not in check}
+        self.assertLessEqual(without, {"answering", "recovers_within", "event"})
+
+    def test_the_reader_refuses_what_the_schema_refuses(self):
+        good = self.reports["los_quick"]
+        validator = jsonschema.Draft7Validator(SCHEMA)
+        whole = {"lower": 1, "lower_inclusive": True, "from_s": 1, "to_s": 2, "time_to_go_s": [1, 2], **good["checks"][0]}
+        for key, wrong in itertools.product(SCHEMA["definitions"]["check"]["properties"], ([], None)):
+            if key == "requirement":  # the bench does not read it
+                continue
+            with self.subTest(key=key, wrong=wrong):
+                bad = copy.deepcopy(good)
+                bad["checks"][0] = {**whole, key: wrong}
+                self.assertFalse(validator.is_valid(bad))
+                done = self.compare(good, bad)
+                self.assertEqual((done.returncode, done.stdout), (2, ""), done)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn(key, done.stderr)
+
+    def test_names_of_test_cases_are_unique_over_all_files(self):
+        flights = [flight.stem for flight in FLIGHTS]
+        names = [(case.get("classname"), case.get("name")) for flight in flights
+                 for case in xml.etree.ElementTree.parse(self.path(flight).with_suffix(".xml")).iter("testcase")]
+        self.assertEqual(len(names), len(set(names)))
+        self.assertGreater(len(names), 10 * len(flights) / 2)
+
+    def test_a_gain_that_changes_an_rms_by_45_percent_is_worse(self):
+        scenario = Path(self.folder.name, "gain.toml")
+        text = (SOURCE / "bench/flights/los_quick.toml").read_text(encoding="utf-8")
+        gain = "jerk_density_m2ps5 = 300"
+        self.assertIn(gain, text)
+        scenario.write_text(text.replace(gain, "jerk_density_m2ps5 = 2300"), encoding="utf-8")
+        self.fly("gain", scenario, "--bus", "in-process")
+        # As if the gain were the target's own: the report says that the scenario is the same.
+        drifted = self.reports["gain"]
+        drifted["provenance"]["scenario_hash"] = self.reports["los_quick"]["provenance"]["scenario_hash"]
+        done = self.compare(self.reports["los_quick"], drifted)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("worse    check 'error los.rate rms 3 to 2 s to go': pass; 0.9849 -> 1.451 mrad/s, limit < 2.3 mrad/s, "
+                      "margin 57.2 % -> 36.9 %\n", done.stdout)
+        self.assertEqual(self.compare(self.reports["los_quick"], drifted, "--tolerance", "30").returncode, 0)
+        for wrong in ("-1", "nan", "x"):
+            self.assertEqual(self.compare(drifted, drifted, "--tolerance", wrong).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
