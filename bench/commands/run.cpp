@@ -26,6 +26,7 @@
 #include "bench/nodes/registry.hpp"
 #include "bench/observe/recorder.hpp"
 #include "bench/processes/command.hpp"
+#include "bench/report/program_checks.hpp"
 #include "bench/scenario/binding.hpp"
 #include "bench/scenario/commands.hpp"
 #include "bench/scenario/nearest.hpp"
@@ -296,6 +297,7 @@ ExitCode execute(const Arguments& arguments) {
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });
   }();
+  if (finished) report::judge_by_programs(*scenario, *finished, interrupted);
   if (view->get() != nullptr) {
     if (finished)
       view->get()->show(live::flight_of(*scenario, *finished));

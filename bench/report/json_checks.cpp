@@ -27,6 +27,11 @@ std::optional<double> number_in(const Json& json, std::string_view key) {
   return found == json.end() ? std::nullopt : std::optional(found->get<double>());
 }
 
+std::optional<std::int64_t> time_in(const Json& json, std::string_view key) {
+  const auto t_s = number_in(json, key);
+  return t_s ? std::optional<std::int64_t>(std::llround(*t_s * 1e6)) : std::nullopt;
+}
+
 std::optional<checks::Limit> limit_in(const Json& json, const std::string& key) {
   const auto value = number_in(json, key);
   if (!value) return std::nullopt;
@@ -71,7 +76,7 @@ checks::Judgement judgement_of(const Json& check) {
                         .lower = limit_in(check, "lower"),
                         .upper = limit_in(check, "upper"),
                         .unit = check.value("unit", "")},
-          .measurement = {.value = number_in(check, "value")}};
+          .measurement = {.value = number_in(check, "value"), .worst_at_us = time_in(check, "worst_at_s")}};
 }
 
 }  // namespace canhil::report
