@@ -43,9 +43,9 @@ std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, con
 // The implied check that fails if the target never commanded an input of the plant: the loop was open.
 constexpr std::string_view commands_kind = "commands";
 
-std::optional<CheckResult> open_loop(const Evidence& evidence) {
-  const world::PlantRecord* plant = world::steered(evidence.truth.plants);
-  if (plant == nullptr || !evidence.ended_early.empty()) return std::nullopt;
+std::optional<CheckResult> open_loop(const world::PlantRecords& plants) {
+  const world::PlantRecord* plant = world::steered(plants);
+  if (plant == nullptr) return std::nullopt;
   std::vector<std::string_view> silent;
   for (const world::CommandRecord& one : plant->commands) {
     if (one.given.empty()) silent.push_back(one.input);
@@ -262,13 +262,16 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
     verdict.checks.push_back(result_of(check.name, check.kind, check.requirement, std::move(finding)));
   }
   std::ranges::move(judge_events(scenario.events, evidence), std::back_inserter(verdict.checks));
-  std::ranges::move(of_every_run(scenario, evidence.seen), std::back_inserter(verdict.checks));
-  if (auto open = open_loop(evidence)) verdict.checks.push_back(std::move(*open));
+  const bool completed = evidence.ended_early.empty();  // otherwise a command may still have come
+  std::ranges::move(
+      of_every_run(scenario, evidence.seen, completed ? evidence.truth.plants : world::PlantRecords()),
+      std::back_inserter(verdict.checks));
   conclude(verdict, evidence.ended_early);
   return verdict;
 }
 
-std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const Observations& seen) {
+std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const Observations& seen,
+                                      const world::PlantRecords& plants) {
   std::vector<CheckResult> failed;
   const auto imply = [&](std::string_view kind, Outcome outcome, std::string found,
                          std::string_view expected) {
@@ -297,6 +300,7 @@ std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const 
   imply(stimuli_kind, Outcome::not_measured, fmt::format("{}", fmt::join(seen.clipped, "; ")),
         "values that their signals hold");
   imply(senders_kind, Outcome::not_measured, other_senders(seen), "each message from its own sender alone");
+  if (auto open = open_loop(plants)) failed.push_back(std::move(*open));
   return failed;
 }
 

@@ -350,7 +350,7 @@ void add_run(command_line::Command app, int& code) {
   command.add_option("--faults", arguments->faults,
                      "file of [[fault]] tables, in addition to the scenario's (docs/faults.md)");
   command.add_flag("--no-commands", arguments->no_commands,
-                   "refuse scenarios with shell commands (keys before and after of [target])");
+                   "refuse scenarios that execute something: commands, programs, FMUs");
   const auto lockstep =
       command.add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
   realtime::add_options(command, arguments->realtime).excludes(lockstep);
