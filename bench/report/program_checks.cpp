@@ -75,7 +75,7 @@ Result<std::vector<CheckResult>> judgements_in(const std::string& output, const 
   std::vector<CheckResult> results;
   for (const Json& one : all) {
     const auto wrong = [&](std::string_view what) {
-      return failure(fmt::format("judgement {}: {}", results.size() + 1, what));
+      return failure(fmt::format("wrote judgement {}: {}", results.size() + 1, what));
     };
     if (!one.is_object()) return wrong("is no object");
     try {
