@@ -20,6 +20,11 @@ bool finite(const quantities::Samples& samples) {
   return true;
 }
 
+bool was_not_measured(const RunSeries& run) {
+  return run.ending.kind == drive::Ending::Kind::not_measured ||
+         run.ending.kind == drive::Ending::Kind::plant_failed;
+}
+
 Endings endings_of(const Variant& variant, const Runs& runs) {
   Endings endings;
   endings.variant = variant.name;
@@ -28,9 +33,7 @@ Endings endings_of(const Variant& variant, const Runs& runs) {
     if (run.ending.kind == drive::Ending::Kind::wrong_answers ||
         run.ending.kind == drive::Ending::Kind::wrong_end)
       ++endings.wrong;
-    if (run.ending.kind == drive::Ending::Kind::not_measured ||
-        run.ending.kind == drive::Ending::Kind::plant_failed)
-      ++endings.not_measured;
+    if (was_not_measured(run)) ++endings.not_measured;
     if (run.ending.kind == drive::Ending::Kind::completed) {
       ++endings.completed;
       if (!finite(run.samples)) ++endings.not_finite;
@@ -41,7 +44,7 @@ Endings endings_of(const Variant& variant, const Runs& runs) {
   return endings;
 }
 
-Answer answer_of(const Campaign& campaign, const Metric& metric, std::size_t variant,
+Answer answer_to(const Campaign& campaign, const Metric& metric, std::size_t variant,
                  const std::vector<Runs>& runs) {
   Answer out{.metric = metric.name,
              .kind = std::string(kind(metric)),
@@ -50,6 +53,19 @@ Answer answer_of(const Campaign& campaign, const Metric& metric, std::size_t var
   const std::string other = other_of(metric);
   const Runs& others = other.empty() ? runs[variant] : runs[counterpart(campaign, variant, other)];
   answer(metric, runs[variant], others, out);
+  return out;
+}
+
+// A limit that is not met only because runs were not measured is not judged: it is no fault of the target.
+Answer answer_of(const Campaign& campaign, const Metric& metric, std::size_t variant,
+                 const std::vector<Runs>& runs) {
+  Answer out = answer_to(campaign, metric, variant, runs);
+  if (out.passed.value_or(true)) return out;
+  std::vector<Runs> measured = runs;
+  for (Runs& of : measured) std::erase_if(of, was_not_measured);
+  if (std::ranges::equal(measured, runs, {}, &Runs::size, &Runs::size)) return out;
+  const bool some = std::ranges::none_of(measured, &Runs::empty);
+  if (!some || answer_to(campaign, metric, variant, measured).passed.value_or(true)) out.passed.reset();
   return out;
 }
 

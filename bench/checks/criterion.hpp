@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,8 @@
 #include "bench/scenario/checks.hpp"
 
 namespace canhil::checks {
+
+class Condition;
 
 struct Limit {
   double value = 0;
@@ -21,6 +24,7 @@ constexpr Limit exclusive(double value) { return {.value = value, .inclusive = f
 struct Stretch {
   scenario::Window window;
   std::optional<std::pair<double, double>> to_go_s{};  ///< [least, most)
+  std::shared_ptr<const Condition> condition{};        ///< null: all of the stretch
 };
 
 /// What is judged, and its limits. An empty text or no value: the kind of check has none.

@@ -37,8 +37,8 @@ std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::s
 std::string why_uncertain(const Evidence& evidence, std::string_view estimator,
                           const quantities::Quantity& quantity);
 
-/// Why a closed loop of the run is not that of the scenario, because the bench was late as a rule, for
-/// example because of a slow plant; empty: it is, or no loop was closed.
+/// Why a closed loop of the run is not that of the scenario: the bench was late as a rule, for example
+/// because of a slow plant, or lockstep does not wait for the commands; empty: it is, or no loop was closed.
 std::string late_loop(const Evidence& evidence);
 
 /// The finding if an estimator has no track of a quantity although there is a truth: the target told no value

@@ -76,7 +76,16 @@ std::string unfit(const Evidence& evidence, double quantile, double bar_s) {
 std::string late_loop(const Evidence& evidence) {
   constexpr double usual = 0.99;  // quantile; a single late frame changes little
   const world::PlantRecord* plant = world::steered(evidence.truth.plants);
-  if (evidence.timing_unfit == virtual_time || plant == nullptr) return "";
+  if (plant == nullptr) return "";
+  if (evidence.timing_unfit == virtual_time) {
+    const auto open =
+        std::ranges::find_if(plant->commands, [](const auto& one) { return !one.unawaited.empty(); });
+    if (open == plant->commands.end()) return "";
+    return fmt::format(
+        "in lockstep the bench does not wait for {}, which answers no play and carries the "
+        "command '{}': no two such flights are equal",
+        open->unawaited, open->input);
+  }
   const double step_s = 1e-6 * static_cast<double>(plant->commands.front().step_us);
   const double late_s = evidence.seen.timing.lateness.quantile_ns(usual) * 1e-9;
   if (late_s <= step_s) return "";

@@ -9,6 +9,7 @@
 
 #include "bench/checks/answer_faults.hpp"
 #include "bench/checks/answered.hpp"
+#include "bench/checks/condition.hpp"
 #include "bench/checks/events.hpp"
 #include "bench/checks/finding.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
@@ -42,9 +43,9 @@ std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, con
 // The implied check that fails if the target never commanded an input of the plant: the loop was open.
 constexpr std::string_view commands_kind = "commands";
 
-std::optional<CheckResult> open_loop(const Evidence& evidence) {
-  const world::PlantRecord* plant = world::steered(evidence.truth.plants);
-  if (plant == nullptr || !evidence.ended_early.empty()) return std::nullopt;
+std::optional<CheckResult> open_loop(const world::PlantRecords& plants) {
+  const world::PlantRecord* plant = world::steered(plants);
+  if (plant == nullptr) return std::nullopt;
   std::vector<std::string_view> silent;
   for (const world::CommandRecord& one : plant->commands) {
     if (one.given.empty()) silent.push_back(one.input);
@@ -63,7 +64,10 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
                                              const Evidence& evidence) {
   std::vector<Subject> wanted;
   for (const scenario::Check& check : checks) {
-    for (const Subject& subject : check.rule->subjects()) {
+    std::vector<Subject> subjects = check.rule->subjects();
+    if (const Condition* condition = check.rule->condition())
+      std::ranges::move(condition->subjects(), std::back_inserter(subjects));
+    for (const Subject& subject : subjects) {
       for (const quantities::Quantity* part : parts_of(*subject.quantity))
         wanted.push_back({.estimator = subject.estimator, .quantity = part});
     }
@@ -120,6 +124,23 @@ std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule&
       return why;
   }
   return "";
+}
+
+// Why it cannot be known when a condition holds; empty: it can, or there is none.
+std::string why_unknown(const scenario::Scenario& scenario, const Condition* condition,
+                        const Evidence& evidence) {
+  if (condition == nullptr) return "";
+  for (const world::TruthValue* value : condition->truths()) {
+    if (std::string why = scenario::why_no_truth(scenario, *value); !why.empty()) return why;
+  }
+  for (const Subject& subject : condition->errors()) {
+    const estimators::Estimator* one = estimators::find(evidence.estimators, subject.estimator);
+    if (one == nullptr) continue;
+    std::string why = one->why_no_truth == nullptr ? "" : one->why_no_truth(scenario, *subject.quantity);
+    if (why.empty()) why = scenario::why_no_truth(scenario, one->facts);
+    if (!why.empty()) return why;
+  }
+  return condition->why_unknown(evidence);
 }
 
 // The window that contains a stretch; to_us < from_us: the flight has no sample in the stretch.
@@ -227,6 +248,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
     }
     std::string why = why_no_truth(scenario, *check.rule, evidence);
     if (why.empty()) why = why_ambiguous(*check.rule, evidence);
+    if (why.empty()) why = why_unknown(scenario, check.rule->condition(), evidence);
     // The target did not get the stimuli that belong to the truth.
     if (why.empty() && !evidence.seen.clipped.empty() && !check.rule->subjects().empty())
       why = evidence.seen.clipped.front();
@@ -240,13 +262,16 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
     verdict.checks.push_back(result_of(check.name, check.kind, check.requirement, std::move(finding)));
   }
   std::ranges::move(judge_events(scenario.events, evidence), std::back_inserter(verdict.checks));
-  std::ranges::move(of_every_run(scenario, evidence.seen), std::back_inserter(verdict.checks));
-  if (auto open = open_loop(evidence)) verdict.checks.push_back(std::move(*open));
+  const bool completed = evidence.ended_early.empty();  // otherwise a command may still have come
+  std::ranges::move(
+      of_every_run(scenario, evidence.seen, completed ? evidence.truth.plants : world::PlantRecords()),
+      std::back_inserter(verdict.checks));
   conclude(verdict, evidence.ended_early);
   return verdict;
 }
 
-std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const Observations& seen) {
+std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const Observations& seen,
+                                      const world::PlantRecords& plants) {
   std::vector<CheckResult> failed;
   const auto imply = [&](std::string_view kind, Outcome outcome, std::string found,
                          std::string_view expected) {
@@ -275,6 +300,7 @@ std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const 
   imply(stimuli_kind, Outcome::not_measured, fmt::format("{}", fmt::join(seen.clipped, "; ")),
         "values that their signals hold");
   imply(senders_kind, Outcome::not_measured, other_senders(seen), "each message from its own sender alone");
+  if (auto open = open_loop(plants)) failed.push_back(std::move(*open));
   return failed;
 }
 

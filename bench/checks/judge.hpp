@@ -15,8 +15,10 @@ namespace canhil::checks {
 /// Judges every check of the scenario. A run that ended early fails, regardless of its checks.
 Verdict judge(const scenario::Scenario& scenario, Evidence evidence);
 
-/// The checks that apply to every run, except for that of the bus: those that do not pass.
-std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const Observations& seen);
+/// The checks that apply to every run, except for that of the bus: those that do not pass. `plants`: of a
+/// completed run.
+std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const Observations& seen,
+                                      const world::PlantRecords& plants);
 
 /// Whether a check of this kind is implied: judge() adds the check although the scenario does not contain it.
 /// The verdict lists an implied check only if the check does not pass.

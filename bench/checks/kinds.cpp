@@ -22,6 +22,7 @@
 #include "bench/checks/kinds/latency_growth.hpp"
 #include "bench/checks/kinds/output_period.hpp"
 #include "bench/checks/kinds/own_times.hpp"
+#include "bench/checks/kinds/program.hpp"
 #include "bench/checks/kinds/protection.hpp"
 #include "bench/checks/kinds/recovers_within.hpp"
 #include "bench/checks/kinds/response.hpp"
@@ -56,7 +57,8 @@ constexpr std::array of_any_estimator{check_kind<Error>,
                                       check_kind<Answering>,
                                       check_kind<Flag>,
                                       check_kind<Response>,
-                                      check_kind<CommandTime>};
+                                      check_kind<CommandTime>,
+                                      check_kind<Program>};
 
 }  // namespace
 

@@ -41,6 +41,7 @@
 
 namespace canhil::checks {
 
+class Condition;
 struct Evidence;
 
 /// A quantity of an estimator.
@@ -84,6 +85,7 @@ class Rule {
 
   [[nodiscard]] virtual Finding judge(const Evidence& evidence) const = 0;
   [[nodiscard]] virtual std::vector<Subject> subjects() const = 0;
+  [[nodiscard]] virtual const Condition* condition() const = 0;
   [[nodiscard]] virtual std::vector<std::string> held_against_truth() const = 0;
   [[nodiscard]] virtual std::vector<std::string> needs_answers_of() const = 0;
   [[nodiscard]] virtual Stretch span() const = 0;
@@ -101,6 +103,11 @@ class RuleOf final : public Rule {
   [[nodiscard]] std::vector<Subject> subjects() const override {
     if constexpr (requires { kind_.subjects(); }) return kind_.subjects();
     return {};
+  }
+  [[nodiscard]] const Condition* condition() const override {
+    if constexpr (requires { kind_.stretch; }) return kind_.stretch.condition.get();
+    if constexpr (requires { kind_.condition; }) return kind_.condition.get();
+    return nullptr;
   }
   [[nodiscard]] std::vector<std::string> held_against_truth() const override {
     if constexpr (requires { kind_.held_against_truth(); })

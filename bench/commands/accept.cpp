@@ -162,7 +162,7 @@ void add_accept(command_line::Command app, int& code) {
                               fmt::join(accept::families, ", ")))
       .one_word_each();
   command.add_flag("--no-commands", arguments->no_commands,
-                   "refuse scenarios with shell commands (keys before and after of [target])");
+                   "refuse scenarios that execute something: commands, programs, FMUs");
   command.add_flag("--record", arguments->record,
                    "make the references anew, from the target's code in this program");
   command.add_option("--json", arguments->json,

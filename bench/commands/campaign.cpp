@@ -313,7 +313,7 @@ void add_replay(command_line::Command campaign, int& code) {
   command.add_option("--variant", arguments->variant, "by name (default: the first)");
   command.add_option("--log", arguments->log, "record every frame in candump's log format");
   command.add_flag("--no-commands", arguments->no_commands,
-                   "refuse scenarios with shell commands (keys before and after of [target])");
+                   "refuse scenarios that execute something: commands, programs, FMUs");
   command.on_given([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
 }
 
@@ -353,7 +353,7 @@ void add_campaign(command_line::Command app, int& code) {
       "--json", arguments->json, "write the report as JSON to a file; -: to stdout, in place of the text");
   const auto no_commands =
       command.add_flag("--no-commands", arguments->no_commands,
-                       "refuse scenarios with shell commands (keys before and after of [target])");
+                       "refuse scenarios that execute something: commands, programs, FMUs");
   const auto live = add_live(command, arguments->live);
   auto paper = std::make_shared<PaperArguments>();
   const auto name =

@@ -19,6 +19,7 @@
 #include "bench/recordings/convert.hpp"
 #include "bench/recordings/replay.hpp"
 #include "bench/report/file.hpp"
+#include "bench/report/program_checks.hpp"
 #include "dbc/files/command_files.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/frame_rules.hpp"
@@ -170,8 +171,10 @@ ExitCode check(const CheckArguments& arguments) {
   files.reads(drive::inputs_of(*scenario));
   declare(arguments.reports, files);
   if (auto fine = files.check(); !fine) return complain(fine.error());
-  const auto run = drive::judge_recording(*scenario, arguments.log);
+  auto run = drive::judge_recording(*scenario, arguments.log);
   if (!run) return complain(run.error());
+  catch_interrupts();
+  report::judge_by_programs(*scenario, *run, interrupted);
   if (auto written = write_reports(arguments.reports, *scenario, *run); !written)
     return complain(written.error());
   return exit_code(run->verdict.outcome);

@@ -26,6 +26,7 @@
 #include "bench/nodes/registry.hpp"
 #include "bench/observe/recorder.hpp"
 #include "bench/processes/command.hpp"
+#include "bench/report/program_checks.hpp"
 #include "bench/scenario/binding.hpp"
 #include "bench/scenario/commands.hpp"
 #include "bench/scenario/nearest.hpp"
@@ -296,6 +297,7 @@ ExitCode execute(const Arguments& arguments) {
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });
   }();
+  if (finished) report::judge_by_programs(*scenario, *finished, interrupted);
   if (view->get() != nullptr) {
     if (finished)
       view->get()->show(live::flight_of(*scenario, *finished));
@@ -348,7 +350,7 @@ void add_run(command_line::Command app, int& code) {
   command.add_option("--faults", arguments->faults,
                      "file of [[fault]] tables, in addition to the scenario's (docs/faults.md)");
   command.add_flag("--no-commands", arguments->no_commands,
-                   "refuse scenarios with shell commands (keys before and after of [target])");
+                   "refuse scenarios that execute something: commands, programs, FMUs");
   const auto lockstep =
       command.add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
   realtime::add_options(command, arguments->realtime).excludes(lockstep);

@@ -33,7 +33,8 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
 
 Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario) {
   if (flown.ending.kind != Ending::Kind::completed) return flown;
-  const std::vector<checks::CheckResult> found = checks::of_every_run(scenario, flown.seen);
+  const std::vector<checks::CheckResult> found =
+      checks::of_every_run(scenario, flown.seen, plants_of(flown.per_run_truth));
   if (found.empty()) return flown;
   // A flight whose stimuli the bench clipped is impossible, whatever the target answered.
   const bool fails = flown.seen.clipped.empty() &&

@@ -28,7 +28,9 @@ Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch,
       progress_due_us = t_us + progress_period_us;
     }
     bool closes_step = false;
-    for (const Frame& frame : schedule.take()) {
+    const auto frames = schedule.take();
+    if (const auto why = schedule.why_failed()) return gone_at(t_us, *why);  // its truth moves no more
+    for (const Frame& frame : frames) {
       closes_step = watch.closes_step(frame) || closes_step;
       if (link.send(frame, step_limit_ns) != LinkState::up) {
         return {Ending::Kind::bus_down, t_us,

@@ -74,7 +74,9 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
     if (auto ending = receive_until(next_due_ns)) return *ending;
     const std::int64_t due_us = schedule.due_us();
     const std::int64_t due_ns = start_ns + due_us * ns_per_us;
-    for (const Frame& frame : schedule.take()) {
+    const auto frames = schedule.take();
+    if (const auto why = schedule.why_failed()) return gone_at(due_us, *why);
+    for (const Frame& frame : frames) {
       LinkState state = link.send(frame, silence_limit_ns, due_ns);
       while (state != LinkState::up && bus.outage() && !stop && !link.port().closed()) {
         if (link.now_ns() > excused_until_ns()) return silent();

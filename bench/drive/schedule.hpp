@@ -5,7 +5,9 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -62,6 +64,14 @@ class Schedule final : public observe::Observer {
     for (; injected < injectors_.size(); ++injected) injectors_[injected]->apply(frames_, t_us);
     find_next();
     return frames_;
+  }
+
+  /// Why a plant does not advance any more; none: each does.
+  [[nodiscard]] std::optional<std::string> why_failed() const {
+    for (const plant::Simulation* plant : plants_) {
+      if (plant->why_failed()) return plant->why_failed();
+    }
+    return std::nullopt;
   }
 
   /// The time until which a fault explains the target's silence.

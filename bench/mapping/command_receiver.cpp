@@ -20,6 +20,9 @@ CommandReceiver::CommandReceiver(const Conversation& conversation, const plant::
       for (const ReportedFlag& one : hears[i].flags) {
         if (one.name == from) carriers_[i].flags[&one] = command;
       }
+      const auto own = carriers_.find(i);
+      if (own != carriers_.end() && own->second.carries(command) && !hears[i].is_owed())
+        simulation.note_unawaited(command, hears[i].of.message->name);
     }
   }
 }

@@ -31,6 +31,11 @@ class CommandReceiver final : public nodes::Node {
     Receiver receiver;
     std::map<const ReportedSignal*, std::size_t> signals;
     std::map<const ReportedFlag*, std::size_t> flags;
+
+    [[nodiscard]] bool carries(std::size_t command) const {
+      const auto is_it = [&](const auto& one) { return one.second == command; };
+      return std::ranges::any_of(signals, is_it) || std::ranges::any_of(flags, is_it);
+    }
   };
 
   const Conversation& conversation_;

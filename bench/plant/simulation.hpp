@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/plant/setup.hpp"
@@ -32,6 +33,10 @@ class Simulation {
   /// A command arrives; in order of time. `command`: index in Setup::commands. A value that is not finite
   /// counts as no command.
   void give(std::size_t command, const world::Given& given);
+  /// A message that carries a command is none for which lockstep waits (world::CommandRecord::unawaited).
+  void note_unawaited(std::size_t command, std::string message) {
+    record_.commands[command].unawaited = std::move(message);
+  }
   /// Commands values of Plan::inputs that act from a time [us] on; in order of time (Plant::guide()).
   void guide(std::int64_t from_us, std::span<const double> inputs);
   /// Advances so far that everything is known up to a time [us] of the run, or up to the last step before it

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "bench/checks/condition.hpp"
+
 namespace canhil::report {
 namespace {
 
@@ -23,6 +25,11 @@ void add_limit(Json& json, const std::string& key, const std::optional<checks::L
 std::optional<double> number_in(const Json& json, std::string_view key) {
   const auto found = json.find(key);
   return found == json.end() ? std::nullopt : std::optional(found->get<double>());
+}
+
+std::optional<std::int64_t> time_in(const Json& json, std::string_view key) {
+  const auto t_s = number_in(json, key);
+  return t_s ? std::optional<std::int64_t>(std::llround(*t_s * 1e6)) : std::nullopt;
 }
 
 std::optional<checks::Limit> limit_in(const Json& json, const std::string& key) {
@@ -56,6 +63,8 @@ Json object(const checks::CheckResult& check) {
     json["from_s"] = in_seconds(criterion.stretch->window.from_us);
     json["to_s"] = in_seconds(criterion.stretch->window.to_us);
   }
+  if (criterion.stretch && criterion.stretch->condition != nullptr)
+    json["while"] = criterion.stretch->condition->text();
   if (measurement.worst_at_us) json["worst_at_s"] = in_seconds(*measurement.worst_at_us);
   return json;
 }
@@ -67,7 +76,7 @@ checks::Judgement judgement_of(const Json& check) {
                         .lower = limit_in(check, "lower"),
                         .upper = limit_in(check, "upper"),
                         .unit = check.value("unit", "")},
-          .measurement = {.value = number_in(check, "value")}};
+          .measurement = {.value = number_in(check, "value"), .worst_at_us = time_in(check, "worst_at_s")}};
 }
 
 }  // namespace canhil::report

@@ -51,6 +51,7 @@ std::string estimates_section(const Json& report) {
     return of.empty() ? ""
                       : flags(report.at("flags"), of, report.at("duration_s").get<double>()) + "</div>\n";
   };
+  std::size_t number = 0;
   for (const Json& series : report.at("series")) {
     const std::string own = series.at("estimator").get<std::string>();
     if (own != estimator) {
@@ -58,7 +59,7 @@ std::string estimates_section(const Json& report) {
       out += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(own));
       estimator = own;
     }
-    out += estimate(series);
+    out += estimate(series, report.at("checks"), series_id(number++));
   }
   return out + end_of(estimator) + "</section>\n";
 }

@@ -52,7 +52,7 @@ std::string from_zero(const std::string& title, const std::string& unit, double 
 
 /// A quantity over the run. If the scale of this picture hides the later course or the limits of checks, a
 /// second picture shows that part of the run.
-std::string estimate(const Json& series);
+std::string estimate(const Json& series, const Json& checks, std::string_view id);
 
 /// When the flags of an estimator were set; flags that never were are left out.
 std::string flags(const Json& all, const std::string& estimator, double end_s);
@@ -60,6 +60,8 @@ std::string flags(const Json& all, const std::string& estimator, double end_s);
 // The sections.
 
 std::string checks_section(const Json& report);
+/// The id of the plot of a series, by its number in the report.
+std::string series_id(std::size_t number);
 /// Latency, jitter and lateness, and missing answers. In virtual time, the section gives only the reason why
 /// there are no times.
 std::string timing_section(const Json& report);

@@ -36,6 +36,7 @@ LinePlot cut(LinePlot plot, const Part& part) {
   }
   plot.begins_at_first = true;
   std::erase_if(plot.bars, [&](const LinePlot::Bar& bar) { return bar.to_s < plot.t_s.front(); });
+  std::erase_if(plot.worst_s, [&](double t_s) { return t_s < plot.t_s.front() || t_s > plot.t_s.back(); });
   return plot;
 }
 
@@ -105,8 +106,16 @@ std::optional<Part> judged_course(const Course& course) {
   return part;
 }
 
-// Adds the limits of checks to the plot and describes them.
-std::string bars(const Json& series, LinePlot& plot) {
+// When the worst of the values came that a check judged; none: it is not known.
+std::optional<double> worst_of(const std::string& check, const Json& checks) {
+  for (const Json& one : checks) {
+    if (one.at("name") == check && one.contains("worst_at_s")) return one.at("worst_at_s").get<double>();
+  }
+  return std::nullopt;
+}
+
+// Adds the limits of checks to the plot, and when the worst values came, and describes them.
+std::string bars(const Json& series, const Json& checks, LinePlot& plot) {
   if (!series.contains("bars")) return "";
   std::string words;
   for (const Json& bar : series.at("bars")) {
@@ -118,6 +127,10 @@ std::string bars(const Json& series, LinePlot& plot) {
                          statistic == "max" ? "" : statistic + " below ", own.below, plot.unit, own.from_s,
                          own.to_s);
     plot.bars.push_back(own);
+    if (const auto worst_s = worst_of(bar.at("check").get<std::string>(), checks)) {
+      words += fmt::format(", ring: the largest, at {:g} s", *worst_s);
+      plot.worst_s.push_back(*worst_s);
+    }
   }
   return words;
 }
@@ -224,7 +237,7 @@ std::string flags(const Json& all, const std::string& estimator, double end_s) {
   return out;
 }
 
-std::string estimate(const Json& series) {
+std::string estimate(const Json& series, const Json& checks, std::string_view id) {
   const std::string kind = series.at("kind").get<std::string>();
   const std::string title = series.at("quantity").get<std::string>();
   const std::size_t size = series.at("t_s").size();
@@ -237,8 +250,8 @@ std::string estimate(const Json& series) {
                 .around_zero = kind == "error" || kind == "innovation"};
   LinePlot& plot = course.plot;
   const std::string note = lines(series, plot);
-  const std::string asked = bars(series, plot);
-  std::string out = figure(title, svg(plot), note + asked + beyond_words(plot));
+  const std::string asked = bars(series, checks, plot);
+  std::string out = figure(title, svg(plot), note + asked + beyond_words(plot), id);
   if (kind == "statistic") return out;
   auto part = late_course(course);
   if (!part) part = judged_course(course);

@@ -193,13 +193,33 @@ std::string wire_table(const Json& report) {
 
 }  // namespace
 
+std::string series_id(std::size_t number) { return fmt::format("series-{}", number); }
+
+namespace {
+
+// The name of a check, as a link to the first plot with its limit.
+std::string linked(const Json& check, const Json& all_series) {
+  std::size_t number = 0;
+  for (const Json& series : all_series) {
+    const Json none = Json::array();
+    for (const Json& bar : series.contains("bars") ? series.at("bars") : none) {
+      if (bar.at("check") == check.at("name"))
+        return fmt::format("<a href=\"#{}\">{}</a>", series_id(number), text_in(check.at("name")));
+    }
+    ++number;
+  }
+  return text_in(check.at("name"));
+}
+
+}  // namespace
+
 std::string checks_section(const Json& report) {
   Rows rows;
   for (const Json& check : report.at("checks")) {
     const std::string outcome = check.at("outcome").get<std::string>();
     const auto [style, sign] = look_of(outcome);
     const std::string requirement = text_in(check.at("requirement"));
-    rows.push_back({text_in(check.at("name")),
+    rows.push_back({linked(check, report.at("series")),
                     fmt::format("<span class=\"{}\">{} {}</span>", style, sign, escaped(outcome)),
                     text_in(check.at("measured")), text_in(check.at("expected")),
                     requirement.empty() ? "&ndash;" : requirement});

@@ -279,6 +279,18 @@ std::string svg(const LinePlot& plot) {
     out += bar_line(bar, bar.below, x, y);
     if (y.from <= -bar.below) out += bar_line(bar, -bar.below, x, y);
   }
+  for (const double t_s : plot.worst_s) {
+    const auto later = std::ranges::lower_bound(plot.t_s, t_s);
+    if (later == plot.t_s.end()) continue;
+    // A point of the plot may join several values: the worst one is in the point at or before its time.
+    auto index = static_cast<std::size_t>(later - plot.t_s.begin());
+    if (*later > t_s && index > 0) --index;
+    const double value =
+        std::abs(plot.high[index]) > std::abs(plot.low[index]) ? plot.high[index] : plot.low[index];
+    if (std::isfinite(value))
+      out += fmt::format("<circle class=\"worst\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\"/>", x(plot.t_s[index]),
+                         y(value));
+  }
   out += frame();
   out += text_at(left - 6, top - 9, "end", plot.unit);
   return out + "</svg>";

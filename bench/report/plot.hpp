@@ -54,6 +54,7 @@ struct LinePlot {
   std::vector<double> truth{};    ///< dotted line; one value for each time, or none; not finite: a gap
   std::vector<double> levels{};   ///< dashed horizontal lines
   std::vector<Bar> bars{};        ///< heavy lines with marks at both ends
+  std::vector<double> worst_s{};  ///< times of rings around the largest value
   bool from_zero = false;         ///< the axis begins at 0: for a quantity without sign
   bool begins_at_first = false;   ///< the time axis begins at the first time instead of 0
 };

@@ -60,6 +60,7 @@ struct CheckContext {
   std::span<const std::string> estimators;  ///< the estimators that run
   const PlantFacts& plant = no_plant;
   std::span<const FaultWindow> faults{};  ///< the windows end with the run at the latest
+  std::span<const std::string> events{};  ///< names of the scenario's events
   std::int64_t latency_us = 0;            ///< largest latency of a node, from validity to transmission
   EachEstimator* each = nullptr;          ///< null: only the first of the estimators is read
 };

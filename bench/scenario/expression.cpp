@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <mutex>
 #include <numbers>
 #include <vector>
@@ -54,12 +55,14 @@ std::vector<const world::TruthValue*> usable_in(std::string_view text) {
 struct Expression::Parsed {
   mu::Parser parser;
   std::vector<const world::TruthValue*> uses;
-  std::deque<double> values;  // of `uses`; the parser keeps their addresses
+  std::vector<std::size_t> further;
+  std::deque<double> values;  // of `uses`, then of `further`; the parser keeps their addresses
   double t_s = 0;
   std::mutex mutex;  // for `values` and `t_s`
 };
 
-tl::expected<Expression, Expression::Wrong> Expression::parse(std::string_view text) {
+tl::expected<Expression, Expression::Wrong> Expression::parse(std::string_view text,
+                                                              std::span<const std::string> further) {
   if (assigns(text))
     return tl::unexpected(Wrong{fmt::format("'{}' assigns a value", text), "== to compare two values"});
   auto parsed = std::make_shared<Parsed>();
@@ -67,24 +70,30 @@ tl::expected<Expression, Expression::Wrong> Expression::parse(std::string_view t
   const std::vector<const world::TruthValue*> usable = usable_in(text);
   std::vector<std::string> names{std::string(time_name)};
   for (const world::TruthValue* one : usable) names.emplace_back(one->name);
+  names.insert(names.end(), further.begin(), further.end());
   try {
     parser.DefineNameChars(std::string(name_characters).c_str());
     parser.DefineConst("pi", std::numbers::pi);
     parser.DefineConst("deg", world::units::deg);
     parser.DefineConst("g", world::units::standard_gravity);
+    parser.DefineInfixOprt("!", [](mu::value_type value) -> mu::value_type { return value == 0 ? 1 : 0; });
     parser.DefineVar(std::string(time_name), &parsed->t_s);
     double unused = 0;
-    for (const world::TruthValue* one : usable) parser.DefineVar(std::string(one->name), &unused);
+    for (auto name = std::next(names.begin()); name != names.end(); ++name) parser.DefineVar(*name, &unused);
     parser.SetExpr(std::string(text));
     const auto used = parser.GetUsedVar();
-    for (const world::TruthValue* one : usable) {
-      const std::string name(one->name);
-      if (!used.contains(name)) {
+    const auto keep = [&](const std::string& name) {
+      if (used.contains(name))
+        parser.DefineVar(name, &parsed->values.emplace_back());
+      else
         parser.RemoveVar(name);
-        continue;
-      }
-      parsed->uses.push_back(one);
-      parser.DefineVar(name, &parsed->values.emplace_back());
+      return used.contains(name);
+    };
+    for (const world::TruthValue* one : usable) {
+      if (keep(std::string(one->name))) parsed->uses.push_back(one);
+    }
+    for (std::size_t i = 0; i < further.size(); ++i) {
+      if (keep(further[i])) parsed->further.push_back(i);
     }
     parser.Eval();
     if (parser.GetNumResults() != 1)
@@ -100,7 +109,8 @@ tl::expected<Expression, Expression::Wrong> Expression::parse(std::string_view t
   return Expression(std::move(parsed));
 }
 
-std::optional<double> Expression::at(const world::Truths& truths, std::int64_t t_us) const {
+std::optional<double> Expression::at(const world::Truths& truths, std::int64_t t_us,
+                                     const Further& further) const {
   const std::lock_guard lock(parsed_->mutex);
   parsed_->t_s = 1e-6 * static_cast<double>(t_us);
   for (std::size_t i = 0; i < parsed_->uses.size(); ++i) {
@@ -108,11 +118,17 @@ std::optional<double> Expression::at(const world::Truths& truths, std::int64_t t
     if (!value) return std::nullopt;
     parsed_->values[i] = *value;
   }
+  for (std::size_t i = 0; i < parsed_->further.size(); ++i) {
+    const auto value = further(parsed_->further[i]);
+    if (!value) return std::nullopt;
+    parsed_->values[parsed_->uses.size() + i] = *value;
+  }
   const double value = parsed_->parser.Eval();
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 std::span<const world::TruthValue* const> Expression::uses() const { return parsed_->uses; }
+std::span<const std::size_t> Expression::uses_further() const { return parsed_->further; }
 
 std::string why_no_truth(const Scenario& scenario, const Expression& expression) {
   for (const world::TruthValue* one : expression.uses()) {

@@ -2,7 +2,9 @@
 // velocity.north)".
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,14 +29,21 @@ class Expression {
   struct Wrong {
     std::string what, expected;
   };
-  /// Error: the syntax, or a name that is no true value.
-  static tl::expected<Expression, Wrong> parse(std::string_view text);
+  /// Error: the syntax, or a name that is no true value. `further`: names of further values, which the caller
+  /// knows.
+  static tl::expected<Expression, Wrong> parse(std::string_view text,
+                                               std::span<const std::string> further = {});
 
-  /// The value at a time [us] of the run; none: one of the true values has no truth at this
-  /// time, or the result is not finite.
-  [[nodiscard]] std::optional<double> at(const world::Truths& truths, std::int64_t t_us) const;
+  /// The further value of an index of parse(); none: it has no value now.
+  using Further = std::function<std::optional<double>(std::size_t index)>;
+  /// The value at a time [us] of the run; none: one of its values has none at this time, or the result is not
+  /// finite.
+  [[nodiscard]] std::optional<double> at(const world::Truths& truths, std::int64_t t_us,
+                                         const Further& further = {}) const;
   /// The true values in the expression.
   [[nodiscard]] std::span<const world::TruthValue* const> uses() const;
+  /// The indices of its further values.
+  [[nodiscard]] std::span<const std::size_t> uses_further() const;
 
  private:
   struct Parsed;

@@ -152,6 +152,8 @@ std::vector<std::string> estimators_of(const Scenario& scenario) {
 
 std::vector<Check> read_checks(Section& root, const Scenario& scenario, const DbcVocabulary& contract) {
   const std::vector<std::string> estimators = estimators_of(scenario);
+  std::vector<std::string> events;
+  for (const Event& event : scenario.events) events.push_back(event.name);
   std::vector<FaultWindow> faults;
   for (const Fault& fault : scenario.faults)
     faults.push_back({fault.name, {fault.from_us, std::min(fault.to_us, scenario.duration_us)}});
@@ -168,6 +170,7 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Db
                              .estimators = estimators,
                              .plant = plant,
                              .faults = faults,
+                             .events = events,
                              .latency_us = latency_us};
   std::vector<Check> checks;
   std::vector<int> numbers;  // of the checks' tables, as the user counts them

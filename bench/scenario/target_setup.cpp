@@ -115,8 +115,11 @@ TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
     target.parameters = read_parameters(*std::move(parameters), contract, target.estimator);
   }
   if (facts.start != Start::navigation) {
+    const auto own =
+        std::ranges::find_if(contract.plants, [&](const PlantTable* one) { return one->has(facts.truth); });
+    const bool has_own = facts.start == Start::per_run_truth && own != contract.plants.end();
     section.refuse("initial_error", fmt::format("has no effect on '{}'", target.estimator),
-                   facts.start == Start::per_run_truth ? facts.start_errors : "no such table");
+                   has_own ? fmt::format("[{}.initial_error]", (*own)->key) : "no such table");
   }
   if (auto initial_error = section.optional_table("initial_error"))
     target.initial_error = read_initial_error(*initial_error);

@@ -27,6 +27,7 @@ struct CommandRecord {
   std::string input;                 ///< its name
   std::int64_t delay_us = 0;         ///< from the arrival of a command to its effect
   std::int64_t step_us = 0;          ///< of the plant
+  std::string unawaited{};           ///< a message that carries it and for which lockstep does not wait
   Spool<Given> given{};              ///< in order of arrival
   std::uint64_t invalid = 0;         ///< number of messages in which the command had no value
   Spool<std::int64_t> missing_us{};  ///< starts of the steps without a command, or with one that is too old

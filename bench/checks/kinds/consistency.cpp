@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/checks/condition.hpp"
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
 #include "bench/checks/not_finite.hpp"
@@ -29,6 +30,7 @@ Consistency Consistency::read(scenario::Section& section, const scenario::CheckC
   rule.judged = read_subject(
       section, context, [](const quantities::Quantity& quantity) { return quantity.degrees_of_freedom > 0; });
   rule.window = scenario::read_window(section, context.duration_us);
+  rule.condition = Condition::read(section, context, rule.judged.estimator);
   if (!section.has("probability")) {
     const auto [low, high] = section.interval({"mean_between", "The mean must lie between these two values."},
                                               scenario::Limits::at_least(0));
@@ -51,11 +53,11 @@ Consistency Consistency::read(scenario::Section& section, const scenario::CheckC
 
 Finding Consistency::judge(const Evidence& evidence) const {
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
-  const Stretch stretch{.window = window};
-  const Places part = tracks.empty() ? Places() : inside(*tracks.front(), stretch);
+  const Stretch stretch{.window = window, .condition = condition};
+  const Places part = tracks.empty() ? Places() : inside(*tracks.front(), stretch, evidence);
   const auto [low, high] = interval(*this, part.size());
   const Expected expected{
-      .text = fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(window)),
+      .text = fmt::format("mean between {:.3g} and {:.3g} {}", low, high, to_text(stretch)),
       .criterion = {.quantity = std::string(judged.quantity->name),
                     .estimator = judged.estimator,
                     .statistic = "mean",
@@ -63,7 +65,7 @@ Finding Consistency::judge(const Evidence& evidence) const {
                     .upper = Limit{.value = high},
                     .stretch = stretch}};
   if (tracks.empty()) return no_values(*judged.quantity, expected);
-  if (auto gap = no_evidence(*tracks.front(), stretch, part, expected)) return *gap;
+  if (auto gap = no_evidence(*tracks.front(), stretch, part, expected, evidence)) return *gap;
   double sum = 0, largest = 0;
   std::int64_t largest_at_us = 0;
   NotFinite not_finite;

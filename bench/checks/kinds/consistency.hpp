@@ -26,6 +26,7 @@ struct Consistency {
   Subject judged;
   scenario::Window window;
   std::variant<MeanBetween, Probability> bound;
+  std::shared_ptr<const Condition> condition{};
 
   static Consistency read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return judged.text; }

@@ -45,7 +45,8 @@ Finding Convergence::judge(const Evidence& evidence) const {
   if (tracks.empty()) return no_values(*judged.quantity, expected);
   const quantities::Track& track = *tracks.front();
   const Stretch to_the_end{.window = {before_us, evidence.truth.duration_us}};
-  if (auto gap = no_evidence(track, to_the_end, inside(track, to_the_end), expected)) return *gap;
+  if (auto gap = no_evidence(track, to_the_end, inside(track, to_the_end, evidence), expected, evidence))
+    return *gap;
   NotFinite not_finite;
   for (const quantities::TrackPoint& point : track.points) not_finite.take(point.t_us, point.value);
   if (auto why = not_finite.to_text(track.points.size()); !why.empty())

@@ -35,8 +35,8 @@ Finding DelayBelow::judge(const Evidence& evidence) const {
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return no_values(*judged.quantity, expected);
   NotFinite not_finite;
-  const Places part = inside(*tracks.front(), stretch);
-  if (auto gap = no_evidence(*tracks.front(), stretch, part, expected)) return *gap;
+  const Places part = inside(*tracks.front(), stretch, evidence);
+  if (auto gap = no_evidence(*tracks.front(), stretch, part, expected, evidence)) return *gap;
   for (const std::size_t index : part) {
     const quantities::TrackPoint& point = tracks.front()->points[index];
     not_finite.take(point.t_us, point.estimate.value_or(0));

@@ -69,8 +69,8 @@ Finding Error::judge(const Evidence& evidence) const {
                                         .stretch = stretch}};
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return no_values(*judged.quantity, expected);
-  const Places part = inside(*tracks.front(), stretch);
-  if (auto gap = no_evidence(*tracks.front(), stretch, part, expected)) return *gap;
+  const Places part = inside(*tracks.front(), stretch, evidence);
+  if (auto gap = no_evidence(*tracks.front(), stretch, part, expected, evidence)) return *gap;
   double worst = 0, sum = 0, squares = 0, last = 0;
   std::int64_t worst_at_us = 0, last_at_us = 0;
   NotFinite not_finite;

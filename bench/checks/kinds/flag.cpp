@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/checks/condition.hpp"
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
 #include "bench/checks/silence.hpp"
@@ -58,12 +59,14 @@ struct Counted {
   std::optional<std::int64_t> first_set_us{}, first_clear_us{};
 };
 
-Counted count(const Spool<std::int64_t>& all, const Spool<std::int64_t>& set,
-              const scenario::Window& window) {
+Counted count(const Spool<std::int64_t>& all, const Spool<std::int64_t>& set, const Stretch& stretch,
+              const Evidence& evidence) {
   Counted counted;
+  std::optional<Condition::InRun> condition;
+  if (stretch.condition != nullptr) condition.emplace(*stretch.condition, evidence);
   bool before = false;
   estimators::each_state(all, set, [&](std::int64_t t_us, bool is_set) {
-    if (within(window, t_us)) {
+    if (within(stretch.window, t_us) && (!condition || condition->holds(t_us))) {
       counted.times.push_back(t_us);
       counted.set += is_set ? 1 : 0;
       counted.starts += is_set && !before ? 1 : 0;
@@ -83,14 +86,14 @@ Criterion criterion_of_share(const Flag& rule) {
           .statistic = rule.set ? "share of the answers in which it is set" : "share in which it is clear",
           .lower = Limit{.value = percent_of_share * rule.share},
           .unit = "%",
-          .stretch = Stretch{.window = rule.window}};
+          .stretch = Stretch{.window = rule.window, .condition = rule.condition}};
 }
 
 Criterion criterion_of_starts(const Flag& rule) {
   Criterion criterion{.quantity = rule.flag,
                       .estimator = rule.estimator,
                       .statistic = "starts",
-                      .stretch = Stretch{.window = rule.window}};
+                      .stretch = Stretch{.window = rule.window, .condition = rule.condition}};
   if (!rule.starts) return criterion;
   criterion.lower = Limit{.value = static_cast<double>(rule.starts->first)};
   criterion.upper = Limit{.value = static_cast<double>(rule.starts->second)};
@@ -117,6 +120,7 @@ Flag Flag::read(scenario::Section& section, const scenario::CheckContext& contex
                                            std::vector<std::string>{"set", "clear"}, "set");
   rule.set = state == "set";
   read_window_of(section, context, rule);
+  rule.condition = Condition::read(section, context, rule.estimator);
   if (section.has("starts")) {
     const auto [least, most] = section.interval(
         {"starts", "How often the flag becomes set in the window: least and most."}, Limits::at_least(0));
@@ -138,6 +142,7 @@ std::string Flag::subject() const {
 
 Finding Flag::judge(const Evidence& evidence) const {
   const std::string_view state = set ? "set" : "clear";
+  const Stretch stretch{.window = window, .condition = condition};
   Expected expected;
   if (share > 0)
     expected.text = share == 1 ? fmt::format("always {}", state)
@@ -145,7 +150,7 @@ Finding Flag::judge(const Evidence& evidence) const {
   if (starts)
     expected.text +=
         fmt::format("{}{} to {} starts", expected.text.empty() ? "" : ", ", starts->first, starts->second);
-  expected.text += " " + seconds(window);
+  expected.text += " " + to_text(stretch);
   expected.criterion = share > 0 ? criterion_of_share(*this) : criterion_of_starts(*this);
   if (std::string why = did_not_strike(evidence, fault); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
@@ -154,9 +159,13 @@ Finding Flag::judge(const Evidence& evidence) const {
   const auto mark = std::ranges::find(marks, std::string_view(flag), &Mark::name);
   const auto all = mark == marks.end() ? marks.end() : std::ranges::find(marks, mark->among, &Mark::name);
   if (all == marks.end()) return {Outcome::fail, "no answers", expected};
-  const Counted counted = count(all->t_us, mark->t_us, window);
-  if (std::string gap = missing(evidence.seen, *all, counted.times, window); !gap.empty())
+  const Counted counted = count(all->t_us, mark->t_us, stretch, evidence);
+  const Stretch whole{.window = window};
+  const auto& times =
+      condition == nullptr ? counted.times : count(all->t_us, mark->t_us, whole, evidence).times;
+  if (std::string gap = missing(evidence.seen, *all, times, window); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
+  if (counted.times.empty()) return {Outcome::not_measured, "the condition held at no answer", expected};
   const auto total = static_cast<std::int64_t>(counted.times.size());
   const std::int64_t right = set ? counted.set : total - counted.set;
   const auto& wrong_us = set ? counted.first_clear_us : counted.first_set_us;

@@ -20,6 +20,7 @@ struct Flag {
   bool set = true;                                                ///< the state that is expected
   double share = 1;                                               ///< of the answers, at least
   std::optional<std::pair<std::int64_t, std::int64_t>> starts{};  ///< how often it becomes set: least, most
+  std::shared_ptr<const Condition> condition{};
 
   static Flag read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const;

@@ -127,7 +127,7 @@ std::string silence_of(const Evidence& evidence, const std::vector<Subject>& sub
       const Stretch stretch{.window = {window.from_us, std::min(window.to_us, track->answers_end_us)}};
       if (static_cast<double>(stretch.window.to_us - stretch.window.from_us) <= track->longest_wait_us)
         continue;
-      if (std::string gap = silence(*track, stretch, inside(*track, stretch)); !gap.empty())
+      if (std::string gap = silence(*track, stretch, inside(*track, stretch, evidence)); !gap.empty())
         return fmt::format("{}: {}", subject.text, gap);
     }
   }

@@ -8,6 +8,7 @@
 #include <ranges>
 #include <utility>
 
+#include "bench/checks/condition.hpp"
 #include "bench/checks/estimator.hpp"
 #include "bench/checks/read_quantity.hpp"
 #include "bench/checks/silence.hpp"
@@ -84,9 +85,10 @@ Subject read_subject(scenario::Section& section, const scenario::CheckContext& c
 
 Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& context,
                      const Subject& subject) {
+  auto condition = Condition::read(section, context, subject.estimator);
   if (!section.has("time_to_go_s")) {
     section.optional("time_to_go_s");
-    return {.window = scenario::read_window(section, context.duration_us)};
+    return {.window = scenario::read_window(section, context.duration_us), .condition = std::move(condition)};
   }
   if (subject.quantity != nullptr && !subject.quantity->has_time_to_go)
     section.reject("time_to_go_s", "is for flights that go to a target", "from_s and to_s");
@@ -96,7 +98,8 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
           .to_go_s = section.interval({"time_to_go_s",
                                        "Window of the time to go, in place of `from_s` and `to_s`; only for "
                                        "a missile that flies to a target."},
-                                      scenario::Limits::at_least(0))};
+                                      scenario::Limits::at_least(0)),
+          .condition = std::move(condition)};
 }
 
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
@@ -130,12 +133,16 @@ int digits_of(const quantities::Unit& unit, double limit) {
 }
 
 std::string to_text(const Stretch& stretch) {
-  if (!stretch.to_go_s) return seconds(stretch.window);
-  return fmt::format("from {:g} to {:g} s to go", stretch.to_go_s->second, stretch.to_go_s->first);
+  const std::string part = stretch.to_go_s ? fmt::format("from {:g} to {:g} s to go", stretch.to_go_s->second,
+                                                         stretch.to_go_s->first)
+                                           : seconds(stretch.window);
+  return stretch.condition == nullptr ? part : fmt::format("{} while {}", part, stretch.condition->text());
 }
 
-Places inside(const Track& track, const Stretch& stretch) {
+Places inside(const Track& track, const Stretch& stretch, const Evidence& evidence) {
   Places places;
+  std::optional<Condition::InRun> condition;
+  if (stretch.condition != nullptr) condition.emplace(*stretch.condition, evidence);
   auto epoch = track.to_go.begin();
   for (std::size_t index = 0; index < track.points.size(); ++index) {
     const std::int64_t t_us = track.points[index].t_us;
@@ -146,6 +153,7 @@ Places inside(const Track& track, const Stretch& stretch) {
     } else if (!within(stretch.window, t_us)) {
       continue;
     }
+    if (condition && !condition->holds(t_us)) continue;
     places.push_back(index);
   }
   return places;
@@ -186,10 +194,14 @@ std::string silence(const Track& track, const Stretch& stretch, const Places& pa
 }
 
 std::optional<Finding> no_evidence(const Track& track, const Stretch& stretch, const Places& part,
-                                   const Expected& expected) {
-  if (std::string gap = silence(track, stretch, part); !gap.empty())
+                                   const Expected& expected, const Evidence& evidence) {
+  // The target must answer in the whole stretch, also while the condition does not hold.
+  const Stretch whole{.window = stretch.window, .to_go_s = stretch.to_go_s};
+  const Places all = stretch.condition == nullptr ? Places() : inside(track, whole, evidence);
+  if (std::string gap = silence(track, stretch, stretch.condition == nullptr ? part : all); !gap.empty())
     return Finding{Outcome::fail, std::move(gap), expected};
   if (!part.empty()) return std::nullopt;
+  if (!all.empty()) return Finding{Outcome::not_measured, "the condition held at no answer", expected};
   return Finding{Outcome::not_measured, "the truth has no value there", expected};
 }
 

@@ -23,7 +23,7 @@ std::string read_estimator(scenario::Section& section, const std::vector<std::st
                            std::string_view meaning, const scenario::CheckContext& context);
 
 /// Reads the keys `from_s` and `to_s`. If the flight that the estimator observes goes to a target, the key
-/// `time_to_go_s` may replace these two keys.
+/// `time_to_go_s` may replace these two keys. Also reads the key `while`.
 Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& context,
                      const Subject& subject);
 
@@ -51,16 +51,16 @@ std::string to_text(const Stretch& stretch);
 /// Indices of a track's points.
 using Places = Spool<std::size_t>;
 
-/// The indices of the points within a stretch.
-Places inside(const quantities::Track& track, const Stretch& stretch);
+/// The indices of the points within a stretch at which its condition holds.
+Places inside(const quantities::Track& track, const Stretch& stretch, const Evidence& evidence);
 
 /// Describes where in the stretch answers are missing; empty: no answers are missing. `part`: the indices of
 /// the track's points in the stretch.
 std::string silence(const quantities::Track& track, const Stretch& stretch, const Places& part);
 
 /// Why the track proves nothing in the stretch: answers are missing (fail), or the truth has no value there
-/// (not measured); none: it can be judged.
+/// or the condition does not hold at any of them (not measured); none: it can be judged.
 std::optional<Finding> no_evidence(const quantities::Track& track, const Stretch& stretch, const Places& part,
-                                   const Expected& expected);
+                                   const Expected& expected, const Evidence& evidence);
 
 }  // namespace canhil::checks

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -32,14 +33,22 @@ std::vector<scenario::PlantFacts::Output> followed(const scenario::CheckContext&
 
 // A target that waited for a CPU is not blamed, but may pass. In a loop that was late, nothing is measured.
 Finding unless_host_late(const Evidence& evidence, Finding finding) {
-  if (evidence.timing_unfit == virtual_time) return finding;
   if (std::string late = late_loop(evidence); !late.empty())
     return {Outcome::not_measured, finding.measured + "; " + late, finding.expected, finding.measurement};
+  if (evidence.timing_unfit == virtual_time) return finding;
   constexpr double usual = 0.99;  // quantile
   const world::PlantRecord* plant = world::steered(evidence.truth.plants);
   if (plant == nullptr) return finding;
   const double step_s = 1e-6 * static_cast<double>(plant->commands.front().step_us);
   return unless_target_delayed(evidence, usual, step_s / lateness_share, std::move(finding));
+}
+
+// When the motion of the plant with this value came to its own end: nothing follows it after that.
+std::int64_t end_of(const world::PlantRecords& plants, std::string_view value) {
+  for (const world::PlantRecord* plant : plants) {
+    if (plant->ended_us && plant->find(value)) return *plant->ended_us;
+  }
+  return std::numeric_limits<std::int64_t>::max();
 }
 
 // Without a command, the plant only coasts.
@@ -130,7 +139,8 @@ Finding Response::judge(const Evidence& evidence) const {
   std::int64_t outside_us = -1;
   const std::int64_t step_us = evidence.truth.flight.interval_us();
   std::int64_t last_us = window.from_us;
-  for (std::int64_t t_us = window.from_us; t_us <= window.to_us; t_us += step_us) {
+  const std::int64_t end_us = std::min(window.to_us, end_of(evidence.truth.plants, value->name));
+  for (std::int64_t t_us = window.from_us; t_us <= end_us; t_us += step_us) {
     const auto at = value->at(truths, t_us);
     if (!at && evidence.truth.flight.grows() && t_us > evidence.truth.flight.known_until_us()) break;
     if (!at)

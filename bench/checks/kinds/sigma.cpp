@@ -37,8 +37,8 @@ Finding Sigma::judge(const Evidence& evidence) const {
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return no_values(*judged.quantity, expected);
   const quantities::Track& track = *tracks.front();
-  const Places part = inside(track, stretch);
-  if (auto gap = no_evidence(track, stretch, part, expected)) return *gap;
+  const Places part = inside(track, stretch, evidence);
+  if (auto gap = no_evidence(track, stretch, part, expected, evidence)) return *gap;
   double least = std::numeric_limits<double>::infinity(), most = -least;
   std::int64_t least_at_us = 0, most_at_us = 0;
   std::size_t without = 0;

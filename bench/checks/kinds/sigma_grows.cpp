@@ -45,7 +45,8 @@ Finding SigmaGrows::judge(const Evidence& evidence) const {
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return no_values(*judged.quantity, expected);
   if (fault.empty()) {  // a fault may leave nothing to be answered
-    if (auto gap = no_evidence(*tracks.front(), stretch, inside(*tracks.front(), stretch), expected))
+    if (auto gap = no_evidence(*tracks.front(), stretch, inside(*tracks.front(), stretch, evidence), expected,
+                               evidence))
       return *gap;
   }
   // The reference is the last sigma before the window or, if there is none, the first sigma in the window.

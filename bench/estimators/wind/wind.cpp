@@ -173,11 +173,13 @@ constexpr std::array<std::string_view, 4> plain_marks{"waiting", "started", "upd
 }  // namespace
 
 constinit const Estimator wind{.name = "wind",
-                               .facts = {.parameters = parameters,
-                                         .nodes = nodes,
-                                         .truth = "wind.north",
-                                         .start = scenario::Start::per_run_truth,
-                                         .start_errors = "[glide.initial_error]"},
+                               .facts =
+                                   {
+                                       .parameters = parameters,
+                                       .nodes = nodes,
+                                       .truth = "wind.north",
+                                       .start = scenario::Start::per_run_truth,
+                                   },
                                .layout = layout,
                                .of_runs = of_runs,
                                .reception = wind_reception,

@@ -1,14 +1,15 @@
-// Content of the page on the wind: scores, the wind over the height, the nominal glide.
+// Content of the page on the wind: scores, the wind over the height, the nominal flight.
 #include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include "bench/estimators/wind/quantities.hpp"
-#include "bench/plant/glide/glide.hpp"
+#include "bench/plant/published.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::papers::wind {
@@ -96,14 +97,11 @@ void add_claims(Names& names, const Results& results) {
 
 template <class Value>
 Curve profile(std::string_view season, Value value) {
-  using plant::glide::Season;
-  static const std::map<std::string_view, Season> seasons{{"March", Season::march},
-                                                          {"June", Season::june},
-                                                          {"September", Season::september},
-                                                          {"December", Season::december}};
-  const plant::glide::WindProfile wind(seasons.at(season));
+  std::string name(season);
+  name.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
   Curve curve;
-  for (double km = 0; km <= 15; km += 0.25) curve.points.emplace_back(km, value(wind.at(1000 * km)));
+  for (double km = 0; km <= 15; km += 0.25)
+    curve.points.emplace_back(km, value(plant::published_wind(name, 1000 * km).value()));
   return curve;
 }
 
@@ -112,36 +110,45 @@ double from_deg(const world::Vector3& wind_n) {
   return from < 0 ? from + 360 : from;
 }
 
-// The nominal glide, without errors and without a target: a point every 250 ms over 100 s.
-const std::vector<plant::glide::Truth>& nominal_glide() {
-  static const auto flown = [] {
-    constexpr std::int64_t step_us = plant::glide::Glider::step_us;
-    plant::glide::Glider glider({}, world::Stream(0, 0, "none"), world::Stream(0, 0, "none"));
-    std::vector<plant::glide::Truth> points{glider.now()};
-    for (std::int64_t t_us = 0; t_us < 100'000'000 && glider.step(t_us, t_us + step_us, {});
-         t_us += step_us) {
-      if ((t_us + step_us) % 250'000 == 0) points.push_back(glider.now());
-    }
-    return points;
-  }();
-  return flown;
+/// The nominal flight at a row of its record.
+struct Flown {
+  double t_s = 0;
+  world::Vector3 v_a, v_eb_n;
+  world::Euler angles;
+  double height = 0;
+};
+Flown flown_at(std::size_t row) {
+  static const auto columns =
+      world::PlantColumns<10>::find({&plant::published_flight()},
+                                    {"plant.air_velocity.x", "plant.air_velocity.y", "plant.air_velocity.z",
+                                     "velocity.north", "velocity.east", "velocity.down", "attitude.roll",
+                                     "attitude.pitch", "attitude.heading", "plant.height"})
+          .value();
+  const auto of = columns.of_row(row);
+  return {.t_s = static_cast<double>(columns.record().times_us()[row]) * 1e-6,
+          .v_a = world::Vector3(&of[0]),
+          .v_eb_n = world::Vector3(&of[3]),
+          .angles = {.roll = of[6], .pitch = of[7], .heading = of[8]},
+          .height = of[9]};
 }
 
-Curve glide(std::string_view what) {
-  using plant::glide::Truth;
-  static const std::map<std::string_view, double (*)(const Truth&)> values{
-      {"air_speed", [](const Truth& t) { return t.v_a.norm(); }},
-      {"north", [](const Truth& t) { return t.v_eb_n.x(); }},
-      {"east", [](const Truth& t) { return t.v_eb_n.y(); }},
-      {"down", [](const Truth& t) { return t.v_eb_n.z(); }},
-      {"roll", [](const Truth& t) { return world::euler_from(t.C_bn).roll / deg; }},
-      {"pitch", [](const Truth& t) { return world::euler_from(t.C_bn).pitch / deg; }},
-      {"heading", [](const Truth& t) { return world::euler_from(t.C_bn).heading / deg; }},
-      {"attack", [](const Truth& t) { return std::atan2(t.v_a.z(), t.v_a.x()) / deg; }}};
+Curve flight(std::string_view what) {
+  static const std::map<std::string_view, double (*)(const Flown&)> values{
+      {"air_speed", [](const Flown& at) { return at.v_a.norm(); }},
+      {"north", [](const Flown& at) { return at.v_eb_n.x(); }},
+      {"east", [](const Flown& at) { return at.v_eb_n.y(); }},
+      {"down", [](const Flown& at) { return at.v_eb_n.z(); }},
+      {"roll", [](const Flown& at) { return at.angles.roll / deg; }},
+      {"pitch", [](const Flown& at) { return at.angles.pitch / deg; }},
+      {"heading", [](const Flown& at) { return at.angles.heading / deg; }},
+      {"attack", [](const Flown& at) { return std::atan2(at.v_a.z(), at.v_a.x()) / deg; }}};
   const auto value = values.at(what);
+  constexpr std::size_t every = 25;  // rows of 10 ms
   Curve curve;
-  for (const Truth& point : nominal_glide())
-    curve.points.emplace_back(static_cast<double>(point.t_us) * 1e-6, value(point));
+  for (std::size_t row = 0; row < plant::published_flight().times_us().size(); row += every) {
+    const Flown now = flown_at(row);
+    curve.points.emplace_back(now.t_s, value(now));
+  }
   return curve;
 }
 
@@ -152,10 +159,10 @@ Result<PageContent> page_content(const Results& results, const FlyOptions& /*opt
   PageContent content;
   add_scores(content.names, results);
   add_claims(content.names, results);
-  const plant::glide::Truth& end = nominal_glide().back();
-  content.names["glide_end"] = [&end](Words&) {
+  content.names["end_of_flight"] = [](Words&) {
+    const Flown end = flown_at(plant::published_flight().times_us().size() - 1);
     return fmt::format("{:.0f} m/s and {:.2f} km, heading {:+.1f} deg", end.v_a.norm(), end.height / 1000,
-                       world::euler_from(end.C_bn).heading / deg);
+                       end.angles.heading / deg);
   };
   content.curves["error"] = [&results](Words& words) {
     constexpr std::size_t step = 10;  // answers come every 100 ms: one point per second
@@ -165,7 +172,7 @@ Result<PageContent> page_content(const Results& results, const FlyOptions& /*opt
     return profile(words.rest(), [](const world::Vector3& wind_n) { return wind_n.norm(); });
   };
   content.curves["wind_from"] = [](Words& words) { return profile(words.rest(), from_deg); };
-  content.curves["glide"] = [](Words& words) { return glide(words.rest()); };
+  content.curves["flight"] = [](Words& words) { return flight(words.rest()); };
   content.bars_met =
       passed(results.of("table1"), lost_requirement) &&
       std::ranges::all_of(judged, [&](const char* name) { return passed(results.of(name), requirement); });

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -110,20 +109,6 @@ Result<void> write_entry(zip_t* archive, zip_uint64_t index, const std::string& 
 }
 
 }  // namespace
-
-Result<std::unique_ptr<TemporaryFolder>> TemporaryFolder::make() {
-  std::error_code error;
-  std::string pattern = (fs::temp_directory_path(error) / "canhil-fmu-XXXXXX").string();
-  if (error || ::mkdtemp(pattern.data()) == nullptr)
-    return failure(fmt::format("a temporary folder cannot be made ({}: {})", pattern,
-                               error ? error.message() : std::generic_category().message(errno)));
-  return std::make_unique<TemporaryFolder>(pattern);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 Result<Archive> Archive::open(std::string content) {
   Archive own;

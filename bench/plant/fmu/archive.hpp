@@ -14,22 +14,6 @@ namespace canhil::plant::fmu {
 inline constexpr std::size_t most_packed_bytes = std::size_t{512} << 20U;
 inline constexpr std::size_t most_unpacked_bytes = std::size_t{2} << 30U;
 
-/// A private folder for temporary files, mode 0700; the destructor removes it.
-class TemporaryFolder {
- public:
-  /// Error, one phrase: it cannot be made.
-  static Result<std::unique_ptr<TemporaryFolder>> make();
-  explicit TemporaryFolder(std::filesystem::path path) : path_(std::move(path)) {}
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// A zip archive in memory, whose entries are files and folders below its root: none climbs out of it, none
 /// is a link, and all together have at most `most_unpacked_bytes`. It may be read in several threads.
 class Archive {

@@ -33,7 +33,7 @@ Result<Binary> Binary::load(const std::string& path) {
 
 void* Binary::symbol(const char* name, std::string& missing) const {
   void* found = dlsym(handle_.get(), name);
-  if (found == nullptr && missing.empty()) missing = name;
+  if (found == nullptr) missing += (missing.empty() ? "" : ", ") + std::string(name);
   return found;
 }
 

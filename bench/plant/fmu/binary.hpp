@@ -16,8 +16,8 @@ class Binary {
   /// Error, one phrase: it cannot be loaded.
   static Result<Binary> load(const std::string& path);
 
-  /// A function of the library. If the library lacks it, `missing` becomes the function's name, unless it has
-  /// one already; the result must not be called then.
+  /// A function of the library. If the library lacks it, its name is added to `missing`; the result must not
+  /// be called then.
   template <class F>
   F* function(const char* name, std::string& missing) const {
     return reinterpret_cast<F*>(symbol(name, missing));

@@ -118,7 +118,7 @@ Result<std::shared_ptr<const TemporaryFolder>> FmuPlan::unpacked() const {
   const std::lock_guard lock(mutex_);
   if (folder_) return folder_;
   if (settings_->setup.library.empty()) return failure("was not read without an error");
-  auto folder = TemporaryFolder::make();
+  auto folder = TemporaryFolder::make("fmu");
   if (!folder) return tl::unexpected(folder.error());
   if (auto done = archive_.unpack((*folder)->path()); !done) return tl::unexpected(done.error());
   folder_ = std::move(*folder);

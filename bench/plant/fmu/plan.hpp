@@ -10,6 +10,7 @@
 #include "bench/plant/fmu/archive.hpp"
 #include "bench/plant/fmu/description.hpp"
 #include "bench/plant/plant.hpp"
+#include "dbc/files/temporary_folder.hpp"
 
 namespace canhil::plant::fmu {
 

@@ -2,7 +2,7 @@
 
     hil-bench run docs/examples/autopilot/autopilot.toml --target 'python3 docs/examples/autopilot/autopilot.py'
 
---defect NAME: the autopilot has a defect, which the bench must find (DEFECTS).
+--defect NAME: the autopilot has a defect, which the bench must find (DEFECTS). 'no_fault' shows only where the rudder does not follow, as with actuator_stop_deg = 3.
 """
 import math
 import struct

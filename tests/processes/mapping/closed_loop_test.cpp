@@ -57,7 +57,26 @@ TEST(ClosedLoop, AnActuatorAtItsStopFails) {
   EXPECT_EQ(outcomes["command age of rudder"], "pass");
 }
 
-// A device that answers, but never commands: without a check of the loop too, the run fails.
+// The example with an AP_Rudder that answers nothing, and with these checks; returns the path of the
+// scenario.
+std::string unanswering_rudder(const std::string& name, const std::string& checks) {
+  std::string text = read(autopilot + "autopilot.toml"), map = read(autopilot + "autopilot.mapping.toml");
+  const std::string owes =
+      "message = \"AP_Rudder\"\nanswers = \"HDG_Heading\"\necho = { signal = \"AP_HeadingCounter\", of = "
+      "\"HDG_Heading.HDG_Counter\" }\n";
+  EXPECT_NE(map.find(owes), std::string::npos);
+  map.replace(map.find(owes), owes.size(), "message = \"AP_Rudder\"\n");
+  const std::string dbc = "dbc = \"autopilot.dbc\"";
+  map.replace(map.find(dbc), dbc.size(), "dbc = \"" + autopilot + "autopilot.dbc\"");
+  std::ofstream(scratch(name + ".mapping.toml")) << map;
+  text.replace(text.find("autopilot.mapping.toml"), 22, name + ".mapping.toml");
+  text.replace(text.find("[[check]]"), std::string::npos, checks);
+  std::ofstream(scratch(name + ".toml")) << text;
+  return scratch(name + ".toml");
+}
+
+// A device that answers, but never commands: without a check of the loop too, the run fails, and so does a
+// campaign.
 TEST(ClosedLoop, WithoutACommandItFails) {
   const std::string silent = scratch("silent.py");
   std::string device = read(autopilot + "autopilot.py");
@@ -67,23 +86,36 @@ TEST(ClosedLoop, WithoutACommandItFails) {
   device.replace(device.find(yields), yields.size(), "            pass\n        else");
   device.replace(device.find(folder_of_kit), folder_of_kit.size(), "\"" SOURCE_DIR "/docs/examples/kit\"");
   std::ofstream(silent) << device;
-  std::string text = read(autopilot + "autopilot.toml"), map = read(autopilot + "autopilot.mapping.toml");
-  const std::string owes =
-      "message = \"AP_Rudder\"\nanswers = \"HDG_Heading\"\necho = { signal = \"AP_HeadingCounter\", of = "
-      "\"HDG_Heading.HDG_Counter\" }\n";
-  ASSERT_NE(map.find(owes), std::string::npos);
-  map.replace(map.find(owes), owes.size(), "message = \"AP_Rudder\"\n");
-  const std::string dbc = "dbc = \"autopilot.dbc\"";
-  map.replace(map.find(dbc), dbc.size(), "dbc = \"" + autopilot + "autopilot.dbc\"");
-  std::ofstream(scratch("silent.mapping.toml")) << map;
-  text.replace(text.find("autopilot.mapping.toml"), 22, "silent.mapping.toml");
-  text.replace(text.find("[[check]]"), std::string::npos,
-               "[[check]]\nkind = \"error\"\nquantity = \"attitude.heading\"\nbelow_deg = 0.1\n");
-  std::ofstream(scratch("silent.toml")) << text;
-  const Ended ended = hil_bench(
-      fmt::format("run {} --lockstep --target '/usr/bin/python3 {}'", scratch("silent.toml"), silent));
+  const std::string scenario = unanswering_rudder(
+      "silent", "[[check]]\nkind = \"error\"\nquantity = \"attitude.heading\"\nbelow_deg = 0.1\n");
+  const std::string target = fmt::format("--target '/usr/bin/python3 {}'", silent);
+  const Ended ended = hil_bench(fmt::format("run {} --lockstep {}", scenario, target));
   EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
   EXPECT_THAT(ended.out, testing::ContainsRegex("FAIL +commands +no command of rudder came"));
+  std::ofstream(scratch("silent_campaign.toml"))
+      << "title = \"open loop\"\nruns = 2\n[[variant]]\nname = \"it\"\nscenario = \"silent.toml\"\n"
+         "[[metric]]\nkind = \"distribution\"\nname = \"heading\"\nquantity = \"attitude.heading\"\n"
+         "at_s = 3.0\nrms_at_most_mrad = 1000.0\n";
+  const Ended campaign = hil_bench(fmt::format("campaign {} {} --out {}", scratch("silent_campaign.toml"),
+                                               target, scratch("silent.sqlite")));
+  EXPECT_EQ(campaign.code, 1) << campaign.out << campaign.err;
+  EXPECT_THAT(campaign.out, HasSubstr("no command of rudder came"));
+}
+
+// Lockstep waits for answers. If the command comes in a message that answers nothing, its time of arrival is
+// that of the host.
+TEST(ClosedLoop, LockstepThatDoesNotWaitForTheCommandIsNotMeasured) {
+  const std::string scenario = unanswering_rudder(
+      "unawaited",
+      "[[check]]\nkind = \"response\"\nquantity = \"attitude.heading\"\nstatistic = \"steady_error\"\n"
+      "setpoint_deg = 20\nbelow_deg = 90\nfrom_s = 8\n");
+  const std::string report = scratch("unawaited.json");
+  const Ended ended =
+      hil_bench(fmt::format("run {} --lockstep {}' --json {}", scenario, autopilot_target, report));
+  EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
+  const nlohmann::json seen = read_json(report);
+  EXPECT_THAT(seen["checks"][0]["measured"].get<std::string>(), HasSubstr("does not wait for AP_Rudder"));
+  EXPECT_EQ(seen["checks"][0]["outcome"], "not measured");
 }
 
 // 60 ms from the arrival of a command to its effect: the delay is found in virtual time too.

@@ -47,11 +47,22 @@ TEST(FmuLoop, AnFmuThatFailsIsNotMeasured) {
   const std::string lag = "time_constant = 0.4";
   keys.replace(keys.find(lag), lag.size(),
                "time_constant = 1e-300");  // its turn rate leaves the range of numbers
-  const Ended ended =
-      hil_bench(fmt::format("run {} --lockstep {}", fmu_loop("fails.toml", keys), steered_by_autopilot));
+  const std::string log = scratch("fails.log");
+  const Ended ended = hil_bench(
+      fmt::format("run {} --lockstep {} --log {}", fmu_loop("fails.toml", keys), steered_by_autopilot, log));
   EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("not measured: "));
   EXPECT_THAT(ended.out, HasSubstr("model.fmu"));
+  EXPECT_THAT(read(log), testing::Not(HasSubstr("100#"))) << "a heading that moves no more is not sent";
+  // A campaign of such runs does not blame the device either.
+  std::ofstream(own_folder() + "/fails_campaign.toml")
+      << "title = \"fails\"\nruns = 2\n[[variant]]\nname = \"FMU\"\nscenario = \"fails.toml\"\n[[metric]]\n"
+         "kind = \"distribution\"\nname = \"heading\"\nquantity = \"attitude.heading\"\nat_s = 3.0\n"
+         "rms_at_most_mrad = 20.0\n";
+  const Ended campaign = hil_bench(fmt::format("campaign {0}/fails_campaign.toml {1} --out {0}/fails.sqlite",
+                                               own_folder(), steered_by_autopilot));
+  EXPECT_EQ(campaign.code, 3) << campaign.out << campaign.err;
+  EXPECT_THAT(campaign.out, HasSubstr("2 of 2 runs were not measured"));
 }
 
 TEST(FmuLoop, AnFmuIsRefusedWithoutCommands) {

@@ -40,10 +40,8 @@ ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/")
 KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/sensors/seeker.", "bench/nodes/seeker.", "bench/nodes/bound_sensor.", "bench/plant/glide/")
 
 # Code that may name a plant with tables of its own (bench/plant/registry.cpp), also in a comment. All other code sees the
-# outputs of plants as named quantities. Exceptions:
-KNOW_PLANTS = ("bench/plant/",
-               "bench/estimators/wind/wind.",  # a message names the table of a scenario with the errors of the filter's start
-               "bench/papers/wind/")  # the paper's figures show the nominal flight and the profiles of this plant
+# outputs of plants as named quantities.
+KNOW_PLANTS = ("bench/plant/",)
 
 # Code that may know whose DBC it is: the bindings (canhil.dbc's, its sensors' and its estimators', and the mappings of other
 # DBC files), canhil's own protocol, and what is about that protocol alone (conformance, accept, the drawn faults of hil-target).

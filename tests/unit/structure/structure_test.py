@@ -76,8 +76,7 @@ class Checker(unittest.TestCase):
         self.expect_include("target/estimators/all.hpp", "target/estimators/wind/model.hpp")
 
     def test_only_its_folder_names_a_plant(self):
-        glide = {"bench/plant/glide/glide.hpp": "class Glider {};\n", "bench/plant/registry.cpp": "int glide = &glide::table;\n",
-                 "bench/papers/wind/page_content.cpp": "int glide;\n"}
+        glide = {"bench/plant/glide/glide.hpp": "class Glider {};\n", "bench/plant/registry.cpp": "int glide = &glide::table;\n"}
         self.assertEqual(breaches_of(glide | {"bench/drive/flight.cpp": "int glider, glides;\n"}), [])
         for line in ("// The glide ends.\n", "int Glide;\n", 'auto key = "glide";\n', "GlidePlan plan;\n"):
             with self.subTest(line):

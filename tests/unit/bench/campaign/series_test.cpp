@@ -107,7 +107,9 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
   const world::PlantRecord record = flown.record();
   seen.of<estimators::TransferAnswers>().navigation.push_back({});
   const world::FlightRecord rest({.start = {}, .motion = world::Rest{}}, 0, 10'000);
-  const RunSeries series{.samples = estimators::los_rate.samples(
+  const RunSeries series{.run = 7,
+                         .ending = {},
+                         .samples = estimators::los_rate.samples(
                              seen, {.flight = rest, .duration_us = 100'500, .plants = {&record}})};
   ASSERT_EQ(&series.samples.layout(), &estimators::los_rate.layout)
       << "by what was asked for, whatever else was seen";
@@ -168,19 +170,19 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   const world::FlightRecord truth({.start = start, .motion = world::Rest{}}, 3'000'000, 20'000);
   drive::Collected flown{.ending = {}, .seen = {}};
   for (const std::int64_t t_us : {1'000'000, 1'500'000, 2'000'000})
-    seen.of<estimators::InflightAnswers>().navigation.push_back(
+    flown.seen.of<estimators::InflightAnswers>().navigation.push_back(
         {.cause_us = t_us, .angles = {.heading = 1e-6 * static_cast<double>(t_us)}});
   estimators::FixAnswer fix{.cause_us = 500'000, .navigation_us = 1'000'000, .nis = 4};
   fix.position = displaced(start, {1, 2, 3});
   fix.attitude_sigma.z() = 0.5;
   fix.repairs = 6;
-  seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
+  flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::wrong_source;
-  seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
+  flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::gated;
   fix.cause_us = 1'500'000;
   fix.nis = 900;
-  seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
+  flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
   const RunSeries series = series_of(5, flown, truth, estimators::inflight_alignment);
   ASSERT_EQ(series.samples.size(), 2U) << "only of fixes that were considered";
   EXPECT_TRUE(std::isnan(series.samples.value(1, quantities::innovation_nis))) << "the filter did not use it";

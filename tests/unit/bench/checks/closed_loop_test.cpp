@@ -25,7 +25,7 @@ constexpr double pi = std::numbers::pi;
 class ClosedLoop {
  public:
   template <class X>
-  explicit ClosedLoop(X x) : record_({{.name = "x"}}) {
+  explicit ClosedLoop(X x) : record_({{.name = "plant.x"}}) {
     for (std::int64_t t_us = 0; t_us <= end_us; t_us += step_us)
       record_.add(t_us, std::array<double, 1>{x(1e-6 * static_cast<double>(t_us))});
     record_.commands.push_back({.input = "rudder", .delay_us = 0, .step_us = step_us});
@@ -36,7 +36,7 @@ class ClosedLoop {
   template <class Rule>
   Finding judge(const Rule& rule, std::string timing_unfit = std::string(virtual_time)) {
     return rule.judge({.seen = seen,
-                       .truth = {.flight = flight_, .duration_us = end_us, .plant = &record_},
+                       .truth = {.flight = flight_, .duration_us = end_us, .plants = {&record_}},
                        .timing_unfit = std::move(timing_unfit)});
   }
   Observations seen;

@@ -14,6 +14,7 @@
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/los_rate/answers.hpp"
 #include "bench/observe/stopwatch.hpp"
+#include "tests/unit/bench/checks/fly_past.hpp"
 
 namespace canhil::checks {
 

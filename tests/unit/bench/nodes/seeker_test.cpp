@@ -155,9 +155,9 @@ TEST(Seeker, SendsTheTruthOfEachSampleRoundedToTheBus) {
     ASSERT_EQ(angles.error_validity, Validity::valid);
     ASSERT_EQ(range.range_validity, Validity::valid);
   }
-  EXPECT_TRUE(bench.flown().passage().miss_n.has_value());
-  EXPECT_NEAR(static_cast<double>(bench.flown().passage().t_us), static_cast<double>(epochs.back().t_us),
-              5000);
+  EXPECT_TRUE(bench.flown().miss_n().has_value());
+  EXPECT_NEAR(static_cast<double>(bench.flown().record().ended_us.value()),
+              static_cast<double>(epochs.back().t_us), 5000);
 }
 
 TEST(Seeker, IncrementsCarryTheirRemainders) {
@@ -261,7 +261,7 @@ class GuidedSeeker : public testing::Test {
       if (!sample) break;
       answer(bench, bench.flown().epoch(sample->range.time_of_validity_us / 5000 - 1));
     }
-    return bench.flown().passage().miss_n.value().norm();
+    return bench.flown().miss_n().value().norm();
   }
   static void truthful(Bench& bench, const Epoch& epoch) { bench.answer(epoch.t_us, epoch.los_rate); }
 };
@@ -270,7 +270,7 @@ TEST_F(GuidedSeeker, FliesOnTheAnswers) {
   Bench bench(exact(), guided());
   EXPECT_TRUE(bench.node().listens());
   EXPECT_LT(miss(bench, truthful), 0.5);
-  EXPECT_EQ(bench.flown().passage().late_commands, 0U);
+  EXPECT_EQ(bench.flown().record().late, 0U);
   Bench deaf(exact(), guided());
   EXPECT_GT(miss(deaf, [](Bench&, const auto&) {}), 20) << "without answers it flies straight on";
   EXPECT_FALSE(Bench(exact()).node().listens()) << "guided by the truth";
@@ -302,7 +302,7 @@ TEST_F(GuidedSeeker, ReckonsTheAnswerOnToItsUse) {
     EXPECT_GT(before, 1);
     EXPECT_LT(miss(predicting, with_acceleration), 0.25 * before);
     EXPECT_GT(miss(unaware, truthful), 0.5 * before) << "without the target's acceleration";
-    EXPECT_EQ(predicting.flown().passage().late_commands, 0U);
+    EXPECT_EQ(predicting.flown().record().late, 0U);
   }
 }
 
@@ -339,9 +339,9 @@ TEST_F(GuidedSeeker, LateAnswersAreCounted) {
   Bench bench(exact(), guided());
   for (int i = 0; i < 5; ++i) bench.next();
   bench.answer(5000, {});
-  EXPECT_EQ(bench.flown().passage().late_commands, 1U) << "flown to 25 ms, due at 15 ms";
+  EXPECT_EQ(bench.flown().record().late, 1U) << "flown to 25 ms, due at 15 ms";
   bench.answer(20'000, {});
-  EXPECT_EQ(bench.flown().passage().late_commands, 1U);
+  EXPECT_EQ(bench.flown().record().late, 1U);
 }
 
 }  // namespace

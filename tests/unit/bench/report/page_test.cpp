@@ -178,5 +178,35 @@ TEST(Plot, ABarThatWouldHideTheCurveIsLeftOut) {
   EXPECT_THAT(svg(plot), Not(HasSubstr("class=\"bar\"")));
 }
 
+TEST(Plot, ARingIsAroundTheLargestValueOfItsTime) {
+  LinePlot plot{.title = "x", .unit = "m", .t_s = {0, 1, 2}, .low = {0, -8, 0}, .high = {4, 4, 4}};
+  const auto ring_at = [&](double t_s) {
+    plot.worst_s = {t_s};
+    const std::string drawn = svg(plot);
+    const std::size_t at = drawn.find("<circle");
+    return at == std::string::npos ? std::string("none") : drawn.substr(at, drawn.find("/>", at) - at);
+  };
+  const std::string low = ring_at(1.0);
+  EXPECT_EQ(low, ring_at(1.9)) << "of the point at or before it";
+  EXPECT_NE(low, ring_at(2.0));
+  EXPECT_EQ(ring_at(2.1), "none");
+  // The axis shows -8.6 to 4.6 from bottom to top, so -8 is far below 4.
+  const auto height = [](const std::string& ring) { return std::stod(ring.substr(ring.find("cy=\"") + 4)); };
+  EXPECT_GT(height(low), height(ring_at(0.0)) + 50);
+}
+
+TEST(Page, ACheckIsALinkToItsPictureWhichMarksTheWorst) {
+  Json report = document(scenario_of(), run_of());
+  Json& series = report["series"][1];
+  series["bars"] = {{{"check", "its limit"}, {"statistic", "max"}, {"below", 1}, {"from_s", 0}, {"to_s", 1}}};
+  Json check = report["checks"][0];
+  check["name"] = "its limit";
+  check["worst_at_s"] = series["t_s"][0];
+  report["checks"].push_back(check);
+  const std::string page = html(report).value();
+  EXPECT_THAT(page, AllOf(HasSubstr("<a href=\"#series-1\">its limit</a>"),
+                          HasSubstr("<figure id=\"series-1\">"), HasSubstr("ring: the largest")));
+}
+
 }  // namespace
 }  // namespace canhil::report

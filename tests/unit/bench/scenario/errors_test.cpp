@@ -32,9 +32,9 @@ std::string keys_of_a_file() {
     }
     return keys;
   };
-  return "title, duration_s, dbc, seed, target, engagement, glide, wind, airframe, " +
-         nodes_of("plant.height") + "plant, truth, initial_error, " + nodes_of("") + nodes_of("plant.range") +
-         "event, fault, check";
+  return "title, duration_s, dbc, seed, target, engagement, " + nodes_of("plant.range") +
+         "glide, wind, airframe, " + nodes_of("plant.height") + "plant, truth, initial_error, " +
+         nodes_of("") + "event, fault, check";
 }
 
 const std::string sigma =

@@ -47,6 +47,9 @@ TEST(Expression, HasTimeConstantsAndConditions) {
   EXPECT_DOUBLE_EQ(value("2 * g").value(), 2 * 9.80665);
   EXPECT_EQ(value("t >= 7 && t != 8 ? 1 : -1"), 1);
   EXPECT_EQ(value("t == 7 ? 1 : -1"), -1);
+  EXPECT_EQ(value("!(t == 7) && !0"), 1);
+  EXPECT_EQ(value("!t"), 0);
+  EXPECT_EQ(value("t!=8"), 1);
 }
 
 TEST(Expression, HasNoValueWithoutTruth) {

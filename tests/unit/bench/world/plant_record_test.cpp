@@ -30,8 +30,9 @@ TEST(PlantRecord, HoldsWhatStepsAndInterpolatesTheRest) {
   EXPECT_EQ(record.at(1, 10'000), 2);
   EXPECT_FALSE(record.at(0, 10'001));
   EXPECT_FALSE(record.at(0, -1));
-  EXPECT_TRUE(record.has(10'000));
-  EXPECT_FALSE(record.has(5'000));
+  EXPECT_EQ(record.row(10'000), 1);
+  EXPECT_FALSE(record.row(5'000));
+  EXPECT_FALSE(record.row(15'000));
 }
 
 TEST(PlantRecord, ColumnsAreThoseOfTheFirstRecordThatHasAll) {

@@ -226,13 +226,5 @@ TEST(Engagement, TheNumbersOfARunAreItsOwn) {
   EXPECT_EQ(*fine.miss_n(), miss(Settings{}, 4));
 }
 
-TEST(EngagementRecord, FindsTheEpochOfATime) {
-  EngagementRecord record;
-  record.epochs = {{.t_us = 5000}, {.t_us = 10'000}};
-  EXPECT_EQ(record.at(10'000), &record.epochs[1]);
-  EXPECT_EQ(record.at(7000), nullptr);
-  EXPECT_EQ(record.at(15'000), nullptr);
-}
-
 }  // namespace
 }  // namespace canhil::plant::engagement

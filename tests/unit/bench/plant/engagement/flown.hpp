@@ -3,15 +3,20 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 
-#include "bench/estimators/end_of_flight.hpp"
 #include "bench/plant/engagement/read.hpp"
 #include "bench/plant/setup.hpp"
 #include "bench/plant/simulation.hpp"
+#include "bench/world/attitude.hpp"
 #include "bench/world/planes.hpp"
+#include "bench/world/plant_record.hpp"
 
 namespace canhil::plant::engagement {
+
+using world::Planes;
+using world::Vector3;
 
 /// The truth at a step.
 struct Epoch {
@@ -32,7 +37,14 @@ class Flown {
   [[nodiscard]] const scenario::PlantFacts& facts() const { return facts_; }
   [[nodiscard]] Simulation& simulation() { return *simulation_; }
   [[nodiscard]] const world::PlantRecord& record() const { return simulation_->record(); }
-  [[nodiscard]] estimators::Passage passage() const { return estimators::Passage::find({&record()}).value(); }
+  /// Target relative to missile at the closest approach [m]; none: not reached.
+  [[nodiscard]] std::optional<Vector3> miss_n() const {
+    if (!record().ended_us) return std::nullopt;
+    const auto relative = world::PlantColumns<3>::find(
+        {&record()}, {"plant.relative.x", "plant.relative.y", "plant.relative.z"});
+    const auto miss = relative->of_row(record().times_us().size() - 1);
+    return Vector3(miss.data());
+  }
   /// The number of steps before the passage, without the start.
   [[nodiscard]] std::size_t epochs() const {
     return record().times_us().size() - (record().ended_us ? 2 : 1);
