@@ -139,7 +139,7 @@ void timing(const At& report) {
 // Its numbers are optional; a limit has all its parts.
 void one_check(const At& check) {
   for (const char* key : {"name", "kind", "outcome", "measured", "expected"}) text(check[key]);
-  for (const char* key : {"quantity", "estimator", "statistic", "unit"}) {
+  for (const char* key : {"quantity", "estimator", "statistic", "unit", "while"}) {
     if (check.has(key)) text(check[key]);
   }
   for (const char* key : {"value", "margin", "from_s", "to_s", "worst_at_s"}) {
