@@ -66,7 +66,8 @@ TEST(Condition, KnowsWhatTheTargetReports) {
   const auto all = judged(
       flag_check("coasts", "flag = 'coasting'\nwhile = 't > 3.005 && t < 3.2'") +
       flag_check("never coasts", "flag = 'coasting'\nstate = 'clear'\nwhile = 't > 3.005 && t < 3.2'") +
-      flag_check("only then", "flag = 'coasting'\nstate = 'clear'\nwhile = '!(t > 2.995 && t < 3.205)'") +
+      flag_check("only then",
+                 "flag = 'coasting'\nstate = 'clear'\nwhile = '!(t > 2.995 && t < 3.205) && t < 5.5'") +
       // Each value that the filter tells is that of its own answer, so this holds at each coasting answer.
       flag_check("itself", "flag = 'coasting'\nwhile = 'flag.coasting'") +
       error_check("small errors", "while = 'abs(error.los.rate.pitch) < 0.001'") +
@@ -76,7 +77,7 @@ TEST(Condition, KnowsWhatTheTargetReports) {
   EXPECT_EQ(all[1].outcome, Outcome::fail) << all[1].measured;
   EXPECT_EQ(all[2].outcome, Outcome::pass) << all[2].measured;
   EXPECT_EQ(all[3].outcome, Outcome::pass) << all[3].measured;
-  EXPECT_EQ(all[3].measured, "set in 41 of 41 answers");
+  EXPECT_EQ(all[3].measured, "set in 42 of 42 answers");
   EXPECT_EQ(all[4].measured, all[5].measured) << "the error is the estimate less the truth";
   EXPECT_NE(all[4].measured, all[7].measured);
   EXPECT_EQ(all[6].measured, all[7].measured) << "each answer has a sigma";
@@ -84,7 +85,7 @@ TEST(Condition, KnowsWhatTheTargetReports) {
 
 TEST(Condition, KnowsFaults) {
   const std::string fault =
-      "[[fault]]\nname = 'radar off'\nkind = 'bias'\nquantity = 'seeker.error_pitch'\nby = 0.02\n"
+      "[[fault]]\nname = 'radar off'\nkind = 'bias'\nquantity = 'seeker.error_pitch'\nby_deg = 1\n"
       "from_s = 1\nto_s = 1.5\n";
   const auto all = judged(fault + error_check("during", "while = 'fault.radar_off'") +
                           error_check("else", "while = '!fault.radar_off'") +
@@ -96,7 +97,7 @@ TEST(Condition, KnowsFaults) {
 
 TEST(Condition, ThatNeverHoldsIsNotMeasured) {
   const auto all = judged(error_check("never", "while = 'plant.range > 1e9'") +
-                          flag_check("never", "flag = 'coasting'\nwhile = 'plant.range > 1e9'"));
+                          flag_check("never set", "flag = 'coasting'\nwhile = 'plant.range > 1e9'"));
   for (const checks::CheckResult& one : {all[0], all[1]}) {
     EXPECT_EQ(one.outcome, Outcome::not_measured);
     EXPECT_EQ(one.measured, "the condition held at no answer");

@@ -188,7 +188,7 @@ TEST(ScenarioChecks, AnglesMayBeInDegrees) {
   EXPECT_EQ(error_of(one_check(of_pitch("limit_mps = 5"))),
             "s.toml:19: key 'check[1].limit_mps': is unknown, expected one of: kind, requirement, quantity, "
             "estimator, "
-            "statistic, time_to_go_s, from_s, to_s, below_deg, below_mrad, name");
+            "statistic, while, time_to_go_s, from_s, to_s, below_deg, below_mrad, name");
 }
 
 TEST(ScenarioChecks, Answers) {

@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
             "sigma, answers, latency, latency_growth, delay, output_period, own_times, heartbeat, counters, "
             "counts_match, protection, bus_load, bus_errors, "
             "wire_response, detected_within, recovers_within, sigma_grows, honest, answering, "
-            "flag, response, command, miss_distance"},
+            "flag, response, command, program, miss_distance"},
         Wrong{
             "[[check]]", check("kind = 'error'\nquantity = 'yaw.of.the.body'\nbelow_mrad = 1"),
             "18: key 'check[1].quantity': 'yaw.of.the.body' is unknown, expected one of: misalignment.north, "
