@@ -74,7 +74,7 @@ Finding of_the_whole_run(Finding finding, const Observations& seen) {
 }
 
 Finding Counters::judge(const Evidence& evidence) const {
-  if (!evidence.seen.counters) return {Outcome::fail, "no TargetCounters", "counters reported"};
+  if (!evidence.seen.counters) return {Outcome::fail, "no TargetCounters", {.text = "counters reported"}};
   const messages::TargetCounters& counters = *evidence.seen.counters;
   Finding finding =
       within_limits(std::array<CountLimit, 4>{{{"frames lost", frames_lost_at_most, counters.frames_lost},

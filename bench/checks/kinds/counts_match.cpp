@@ -54,7 +54,8 @@ CountsMatch CountsMatch::read(scenario::Section& section, const scenario::CheckC
 
 Finding CountsMatch::judge(const Evidence& evidence) const {
   const Observations& seen = evidence.seen;
-  if (!seen.counters) return {Outcome::fail, "no TargetCounters", "counts of what the bench withheld"};
+  if (!seen.counters)
+    return {Outcome::fail, "no TargetCounters", {.text = "counts of what the bench withheld"}};
   const auto& [least, most] = seen.expected_counts;
   const std::array counts{
       count("frames lost", seen.counters->frames_lost, least.frames_lost, most.frames_lost,

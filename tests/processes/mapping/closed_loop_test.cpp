@@ -93,7 +93,7 @@ TEST(ClosedLoop, WithoutACommandItFails) {
   EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
   EXPECT_THAT(ended.out, testing::ContainsRegex("FAIL +commands +no command of rudder came"));
   std::ofstream(scratch("silent_campaign.toml"))
-      << "title = \"open loop\"\nruns = 2\n[[variant]]\nname = \"it\"\nscenario = \"silent.toml\"\n"
+      << "title = \"open loop\"\nruns = 2\nseed = 1\n[[variant]]\nname = \"it\"\nscenario = \"silent.toml\"\n"
          "[[metric]]\nkind = \"distribution\"\nname = \"heading\"\nquantity = \"attitude.heading\"\n"
          "at_s = 3.0\nrms_at_most_mrad = 1000.0\n";
   const Ended campaign = hil_bench(fmt::format("campaign {} {} --out {}", scratch("silent_campaign.toml"),

@@ -56,7 +56,8 @@ TEST(FmuLoop, AnFmuThatFailsIsNotMeasured) {
   EXPECT_THAT(read(log), testing::Not(HasSubstr("100#"))) << "a heading that moves no more is not sent";
   // A campaign of such runs does not blame the device either.
   std::ofstream(own_folder() + "/fails_campaign.toml")
-      << "title = \"fails\"\nruns = 2\n[[variant]]\nname = \"FMU\"\nscenario = \"fails.toml\"\n[[metric]]\n"
+      << "title = \"fails\"\nruns = 2\nseed = 1\n[[variant]]\nname = \"FMU\"\nscenario = "
+         "\"fails.toml\"\n[[metric]]\n"
          "kind = \"distribution\"\nname = \"heading\"\nquantity = \"attitude.heading\"\nat_s = 3.0\n"
          "rms_at_most_mrad = 20.0\n";
   const Ended campaign = hil_bench(fmt::format("campaign {0}/fails_campaign.toml {1} --out {0}/fails.sqlite",
