@@ -102,7 +102,7 @@ Finding Protection::judge(const Evidence& evidence) const {
     if (wanted && arrived(evidence.seen.from_target[i]) == 0)
       return {Outcome::not_measured, fmt::format("{} never came", messages[i].name), "messages to look at"};
   }
-  if (arrived(all) == 0) return {Outcome::fail, "no messages of the target", "some"};
+  if (arrived(all) == 0) return {Outcome::fail, "no messages of the target", {.text = "some"}};
   const std::string subject = message.value_or("no message that came");
   const std::string_view verb = message ? " has no " : " has a ";
   if (!all.has_counter && !all.has_checksum)

@@ -1,6 +1,7 @@
 // Checks that are programs of the user.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -96,10 +97,12 @@ TEST(ProgramCheck, IsRefusedLikeAnyCommand) {
 }
 
 TEST(ProgramCheck, LeavesNothingBehind) {
-  const auto folders = [] { return shell("ls -d ${TMPDIR:-/tmp}/canhil-check-* 2>/dev/null").out; };
-  const std::string before = folders();
-  fly(program("print('[]')"));
-  EXPECT_EQ(folders(), before);
+  const std::string folder = scratch("temporary");
+  std::filesystem::create_directory(folder);
+  ::setenv("TMPDIR", folder.c_str(), 1);
+  fly(program("import sys\nassert sys.argv[1].startswith('" + folder + "')\nprint('[]')"));
+  ::unsetenv("TMPDIR");
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
 }  // namespace
