@@ -53,7 +53,8 @@ TEST(FmuLoop, AnFmuThatFailsIsNotMeasured) {
   EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("not measured: "));
   EXPECT_THAT(ended.out, HasSubstr("model.fmu"));
-  EXPECT_THAT(read(log), testing::Not(HasSubstr("100#"))) << "a heading that moves no more is not sent";
+  const std::string frames = read(log);
+  EXPECT_EQ(frames.find(" 100#"), frames.rfind(" 100#")) << "a heading that moves no more is not sent";
   // A campaign of such runs does not blame the device either.
   std::ofstream(own_folder() + "/fails_campaign.toml")
       << "title = \"fails\"\nruns = 2\nseed = 1\n[[variant]]\nname = \"FMU\"\nscenario = "
@@ -63,7 +64,7 @@ TEST(FmuLoop, AnFmuThatFailsIsNotMeasured) {
   const Ended campaign = hil_bench(fmt::format("campaign {0}/fails_campaign.toml {1} --out {0}/fails.sqlite",
                                                own_folder(), steered_by_autopilot));
   EXPECT_EQ(campaign.code, 3) << campaign.out << campaign.err;
-  EXPECT_THAT(campaign.out, HasSubstr("2 of 2 runs were not measured"));
+  EXPECT_THAT(campaign.out, HasSubstr("0 of 2 runs completed, 2 not measured"));
 }
 
 TEST(FmuLoop, AnFmuIsRefusedWithoutCommands) {
