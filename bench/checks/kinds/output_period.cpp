@@ -75,8 +75,9 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
   const PeriodDeviation off =
       period_deviation(timed->period, nominal, began_after_s(evidence.seen, *timed),
                        ended_before_s(evidence.seen, *timed), quantile, nominal * within);
+  // A message that is late counts twice: as missing in the gap before it, and as too early after that gap.
   return unless_host_disturbed(evidence, quantile, nominal * within,
-                               {.nominal_s = nominal,
+                               {.nominal_s = nominal / 2,
                                 .count = off.count,
                                 .outside = off.outside,
                                 .bench_off = timed->stimulus_deviation},

@@ -74,11 +74,13 @@ std::int64_t disturbing(const std::vector<std::int64_t>& times_ns, double bar_s)
 
 // The target does not fail if `outside` of `count` values are beyond the limit, and those that the host did
 // not spoil would pass. `off_ns`: how far the bench was off, for each stimulus. A wait shorter than the
-// period spoils two values.
+// period spoils two values, and three if it is longer than `long_s`.
 Judged unless_disturbed(const Drawn& run, double q, double bar_s, Judged verdict, std::int64_t outside,
-                        std::int64_t count, std::int64_t missing, const std::vector<std::int64_t>& off_ns) {
+                        std::int64_t count, std::int64_t missing, const std::vector<std::int64_t>& off_ns,
+                        double long_s = std::numeric_limits<double>::infinity()) {
   const std::int64_t late = disturbing(off_ns, bar_s), waited = disturbing(waits(run), bar_s);
-  const std::int64_t spoiled = std::min(outside, late + 2 * waited);
+  const std::int64_t long_waits = disturbing(waits(run), std::max(bar_s, 2 * long_s));
+  const std::int64_t spoiled = std::min(outside, late + 2 * waited + long_waits);
   const double good = std::max(1.0, std::ceil(q * static_cast<double>(count)));
   const bool enough_good = static_cast<double>(count - missing - outside + spoiled) >= good;
   if (verdict.outcome != Outcome::fail || spoiled == 0 || !enough_good) return verdict;
@@ -220,7 +222,7 @@ Judged output_period(const PlainRun& of, const OutputPeriod& rule) {
   return unless_disturbed(of.run, rule.quantile, permitted_s,
                           passes_if(value_s <= permitted_s,
                                     fmt::format("{:.3f} ms off, of {}", value_s * 1e3, deviations.size())),
-                          outside, std::ssize(deviations), 0, own_deviations);
+                          outside, std::ssize(deviations), 0, own_deviations, nominal_s / 2);
 }
 
 Judged own_times(const PlainRun& of, const OwnTimes& /*rule*/) {
