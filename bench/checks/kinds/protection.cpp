@@ -100,19 +100,25 @@ Finding Protection::judge(const Evidence& evidence) const {
     const bool wanted = message ? messages[i].name == *message
                                 : std::ranges::find(answers, messages[i].name) != answers.end();
     if (wanted && arrived(evidence.seen.from_target[i]) == 0)
-      return {Outcome::not_measured, fmt::format("{} never came", messages[i].name), "messages to look at"};
+      return {Outcome::not_measured,
+              fmt::format("{} never came", messages[i].name),
+              {.text = "messages to look at"}};
   }
   if (arrived(all) == 0) return {Outcome::fail, "no messages of the target", {.text = "some"}};
   const std::string subject = message.value_or("no message that came");
   const std::string_view verb = message ? " has no " : " has a ";
   if (!all.has_counter && !all.has_checksum)
-    return {Outcome::not_measured, subject + std::string(verb) + "counter or checksum",
-            "[[protection]] in the mapping"};
+    return {Outcome::not_measured,
+            subject + std::string(verb) + "counter or checksum",
+            {.text = "[[protection]] in the mapping"}};
   if (!all.has_checksum && wrong_checksums_at_most)
-    return {Outcome::not_measured, subject + std::string(verb) + "checksum",
-            "[[protection]] with a checksum"};
+    return {Outcome::not_measured,
+            subject + std::string(verb) + "checksum",
+            {.text = "[[protection]] with a checksum"}};
   if (!all.has_counter && (wrong_counters_at_most || lost_at_most))
-    return {Outcome::not_measured, subject + std::string(verb) + "counter", "[[protection]] with a counter"};
+    return {Outcome::not_measured,
+            subject + std::string(verb) + "counter",
+            {.text = "[[protection]] with a counter"}};
   // A limit of a protection that no message has would pass whatever the target sends.
   const auto limit = [](bool has, const std::optional<std::int64_t>& at_most) {
     return has ? std::optional(at_most.value_or(0)) : std::nullopt;
