@@ -90,7 +90,8 @@ Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, const
     if (const auto& why = (*plant)->why_failed())
       return failure(fmt::format("key 'duration_s': run {}: {}, expected a shorter run", run_index, *why));
     const bool is_sampled = std::ranges::none_of(facts.table->shows, is_recorded);
-    own.of_tables.push_back({.plant = std::move(*plant), .is_sampled = is_sampled});
+    own.of_tables.push_back(
+        {.plant = std::move(*plant), .is_guided = facts.guidance.has_value(), .is_sampled = is_sampled});
   }
   return own;
 }
@@ -202,7 +203,7 @@ estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth&
   return {.flight = flight_of(flight, own), .duration_us = duration_us, .plants = plants_of(own, true)};
 }
 
-Ending with_end_of_plant(Ending ending, const PerRunTruth& own, std::int64_t duration_us) {
+Ending with_end_of_plant(const Ending& ending, const PerRunTruth& own, std::int64_t duration_us) {
   if (ending.kind == Ending::Kind::completed) {
     for (plant::Simulation* one : own.plants()) one->advance(duration_us);
   }
@@ -269,10 +270,9 @@ sensors::Run run_of(const scenario::Scenario& scenario, const world::FlightRecor
                    .flight = flight_of(truth, per_run_truth),
                    .plants = plants_of(per_run_truth),
                    .faults = faults};
-  for (std::size_t i = 0; i < scenario.of_tables.size(); ++i) {
-    if (scenario.of_tables[i].guidance)
-      run.guide = [plant = per_run_truth.of_tables[i].plant.get()](std::int64_t from_us,
-                                                                   std::span<const double> inputs) {
+  for (const PerRunTruth::OfTable& one : per_run_truth.of_tables) {
+    if (one.is_guided)
+      run.guide = [plant = one.plant.get()](std::int64_t from_us, std::span<const double> inputs) {
         plant->guide(from_us, inputs);
       };
   }

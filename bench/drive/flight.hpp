@@ -27,6 +27,7 @@ struct PerRunTruth {
   /// A plant with tables of its own.
   struct OfTable {
     std::unique_ptr<plant::Simulation> plant;
+    bool is_guided = false;  ///< the target's answers guide it
     bool is_sampled = true;  ///< false: its nodes send a recording of what another plant did
   };
   std::vector<OfTable> of_tables{};  ///< as Scenario::of_tables
@@ -51,7 +52,7 @@ estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth&
 
 /// Advances the plants to the end of a completed run: the truth of the last samples needs it. Returns how the
 /// run ended, which a plant that failed decides.
-Ending with_end_of_plant(Ending ending, const PerRunTruth& own, std::int64_t duration_us);
+Ending with_end_of_plant(const Ending& ending, const PerRunTruth& own, std::int64_t duration_us);
 
 /// The parts of a run that are drawn at random before the run begins.
 struct Flight {

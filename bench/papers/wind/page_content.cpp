@@ -100,8 +100,10 @@ Curve profile(std::string_view season, Value value) {
   std::string name(season);
   name.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
   Curve curve;
-  for (double km = 0; km <= 15; km += 0.25)
+  for (int quarter = 0; quarter <= 60; ++quarter) {
+    const double km = 0.25 * quarter;
     curve.points.emplace_back(km, value(plant::published_wind(name, 1000 * km).value()));
+  }
   return curve;
 }
 

@@ -190,9 +190,9 @@ Truth Engagement::truth() const {
 }
 
 Increment Engagement::take_increment() {
-  const Increment increment{.interval_us = t_us_ - taken_us_,
-                            .delta_theta = state_.segment<3>(turned),
-                            .delta_v = state_.segment<3>(accelerated)};
+  Increment increment{.interval_us = t_us_ - taken_us_,
+                      .delta_theta = state_.segment<3>(turned),
+                      .delta_v = state_.segment<3>(accelerated)};
   state_.segment<6>(turned).setZero();
   taken_us_ = t_us_;
   return increment;
