@@ -14,7 +14,11 @@ namespace canhil::test {
 /// it. If a test failed, the folder is kept, so that its files can be inspected.
 class OwnFolder {
  public:
-  OwnFolder() { std::filesystem::create_directories(path); }
+  // A process that was killed left its folder, and its id may come again.
+  OwnFolder() {
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+  }
   ~OwnFolder() {
     if (getpid() != made_by_ || !testing::UnitTest::GetInstance()->Passed()) return;
     std::error_code ignored;
