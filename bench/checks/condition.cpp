@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "bench/checks/kinds/flag.hpp"
 #include "bench/checks/kinds/of_faults.hpp"
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/section.hpp"
@@ -57,7 +58,7 @@ std::shared_ptr<const Condition> Condition::read(scenario::Section& section,
   for (const estimators::Estimator* one : running) {
     const std::string by(one->name);
     for (const Mark& mark : one->marks(Observations{})) {
-      if (mark.name != mark.among && !mark.among.empty())
+      if (can_be_judged(mark))
         add("flag." + as_name(mark.name),
             {.what = What::flag, .name = std::string(mark.name), .estimator = by});
     }
@@ -156,18 +157,11 @@ std::string Condition::why_unknown(const Evidence& evidence) const {
   return "";
 }
 
-std::vector<Subject> Condition::subjects() const {
+std::vector<Subject> Condition::subjects(bool of_errors) const {
   std::vector<Subject> all;
   for (const Value* one : used()) {
-    if (one->quantity != nullptr) all.push_back({.estimator = one->estimator, .quantity = one->quantity});
-  }
-  return all;
-}
-
-std::vector<Subject> Condition::errors() const {
-  std::vector<Subject> all;
-  for (const Value* one : used()) {
-    if (one->what == What::error) all.push_back({.estimator = one->estimator, .quantity = one->quantity});
+    if (of_errors ? one->what == What::error : one->quantity != nullptr)
+      all.push_back({.estimator = one->estimator, .quantity = one->quantity});
   }
   return all;
 }

@@ -36,11 +36,11 @@ class Condition {
   class InRun;
   /// Why it cannot be known whether it holds, such as a fault that did not strike; empty: it can.
   [[nodiscard]] std::string why_unknown(const Evidence& evidence) const;
-  /// The quantities whose tracks it needs.
-  [[nodiscard]] std::vector<Subject> subjects() const;
-  /// The true values, and the quantities with errors, on which it depends.
+  /// The quantities whose tracks it needs. `of_errors`: only those whose errors, and so whose truths, it
+  /// needs.
+  [[nodiscard]] std::vector<Subject> subjects(bool of_errors = false) const;
+  /// The true values on which it depends.
   [[nodiscard]] std::span<const world::TruthValue* const> truths() const { return expression_.uses(); }
-  [[nodiscard]] std::vector<Subject> errors() const;
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:

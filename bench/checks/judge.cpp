@@ -133,7 +133,7 @@ std::string why_unknown(const scenario::Scenario& scenario, const Condition* con
   for (const world::TruthValue* value : condition->truths()) {
     if (std::string why = scenario::why_no_truth(scenario, *value); !why.empty()) return why;
   }
-  for (const Subject& subject : condition->errors()) {
+  for (const Subject& subject : condition->subjects(true)) {
     const estimators::Estimator* one = estimators::find(evidence.estimators, subject.estimator);
     if (one == nullptr) continue;
     std::string why = one->why_no_truth == nullptr ? "" : one->why_no_truth(scenario, *subject.quantity);

@@ -166,12 +166,7 @@ std::vector<plant::Simulation*> PerRunTruth::plants() const {
   return all;
 }
 
-std::optional<std::string> PerRunTruth::why_failed() const {
-  for (const plant::Simulation* one : plants()) {
-    if (one->why_failed()) return one->why_failed();
-  }
-  return std::nullopt;
-}
+std::optional<std::string> PerRunTruth::why_failed() const { return plant::why_failed(plants()); }
 
 const world::FlightRecord& flight_of(const world::FlightRecord& of_all_runs, const PerRunTruth& own) {
   return own.plant && own.plant->flight() != nullptr ? *own.plant->flight() : of_all_runs;

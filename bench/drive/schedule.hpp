@@ -67,12 +67,7 @@ class Schedule final : public observe::Observer {
   }
 
   /// Why a plant does not advance any more; none: each does.
-  [[nodiscard]] std::optional<std::string> why_failed() const {
-    for (const plant::Simulation* plant : plants_) {
-      if (plant->why_failed()) return plant->why_failed();
-    }
-    return std::nullopt;
-  }
+  [[nodiscard]] std::optional<std::string> why_failed() const { return plant::why_failed(plants_); }
 
   /// The time until which a fault explains the target's silence.
   [[nodiscard]] std::int64_t silent_until_us() const {

@@ -144,4 +144,11 @@ void Simulation::advance(std::int64_t t_us) {
   if (flight_) flight_->follow();
 }
 
+std::optional<std::string> why_failed(std::span<Simulation* const> plants) {
+  for (const Simulation* one : plants) {
+    if (one->why_failed()) return one->why_failed();
+  }
+  return std::nullopt;
+}
+
 }  // namespace canhil::plant

@@ -68,4 +68,7 @@ class Simulation {
   std::optional<std::string> failure_;
 };
 
+/// Why one of these plants does not advance; none: each does.
+[[nodiscard]] std::optional<std::string> why_failed(std::span<Simulation* const> plants);
+
 }  // namespace canhil::plant

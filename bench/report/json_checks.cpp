@@ -69,6 +69,14 @@ Json object(const checks::CheckResult& check) {
   return json;
 }
 
+std::optional<checks::Outcome> outcome_named(std::string_view name) {
+  using enum checks::Outcome;
+  for (const checks::Outcome one : {pass, fail, not_measured}) {
+    if (checks::name(one) == name) return one;
+  }
+  return std::nullopt;
+}
+
 checks::Judgement judgement_of(const Json& check) {
   return {.criterion = {.quantity = check.value("quantity", ""),
                         .estimator = check.value("estimator", ""),

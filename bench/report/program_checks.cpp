@@ -61,13 +61,6 @@ Result<std::string> output_of(const Program& program, std::vector<std::string> w
   }
 }
 
-std::optional<Outcome> outcome_named(const std::string& name) {
-  for (const Outcome one : {Outcome::pass, Outcome::fail, Outcome::not_measured}) {
-    if (checks::name(one) == name) return one;
-  }
-  return std::nullopt;
-}
-
 // The judgements of a program. Error, one phrase: what it wrote is something else.
 Result<std::vector<CheckResult>> judgements_in(const std::string& output, const CheckResult& check) {
   const Json all = Json::parse(output, nullptr, false);

@@ -24,15 +24,13 @@ using Json = nlohmann::ordered_json;
 using Reports = std::vector<Json>;
 using checks::Outcome;
 
-// The result of a check in a run.
+// The result of a check in a run: an outcome, in the order of checks::Outcome, or none.
 enum Says : std::uint8_t { pass, fail, not_measured, not_there };
 constexpr std::array<std::string_view, 4> said{checks::name(Outcome::pass), checks::name(Outcome::fail),
                                                checks::name(Outcome::not_measured), "not there"};
 
 Says outcome_of(const std::string& name, const std::string& of) {
-  for (const Says one : {pass, fail, not_measured}) {
-    if (said[one] == name) return one;
-  }
+  if (const auto outcome = outcome_named(name)) return static_cast<Says>(*outcome);
   throw UnknownOutcome{
       fmt::format("outcome '{}' of {}, expected 'pass', 'fail' or 'not measured'", name, of)};
 }

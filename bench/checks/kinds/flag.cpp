@@ -18,8 +18,6 @@ namespace {
 using estimators::Mark;
 using scenario::Limits;
 
-bool can_be_judged(const Mark& mark) { return mark.name != mark.among && !mark.among.empty(); }
-
 // The window, or the time during a fault.
 void read_window_of(scenario::Section& section, const scenario::CheckContext& context, Flag& rule) {
   const scenario::Key key{"within_s",
@@ -101,6 +99,8 @@ Criterion criterion_of_starts(const Flag& rule) {
 }
 
 }  // namespace
+
+bool can_be_judged(const Mark& mark) { return mark.name != mark.among && !mark.among.empty(); }
 
 Flag Flag::read(scenario::Section& section, const scenario::CheckContext& context) {
   Flag rule;

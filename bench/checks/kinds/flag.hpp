@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "bench/checks/estimator.hpp"
 #include "bench/checks/kinds/of_faults.hpp"
 #include "bench/checks/rule.hpp"
 
@@ -26,5 +27,8 @@ struct Flag {
   [[nodiscard]] std::string subject() const;
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
+
+/// Whether a mark is a flag: each answer that could report it says whether it is set.
+[[nodiscard]] bool can_be_judged(const estimators::Mark& mark);
 
 }  // namespace canhil::checks

@@ -6,19 +6,11 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/unit/bench/nodes/exact_seeker.hpp"
+
 namespace canhil::sensors {
 namespace {
 
-constexpr SeekerErrorModel exact{.thermal = 0,
-                                 .glint = 0,
-                                 .gyro_noise = 0,
-                                 .gyro_bias = {},
-                                 .accel_noise = 0,
-                                 .accel_bias = {},
-                                 .range_noise = 0,
-                                 .range_bias = {},
-                                 .closing_speed_noise = 0,
-                                 .closing_speed_bias = {}};
 SeekerTruth at(double range) {
   return {.t_us = 5000,
           .interval_us = 5000,
@@ -52,7 +44,7 @@ void expect_sigma(const Moments& found, double sigma) {
 }
 
 TEST(ErroneousSeeker, WithoutErrorsIsExact) {
-  const SeekerMeasurement m = ErroneousSeeker(exact, Stream(1, 0, "seeker")).measure(at(2000));
+  const SeekerMeasurement m = ErroneousSeeker(exact_seeker, Stream(1, 0, "seeker")).measure(at(2000));
   EXPECT_EQ(m.error, (Planes<double>{.pitch = 0.01, .yaw = -0.02}));
   EXPECT_EQ(m.antenna, at(2000).delta_theta);
   EXPECT_EQ(m.missile_acceleration, (Planes<double>{.pitch = -30, .yaw = 20})) << "z in pitch, y in yaw";
@@ -68,14 +60,14 @@ TEST(ErroneousSeeker, ErrorAnglesHaveThermalGlintAndConstantNoise) {
   const auto yaw = [](const SeekerMeasurement& m) { return m.error.yaw + 0.02; };
   expect_sigma(moments({}, 5000, pitch), std::hypot(2.5e-3, 1e-4));
   expect_sigma(moments({}, 100, yaw), std::hypot(5e-3, 1e-6));
-  SeekerErrorModel constant = exact;
+  SeekerErrorModel constant = exact_seeker;
   constant.constant = 1e-3;
   expect_sigma(moments(constant, 3000, yaw), 1e-3);
 }
 
 TEST(ErroneousSeeker, GlintIsWhiteOrCorrelated) {
   for (const double tau : {0.0, 0.04}) {
-    SeekerErrorModel model = exact;
+    SeekerErrorModel model = exact_seeker;
     model.glint = 0.5;
     model.glint_correlation = tau;
     ErroneousSeeker seeker(model, Stream(1, 0, "seeker"));
@@ -96,7 +88,7 @@ TEST(ErroneousSeeker, GlintIsWhiteOrCorrelated) {
 TEST(ErroneousSeeker, GyrosAndAccelerometers) {
   expect_sigma(moments({}, 2000, [](const auto& m) { return m.antenna.y() - 2e-4; }), 5e-6);
   expect_sigma(moments({}, 2000, [](const auto& m) { return m.missile_acceleration.yaw - 20; }), 0.3);
-  SeekerErrorModel biased = exact;
+  SeekerErrorModel biased = exact_seeker;
   biased.gyro_bias.value = 1e-3;
   biased.accel_bias.value = 0.5;
   const SeekerMeasurement m = ErroneousSeeker(biased, Stream(1, 0, "seeker")).measure(at(2000));
@@ -108,7 +100,7 @@ TEST(ErroneousSeeker, ErrorsOfRangeShrinkWithin1km) {
   const auto range = [](const SeekerMeasurement& m) { return m.range; };
   expect_sigma(moments({}, 4000, range), 5);
   expect_sigma(moments({}, 200, range), 1);
-  SeekerErrorModel biased = exact;
+  SeekerErrorModel biased = exact_seeker;
   biased.range_bias.value = -50;
   EXPECT_EQ(moments(biased, 4000, range).mean, 3950);
   EXPECT_NEAR(moments(biased, 200, range).mean, 190, 1e-9);
@@ -116,7 +108,7 @@ TEST(ErroneousSeeker, ErrorsOfRangeShrinkWithin1km) {
 }
 
 TEST(ErroneousSeeker, BiasesAreConstantInARunAndDrawnOverRuns) {
-  SeekerErrorModel model = exact;
+  SeekerErrorModel model = exact_seeker;
   model.closing_speed_bias.sigma = 5;
   double squares = 0;
   for (std::uint64_t run = 0; run < 2000; ++run) {
@@ -129,7 +121,7 @@ TEST(ErroneousSeeker, BiasesAreConstantInARunAndDrawnOverRuns) {
 }
 
 TEST(ErroneousSeeker, SeesNothingBeyondItsFieldOfView) {
-  SeekerErrorModel model = exact;
+  SeekerErrorModel model = exact_seeker;
   model.field_of_view = 0.015;
   ErroneousSeeker seeker(model, Stream(1, 0, "seeker"));
   EXPECT_FALSE(seeker.measure(at(2000)).in_view) << "yaw is at -0.02";

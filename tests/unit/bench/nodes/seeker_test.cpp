@@ -8,6 +8,7 @@
 #include "bench/nodes/registry.hpp"
 #include "bench/plant/engagement/engagement.hpp"
 #include "dbc/wire/time_base.hpp"
+#include "tests/unit/bench/nodes/exact_seeker.hpp"
 #include "tests/unit/bench/plant/engagement/flown.hpp"
 
 namespace canhil::nodes {
@@ -114,16 +115,7 @@ class Bench {
 
 SeekerSettings exact() {
   SeekerSettings config;
-  config.errors = {.thermal = 0,
-                   .glint = 0,
-                   .gyro_noise = 0,
-                   .gyro_bias = {},
-                   .accel_noise = 0,
-                   .accel_bias = {},
-                   .range_noise = 0,
-                   .range_bias = {},
-                   .closing_speed_noise = 0,
-                   .closing_speed_bias = {}};
+  config.errors = exact_seeker;
   return config;
 }
 
