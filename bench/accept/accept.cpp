@@ -116,8 +116,9 @@ class Run {
   /// `wrong`: text of the violation; empty if there is no violation.
   static Item item(const std::string& requirement, const std::string& name, const std::string& wrong,
                    const std::string& expected) {
-    return {.requirement = requirement,
-            .name = name,
+    return {.name = name,
+            .kind = "accept",
+            .requirement = requirement,
             .outcome = wrong.empty() ? Outcome::pass : Outcome::fail,
             .measured = wrong.empty() ? "so" : wrong,
             .expected = expected};
@@ -180,12 +181,9 @@ class Run {
       // A flight in lockstep does not measure the timing, so its timing checks are skipped here. The suite's
       // flights in real time judge the timing.
       if (!flight.real_time && check.outcome == Outcome::not_measured) continue;
-      found.push_back(
-          {.requirement = suite_.find(check.requirement) != nullptr ? check.requirement : flight.requirement,
-           .name = fmt::format("{}: {}", name, check.name),
-           .outcome = check.outcome,
-           .measured = check.measured,
-           .expected = check.expected});
+      Item& judged = found.emplace_back(check);
+      judged.name = fmt::format("{}: {}", name, check.name);
+      if (suite_.find(check.requirement) == nullptr) judged.requirement = flight.requirement;
     }
     return found;
   }
@@ -194,8 +192,9 @@ class Run {
     const auto now = mean_of(answers, move), before = mean_of(flown_[move.flight], move);
     const bool as_asked =
         now && before && (move.up ? *now > least_move * *before : *before > least_move * *now);
-    return {.requirement = move.requirement,
-            .name = fmt::format("{}: {}.{}", name, move.message, move.signal),
+    return {.name = fmt::format("{}: {}.{}", name, move.message, move.signal),
+            .kind = "moves",
+            .requirement = move.requirement,
             .outcome = as_asked ? Outcome::pass : Outcome::fail,
             .measured = now && before ? fmt::format("mean magnitude {:.4g}, {:.4g} in flight '{}'", *now,
                                                     *before, move.flight)
@@ -209,6 +208,9 @@ class Run {
     if (!campaign) return tl::unexpected(campaign.error());
     if (done()) {
       for (const campaign::Metric& metric : campaign->metrics) skipped_.insert(metric.requirement);
+      for (const campaign::Variant& variant : campaign->variants) {
+        for (const scenario::Check& check : variant.scenario.checks) skipped_.insert(check.requirement);
+      }
       return {};
     }
     if (options_.seed) {
@@ -230,7 +232,7 @@ class Run {
     };
     bool of_target = false;
     options.not_flown = [&](const Error& why) {
-      if (campaign->metrics.empty()) return;
+      if (requirement_of(*campaign).empty()) return;
       of_target = true;
       add(item(requirement_of(*campaign), fmt::format("campaign {}", name), why.message, all_runs));
     };
@@ -241,8 +243,11 @@ class Run {
     return judged;
   }
 
+  /// The requirement of a campaign's runs: that of its first metric or check.
   static std::string requirement_of(const campaign::Campaign& campaign) {
-    return campaign.metrics.front().requirement;
+    if (!campaign.metrics.empty()) return campaign.metrics.front().requirement;
+    const auto& checks = campaign.variants.front().scenario.checks;
+    return checks.empty() ? "" : checks.front().requirement;
   }
 
   Result<void> judge(const campaign::Campaign& campaign, const std::string& name, const fs::path& file) {
@@ -258,12 +263,15 @@ class Run {
                all_runs));
     }
     for (const campaign::Answer& answer : evaluation->answers) {
-      if (!answer.passed) continue;
-      add({.requirement = answer.requirement,
-           .name = fmt::format("{}: {}", name, answer.metric),
-           .outcome = *answer.passed ? Outcome::pass : Outcome::fail,
+      const auto outcome = answer.outcome();
+      if (!outcome) continue;
+      add({.name = fmt::format("{}: {}", name, answer.metric),
+           .kind = answer.kind,
+           .requirement = answer.requirement.empty() ? requirement_of(campaign) : answer.requirement,
+           .outcome = *outcome,
            .measured = answer.measured,
-           .expected = answer.expected});
+           .expected = answer.expected,
+           .judgement = answer.judgement});
     }
     return {};
   }

@@ -15,14 +15,9 @@
 
 namespace canhil::accept {
 
-/// The result of one test for a requirement.
-struct Item {
-  std::string requirement;  ///< id of the requirement
-  std::string name;         ///< for example "flight 'paper': error attitude.heading"
-  checks::Outcome outcome = checks::Outcome::not_measured;
-  std::string measured;
-  std::string expected;
-};
+/// The result of one test for a requirement: `name` is, for example, "flight 'paper': error
+/// attitude.heading", `kind` the kind of check or metric, or what else was tested.
+using Item = checks::CheckResult;
 
 struct Options {
   std::string target;                   ///< the target's command: program and arguments

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/checks/result_json.hpp"
 #include "bench/report/page_parts.hpp"
 #include "bench/report/run_reports.hpp"
 #include "dbc/text/escape.hpp"
@@ -112,10 +113,9 @@ std::string json(const Report& report) {
     for (const Finding& finding : suite.findings) {
       ordered_json items = ordered_json::array();
       for (const Item& item : finding.items) {
-        items.push_back({{"name", item.name},
-                         {"outcome", checks::name(item.outcome)},
-                         {"measured", item.measured},
-                         {"expected", item.expected}});
+        ordered_json entry = checks::json_of(item);
+        entry.erase("requirement");  // it is that of the list
+        items.push_back(std::move(entry));
       }
       requirements.push_back({{"id", finding.requirement.id},
                               {"family", finding.requirement.family},
@@ -143,12 +143,8 @@ std::string junit(const Report& report) {
     std::vector<checks::CheckResult> cases;
     for (const Finding& finding : suite.findings) {
       for (const Item& item : finding.items) {
-        cases.push_back({.name = item.name,
-                         .kind = finding.requirement.family,
-                         .requirement = finding.requirement.id,
-                         .outcome = item.outcome,
-                         .measured = item.measured,
-                         .expected = item.expected});
+        cases.push_back(item);
+        cases.back().kind = finding.requirement.family;  // the class of a test case
       }
     }
     suites += report::junit_suite(suite.title, fmt::format("accept.{}", suite.estimator), cases, suite.wall_s,

@@ -30,30 +30,40 @@ std::string missing_note(std::size_t missing) {
   return missing == 0 ? "" : fmt::format(" ({} values missing)", missing);
 }
 
-/// A function that formats a limit with its unit.
-using Words = std::function<std::string(double)>;
-Words in(const quantities::Unit& unit) {
-  return [unit](double bar) { return with_unit(bar, unit); };
+/// How a limit is shown, and its unit in numbers.
+struct Shown {
+  std::function<std::string(double)> words;
+  double factor = 1;
+  std::string unit{};
+};
+Shown in(const quantities::Unit& unit) {
+  return {.words = [unit](double bar) { return with_unit(bar, unit); },
+          .factor = unit.factor,
+          .unit = std::string(unit.name)};
 }
-std::string percent(double fraction) { return fmt::format("{:g} %", 100 * fraction); }
-std::string times(double ratio) { return fmt::format("{:g} times", ratio); }
+const Shown percent{.words = [](double fraction) { return fmt::format("{:g} %", 100 * fraction); }};
+const Shown times{.words = [](double ratio) { return fmt::format("{:g} times", ratio); }};
+const Shown in_seconds{.words = [](double t_s) { return fmt::format("{:g} s", t_s); }, .unit = "s"};
+const Shown in_runs{.words = [](double count) { return fmt::format("{:g}", count); }};
 
-/// Collects the limits of an answer. Each call adds a limit as text and records whether the value meets it.
+/// Collects the limits of an answer. Each call adds a limit as text and records whether the value meets it;
+/// the numbers of the answer are those of the limit that is nearest, or furthest exceeded.
 class Bars {
  public:
   Bars(Answer& answer, bool complete) : answer_(answer), complete_(complete) {}
-  void expect(bool holds, const std::string& words) {
-    answer_.expected += (answer_.expected.empty() ? "" : ", ") + words;
-    answer_.passed = answer_.passed.value_or(true) && complete_ && holds;
+  /// `holds`: whether the value meets the limit; none: `value` decides. No value: it was never reached.
+  void at_most(std::optional<double> value, const std::optional<double>& bar, const Shown& shown,
+               std::string_view what = {}, std::optional<bool> holds = {}) {
+    if (!bar) return;
+    expect(holds.value_or(value && *value <= *bar), fmt::format("{}at most {}", what, shown.words(*bar)));
+    tell(value, {}, bar, shown, what);
   }
-  /// `what`: text before "at most", ending in a space.
-  void at_most(double value, const std::optional<double>& bar, const Words& words,
-               std::string_view what = {}) {
-    if (bar) expect(value <= *bar, fmt::format("{}at most {}", what, words(*bar)));
-  }
-  void at_least(double value, const std::optional<double>& bar, const Words& words,
-                std::string_view what = {}) {
-    if (bar) expect(value >= *bar, fmt::format("{}at least {}", what, words(*bar)));
+  void at_least(std::optional<double> value, const std::optional<double>& bar, const Shown& shown,
+                std::string_view what = {}, std::optional<bool> holds = {}, std::string_view text = {}) {
+    if (!bar) return;
+    expect(holds.value_or(value && *value >= *bar),
+           text.empty() ? fmt::format("{}at least {}", what, shown.words(*bar)) : std::string(text));
+    tell(value, bar, {}, shown, what);
   }
   void between(double mean, const std::optional<std::pair<double, double>>& ends,
                const quantities::Unit& unit) {
@@ -62,9 +72,32 @@ class Bars {
     expect(mean >= low && mean <= high,
            fmt::format("mean from {:g} to {:g}{}{}", low / unit.factor, high / unit.factor,
                        unit.name.empty() ? "" : " ", unit.name));
+    tell(mean, low, high, in(unit), "mean");
   }
 
  private:
+  void expect(bool holds, const std::string& words) {
+    answer_.expected += (answer_.expected.empty() ? "" : ", ") + words;
+    answer_.passed = answer_.passed.value_or(true) && complete_ && holds;
+  }
+  void tell(std::optional<double> value, std::optional<double> low, std::optional<double> high,
+            const Shown& shown, std::string_view what) {
+    const auto limit = [&](const std::optional<double>& bar) -> std::optional<checks::Limit> {
+      if (!bar) return std::nullopt;
+      return checks::Limit{.value = *bar / shown.factor};
+    };
+    while (what.ends_with(' ')) what.remove_suffix(1);
+    checks::Judgement own{.criterion = {.quantity = std::string(answer_.quantity->name),
+                                        .statistic = std::string(what),
+                                        .lower = limit(low),
+                                        .upper = limit(high),
+                                        .unit = shown.unit}};
+    if (value && std::isfinite(*value)) own.measurement.value = *value / shown.factor;
+    const auto least = checks::margin(answer_.judgement), margin = checks::margin(own);
+    const bool first = !answer_.judgement.criterion.lower && !answer_.judgement.criterion.upper;
+    if (first || (margin && (!least || *margin < *least))) answer_.judgement = std::move(own);
+  }
+
   Answer& answer_;
   bool complete_;  // false: values are missing, so no limit is met
 };
@@ -93,13 +126,10 @@ void answer(const TimeWithin& rule, const Runs& runs, const Runs& /*other*/, Ans
   out.measured = time_or_never(t_s) + missing_note(missing);
   out.figures = {{"time_s", t_s}};
   Bars bars(out, missing == 0);
-  if (rule.at_most_us) {
-    const double bar = seconds(*rule.at_most_us);
-    bars.expect(t_s && *t_s <= bar, fmt::format("at most {:g} s", bar));
-  }
+  if (rule.at_most_us) bars.at_most(t_s, seconds(*rule.at_most_us), in_seconds);
   if (rule.never_before_us) {
     const double bar = seconds(*rule.never_before_us);
-    bars.expect(!t_s || *t_s >= bar, fmt::format("never before {:g} s", bar));
+    bars.at_least(t_s, bar, in_seconds, {}, !t_s || *t_s >= bar, fmt::format("never before {:g} s", bar));
   }
 }
 
@@ -116,7 +146,9 @@ void answer(const Lead& rule, const Runs& runs, const Runs& other, Answer& out) 
   constexpr double rounding_s =
       1e-9;  // times are multiples of 1 us, but their difference has rounding errors
   const bool holds = own_s && (!other_s || *other_s - *own_s >= bar - rounding_s);
-  Bars(out, missing == 0).expect(holds, fmt::format("at least {:g} s before", bar));
+  const auto lead_s = own_s && other_s ? std::optional(*other_s - *own_s) : std::nullopt;
+  Bars(out, missing == 0)
+      .at_least(lead_s, bar, in_seconds, "lead", holds, fmt::format("at least {:g} s before", bar));
 }
 
 void answer(const ValueAt& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
@@ -190,7 +222,8 @@ void answer(const RunMean& rule, const Runs& runs, const Runs& other, Answer& ou
   out.measured += fmt::format(", {:.3g} times that of {}", ratio, rule.other);
   out.figures.emplace_back("ratio", ratio);
   Bars both(out, found.missing + others.missing == 0);
-  const auto times_other = [&](double bar) { return fmt::format("{} {}", times(bar), rule.other); };
+  const Shown times_other{
+      .words = [&](double bar) { return fmt::format("{} {}", times.words(bar), rule.other); }};
   both.at_most(ratio, rule.ratio_at_most, times_other);
   both.at_least(ratio, rule.ratio_at_least, times_other);
 }
@@ -265,9 +298,11 @@ void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answe
   if (rule.from_us) out.measured += ", largest " + with_unit(found.largest, rule.quantity->unit);
   out.figures = {{"diverged", static_cast<double>(astray)}, {"faulted", static_cast<double>(found.faulted)}};
   Bars bars(out, true);
-  const auto count = static_cast<std::int64_t>(astray);
-  if (rule.at_most) bars.expect(count <= *rule.at_most, fmt::format("at most {}", *rule.at_most));
-  if (rule.at_least) bars.expect(count >= *rule.at_least, fmt::format("at least {}", *rule.at_least));
+  const auto bar = [](const std::optional<std::int64_t>& most) {
+    return most ? std::optional(static_cast<double>(*most)) : std::nullopt;
+  };
+  bars.at_most(static_cast<double>(astray), bar(rule.at_most), in_runs);
+  bars.at_least(static_cast<double>(astray), bar(rule.at_least), in_runs);
 }
 
 }  // namespace

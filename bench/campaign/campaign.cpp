@@ -6,7 +6,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "bench/drive/contract.hpp"
+#include "bench/campaign/variants.hpp"
+#include "bench/estimators/registry.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/files/text_file.hpp"
@@ -17,95 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using scenario::Section;
-using scenario::Setting;
-
-/// A variant as written in the file.
-struct Given {
-  std::string name;
-  std::string scenario;
-  std::vector<Setting> settings;
-  int line = 0;
-};
-
-/// A point of the sweep: one value for each key.
-struct Point {
-  std::string name;
-  std::vector<Setting> settings;
-};
-
-void refuse_seed(Section& section, const std::vector<Setting>& settings) {
-  if (std::ranges::find(settings, "seed", &Setting::key) == settings.end()) return;
-  section.reject("seed", "is the same for all variants", "seed at the top of the campaign");
-}
-
-Given read_given(Section& section) {
-  Given given{.name = section.text({"name", "Unique name."}),
-              .scenario = section.text({"scenario", "Scenario file, relative to the campaign file."}),
-              .settings = {},
-              .line = section.line()};
-  if (auto set = section.optional_table(
-          {"set", "Keys of the scenario, with values that replace the values in the scenario file."})) {
-    given.settings = set->settings();
-    refuse_seed(*set, given.settings);
-  }
-  section.finish();
-  return given;
-}
-
-std::string without_quotes(std::string_view value) {
-  const bool quoted = value.size() >= 2 && (value.front() == '"' || value.front() == '\'');
-  return std::string(quoted ? value.substr(1, value.size() - 2) : value);
-}
-
-/// Returns all combinations of the sweep's values; the last key varies fastest.
-std::vector<Point> expand(const std::vector<Setting>& sweep) {
-  std::vector<Point> points{{}};
-  for (const Setting& key : sweep) {
-    std::vector<Point> longer;
-    for (const Point& point : points) {
-      for (const std::string& value : key.elements) {
-        Point next = point;
-        next.name += fmt::format("{}{}={}", point.name.empty() ? "" : " ", key.key, without_quotes(value));
-        next.settings.push_back({.key = key.key, .value = value, .elements = {}, .line = key.line});
-        longer.push_back(std::move(next));
-      }
-    }
-    points = std::move(longer);
-  }
-  return points;
-}
-
-std::vector<Setting> read_sweep(Section& root, const std::vector<Given>& given) {
-  auto section = root.optional_table({"sweep",
-                                      "Keys of the scenario, each with an array of values. Every variant is "
-                                      "run with every combination of these values."});
-  if (!section) return {};
-  std::vector<Setting> sweep = section->settings();
-  if (sweep.empty()) root.reject("sweep", "is empty", "keys of the scenario, each with an array of values");
-  refuse_seed(*section, sweep);
-  for (const Setting& key : sweep) {
-    if (key.elements.empty()) {
-      section->reject(key.key, key.value.starts_with('[') ? "is empty" : "is not an array",
-                      "an array of at least one value");
-    }
-    const auto has_key = [&](const Given& one) {
-      return std::ranges::find(one.settings, key.key, &Setting::key) != one.settings.end();
-    };
-    if (const auto one = std::ranges::find_if(given, has_key); one != given.end()) {
-      section->reject(key.key, fmt::format("is set by variant '{}' too", one->name), "one of the two");
-    }
-  }
-  std::uint64_t variants = given.size();
-  for (const Setting& key : sweep) {
-    variants *= key.elements.size();
-    if (variants > most_variants) {
-      section->reject(key.key, "makes more variants than can be looked at",
-                      fmt::format("at most {} in all", most_variants));
-      break;
-    }
-  }
-  return sweep;
-}
 
 std::uint64_t hash_of(const Sources& sources) {
   std::string all = fmt::format("{}\n{}", sources.text.size(), sources.text);
@@ -125,69 +37,86 @@ std::uint64_t with_recordings(std::uint64_t hash, const std::vector<Variant>& va
   return hash;
 }
 
-/// Reads the scenario of each variant at each point of the sweep.
-Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, const std::vector<Point>& points,
-                                           Sources& sources, const ScenarioText& text, std::uint64_t seed) {
-  const auto beside = [&](const std::string& name) -> Result<std::string> {
-    if (const auto known = sources.scenarios.find(name); known != sources.scenarios.end())
-      return known->second;
-    auto read = text(name);
-    if (read) sources.scenarios.emplace(name, *read);
-    return read;
-  };
-  std::vector<Variant> variants;
-  for (const Given& one : given) {
-    for (const Point& point : points) {
-      Variant variant{.name = point.name.empty() ? one.name : fmt::format("{} {}", one.name, point.name),
-                      .given = one.name,
-                      .point = point.name,
-                      .scenario = {}};
-      std::vector<Setting> settings = one.settings;
-      settings.insert(settings.end(), point.settings.begin(), point.settings.end());
-      // `one.scenario` is relative to the campaign's folder; paths within the scenario are relative to the
-      // scenario.
-      const fs::path path = fs::path(sources.file).parent_path() / one.scenario;
-      auto read = drive::parse_scenario(sources.scenarios.at(one.scenario), one.scenario, settings,
-                                        path.parent_path().string(), beside);
-      const auto refused = [&](std::string_view why) {
-        return failure(fmt::format("{}:{}: variant '{}': {}", sources.file, one.line, variant.name, why));
-      };
-      if (!read) return refused(read.error().message);
-      for (const estimators::Estimator* estimator : estimators::all()) {
-        if (std::string why = scenario::why_no_truth(*read, estimator->facts); !why.empty())
-          return refused(fmt::format("{} has {}, expected a truth to compare with", one.scenario, why));
-      }
-      if (read->targets.size() > 1)
-        return refused(
-            fmt::format("{} runs {} estimators, expected one", one.scenario, read->targets.size()));
-      if (std::ranges::find(variants, variant.name, &Variant::name) != variants.end()) {
-        return refused("is there twice, expected different values in the sweep");
-      }
-      variant.scenario = std::move(*read);
-      variant.scenario.seed = seed;
-      variants.push_back(std::move(variant));
-    }
-  }
-  return variants;
+Result<void> add_source(Sources& sources, const std::string& name, const ScenarioText& text) {
+  if (sources.scenarios.contains(name)) return {};
+  auto read = text(name);
+  if (!read) return tl::unexpected(read.error());
+  sources.scenarios.emplace(name, std::move(*read));
+  return {};
 }
 
-std::vector<Given> read_variants(Section& root) {
-  std::vector<Given> given;
-  for (Section& section : root.tables("variant")) {
-    Given one = read_given(section);
-    if (std::ranges::find(given, one.name, &Given::name) != given.end()) {
-      section.reject("name", fmt::format("'{}' is already the name of another variant", one.name),
-                     "another name");
-    }
-    given.push_back(std::move(one));
+/// The checks of the campaign, which replace those of the scenarios; none: the scenarios keep theirs.
+std::optional<std::vector<GivenCheck>> read_run_checks(Section& root, const std::vector<Given>& given,
+                                                       bool with_faults, Campaign& campaign) {
+  std::optional<std::vector<GivenCheck>> checks;
+  const bool of_scenarios =
+      root.flag({"scenario_checks",
+                 "Judges the checks of the scenarios in every run. Not beside `[[check]]` or "
+                 "`[faults]`."});
+  if (root.has("check")) {
+    if (of_scenarios) root.reject("scenario_checks", "has no effect beside [[check]]", "one of the two");
+    checks = read_checks(root, given, campaign.checks.emplace());
+  } else if (of_scenarios) {
+    if (with_faults) root.reject("scenario_checks", "has no effect beside [faults]", "one of the two");
+    campaign.checks.emplace();
   }
-  return given;
+  root.optional("check");
+  return checks;
+}
+
+/// Makes a matrix of faults from the variants, whose cells become the variants.
+Result<void> add_faults(Section& root, std::vector<Made> made, const ScenarioText& text, Campaign& campaign) {
+  Section section = root.table({"faults", "Flies each variant first without a fault, then with each fault."});
+  const std::string set = section.text(
+      {"set",
+       "File of `[[fault]]` tables, relative to the campaign file: each is a row; those with the same "
+       "`together` fly at once. Default: each kind on each node, at times drawn from the seed."},
+      "");
+  if (!set.empty()) section.refuse("seed", "has no effect beside set", "one of the two");
+  const auto seed = static_cast<std::uint64_t>(
+      section.optional_integer({"seed", "Of what is drawn. Default: 1."}, 0).value_or(1));
+  section.finish();
+  if (const auto error = root.error()) return tl::unexpected(*error);
+  if (!set.empty()) {
+    if (auto added = add_source(campaign.sources, set, text); !added) return added;
+  }
+  std::vector<matrix::Column> columns;
+  for (Made& one : made) columns.push_back(std::move(one.column));
+  const fs::path folder = fs::path(campaign.sources.file).parent_path();
+  auto matrix = set.empty() ? matrix::drawn_matrix(std::move(columns), seed)
+                            : matrix::matrix_of(std::move(columns), campaign.sources.scenarios.at(set),
+                                                (folder / set).string());
+  if (!matrix) return tl::unexpected(matrix.error());
+  std::vector<Variant> variants;
+  for (const matrix::Cell& cell : matrix->cells) {
+    Variant& variant = variants.emplace_back(campaign.variants[cell.column]);
+    variant.fault = cell.row;
+    variant.name = fmt::format("{}, {}", variant.name, matrix->rows[cell.row].name());
+  }
+  if (variants.size() > most_variants)
+    return failure(fmt::format("{}: the faults make {} variants, expected at most {}", campaign.sources.file,
+                               variants.size(), most_variants));
+  campaign.variants = std::move(variants);
+  campaign.matrix = std::move(*matrix);
+  return {};
+}
+
+/// A check that need not pass in every run must be one of the scenarios' checks.
+void reject_unknown_checks(Section& root, const Campaign& campaign) {
+  if (!campaign.checks) return;
+  for (const RunCheck& check : *campaign.checks) {
+    const bool known = std::ranges::any_of(campaign.variants, [&](const Variant& variant) {
+      return std::ranges::find(variant.scenario.checks, check.name, &scenario::Check::name) !=
+             variant.scenario.checks.end();
+    });
+    if (!known)
+      root.reject("check", fmt::format("'{}' is a check of several estimators", check.name),
+                  "a check of one estimator, for `runs_at_least`");
+  }
 }
 
 std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given, std::int64_t duration_us) {
-  std::vector<std::string> names;
-  names.reserve(given.size());
-  for (const Given& one : given) names.push_back(one.name);
+  const std::vector<std::string> names = names_of(given);
   std::vector<Metric> metrics;
   for (Section& section : root.tables("metric")) {
     Metric metric = read_metric(section, names, duration_us);
@@ -230,26 +159,37 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
   if (campaign.runs > most_runs)
     root.reject("runs", fmt::format("{} is out of range", campaign.runs),
                 fmt::format("at most {}", most_runs));
-  campaign.seed = static_cast<std::uint64_t>(
-      root.integer({"seed", "Seed of all random numbers, in place of the seeds of the scenarios."}, 0));
-  const std::vector<Given> given = read_variants(root);
-  const std::vector<Setting> sweep = read_sweep(root, given);
+  // Without faults, the number of a run selects its random numbers; with faults, each run has a seed of its
+  // own, so that a violation can be saved as a scenario.
+  const bool with_faults = root.has("faults");
+  const auto seed = root.optional_integer({"seed",
+                                           "Seed of all random numbers, in place of the seeds of the "
+                                           "scenarios. With `[faults]` it may be absent: "
+                                           "then each scenario has its own seed."},
+                                          0);
+  if (!seed && !with_faults) root.missing("seed", "a whole number, at least 0");
+  campaign.seed = static_cast<std::uint64_t>(seed.value_or(0));
+  const std::vector<Given> given = read_given(root);
+  const std::vector<Point> points = read_sweep(root, given);
   if (const auto error = root.error()) return tl::unexpected(*error);
-
   for (const Given& one : given) {
-    if (campaign.sources.scenarios.contains(one.scenario)) continue;
-    auto scenario = scenario_text(one.scenario);
-    if (!scenario) {
-      return failure(
-          fmt::format("{}:{}: variant '{}': {}", file, one.line, one.name, scenario.error().message));
-    }
-    campaign.sources.scenarios.emplace(one.scenario, std::move(*scenario));
+    if (auto read = add_source(campaign.sources, one.scenario, scenario_text); !read)
+      return failure(fmt::format("{}:{}: variant '{}': {}", file, one.line, one.name, read.error().message));
   }
-  auto variants = make_variants(given, expand(sweep), campaign.sources, scenario_text, campaign.seed);
-  if (!variants) return tl::unexpected(variants.error());
-  campaign.hash = hash_of(campaign.sources);
-  campaign.variants = std::move(*variants);
-  campaign.hash = with_recordings(campaign.hash, campaign.variants);
+  const auto checks = read_run_checks(root, given, with_faults, campaign);
+  auto made = make_variants(given, points,
+                            {.sources = campaign.sources,
+                             .text = scenario_text,
+                             .seed = seed ? std::optional(campaign.seed) : std::nullopt,
+                             .checks = checks ? &*checks : nullptr,
+                             .with_samples = root.has("metric") || (!with_faults && !campaign.checks)});
+  if (!made) return tl::unexpected(made.error());
+  for (const Made& one : *made) campaign.variants.push_back(one.variant);
+  if (with_faults) {
+    if (auto added = add_faults(root, std::move(*made), scenario_text, campaign); !added)
+      return tl::unexpected(added.error());
+  }
+  campaign.hash = with_recordings(hash_of(campaign.sources), campaign.variants);
 
   std::int64_t shortest_us = std::numeric_limits<std::int64_t>::max();
   for (const Variant& variant : campaign.variants) {
@@ -257,10 +197,15 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
   }
   if (root.has("metric")) campaign.metrics = read_metrics(root, given, shortest_us);
   reject_unreported(root, campaign);
+  reject_unknown_checks(root, campaign);
   root.optional("metric");
   root.finish();
   if (const auto error = root.error()) return tl::unexpected(*error);
   return campaign;
+}
+
+bool keeps_samples(const Campaign& campaign) {
+  return !campaign.metrics.empty() || (!campaign.matrix && !campaign.checks);
 }
 
 Result<Campaign> parse_campaign(const Sources& sources) {
@@ -283,7 +228,7 @@ std::vector<CommandFiles::File> inputs_of(const Campaign& campaign) {
   std::vector<CommandFiles::File> files{{"campaign", campaign.sources.file}};
   const fs::path folder = fs::path(campaign.sources.file).parent_path();
   for (const auto& [name, text] : campaign.sources.scenarios)
-    files.push_back({"scenario, mapping or DBC", (folder / name).string()});
+    files.push_back({"scenario, mapping, DBC or set of faults", (folder / name).string()});
   for (const Variant& variant : campaign.variants) {
     for (const scenario::InputFile& input : variant.scenario.inputs)
       files.push_back({input.role, input.path});
@@ -306,7 +251,8 @@ std::vector<std::size_t> variants_of(const Campaign& campaign, const Metric& met
 
 std::size_t counterpart(const Campaign& campaign, std::size_t variant, const std::string& other) {
   const auto found = std::ranges::find_if(campaign.variants, [&](const Variant& candidate) {
-    return candidate.given == other && candidate.point == campaign.variants[variant].point;
+    const Variant& own = campaign.variants[variant];
+    return candidate.given == other && candidate.point == own.point && candidate.fault == own.fault;
   });
   return static_cast<std::size_t>(found - campaign.variants.begin());
 }

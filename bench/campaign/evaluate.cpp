@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "bench/campaign/check_answers.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -69,35 +72,72 @@ Answer answer_of(const Campaign& campaign, const Metric& metric, std::size_t var
   return out;
 }
 
-// Whether a limit is not met, or a run failed as a run of its own.
+bool violated(const Responded& flight) {
+  return flight.run.response.kind == matrix::Response::Kind::violated;
+}
+
+// Whether a limit is not met, a response violates a requirement, or a run failed as a run of its own.
 bool any_failed(const Evaluation& of) {
-  return std::ranges::any_of(of.answers,
-                             [](const Answer& answer) { return !answer.passed.value_or(true); }) ||
-         std::ranges::any_of(of.endings, [](const Endings& one) { return one.wrong > 0; });
+  return std::ranges::any_of(of.answers, [](const Answer& one) { return one.passed == false; }) ||
+         std::ranges::any_of(of.responses, violated) ||
+         (of.responses.empty() &&
+          std::ranges::any_of(of.endings, [](const Endings& one) { return one.wrong > 0; }));
+}
+
+// Adds what was judged in each run.
+Result<void> add_judged(const Campaign& campaign, std::size_t variant, const Runs& runs, Evaluation& out) {
+  std::vector<Judged> all;
+  for (const RunSeries& run : runs) {
+    auto judged = judged_in(run.judged);
+    if (judged && campaign.matrix.has_value() != judged->response.has_value())
+      judged = failure("holds no response to faults, or one too many");
+    if (!judged)
+      return failure(fmt::format("run {} of variant '{}': {}", run.run, campaign.variants[variant].name,
+                                 judged.error().message));
+    if (judged->response)
+      out.responses.push_back({.key = {.variant = variant, .run = run.run}, .run = *judged->response});
+    all.push_back(std::move(*judged));
+  }
+  if (campaign.checks && !campaign.matrix)
+    std::ranges::move(answers_of_checks(campaign, variant, runs, all), std::back_inserter(out.answers));
+  return {};
 }
 
 }  // namespace
 
 std::string Evaluation::not_judged() const {
   if (any_failed(*this)) return {};
-  if (answers.empty()) return "nothing was judged: no [[metric]]";
+  const auto unjudged = std::ranges::find_if(responses, [](const Responded& flight) {
+    return flight.run.response.kind == matrix::Response::Kind::not_measured;
+  });
+  if (unjudged != responses.end())
+    return fmt::format("run {} of variant '{}' was not measured ({})", unjudged->key.run,
+                       endings[unjudged->key.variant].variant, unjudged->run.response.why);
+  if (answers.empty() && !responses.empty()) return {};
+  if (answers.empty()) return "nothing was judged: no [[metric]] and no [[check]]";
   const auto judged = [this](const std::string* variant) {
     return std::ranges::any_of(answers, [&](const Answer& answer) {
       return answer.passed && (variant == nullptr || answer.variant == *variant);
     });
   };
-  if (!judged(nullptr)) return "nothing was judged: no [[metric]] has a limit";
+  const auto unmeasured = std::ranges::find_if(
+      answers, [](const Answer& answer) { return answer.outcome() == checks::Outcome::not_measured; });
+  if (!judged(nullptr) && unmeasured == answers.end() && responses.empty())
+    return "nothing was judged: no [[metric]] has a limit";
   // In comparisons, a variant without completed runs counts as the worst one, so the other variants may pass.
   // Therefore at least one metric with a limit must judge the variant that has no completed runs.
   for (const Endings& one : endings) {
     if (one.not_measured > 0)
       return fmt::format("variant '{}': {} of {} runs were not measured ({})", one.variant, one.not_measured,
                          one.runs, one.first_fault);
-    if (one.completed == 0 && !judged(&one.variant))
+    if (one.completed == 0 && !judged(&one.variant) && responses.empty())
       return fmt::format(
           "variant '{}' was not judged: none of its runs was completed ({}), and it has no limit",
           one.variant, one.first_fault);
   }
+  if (unmeasured != answers.end())
+    return fmt::format("'{}' of variant '{}' was not measured ({})", unmeasured->metric, unmeasured->variant,
+                       unmeasured->measured);
   return {};
 }
 
@@ -119,7 +159,7 @@ Result<Evaluation> evaluate(const Campaign& campaign, const Load& load) {
     const estimators::Estimator& estimator = estimators::of(campaign.variants[variant].scenario);
     const quantities::Freshness freshness = estimator.freshness(campaign.variants[variant].scenario);
     for (RunSeries& run : *loaded) {
-      if (&run.samples.layout() != &estimator.layout)
+      if (keeps_samples(campaign) && &run.samples.layout() != &estimator.layout)
         return failure(
             fmt::format("run {} of variant '{}' has samples of another estimator than its scenario", run.run,
                         campaign.variants[variant].name));
@@ -133,12 +173,24 @@ Result<Evaluation> evaluate(const Campaign& campaign, const Load& load) {
       evaluation.answers.push_back(answer_of(campaign, metric, variant, runs));
     }
   }
+  for (std::size_t variant = 0; variant < runs.size(); ++variant) {
+    if (auto added = add_judged(campaign, variant, runs[variant], evaluation); !added)
+      return tl::unexpected(added.error());
+  }
+  // The answers of a check stand together, as those of a metric do.
+  std::vector<std::string> names;
+  for (const Answer& answer : evaluation.answers) {
+    if (std::ranges::find(names, answer.metric) == names.end()) names.push_back(answer.metric);
+  }
+  std::ranges::stable_sort(evaluation.answers, {}, [&](const Answer& answer) {
+    return std::ranges::find(names, answer.metric) - names.begin();
+  });
   return evaluation;
 }
 
 Result<Evaluation> evaluate(const Campaign& campaign, const Store& store) {
   auto evaluation = evaluate(campaign, [&](std::size_t variant) { return store.load(variant); });
-  if (evaluation) evaluation->target = store.identity().target;
+  if (evaluation) evaluation->identity = store.identity();
   return evaluation;
 }
 

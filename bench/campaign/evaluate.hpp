@@ -7,6 +7,7 @@
 
 #include "bench/campaign/answer.hpp"
 #include "bench/campaign/campaign.hpp"
+#include "bench/campaign/judged.hpp"
 #include "bench/campaign/store.hpp"
 #include "bench/checks/verdict.hpp"
 
@@ -24,10 +25,17 @@ struct Endings {
   std::string first_fault;       ///< for example "run 17: ..."; empty: all runs were completed
 };
 
+/// A flight of a campaign with faults.
+struct Responded {
+  Key key{};
+  matrix::CellRun run{};
+};
+
 struct Evaluation {
-  std::string target{};  ///< see Identity::target
+  Identity identity{};  ///< of the results
   std::vector<Endings> endings;
-  std::vector<Answer> answers;
+  std::vector<Answer> answers;         ///< of the metrics, then of the checks
+  std::vector<Responded> responses{};  ///< ordered by variant and run
   /// The reason why the verdict is neither pass nor fail; empty if it is pass or fail.
   [[nodiscard]] std::string not_judged() const;
   [[nodiscard]] checks::Outcome outcome() const;

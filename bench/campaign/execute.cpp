@@ -11,9 +11,7 @@
 #include <optional>
 #include <thread>
 
-#include "bench/drive/flight.hpp"
-#include "bench/drive/session.hpp"
-#include "bench/world/stoppable.hpp"
+#include "bench/campaign/flights.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -58,38 +56,26 @@ class Finishing {
   std::optional<Error> error_;
 };
 
-/// Data shared by the workers: read-only, except for `next` and `halt`.
+/// Data shared by the workers.
 struct Work {
-  const Campaign& campaign;
-  const std::string& target;                               ///< see Options
-  std::vector<std::optional<world::FlightRecord>> truths;  ///< truth of each variant to be flown
+  Flights flights;
   std::vector<Key> tasks;
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> halt = false;
 };
 
-Error in_variant(const Campaign& campaign, std::size_t variant, const Error& error) {
-  return {fmt::format("{}: variant '{}': {}", campaign.sources.file, campaign.variants[variant].name,
-                      error.message)};
-}
-
 void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
   while (!stop && !work.halt) {
     const std::size_t index = work.next++;
     if (index >= work.tasks.size()) break;
-    const auto [variant, run] = work.tasks[index];
-    const world::FlightRecord& truth = *work.truths[variant];
-    const scenario::Scenario& scenario = work.campaign.variants[variant].scenario;
-    const auto flown = work.target.empty()
-                           ? drive::run_in_process(scenario, truth, run, work.campaign.rounding, stop)
-                           : drive::run_against(work.target, scenario, truth, run, stop);
-    if (stop) break;  // even if this run was completed, or failed because of the interruption
+    auto flown = work.flights.fly(work.tasks[index]);
+    if (stop) break;
     if (!flown) {
-      finishing.fail(in_variant(work.campaign, variant, flown.error()));
+      finishing.fail(flown.error());
       work.halt = true;
       break;
     }
-    finishing.add({.variant = variant, .series = series_of(run, *flown, truth, estimators::of(scenario))});
+    if (*flown) finishing.add(std::move(**flown));
   }
   finishing.worker_ends();
 }
@@ -99,27 +85,15 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
 std::vector<Key> open_tasks(const Campaign& campaign, const Shard& shard, std::vector<Key> stored) {
   std::ranges::sort(stored);
   std::vector<Key> tasks;
-  for (std::uint64_t run = shard.index; run < campaign.runs; run += shard.count) {
+  for (std::uint64_t run = 0; run < campaign.runs; ++run) {
     for (std::size_t variant = 0; variant < campaign.variants.size(); ++variant) {
       const Key key{.variant = variant, .run = run};
-      if (!std::ranges::binary_search(stored, key)) tasks.push_back(key);
+      const auto number = static_cast<std::uint64_t>(row_id(key, campaign.runs));
+      if (number % shard.count == shard.index && !std::ranges::binary_search(stored, key))
+        tasks.push_back(key);
     }
   }
   return tasks;
-}
-
-Result<void> compute_truths(Work& work, const std::atomic<bool>& stop) {
-  const world::Stoppable stoppable(stop);
-  work.truths.resize(work.campaign.variants.size());
-  for (const Key& task : work.tasks) {
-    if (stop) return {};
-    if (work.truths[task.variant]) continue;
-    auto truth = drive::make_truth(work.campaign.variants[task.variant].scenario);
-    if (stop) return {};
-    if (!truth) return tl::unexpected(in_variant(work.campaign, task.variant, truth.error()));
-    work.truths[task.variant] = std::move(*truth);
-  }
-  return {};
 }
 
 /// Commits the workers' results until the workers end.
@@ -195,11 +169,9 @@ Result<Execution> execute(const Campaign& campaign, const Options& options, cons
   const auto stored = store->keys();
   if (!stored) return tl::unexpected(stored.error());
 
-  Work work{.campaign = campaign,
-            .target = options.target,
-            .truths = {},
+  Work work{.flights = Flights(campaign, options.target, options.file.parent_path(), stop),
             .tasks = open_tasks(campaign, options.shard, *stored)};
-  if (auto computed = compute_truths(work, stop); !computed) return tl::unexpected(computed.error());
+  if (auto prepared = work.flights.prepare(work.tasks); !prepared) return tl::unexpected(prepared.error());
 
   const std::size_t cores = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
   const std::size_t workers = std::clamp<std::size_t>(cores, 1, std::max<std::size_t>(1, work.tasks.size()));

@@ -14,7 +14,7 @@
 
 namespace canhil::campaign {
 
-/// A shard contains the runs with run % count == index.
+/// A shard contains each `count`-th run from number `index` on. A run has the number row_id().
 struct Shard {
   std::uint64_t index = 0;
   std::uint64_t count = 1;

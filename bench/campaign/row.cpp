@@ -19,7 +19,7 @@ std::string_view text_of(std::span<const std::uint8_t> bytes) {
 }
 
 std::int64_t hash_of(std::int64_t id, const Key& key, const drive::Ending& ending, std::string_view columns,
-                     std::span<const std::uint8_t> samples) {
+                     std::span<const std::uint8_t> samples, std::string_view judged) {
   return Digest()
       .add(id)
       .add(static_cast<std::int64_t>(key.variant))
@@ -29,6 +29,7 @@ std::int64_t hash_of(std::int64_t id, const Key& key, const drive::Ending& endin
       .add(ending.detail)
       .add(columns)
       .add(text_of(samples))
+      .add(judged)
       .value();
 }
 
@@ -69,7 +70,8 @@ void bind_row(SQLite::Statement& statement, std::uint64_t runs, const Finished& 
   // A null pointer would be stored as NULL, not as an empty blob.
   const void* bytes = samples.empty() ? "" : static_cast<const void*>(samples.data());
   statement.bind(8, bytes, static_cast<int>(samples.size()));
-  statement.bind(9, hash_of(id, key, series.ending, columns, samples));
+  statement.bind(9, series.judged);
+  statement.bind(10, hash_of(id, key, series.ending, columns, samples, series.judged));
 }
 
 Key key_of(const SQLite::Statement& row, std::uint64_t runs) {
@@ -87,9 +89,11 @@ Finished read_row(const SQLite::Statement& row, std::uint64_t runs) {
   const Key key = key_of(row, runs);
   const std::int64_t kind = row.getColumn(3);
   const std::string columns = row.getColumn(6);
+  static const quantities::Samples none;
   const estimators::Estimator* estimator = estimators::telling(columns);
-  const quantities::Layout* layout =
-      estimator != nullptr ? &estimator->layout : mapping::find_layout(columns);
+  const quantities::Layout* layout = columns.empty()        ? &none.layout()
+                                     : estimator != nullptr ? &estimator->layout
+                                                            : mapping::find_layout(columns);
   if (kind < 0 || kind > static_cast<std::int64_t>(drive::Ending::last_kind))
     throw damaged(row, fmt::format("has ending {}", kind));
   if (layout == nullptr) throw damaged(row, "has columns that no estimator reports");
@@ -98,12 +102,16 @@ Finished read_row(const SQLite::Statement& row, std::uint64_t runs) {
                         static_cast<std::size_t>(blob.getBytes()));
   drive::Ending ending{
       .kind = static_cast<drive::Ending::Kind>(kind), .t_us = row.getColumn(4), .detail = row.getColumn(5)};
-  if (hash_of(row.getColumn(0), key, ending, columns, bytes) != row.getColumn(8).getInt64())
+  std::string judged = row.getColumn(8);
+  if (hash_of(row.getColumn(0), key, ending, columns, bytes, judged) != row.getColumn(9).getInt64())
     throw damaged(row, "has another hash than its content");
   auto samples = quantities::decode(bytes, *layout);
   if (!samples) throw damaged(row, samples.error().message);
   return Finished{.variant = key.variant,
-                  .series = {.run = key.run, .ending = std::move(ending), .samples = std::move(*samples)}};
+                  .series = {.run = key.run,
+                             .ending = std::move(ending),
+                             .samples = std::move(*samples),
+                             .judged = std::move(judged)}};
 }
 
 }  // namespace canhil::campaign

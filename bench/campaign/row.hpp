@@ -42,13 +42,13 @@ class Digest {
 };
 
 /// The columns of the table of runs: row_schema is for `create table`, row_columns for `select`. The column
-/// named `columns` lists the quantities of the samples, in their order.
+/// named `columns` lists the quantities of the samples, in their order; `judged` is RunSeries::judged.
 inline constexpr std::string_view row_schema =
     "id integer primary key, variant integer, run integer, ending integer, end_us integer, detail text, "
-    "columns text, samples blob, hash integer";
+    "columns text, samples blob, judged text, hash integer";
 inline constexpr std::string_view row_columns =
-    "id, variant, run, ending, end_us, detail, columns, samples, hash";
-inline constexpr std::string_view row_places = "?, ?, ?, ?, ?, ?, ?, ?, ?";
+    "id, variant, run, ending, end_us, detail, columns, samples, judged, hash";
+inline constexpr std::string_view row_places = "?, ?, ?, ?, ?, ?, ?, ?, ?, ?";
 inline constexpr std::string_view key_columns = "id, variant, run";
 
 /// Binds the columns of a row.

@@ -2,12 +2,9 @@
 
 namespace canhil::campaign {
 
-RunSeries series_of(std::uint64_t run_index, const drive::Collected& finished,
-                    const world::FlightRecord& truth, const estimators::Estimator& estimator) {
-  return {.run = run_index,
-          .ending = finished.ending,
-          .samples = estimator.samples(finished.seen,
-                                       drive::truth_of(truth, finished.per_run_truth, truth.end_us()))};
+quantities::Samples samples_of(const checks::Observations& seen, const drive::PerRunTruth& per_run_truth,
+                               const world::FlightRecord& truth, const estimators::Estimator& estimator) {
+  return estimator.samples(seen, drive::truth_of(truth, per_run_truth, truth.end_us()));
 }
 
 }  // namespace canhil::campaign

@@ -20,11 +20,12 @@ struct RunSeries {
   drive::Ending ending;  ///< a run that was not completed keeps its samples
   quantities::Samples samples{};
   quantities::Freshness freshness{};
+  std::string judged{};  ///< what was judged in the run, as JSON (judged.hpp); empty: nothing
 };
 
-/// The series of a finished run. `truth` is the truth of the run's variant, `estimator` the estimator of its
-/// scenario. If the truth is unknown, the series has no samples.
-RunSeries series_of(std::uint64_t run_index, const drive::Collected& finished,
-                    const world::FlightRecord& truth, const estimators::Estimator& estimator);
+/// The samples of a finished run. `truth` is the truth of the run's variant, `estimator` the estimator of its
+/// scenario. If the truth is unknown, there are no samples.
+quantities::Samples samples_of(const checks::Observations& seen, const drive::PerRunTruth& per_run_truth,
+                               const world::FlightRecord& truth, const estimators::Estimator& estimator);
 
 }  // namespace canhil::campaign

@@ -16,7 +16,7 @@
 namespace canhil::campaign {
 namespace {
 
-constexpr int format = 6;
+constexpr int format = 7;
 constexpr int any_format = 0x43484300;  // "CHC": canhil campaign
 constexpr int application_id = any_format + '0' + format;
 

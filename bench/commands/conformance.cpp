@@ -109,16 +109,16 @@ ExitCode execute(const Arguments& arguments) {
   conformance::Report found{.target = arguments.target,
                             .estimator = chosen->targets.front().estimator,
                             .algorithm = chosen->targets.front().algorithm,
-                            .findings = {},
+                            .rules = {},
                             .started_s = std::time(nullptr)};
   const ProgressLine line;
-  auto findings = conformance::ask(
+  auto rules = conformance::ask(
       conformance::rules(false, false), *chosen, arguments.target, {}, std::nullopt, interrupted,
       [&](const conformance::Rule& rule) { line.show([&] { return std::string(rule.id); }); });
   line.clear();
-  if (!findings) return end_with(findings.error());
+  if (!rules) return end_with(rules.error());
   if (interrupted) return end_interrupted();
-  found.findings = std::move(*findings);
+  found.rules = std::move(*rules);
   found.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (auto written = write_reports(arguments, found); !written) return complain(written.error());
   return exit_code(found.outcome());

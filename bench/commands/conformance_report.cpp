@@ -9,26 +9,27 @@
 
 namespace canhil::conformance {
 
+using checks::CheckResult;
+using checks::Outcome;
+
 std::string text(const Report& report) {
   std::string out =
       fmt::format("Conformance: {}\n  as {}, {}\n\n", report.target, report.estimator, report.algorithm);
-  for (const Finding& finding : report.findings) {
-    out += fmt::format("  {}  {:<13}  {}\n", finding.wrong.empty() ? "PASS" : "FAIL", finding.rule.id,
-                       finding.rule.text);
-    if (!finding.wrong.empty()) out += fmt::format("      - {}\n", finding.wrong);
+  for (const CheckResult& rule : report.rules) {
+    const bool kept = rule.outcome == Outcome::pass;
+    out += fmt::format("  {}  {:<13}  {}\n", kept ? "PASS" : "FAIL", rule.name, rule.expected);
+    if (!kept) out += fmt::format("      - {}\n", rule.measured);
   }
-  const auto kept = std::ranges::count_if(report.findings, [](const auto& one) { return one.wrong.empty(); });
+  const auto kept = std::ranges::count(report.rules, Outcome::pass, &CheckResult::outcome);
   return out + fmt::format("\n{}: {} of {} rules kept ({:.1f} s)\n", checks::name(report.outcome()), kept,
-                           report.findings.size(), report.wall_s);
+                           report.rules.size(), report.wall_s);
 }
 
 std::string json(const Report& report) {
   auto rules = nlohmann::ordered_json::array();
-  for (const Finding& finding : report.findings) {
-    rules.push_back({{"id", finding.rule.id},
-                     {"text", finding.rule.text},
-                     {"outcome", finding.wrong.empty() ? "pass" : "fail"}});
-    if (!finding.wrong.empty()) rules.back()["wrong"] = finding.wrong;
+  for (const CheckResult& rule : report.rules) {
+    rules.push_back({{"id", rule.name}, {"text", rule.expected}, {"outcome", checks::name(rule.outcome)}});
+    if (rule.outcome != Outcome::pass) rules.back()["wrong"] = rule.measured;
   }
   const nlohmann::ordered_json all{{"schema", "canhil-conformance-1"},
                                    {"target", report.target},
@@ -43,18 +44,8 @@ std::string json(const Report& report) {
 }
 
 std::string junit(const Report& report) {
-  std::vector<checks::CheckResult> cases;
-  for (const Finding& finding : report.findings) {
-    const bool kept = finding.wrong.empty();
-    cases.push_back({.name = finding.rule.id,
-                     .kind = finding.rule.family,
-                     .requirement = finding.rule.id,
-                     .outcome = kept ? checks::Outcome::pass : checks::Outcome::fail,
-                     .measured = kept ? "so" : finding.wrong,
-                     .expected = finding.rule.text});
-  }
   return report::junit_whole(
-      report::junit_suite("conformance", "conformance", cases, report.wall_s, report.started_s));
+      report::junit_suite("conformance", "conformance", report.rules, report.wall_s, report.started_s));
 }
 
 }  // namespace canhil::conformance

@@ -30,32 +30,32 @@ std::optional<Algorithm> algorithm_of(Talk& talk) {
 
 }  // namespace
 
-checks::Outcome Report::outcome() const {
-  if (findings.empty()) return checks::Outcome::not_measured;
-  const bool kept = std::ranges::all_of(findings, [](const Finding& one) { return one.wrong.empty(); });
-  return kept ? checks::Outcome::pass : checks::Outcome::fail;
-}
-
-Result<std::vector<Finding>> ask(const std::vector<Rule>& rules, const scenario::Scenario& scenario,
-                                 const std::string& target, std::span<const Parameter> parameters,
-                                 const std::optional<std::pair<std::string, double>>& apply,
-                                 const std::atomic<bool>& stop,
-                                 const std::function<void(const Rule&)>& progress) {
+Result<std::vector<checks::CheckResult>> ask(const std::vector<Rule>& rules,
+                                             const scenario::Scenario& scenario, const std::string& target,
+                                             std::span<const Parameter> parameters,
+                                             const std::optional<std::pair<std::string, double>>& apply,
+                                             const std::atomic<bool>& stop,
+                                             const std::function<void(const Rule&)>& progress) {
   auto talk = Talk::open(scenario, target, stop);
   if (!talk) return tl::unexpected(talk.error());
   Subject subject{.talk = **talk, .parameters = parameters, .apply = apply};
-  std::vector<Finding> findings;
+  std::vector<checks::CheckResult> results;
   for (const Rule& rule : rules) {
     if (stop) break;
     progress(rule);
     const std::string before = (*talk)->gone();
-    findings.push_back({rule, before.empty() ? rule.ask(subject) : before});
+    std::string wrong = before.empty() ? rule.ask(subject) : before;
     // The process must run until the bench ends it, here after the last rule.
-    const std::string after = findings.size() < rules.size() ? (*talk)->gone() : (*talk)->end();
-    std::string& wrong = findings.back().wrong;
+    const std::string after = results.size() + 1 < rules.size() ? (*talk)->gone() : (*talk)->end();
     if (before.empty() && !after.empty()) wrong += (wrong.empty() ? "" : "; ") + after;
+    results.push_back({.name = rule.id,
+                       .kind = rule.family,
+                       .requirement = rule.id,
+                       .outcome = wrong.empty() ? checks::Outcome::pass : checks::Outcome::fail,
+                       .measured = wrong.empty() ? "so" : wrong,
+                       .expected = rule.text});
   }
-  return findings;
+  return results;
 }
 
 Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& candidates,

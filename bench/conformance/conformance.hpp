@@ -14,17 +14,12 @@
 
 namespace canhil::conformance {
 
-/// The result of testing a rule. `wrong` states how the target violated the rule; it is empty if the target
-/// followed the rule.
-struct Finding {
-  Rule rule;
-  std::string wrong;
-};
-
 /// Starts the target and tests the rules one after another. `scenario` selects the estimator. A rule is also
 /// violated if the target's process ends during it, or if it ends with an error when the bench ends it after
-/// the last rule. Returns an error if the target does not start.
-Result<std::vector<Finding>> ask(
+/// the last rule. The results have the rule's id as name and requirement, its family as kind and its text as
+/// expectation; `measured` states how the target violated the rule. Returns an error if the target does not
+/// start.
+Result<std::vector<checks::CheckResult>> ask(
     const std::vector<Rule>& rules, const scenario::Scenario& scenario, const std::string& target,
     std::span<const Parameter> parameters, const std::optional<std::pair<std::string, double>>& apply,
     const std::atomic<bool>& stop, const std::function<void(const Rule&)>& progress = [](const Rule&) {});
@@ -40,10 +35,12 @@ Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& can
 struct Report {
   std::string target;  ///< command of the target
   std::string estimator, algorithm;
-  std::vector<Finding> findings;
+  std::vector<checks::CheckResult> rules;
   double wall_s = 0;
   std::int64_t started_s = 0;  ///< start of the test, in seconds since 1970, UTC
-  [[nodiscard]] checks::Outcome outcome() const;
+  [[nodiscard]] checks::Outcome outcome() const {
+    return checks::outcome_of(rules, &checks::CheckResult::outcome);
+  }
 };
 
 }  // namespace canhil::conformance

@@ -31,20 +31,21 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
   return seen;
 }
 
-Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario) {
-  if (flown.ending.kind != Ending::Kind::completed) return flown;
+Ending ending_as_a_run(const Ending& ending, const scenario::Scenario& scenario,
+                       const checks::Observations& seen, const PerRunTruth& per_run_truth) {
+  if (ending.kind != Ending::Kind::completed) return ending;
   const std::vector<checks::CheckResult> found =
-      checks::of_every_run(scenario, flown.seen, plants_of(flown.per_run_truth));
-  if (found.empty()) return flown;
+      checks::of_every_run(scenario, seen, plants_of(per_run_truth));
+  if (found.empty()) return ending;
   // A flight whose stimuli the bench clipped is impossible, whatever the target answered.
-  const bool fails = flown.seen.clipped.empty() &&
+  const bool fails = seen.clipped.empty() &&
                      checks::outcome_of(found, &checks::CheckResult::outcome) == checks::Outcome::fail;
-  flown.ending.kind = fails ? Ending::Kind::wrong_answers : Ending::Kind::not_measured;
+  Ending judged = ending;
+  judged.kind = fails ? Ending::Kind::wrong_answers : Ending::Kind::not_measured;
   for (const checks::CheckResult& check : found) {
-    flown.ending.detail +=
-        fmt::format("{}{}: {}", flown.ending.detail.empty() ? "" : "; ", check.kind, check.measured);
+    judged.detail += fmt::format("{}{}: {}", judged.detail.empty() ? "" : "; ", check.kind, check.measured);
   }
-  return flown;
+  return judged;
 }
 
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,

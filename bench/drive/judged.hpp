@@ -11,10 +11,11 @@ namespace canhil::drive {
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario);
 
-/// A completed run of a campaign, judged by the checks of every run. If one fails, the ending is
-/// `wrong_answers`. If one is not measured, or if the bench clipped a stimulus, the ending is `not_measured`.
-/// The ending says why.
-Collected judged_as_a_run(Collected flown, const scenario::Scenario& scenario);
+/// The ending of a run of a campaign, judged by the checks of every run if it was completed. If one fails, it
+/// is `wrong_answers`. If one is not measured, or if the bench clipped a stimulus, it is `not_measured`. The
+/// ending says why.
+Ending ending_as_a_run(const Ending& ending, const scenario::Scenario& scenario,
+                       const checks::Observations& seen, const PerRunTruth& per_run_truth);
 
 /// The verdict on a flight, whether or not it was completed. `delays`: see checks::Evidence.
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,

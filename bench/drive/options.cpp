@@ -30,4 +30,17 @@ Options in_lockstep_against(std::string command) {
   return options;
 }
 
+Options unattended(const std::string& target, const scenario::Scenario& scenario, Rounding rounding) {
+  Options options;
+  if (target.empty()) {
+    options.bus = BusName(std::string(rounding == Rounding::none ? unrounded_bus : in_process_bus));
+  } else {
+    options = in_lockstep_against(target);
+    // If answers do not name their cause, the bench cannot see when a step of virtual time is complete.
+    options.lockstep = scenario.binding->answers_by_name;
+  }
+  options.format = format_of(scenario);
+  return options;
+}
+
 }  // namespace canhil::drive

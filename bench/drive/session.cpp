@@ -313,26 +313,6 @@ class Session {
   Ending ending_;
 };
 
-// Flies a run without the measurements that only a verdict needs.
-Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                   std::uint64_t run_index, Options options, const std::atomic<bool>& stop) {
-  auto flight = make_flight(scenario, truth, run_index);
-  if (!flight)
-    return Collected{.ending = {.kind = Ending::Kind::not_flown, .t_us = 0, .detail = flight.error().message},
-                     .seen = {}};
-  options.run_index = run_index;
-  options.format = format_of(scenario);
-  options.for_verdict = false;
-  const auto session = Session::open(scenario, truth, std::move(*flight), options);
-  if (!session) return tl::unexpected(session.error());
-  if (auto ready = (*session)->configure(stop); !ready) return tl::unexpected(ready.error());
-  (*session)->drive(stop, [](std::int64_t) {});
-  Collected flown = (*session)->collect();
-  const bool judged =
-      !options.targets.empty() || !flown.seen.clipped.empty();  // the device in process is right
-  return judged ? judged_as_a_run(std::move(flown), scenario) : std::move(flown);
-}
-
 }  // namespace
 
 Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
@@ -380,21 +360,28 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
              .log_error = std::move(flown.log_error)};
 }
 
-Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                 std::uint64_t run_index, Rounding rounding, const std::atomic<bool>& stop) {
-  Options options;
-  options.bus = BusName(std::string(rounding == Rounding::none ? unrounded_bus : in_process_bus));
-  return fly_for_campaign(scenario, truth, run_index, std::move(options), stop);
+Result<Collected> observe_run(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                              std::uint64_t run_index, Options options, const std::atomic<bool>& stop) {
+  auto flight = make_flight(scenario, truth, run_index);
+  if (!flight)
+    return Collected{.ending = {.kind = Ending::Kind::not_flown, .t_us = 0, .detail = flight.error().message},
+                     .seen = {}};
+  options.run_index = run_index;
+  options.for_verdict = false;
+  const auto session = Session::open(scenario, truth, std::move(*flight), options);
+  if (!session) return tl::unexpected(session.error());
+  if (auto ready = (*session)->configure(stop); !ready) return tl::unexpected(ready.error());
+  (*session)->drive(stop, [](std::int64_t) {});
+  Collected flown = (*session)->collect();
+  const bool judged =
+      !options.targets.empty() || !flown.seen.clipped.empty();  // the device in process is right
+  if (judged) flown.ending = ending_as_a_run(flown.ending, scenario, flown.seen, flown.per_run_truth);
+  return flown;
 }
 
-Result<Collected> run_against(const std::string& target, const scenario::Scenario& scenario,
-                              const world::FlightRecord& truth, std::uint64_t run_index,
-                              const std::atomic<bool>& stop) {
-  Options options = in_lockstep_against(target);
-  // If answers do not name their cause, the bench cannot see when a step of virtual time is complete.
-  options.lockstep = scenario.binding->answers_by_name;
-  options.format = format_of(scenario);
-  return fly_for_campaign(scenario, truth, run_index, std::move(options), stop);
+Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                 std::uint64_t run_index) {
+  return observe_run(scenario, truth, run_index, unattended("", scenario));
 }
 
 }  // namespace canhil::drive

@@ -53,6 +53,12 @@ BusFormat format_of(const scenario::Scenario& scenario);
 /// uses.
 Options in_lockstep_against(std::string command);
 
+/// Options of a flight of a campaign. An empty `target`: against a Device in this process, in virtual time.
+/// Otherwise against this program, which is started for the flight on a private local bus; in lockstep or,
+/// with a mapping whose answers do not name their cause, in real time.
+Options unattended(const std::string& target, const scenario::Scenario& scenario,
+                   Rounding rounding = Rounding::as_on_the_bus);
+
 /// The results of a session.
 struct Collected {
   Ending ending;
@@ -90,21 +96,17 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
 
 inline const std::atomic<bool> never_stopped = false;
 
-/// Runs a scenario for a campaign: against a Device in this process, in virtual time, with the random numbers
-/// of (seed, run_index). A pure function: the same arguments give the same bits on any thread, unless `stop`
-/// is set, which interrupts the run. Error: the scenario cannot be run (configuration). If the target gives
-/// up, or the drawn flight cannot be flown, the result records this as the end of the run; it is not an
-/// error.
-Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                 std::uint64_t run_index, Rounding rounding = Rounding::as_on_the_bus,
-                                 const std::atomic<bool>& stop = never_stopped);
-
-/// Runs a scenario for a campaign against a program, which is started for this run on a private local bus.
-/// The run is in lockstep or, with a mapping whose answers do not name their cause, in real time. In
-/// lockstep, a target that behaves like the Device gives the same samples as run_in_process(). Error: as for
-/// run_in_process(), or the program does not start or does not answer.
-Result<Collected> run_against(const std::string& target, const scenario::Scenario& scenario,
-                              const world::FlightRecord& truth, std::uint64_t run_index,
+/// Runs a scenario without the measurements that only a verdict needs, with the random numbers of (seed,
+/// run_index). With the options of unattended() and a Device in this process, a pure function: the same
+/// arguments give the same bits on any thread, unless `stop` is set, which interrupts the run; in lockstep, a
+/// program that behaves like the Device gives the same samples. Error: the scenario cannot be run
+/// (configuration), or the program does not start or does not answer. If the target gives up, or the drawn
+/// flight cannot be flown, the result records this as the end of the run; it is not an error.
+Result<Collected> observe_run(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                              std::uint64_t run_index, Options options,
                               const std::atomic<bool>& stop = never_stopped);
+/// observe_run() of a Device in this process.
+Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                 std::uint64_t run_index);
 
 }  // namespace canhil::drive

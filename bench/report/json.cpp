@@ -9,8 +9,8 @@
 
 #include "bench/checks/answered.hpp"
 #include "bench/checks/bus_load.hpp"
+#include "bench/checks/result_json.hpp"
 #include "bench/report/flags.hpp"
-#include "bench/report/json_checks.hpp"
 #include "bench/report/json_timing.hpp"
 #include "bench/report/provenance.hpp"
 #include "bench/report/rounded.hpp"
@@ -240,7 +240,7 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
                               {"count", fault.count}});
   }
   page["checks"] = Json::array();
-  for (const checks::CheckResult& check : run.verdict.checks) page["checks"].push_back(object(check));
+  for (const checks::CheckResult& check : run.verdict.checks) page["checks"].push_back(json_of(check));
   for (const EstimatorResults& one : results(scenario, run))
     page["results"][std::string(one.estimator)] = object(one.lines);
   page["timing"] = timing_judged(run);

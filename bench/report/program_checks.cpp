@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "bench/checks/kinds/program.hpp"
+#include "bench/checks/result_json.hpp"
 #include "bench/processes/command.hpp"
 #include "bench/processes/dialogue.hpp"
-#include "bench/report/json_checks.hpp"
 #include "bench/report/run_reports.hpp"
 #include "dbc/files/output_file.hpp"
 #include "dbc/files/temporary_folder.hpp"
@@ -74,7 +74,7 @@ Result<std::vector<CheckResult>> judgements_in(const std::string& output, const 
     try {
       const std::string id = one.value("id", ""), outcome = one.value("outcome", "");
       if (id.empty()) return wrong("has no 'id'");
-      const auto known = outcome_named(outcome);
+      const auto known = checks::outcome_named(outcome);
       if (!known)
         return wrong(fmt::format("outcome '{}' is unknown, expected pass, fail or not measured", outcome));
       const std::string name = fmt::format("{}: {}", check.name, id);
@@ -86,7 +86,7 @@ Result<std::vector<CheckResult>> judgements_in(const std::string& output, const 
                          .outcome = *known,
                          .measured = one.value("measured", ""),
                          .expected = one.value("expected", ""),
-                         .judgement = judgement_of(one)});
+                         .judgement = checks::judgement_of(one)});
     } catch (const Json::exception& error) {
       return wrong(error.what());
     }

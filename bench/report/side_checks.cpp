@@ -12,9 +12,9 @@
 #include <string_view>
 
 #include "bench/checks/judge.hpp"
+#include "bench/checks/result_json.hpp"
 #include "bench/checks/verdict.hpp"
 #include "bench/report/figures.hpp"
-#include "bench/report/json_checks.hpp"
 #include "dbc/text/escape.hpp"
 
 namespace canhil::report {
@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 4> said{checks::name(Outcome::pass), chec
                                                checks::name(Outcome::not_measured), "not there"};
 
 Says outcome_of(const std::string& name, const std::string& of) {
-  if (const auto outcome = outcome_named(name)) return static_cast<Says>(*outcome);
+  if (const auto outcome = checks::outcome_named(name)) return static_cast<Says>(*outcome);
   throw UnknownOutcome{
       fmt::format("outcome '{}' of {}, expected 'pass', 'fail' or 'not measured'", name, of)};
 }
@@ -59,7 +59,8 @@ Checks judged_in(const Json& report) {
     key.nth = seen[key]++;
     const Says outcome =
         outcome_of(check.at("outcome").get<std::string>(), fmt::format("check '{}'", key.name));
-    all.judged.emplace(key, Judged{outcome, check.at("measured").get<std::string>(), judgement_of(check)});
+    all.judged.emplace(key,
+                       Judged{outcome, check.at("measured").get<std::string>(), checks::judgement_of(check)});
     all.in_order.push_back(std::move(key));
   }
   return all;

@@ -29,6 +29,12 @@ class Section {
   static Section parse(std::string_view text, std::string_view file_name,
                        std::span<const Setting> settings = {});
 
+  /// The text of a file with the values of `settings`, as a file that may be in any folder: the paths of the
+  /// files that it names, relative to `folder`, become absolute. A setting without a value removes its key.
+  /// The text and the settings must be those of a scenario that was read. Comments are lost.
+  static std::string edited_text(std::string_view text, std::span<const Setting> settings,
+                                 const std::string& folder);
+
   /// Sets the folder of the files that this file names.
   void look_in(std::string folder);
 

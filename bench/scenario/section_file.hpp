@@ -1,5 +1,5 @@
 // The parsed file that sections belong to. This header includes toml++, which is slow to compile. So only
-// section.cpp includes this header.
+// section.cpp and edited_text.cpp include this header.
 #pragma once
 
 #include <fmt/format.h>

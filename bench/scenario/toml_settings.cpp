@@ -5,8 +5,6 @@
 #include <sstream>
 
 namespace canhil::scenario {
-namespace {
-
 std::string toml_text(const toml::node& node) {
   if (const auto* real = node.as_floating_point())
     return fmt::format("{}", real->get());  // shortest exact representation
@@ -14,8 +12,6 @@ std::string toml_text(const toml::node& node) {
   node.visit([&text](const auto& value) { text << value; });
   return std::move(text).str();
 }
-
-}  // namespace
 
 void add_settings(const toml::table& table, const std::string& path, std::vector<Setting>& settings) {
   for (const auto& [key, node] : table) {

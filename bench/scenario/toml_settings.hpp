@@ -1,5 +1,5 @@
 // Converts a TOML table to settings. This header includes toml++, which is slow to compile, so only
-// section.cpp should use it.
+// section.cpp and edited_text.cpp should use it.
 #pragma once
 
 #include <toml++/toml.h>
@@ -10,6 +10,9 @@
 #include "bench/scenario/setting.hpp"
 
 namespace canhil::scenario {
+
+/// A value as TOML text. A number has the fewest digits that give it exactly.
+std::string toml_text(const toml::node& node);
 
 /// Appends the values of a table; nested tables become keys with dots after `path`.
 void add_settings(const toml::table& table, const std::string& path, std::vector<Setting>& settings);

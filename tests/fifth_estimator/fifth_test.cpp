@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -88,6 +89,45 @@ TEST(FifthEstimator, ACampaignJudgesItsHonesty) {
       hil_bench(fmt::format("campaign {} --out {} --threads 2", here("heights.toml"), folder));
   EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("height.nees"));
+}
+
+// The kind of docs/adding-a-check.md is one file and a line, and works wherever a check can stand.
+TEST(FifthEstimator, ItsCheckWorksInAScenarioACampaignAndASuite) {
+  namespace fs = std::filesystem;
+  const std::string folder = scratch("spread");
+  fs::create_directories(folder + "/suite");
+  const auto outcomes = [&](double below_m) {
+    const std::string table = fmt::format(
+        "[[check]]\nname = 'mine'\nrequirement = 'S-1'\nkind = 'spread'\nquantity = 'height'\nfrom_s = 30.0\n"
+        "below_m = {}\n",
+        below_m);
+    const std::string flight = read(here("height.toml"));
+    std::ofstream(folder + "/flight.toml") << flight.substr(0, flight.find("[[check]]")) << table;
+    std::ofstream(folder + "/campaign.toml")
+        << "title = 'C'\nruns = 3\nseed = 3\n[[variant]]\nname = 'V'\nscenario = 'flight.toml'\n"
+        << table;
+    std::ofstream(folder + "/suite/suite.toml")
+        << "title = 'S'\nestimator = 'baro_inertial'\n"
+           "[[requirement]]\nid = 'S-1'\nfamily = 'errors'\ntext = 'The error of the height stays within a "
+           "range.'\n"
+           "[[flight]]\nname = 'F'\nscenario = '../flight.toml'\nrequirement = 'S-1'\n"
+           "[[campaign]]\nfile = '../campaign.toml'\n";
+    const Ended run = hil_bench(fmt::format("run {}/flight.toml --bus in-process --json -", folder));
+    const Ended campaign = hil_bench(fmt::format("campaign {0}/campaign.toml --out {0} --json -", folder));
+    const Ended suite =
+        hil_bench(fmt::format("accept baro_inertial --suites {} --target '{}' --json -", folder, HIL_TARGET));
+    fs::remove(folder + "/campaign.sqlite");
+    std::vector<std::string> found{json_of(run.out)["checks"][0]["outcome"],
+                                   json_of(campaign.out)["answers"][0]["outcome"]};
+    for (const auto& item : json_of(suite.out)["suites"][0]["requirements"][0]["items"]) {
+      if (item["kind"] == "spread") found.push_back(item["outcome"]);
+    }
+    return found;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(outcomes(100), ElementsAre("pass", "pass", "pass", "pass"))
+      << "run, campaign, flight and campaign of the suite";
+  EXPECT_THAT(outcomes(0.001), ElementsAre("fail", "fail", "fail", "fail"));
 }
 
 }  // namespace

@@ -12,8 +12,9 @@
 #include <span>
 
 #include "bench/campaign/evaluate.hpp"
-#include "bench/campaign/report.hpp"
+#include "bench/campaign/shards.hpp"
 #include "bench/campaign/store.hpp"
+#include "bench/campaign_report/report.hpp"
 #include "bench/estimators/registry.hpp"
 #include "tests/fuzz/expect.hpp"
 #include "tests/fuzz/short_scenario.hpp"
@@ -85,11 +86,11 @@ Result<std::string> report_on(const fs::path& file) {
   const auto store = campaign::Store::open(file);
   if (!store) return tl::unexpected(store.error());
   if (const auto keys = store->keys(); !keys) return tl::unexpected(keys.error());
-  auto campaign = campaign::parse_campaign(store->sources());
+  const auto campaign = campaign::campaign_of(*store);
   if (!campaign) return tl::unexpected(campaign.error());
-  campaign->runs = store->identity().runs;
   return campaign::evaluate(*campaign, *store).map([&](const campaign::Evaluation& evaluation) {
-    return campaign::text(*campaign, evaluation) + campaign::json(*campaign, evaluation);
+    return campaign::text({.campaign = *campaign, .evaluation = evaluation}) +
+           campaign::json({.campaign = *campaign, .evaluation = evaluation});
   });
 }
 

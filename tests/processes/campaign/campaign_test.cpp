@@ -160,7 +160,7 @@ TEST(Report, ComesFromTheMergedFileAlone) {
   const std::string at = folder("report");
   undisturbed();
   fs::copy(scratch("undisturbed") + "/merged.db", at + "/results");
-  const Ended ended = hil_bench(fmt::format("campaign report {}/results --json", at));
+  const Ended ended = hil_bench(fmt::format("campaign report {}/results --json -", at));
   expect_done(ended);
   const auto json = json_of(ended.out);
   EXPECT_EQ(json["variants"].size(), 4U);
@@ -183,6 +183,12 @@ TEST(Export, IsATableOfWhatTheRunsReported) {
   EXPECT_THAT(ended.out, testing::ContainsRegex(
                              "\nKF master_ins.latency_ms=0,29,[0-9.]+,attitude.heading,rad,-?[0-9.e-]+\n"));
   EXPECT_EQ(hil_bench(fmt::format("campaign export {}", results)).out, ended.out);
+  const Ended some = hil_bench(fmt::format(
+      "campaign export {} --variant 'KF master_ins.latency_ms=0' --quantity attitude.heading --to 1.05",
+      results));
+  EXPECT_EQ(std::ranges::count(some.out, '\n'), 1 + 30 * 10);
+  expect_one_line(hil_bench(fmt::format("campaign export {} --quantity attitude.heeding", results)),
+                  "expected 'attitude.heading'");
   expect_one_line(hil_bench(fmt::format("campaign export {} --format xls", results)),
                   "--format 'xls': is unknown, expected 'csv'");
   expect_one_line(hil_bench("campaign export none.sqlite"), "none.sqlite");
@@ -199,6 +205,53 @@ TEST(Report, ABarThatIsNotMetIsExitCode1) {
   EXPECT_THAT(ended.out, HasSubstr("FAIL"));
 }
 
+// A check is judged in each run; a limit on the share of the runs that pass is met or not.
+TEST(Checks, AreJudgedInEveryRun) {
+  const std::string head = read(campaign_file(4)), at = folder("checks");
+  const auto flown = [&](const std::string& checks) {
+    std::ofstream(at + "/checked.toml") << head.substr(0, head.find("[[metric]]")) << checks;
+    const Ended ended =
+        hil_bench(fmt::format("campaign {0}/checked.toml --out {0} --json - --html {0}/page.html "
+                              "--junit {0}/junit.xml --csv {0}/answers.csv",
+                              at));
+    fs::remove(at + "/checked.sqlite");
+    EXPECT_EQ(ended.code, json_of(ended.out)["outcome"] == "pass" ? 0 : 1) << ended.err;
+    return json_of(ended.out);
+  };
+  const auto error = [](const std::string& more) {
+    return "[[check]]\nkind = 'error'\nquantity = 'attitude.heading'\nstatistic = 'final'\n" + more;
+  };
+  const auto passed = flown(error("below_deg = 90\n"));
+  ASSERT_EQ(passed["answers"].size(), 4U) << "two variants at two points";
+  const auto& answer = passed["answers"][0];
+  EXPECT_EQ(answer["outcome"], "pass");
+  EXPECT_EQ(answer["passed"], 4);
+  EXPECT_EQ(answer["unit"], "deg");
+  EXPECT_LT(answer["median"], answer["value"]) << "the value is that of the worst run";
+  EXPECT_THAT(read(at + "/junit.xml"),
+              HasSubstr("name=\"KF master_ins.latency_ms=0\" tests=\"1\" failures=\"0\""));
+  EXPECT_THAT(read(at + "/page.html"), HasSubstr("4 of 4 runs pass"));
+  EXPECT_THAT(read(at + "/answers.csv"), HasSubstr("KF master_ins.latency_ms=0,pass,"));
+
+  // Between the median and the worst run, some runs pass.
+  const double between = 0.5 * (answer["median"].get<double>() + answer["value"].get<double>());
+  const std::string some = fmt::format("name = 'mine'\nbelow_deg = {}\nvariants = ['KF']\n", between);
+  const auto failed = flown(error(some));
+  ASSERT_EQ(failed["answers"].size(), 2U);
+  EXPECT_EQ(failed["answers"][0]["outcome"], "fail");
+  EXPECT_THAT(failed["answers"][0]["measured"].get<std::string>(), HasSubstr(" of 4 runs pass"));
+  const double share = failed["answers"][0]["passed"].get<double>() / 4;
+  EXPECT_GT(share, 0);
+  EXPECT_EQ(flown(error(some + fmt::format("runs_at_least = {}\n", share)))["answers"][0]["outcome"], "pass");
+  // The checks of the scenario, and a check that nothing can measure in virtual time.
+  std::ofstream(at + "/timed.toml")
+      << head.substr(0, head.find("[[metric]]"))
+      << "[[check]]\nkind = 'latency'\nmessage = 'AlignAttitude'\nbelow_ms = 5\n";
+  const Ended timed = hil_bench(fmt::format("campaign {0}/timed.toml --out {0}", at));
+  EXPECT_EQ(timed.code, 3) << timed.out;
+  EXPECT_THAT(timed.err, HasSubstr("was not measured (0 of 4 runs pass, 4 not measured"));
+}
+
 TEST(Report, OfACampaignThatAsksForNothingIsExitCode3) {
   const std::string text = read(campaign_file(2));
   std::ofstream(scratch("asks_nothing.toml")) << text.substr(0, text.find("[[metric]]"));
@@ -208,7 +261,8 @@ TEST(Report, OfACampaignThatAsksForNothingIsExitCode3) {
     const Ended ended = hil_bench(command);
     EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("seed 11 · not measured"));
-    EXPECT_THAT(ended.err, HasSubstr("asks_nothing.toml: nothing was judged: no [[metric]]\n"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("asks_nothing.toml: nothing was judged: no [[metric]] and no [[check]]\n"));
   }
 }
 
@@ -242,7 +296,7 @@ TEST(Replay, IsOneRunWithItsLog) {
   replay();
   EXPECT_EQ(target_frames(log), frames);
   expect_one_line(hil_bench(fmt::format("campaign replay {} 3 --variant H3", campaign_file())),
-                  "variant 'H3' is unknown, expected one of 'KF master_ins.latency_ms=0'");
+                  "variant 'H3' is unknown, expected");
 }
 
 TEST(Target, AProgramGivesTheSamplesOfTheDeviceInProcess) {

@@ -145,7 +145,7 @@ LINES = [
     ("hil-bench campaign replay", ("campaign.toml", "0"), ("campaign.toml", "recorded.toml", "run.log")),
     ("hil-bench faults", ("recorded.toml", "--set", "faults.toml", "--out", "new", *TARGET),
      ("recorded.toml", "run.log", "faults.toml", "my-target", "gain.txt")),
-    ("hil-bench faults merge", ("matrix/faults.jsonl",), ("matrix/faults.jsonl",)),
+    ("hil-bench faults merge", ("matrix/faults.sqlite",), ("matrix/faults.sqlite",)),
     ("hil-bench golden check", ("golden", *TARGET), ("golden/plain.toml", "golden/plain.log", "my-target")),
     ("hil-bench doctor", ("--bus", "local:", "--seconds", "1"), (BENCH,)),
     ("hil-bench conformance", ("--scenario", "recorded.toml", *TARGET), ("recorded.toml", "run.log", "my-target")),

@@ -245,25 +245,16 @@ class Results(InFolder):
     def test_of_a_fault_matrix_that_were_edited_are_refused(self):
         self.write("f.toml", '[[fault]]\nkind = "lost"\nmessages = ["SeekerAngles"]\nfrom_s = 1.0\nto_s = 1.2\n')
         self.bench("faults", "q.toml", "--set", "f.toml")
-        whole = (self.folder / "faults.jsonl").read_text()
-        lines = whole.splitlines()
-        responses = [json.loads(line)["response"] for line in lines[1:]]
-        line = 1 + next(i for i, response in enumerate(responses))
-        edited = lines.copy()
-        edited[line] = edited[line].replace(f'"response":"{responses[line - 1]}"', '"response":"violated"' if responses[line - 1] == "tolerated" else '"response":"tolerated"')
-        self.assertNotEqual(edited, lines)
-        again = ("faults", "q.toml", "--set", "f.toml", "--resume")
-        self.write("faults.jsonl", "\n".join(edited) + "\n")
-        for words in (again, ("faults", "merge", "faults.jsonl")):
-            self.assertIn(f"faults.jsonl:{line + 1}: has another hash than its content", self.refused(*words))
-        # a line of another matrix
-        other = self.folder / "other"
-        self.bench("faults", "q.toml", "--set", "f.toml", "--seed", "2", "--out", "other")
-        foreign = (other / "faults.jsonl").read_text().splitlines()
-        self.write("faults.jsonl", "\n".join([lines[0], *foreign[1:]]) + "\n")
-        self.assertIn("has another hash", self.refused(*again))
-        self.write("faults.jsonl", whole)
-        self.bench(*again)
+        self.results = self.folder / "faults.sqlite"
+        whole = self.results.read_bytes()
+        self.change("update run set judged = replace(judged, 'detected', 'tolerated')")
+        self.assertNotEqual(whole, self.results.read_bytes())
+        self.assertIn("has another hash than its content", self.refused("faults", "merge", "faults.sqlite"))
+        # a row of another matrix
+        self.results.write_bytes(whole)
+        self.bench("faults", "q.toml", "--set", "f.toml", "--runs", "2", "--out", "other")
+        self.assertIn("is of another campaign", self.refused("faults", "merge", "faults.sqlite", "other/faults.sqlite"))
+        self.bench("faults", "q.toml", "--set", "f.toml", "--resume")
 
 
 class Signatures(InFolder):
@@ -278,8 +269,8 @@ class Signatures(InFolder):
             self.skipTest("ssh-keygen is missing, expected Debian's package openssh-client")
         subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", self.folder / "key"], check=True)
         for file, *words in (("a.json", "report", "a.json"), ("c.sqlite", "campaign", "report", "c.sqlite"),
-                             ("faults.jsonl", "faults", "merge", "faults.jsonl"),
-                             ("faults.jsonl", "faults", "q.toml", "--set", "f.toml", "--resume")):
+                             ("faults.sqlite", "faults", "merge", "faults.sqlite"),
+                             ("faults.sqlite", "faults", "q.toml", "--set", "f.toml", "--resume")):
             signature = self.folder / f"{file}.sig"
             signature.unlink(missing_ok=True)
             self.assertIn(f"{file}: no signature covers it", self.bench(*words).stderr.decode())

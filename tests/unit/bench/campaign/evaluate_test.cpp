@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/campaign/report.hpp"
+#include "bench/campaign_report/report.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
 
 namespace canhil::campaign {
@@ -146,8 +146,9 @@ TEST(Report, OfACampaignThatAsksForNothingIsNotMeasured) {
   const auto evaluation = evaluate(*campaign, runs_of);
   ASSERT_TRUE(evaluation) << evaluation.error().message;
   EXPECT_EQ(evaluation->outcome(), checks::Outcome::not_measured);
-  EXPECT_EQ(nlohmann::json::parse(json(*campaign, *evaluation))["outcome"], "not measured");
-  EXPECT_THAT(text(*campaign, *evaluation), HasSubstr("seed 3 · not measured"));
+  EXPECT_EQ(nlohmann::json::parse(json({.campaign = *campaign, .evaluation = *evaluation}))["outcome"],
+            "not measured");
+  EXPECT_THAT(text({.campaign = *campaign, .evaluation = *evaluation}), HasSubstr("seed 3 · not measured"));
 }
 
 TEST(Report, NamesThatAreNotUtf8MakeJsonAllTheSame) {
@@ -156,7 +157,7 @@ TEST(Report, NamesThatAreNotUtf8MakeJsonAllTheSame) {
   ASSERT_TRUE(evaluation) << evaluation.error().message;
   campaign->sources.file = "q\xFF.toml";
   evaluation->endings[0].first_fault = "run 1: \xFF";
-  const auto root = nlohmann::json::parse(json(*campaign, *evaluation));
+  const auto root = nlohmann::json::parse(json({.campaign = *campaign, .evaluation = *evaluation}));
   EXPECT_EQ(root["campaign"], "q\uFFFD.toml");
 }
 
@@ -199,13 +200,15 @@ TEST(Report, CurvesAreInJson) {
   const auto campaign =
       parse(two_variants + "[[metric]]\nkind = 'rms_curve'\nquantity = 'attitude.heading'\n");
   const auto evaluation = evaluate(*campaign, runs_of);
-  const auto json = nlohmann::json::parse(canhil::campaign::json(*campaign, *evaluation));
+  const auto json =
+      nlohmann::json::parse(canhil::campaign::json({.campaign = *campaign, .evaluation = *evaluation}));
   EXPECT_EQ(json["outcome"], "not measured");
   const auto& curve = json["answers"][0]["curve"];
   EXPECT_EQ(curve["t_s"].size(), 30U);
   EXPECT_EQ(curve["t_s"][1], 0.2);
   EXPECT_DOUBLE_EQ(curve["rms_mrad"][1].get<double>(), 2);
-  EXPECT_THAT(text(*campaign, *evaluation), HasSubstr("A        4 of 4 runs completed"));
+  EXPECT_THAT(text({.campaign = *campaign, .evaluation = *evaluation}),
+              HasSubstr("A        4 of 4 runs completed"));
 }
 
 }  // namespace

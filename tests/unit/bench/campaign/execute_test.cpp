@@ -40,7 +40,7 @@ TEST(Execute, StoresWhatRunInProcessGives) {
   const auto truth = drive::make_truth(scenario);
   const auto flown = drive::run_in_process(scenario, *truth, 2);
   EXPECT_EQ(encode((*runs)[2].samples),
-            encode(series_of(2, *flown, *truth, estimators::transfer_alignment).samples));
+            encode(samples_of(flown->seen, flown->per_run_truth, *truth, estimators::transfer_alignment)));
   EXPECT_EQ((*runs)[2].run, 2U);
 }
 

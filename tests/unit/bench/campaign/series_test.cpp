@@ -141,19 +141,17 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
   const auto truth = drive::make_truth(*scenario);
   const auto flown = drive::run_in_process(*scenario, *truth, 5);
   ASSERT_TRUE(flown) << flown.error().message;
-  const RunSeries series = series_of(5, *flown, *truth, estimators::transfer_alignment);
-  EXPECT_EQ(series.run, 5U);
-  EXPECT_EQ(series.ending.kind, drive::Ending::Kind::completed);
+  EXPECT_EQ(flown->ending.kind, drive::Ending::Kind::completed);
+  const Samples samples =
+      samples_of(flown->seen, flown->per_run_truth, *truth, estimators::transfer_alignment);
   // 10 Hz for 3 s; no answer follows the last update.
-  ASSERT_EQ(series.samples.size(), 29U);
+  ASSERT_EQ(samples.size(), 29U);
   const auto errors = flown->seen.of<estimators::TransferAnswers>().navigation.errors(*truth);
-  for (std::size_t i = 0; i < series.samples.size(); ++i) {
-    const auto same_time = [&](const auto& error) {
-      return error.t_us == series.samples.times()[i] + 10'000;
-    };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto same_time = [&](const auto& error) { return error.t_us == samples.times()[i] + 10'000; };
     const auto after = std::ranges::find_if(errors, same_time);
     ASSERT_NE(after, errors.end());
-    const auto value = [&](const Quantity& quantity) { return series.samples.value(i, quantity); };
+    const auto value = [&](const Quantity& quantity) { return samples.value(i, quantity); };
     EXPECT_EQ(value(quantities::attitude_heading), after->angles.heading);
     EXPECT_EQ(value(quantities::attitude_roll), after->angles.roll);
     EXPECT_EQ(value(quantities::velocity_east), after->v_eb_n.y());
@@ -161,7 +159,7 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
     EXPECT_EQ(value(quantities::misalignment_north), after->misalignment.x());
     EXPECT_TRUE(std::isnan(value(quantities::position_north)));
   }
-  EXPECT_EQ(series.samples.value(4, quantities::innovation_nis),
+  EXPECT_EQ(samples.value(4, quantities::innovation_nis),
             flown->seen.of<estimators::TransferAnswers>().filter[4].nis);
 }
 
@@ -183,11 +181,11 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   fix.cause_us = 1'500'000;
   fix.nis = 900;
   flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
-  const RunSeries series = series_of(5, flown, truth, estimators::inflight_alignment);
-  ASSERT_EQ(series.samples.size(), 2U) << "only of fixes that were considered";
-  EXPECT_TRUE(std::isnan(series.samples.value(1, quantities::innovation_nis))) << "the filter did not use it";
-  const auto value = [&](const Quantity& quantity) { return series.samples.value(0, quantity); };
-  EXPECT_EQ(series.samples.times()[0], 500'000);
+  const Samples samples = samples_of(flown.seen, flown.per_run_truth, truth, estimators::inflight_alignment);
+  ASSERT_EQ(samples.size(), 2U) << "only of fixes that were considered";
+  EXPECT_TRUE(std::isnan(samples.value(1, quantities::innovation_nis))) << "the filter did not use it";
+  const auto value = [&](const Quantity& quantity) { return samples.value(0, quantity); };
+  EXPECT_EQ(samples.times()[0], 500'000);
   EXPECT_DOUBLE_EQ(value(quantities::attitude_heading), 1.5) << "the first answer that knew of a late fix";
   EXPECT_NEAR(value(quantities::position_north), 1, 1e-6);
   EXPECT_NEAR(value(quantities::position_down), 3, 1e-6);

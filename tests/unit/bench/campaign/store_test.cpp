@@ -7,7 +7,8 @@
 
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/merge.hpp"
-#include "bench/campaign/report.hpp"
+#include "bench/campaign/shards.hpp"
+#include "bench/campaign_report/report.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
 
 namespace canhil::campaign {
@@ -47,11 +48,11 @@ std::filesystem::path results(const std::string& name) {
 Result<std::string> report_on(const std::filesystem::path& file) {
   const auto store = Store::open(file);
   if (!store) return tl::unexpected(store.error());
-  auto campaign = parse_campaign(store->sources());
+  const auto campaign = campaign_of(*store);
   if (!campaign) return tl::unexpected(campaign.error());
-  campaign->runs = store->identity().runs;
   return evaluate(*campaign, *store).map([&](const Evaluation& evaluation) {
-    return text(*campaign, evaluation) + json(*campaign, evaluation);
+    return text({.campaign = *campaign, .evaluation = evaluation}) +
+           json({.campaign = *campaign, .evaluation = evaluation});
   });
 }
 
@@ -161,7 +162,7 @@ TEST_F(Damaged, RowsAreRefusedByWhatIsWrong) {
   EXPECT_THAT(complaint_after("update source set name = 'other.toml' where kind = 'campaign'"),
               HasSubstr("another hash"));
   EXPECT_THAT(complaint_after("pragma application_id = 0x43484333"),
-              HasSubstr("is of format 3, expected 6: it must be flown again"));
+              HasSubstr("is of format 3, expected 7: it must be flown again"));
 }
 
 TEST_F(Damaged, IsRefusedByMergeAndResumeToo) {

@@ -82,16 +82,17 @@ TEST(WindSeries, IsWhatTheChecksSee) {
   const auto truth = drive::make_truth(scenario);
   const auto flown = drive::run_in_process(scenario, *truth, 2);
   ASSERT_TRUE(flown) << flown.error().message;
-  const RunSeries series = series_of(2, *flown, *truth, estimators::of(scenario));
+  const Samples samples = samples_of(flown->seen, flown->per_run_truth, *truth, estimators::of(scenario));
   const auto air = estimators::TrueAir::find(drive::plants_of(flown->per_run_truth), estimators::true_air);
   ASSERT_TRUE(air);
   const auto errors = estimators::wind_errors(flown->seen.of<estimators::WindAnswers>(), *air);
-  ASSERT_EQ(&series.samples.layout(), &estimators::wind.layout);
-  EXPECT_TRUE(series_of(2, *flown, *truth, estimators::los_rate).samples.empty()) << "flew no engagement";
-  ASSERT_EQ(series.samples.size(), errors.size());
+  ASSERT_EQ(&samples.layout(), &estimators::wind.layout);
+  EXPECT_TRUE(samples_of(flown->seen, flown->per_run_truth, *truth, estimators::los_rate).empty())
+      << "flew no engagement";
+  ASSERT_EQ(samples.size(), errors.size());
   const std::size_t last = errors.size() - 1;
-  const auto value = [&](const Quantity& quantity) { return series.samples.value(last, quantity); };
-  EXPECT_EQ(series.samples.times()[last], errors[last].t_us);
+  const auto value = [&](const Quantity& quantity) { return samples.value(last, quantity); };
+  EXPECT_EQ(samples.times()[last], errors[last].t_us);
   EXPECT_EQ(value(quantities::wind_along), errors[last].along_track);
   EXPECT_EQ(value(quantities::wind_cross), errors[last].cross_track);
   EXPECT_EQ(value(quantities::wind_down), errors[last].error_n.z());
