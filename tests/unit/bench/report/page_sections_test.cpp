@@ -30,9 +30,8 @@ TEST(PageSections, TheLatencyIsSplitAndThePartsAddUp) {
   const std::string page = page_of(run_on_a_wire());
   EXPECT_THAT(page, HasSubstr("mean of 100 answered stimuli"));
   EXPECT_THAT(page, HasSubstr("a longest wait of 8191 us or more and a longest computing of 0 us"));
-  EXPECT_THAT(
-      page,
-      HasSubstr("target: computing</td><td data-label=\"ms\">0.200</td><td data-label=\"share\">15.4 %"));
+  EXPECT_THAT(page, HasSubstr("target: computing</td><td align=\"right\" data-label=\"ms\">0.200</td><td "
+                              "align=\"right\" data-label=\"share\">15.4 %"));
   EXPECT_THAT(
       text(scenario_of(), run_on_a_wire()),
       AllOf(HasSubstr("mean 1.300 ms of 100 stimuli"), HasSubstr("0.600 ms  answer: its frames on the wire"),
@@ -47,7 +46,7 @@ TEST(PageSections, WhatIsNotKnownOfTheSplitIsNotAZero) {
   EXPECT_TRUE(parts.at("reply_wire").is_null());
   EXPECT_TRUE(parts.at("target_queue").is_null());
   EXPECT_NEAR(parts.at("not_explained").get<double>(), 1e-3, 1e-12);
-  EXPECT_THAT(page_of(run), HasSubstr("<td data-label=\"ms\">not known</td>"));
+  EXPECT_THAT(page_of(run), HasSubstr("<td align=\"right\" data-label=\"ms\">not known</td>"));
   EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("target: computing")));
 }
 
@@ -58,7 +57,7 @@ TEST(PageSections, APartThatTheTargetCouldNotTellIsMarked) {
   const auto split = document(scenario_of(), run).at("split");
   EXPECT_EQ(split.at("at_least"), Json::array({"target_queue"}));
   EXPECT_EQ(split.at("at_most"), Json::array({"not_explained"}));
-  EXPECT_THAT(page_of(run), AllOf(HasSubstr("<td data-label=\"ms\">&ge; 0.100</td>"),
+  EXPECT_THAT(page_of(run), AllOf(HasSubstr("<td align=\"right\" data-label=\"ms\">&ge; 0.100</td>"),
                                   HasSubstr("reports no times beyond 8191 us")));
   EXPECT_THAT(
       text(scenario_of(), run),
