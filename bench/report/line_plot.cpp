@@ -98,15 +98,16 @@ class Curves {
     if (kind == "both") path += along(values, -1);
     add(name, attributes, kind, path);
   }
-  // `end`: the length of the marks at the ends, in the unit of the values.
-  void add_bar(const LinePlot::Bar& bar, double end, bool below_zero) {
-    std::string path;
+  // A line with a dot at each end: a path of no length, whose round ends do not change with the zoom.
+  void add_bar(const LinePlot::Bar& bar, bool below_zero) {
+    std::string path, ends;
     for (const double value : {bar.below, -bar.below}) {
-      if (value == bar.below || below_zero)
-        path +=
-            fmt::format("M{}V{}M{}H{}M{}V{}", place(bar.from_s, value - end), of(value + end),
-                        place(bar.from_s, value), bar.to_s, place(bar.to_s, value - end), of(value + end));
+      if (value != bar.below && !below_zero) continue;
+      path += fmt::format("M{}H{:.7g}", place(bar.from_s, value), bar.to_s);
+      ends += fmt::format("M{}h0M{}h0", place(bar.from_s, value), place(bar.to_s, value));
     }
+    curves_ += fmt::format("<path data-curve=\"{}\" {} d=\"{}\"/>", count_,
+                           curve("ink", "stroke-width=\"8\""), ends);
     add(bar.name, as_bar(), "", path);
   }
   // A ring stays round when the plot is zoomed, so it is outside the zoomed part.
@@ -220,9 +221,8 @@ std::string drawn(const LinePlot& plot) {
   for (std::size_t i = 0; i < plot.lines.size(); ++i)
     curves.add_values(plot.lines[i].name, as_line(i), "line", plot.lines[i].values);
   curves.add_levels(x);
-  constexpr double end = 4;  // half the length of the marks at the ends of a bar
   for (const LinePlot::Bar& bar : plot.bars) {
-    if (shows(plot, bar)) curves.add_bar(bar, end * (y.to - y.from) / (bottom - top), y.from <= -bar.below);
+    if (shows(plot, bar)) curves.add_bar(bar, y.from <= -bar.below);
   }
   for (const LinePlot::Ring& ring : plot.worst) curves.add_ring(ring, x, y);
   return begin(plot.title, "plot lines") +

@@ -67,7 +67,7 @@ std::string coloured(std::string_view name, std::string_view html) {
 
 std::string table(const std::vector<std::string>& head, const Rows& rows, std::string_view style) {
   const bool figures = style == "figures";
-  const std::size_t few = head.size() > 6 ? 2 : 6;  // even numbers, so that many columns fit on a phone
+  const std::size_t few = head.size() > 5 ? 2 : 6;  // even numbers, so that many columns fit on a phone
   // A cell of a head is centred unless it says otherwise, any other cell is on the left.
   const auto align = [&](std::size_t column) {
     return figures && column > 0 ? std::string_view(" align=\"right\"") : std::string_view();

@@ -29,7 +29,7 @@
     const digits = Math.min(Math.max(0, is_plain ? -lowest : highest - lowest), 20);
     return values.map(value => value === 0 ? "0" : is_plain ? value.toFixed(digits) : value.toExponential(digits));
   }
-  const words = value => Number(value.toPrecision(6)).toString();
+  const words = value => Number(value.toPrecision(5)).toString();
 
   // The stretches of a path, each as its points [t, value].
   const stretches_of = path => path.getAttribute("d").split("M").slice(1).map(
@@ -69,8 +69,7 @@
     text_at(t) {
       const point = this.at(t);
       if (!point) return "–";
-      const value = point.low === point.high ? words(point.high) : `${words(point.low)} to ${words(point.high)}`;
-      return (this.both ? "±" : "") + value;
+      return point.low === point.high ? words(point.high) : `${words(point.low)} to ${words(point.high)}`;
     }
   }
 
@@ -194,16 +193,14 @@
 
     // --- legend
     make_legend() {
-      for (const entry of [...this.legend.children]) {
-        const button = document.createElement("button");
-        button.type = "button";
+      const entries = [...this.legend.children];
+      this.legend.textContent = "";
+      for (const entry of entries) {
+        const button = element(this.legend, "button", {type: "button", "data-curve": entry.dataset.curve, "aria-pressed": true});
         button.append(...entry.childNodes);
-        button.dataset.curve = entry.dataset.curve;
-        button.setAttribute("aria-pressed", "true");
         button.addEventListener("click", () => this.toggle(button));
-        entry.replaceWith(button);
       }
-      this.whole = element(this.legend, "button", {type: "button", class: "whole"}, "show all of it");
+      this.whole = element(this.legend, "button", {type: "button", class: "whole"}, "show all");
       this.whole.hidden = true;
       this.whole.addEventListener("click", () => this.zoom(this.home));
     }

@@ -74,11 +74,12 @@ std::string judgements(const std::vector<Judged>& all) {
   for (const Judged& one : all) {
     std::string name = escaped(one.name);
     if (!one.link.empty()) name = fmt::format("<a href=\"#{}\">{}</a>", one.link, name);
-    if (!one.requirement.empty()) name += fmt::format("<br><small>{}</small>", escaped(one.requirement));
-    rows.push_back({name, outcome_words(one.outcome), escaped(one.measured), escaped(one.expected)});
+    const std::string requirement = one.requirement.empty() ? "" : " &middot; " + escaped(one.requirement);
+    rows.push_back(
+        {name, outcome_words(one.outcome), escaped(one.measured), escaped(one.expected) + requirement});
     if (!one.more.empty()) rows.push_back({one.more});
   }
-  return table({"check", "outcome", "measured", "expected"}, rows);
+  return table({"check", "outcome", "measured", "expected &middot; requirement"}, rows);
 }
 
 std::string facts(const Json& object) {

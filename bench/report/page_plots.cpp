@@ -166,7 +166,7 @@ std::string add_lines(const Json& series, LinePlot& plot) {
     if (!any_truth) plot.truth.clear();
   } else if (series.contains("sigma")) {
     plot.name = "estimate less truth";
-    plot.limit_name = "\u00b13 sigma, as the target reports it";
+    plot.limit_name = "\u00b13 sigma, as reported";
     plot.limit = numbers(series.at("sigma"), size);
     for (double& sigma : plot.limit) sigma *= 3;
     if (any_value(plot.limit)) return "";

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "bench/checks/bus_load.hpp"
@@ -55,6 +56,49 @@ std::string plot_of(const Json& check, const Json& all_series) {
   return "";
 }
 
+// The signals of a frame in one line.
+std::string signals_of(const Json& frame) {
+  std::string signals;
+  if (!frame.contains("signals")) return signals;
+  for (const Json& signal : frame.at("signals")) {
+    const std::string unit = text_in(signal.at(2));
+    signals += fmt::format("{}{} {}{}{}", signals.empty() ? "" : ", ", text_in(signal.at(0)),
+                           signal.at(1).is_null() ? "missing" : text_in(signal.at(1)),
+                           unit.empty() ? "" : " ", unit);
+  }
+  return signals;
+}
+
+// The frames around the worst value of a check, folded; a sentence where the report has none.
+std::string frames_of(const Json& check, const Json& report) {
+  if (!check.contains("worst_at_s")) return "";
+  const Json none = Json::array();
+  const Json& all = report.contains("frames") ? report.at("frames") : none;
+  const auto found =
+      std::ranges::find_if(all, [&](const Json& one) { return one.at("check") == check.at("name"); });
+  if (found == all.end() || found->at("frames").empty())
+    return "<small>The frames around its worst value are not kept: a run keeps frames only with "
+           "--html.</small>";
+  const double worst_s = check.at("worst_at_s").get<double>();
+  Rows rows;
+  bool before = true;
+  for (const Json& frame : found->at("frames")) {
+    const double t_s = frame.at("t_s").get<double>();
+    const std::string time = fmt::format("{:.6f}", t_s);
+    const bool is_first = std::exchange(before, before && t_s < worst_s) && !before;
+    rows.push_back({is_first ? fmt::format("<b>{}</b>", time) : time,
+                    frame.at("transmitted").get<bool>() ? "sent" : "received",
+                    fmt::format("{:0{}X}", frame.at("id").get<std::uint32_t>(),
+                                frame.at("extended").get<bool>() ? 8 : 3),
+                    frame.contains("error")     ? "error frame"
+                    : frame.contains("message") ? text_in(frame.at("message"))
+                                                : "?",
+                    text_in(frame.at("bytes")), signals_of(frame)});
+  }
+  return folded(fmt::format("frames around {:g} s, when its worst value came", worst_s),
+                table({"time s", "bench", "id", "message", "bytes", "signals"}, rows, "frames"));
+}
+
 }  // namespace
 
 std::string series_id(std::size_t number) { return fmt::format("series-{}", number); }
@@ -68,7 +112,8 @@ std::string checks_section(const Json& report) {
                    .measured = text("measured"),
                    .expected = text("expected"),
                    .requirement = text("requirement"),
-                   .link = plot_of(check, report.at("series"))});
+                   .link = plot_of(check, report.at("series")),
+                   .more = frames_of(check, report)});
   }
   return section("checks", "Checks", judgements(all));
 }

@@ -66,7 +66,7 @@ struct LinePlot {
   std::vector<double> limit{};    ///< dashed lines at +-limit; one for each time, or none; not finite: a gap
   std::vector<double> truth{};    ///< dotted line; one value for each time, or none; not finite: a gap
   std::vector<double> levels{};   ///< dashed horizontal lines
-  std::vector<Bar> bars{};        ///< heavy lines with marks at both ends
+  std::vector<Bar> bars{};        ///< heavy lines with dots at both ends
   std::vector<Ring> worst{};
   std::vector<Line> lines{};     ///< each with its own dashes and colour
   bool from_zero = false;        ///< the axis begins at 0: for a quantity without sign
