@@ -146,7 +146,7 @@ class Run {
     drive::Options options = drive::in_lockstep_against(options_.target);
     options.lockstep = !flight.real_time;
     options.format = drive::format_of(flight.scenario);
-    options.onlooker = &answers;
+    options.onlookers = {&answers};
     const auto run = drive::run(flight.scenario, options, stop_, [&](std::int64_t) {});
     if (!run) return Items{item(flight.requirement, name, run.error().message, flown_to_its_end)};
     Items found = judged(flight, name, *run);
@@ -348,7 +348,7 @@ Result<void> record(const Suite& suite, const std::atomic<bool>& stop,
     for (const auto& [bus, answers] :
          {std::pair(drive::in_process_bus, &rounded), std::pair(drive::unrounded_bus, &unrounded)}) {
       drive::Options options = in_process(bus);
-      options.onlooker = answers;
+      options.onlookers = {answers};
       const auto run = drive::run(flight.scenario, options, stop, [](std::int64_t) {});
       if (!run) return tl::unexpected(run.error());
       const auto expected = flight.faults ? Ending::Kind::target_fault : Ending::Kind::completed;

@@ -42,24 +42,18 @@ std::vector<const Item*> shown_items(const Finding& finding) {
 
 constexpr std::size_t most_shown = 5;
 
-std::string sign_of(Outcome outcome, std::string_view words) {
-  const auto [style, sign] = report::look_of(checks::name(outcome));
-  return fmt::format("<span class=\"{}\">{} {}</span>", style, sign, words);
-}
-
 /// All items as an HTML list, collapsed by default.
 std::string all_of(const Finding& finding) {
   std::string list;
   for (const Item& item : finding.items)
     list += fmt::format("<li>{} {}: {}; expected {}</li>", report::look_of(checks::name(item.outcome)).sign,
                         escaped(item.name), escaped(item.measured), escaped(item.expected));
-  return fmt::format("<details><summary>{} looked at</summary><ul>{}</ul></details>", finding.items.size(),
-                     list);
+  return report::folded(fmt::format("{} looked at", finding.items.size()), fmt::format("<ul>{}</ul>", list));
 }
 
 std::string section(const Acceptance& suite) {
-  std::string out = fmt::format("<section><h2>{}</h2>\n<p class=\"sub\">{} &middot; {} in {:.0f} s</p>\n",
-                                escaped(suite.title), escaped(suite.estimator), counts(suite), suite.wall_s);
+  std::string out = fmt::format("<p class=\"sub\">{} &middot; {} in {:.0f} s</p>\n", escaped(suite.estimator),
+                                counts(suite), suite.wall_s);
   for (const std::string& family : families) {
     report::Rows rows;
     for (const Finding& finding : suite.findings) {
@@ -71,13 +65,13 @@ std::string section(const Acceptance& suite) {
                             escaped(wrong[i]->measured), escaped(wrong[i]->expected));
       if (wrong.size() > most_shown) seen += fmt::format("<p>and {} more</p>", wrong.size() - most_shown);
       rows.push_back({escaped(finding.requirement.id), escaped(finding.requirement.text),
-                      sign_of(finding.outcome(), word(finding)), seen});
+                      report::outcome_words(checks::name(finding.outcome()), word(finding)), seen});
     }
     if (rows.empty()) continue;
     out += fmt::format("<h3>{}</h3>\n", family) +
            report::table({"requirement", "what is asked", "outcome", "seen"}, rows);
   }
-  return out + "</section>\n";
+  return report::section(suite.estimator, suite.title, out);
 }
 
 }  // namespace
@@ -155,13 +149,11 @@ std::string junit(const Report& report) {
 
 std::string page(const Report& report) {
   const std::string_view verdict = checks::name(report.outcome());
-  const auto [style, sign] = report::look_of(verdict);
-  std::string body = fmt::format("<h1>Acceptance</h1>\n<p class=\"sub\">{}</p>\n", escaped(report.target));
-  body += fmt::format("<p class=\"verdict {}\"><b>{} {}</b></p>\n", style, sign, verdict);
+  std::string body = report::head("Acceptance", escaped(report.target)) + report::verdict(verdict, "");
   report::Rows rows;
   for (const Acceptance& suite : report.suites)
     rows.push_back(
-        {escaped(suite.estimator), sign_of(suite.outcome(), checks::name(suite.outcome())), counts(suite)});
+        {escaped(suite.estimator), report::outcome_words(checks::name(suite.outcome())), counts(suite)});
   body += report::table({"estimator", "outcome", "requirements"}, rows);
   for (const Acceptance& suite : report.suites) body += section(suite);
   return report::whole_page(fmt::format("{}: acceptance", verdict), report::styles, body);

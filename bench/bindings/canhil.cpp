@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "bench/bindings/contract_text.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "dbc/parser/parse.hpp"
 #include "dbc/protection/profiles.hpp"
 #include "dbc/protection/protection.hpp"
 #include "messages/canhil.hpp"
@@ -35,6 +37,11 @@ struct Canhil final : scenario::Binding {
     const auto settings = protection::profile("autosar-e2e-11a", choice, message.size);
     return std::make_shared<const Protection>(
         Protection::make(settings.value(), {.id = message.id, .size = message.size}).value());
+  }
+
+  [[nodiscard]] std::vector<const dbc::Database*> databases() const override {
+    static const dbc::Database database = dbc::parse(contract_text.front().text, "canhil.dbc").value();
+    return {&database};
   }
 
   [[nodiscard]] const MessageInfo* closing_of(const NodeTable& node) const override { return node.closes; }

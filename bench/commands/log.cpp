@@ -15,6 +15,7 @@
 #include "bench/commands/subcommands.hpp"
 #include "bench/drive/contract.hpp"
 #include "bench/drive/inputs.hpp"
+#include "bench/drive/kept_frames.hpp"
 #include "bench/drive/recording.hpp"
 #include "bench/recordings/convert.hpp"
 #include "bench/recordings/replay.hpp"
@@ -171,8 +172,10 @@ ExitCode check(const CheckArguments& arguments) {
   files.reads(drive::inputs_of(*scenario));
   declare(arguments.reports, files);
   if (auto fine = files.check(); !fine) return complain(fine.error());
-  auto run = drive::judge_recording(*scenario, arguments.log);
+  const auto kept = frames_for(arguments.reports);
+  auto run = drive::judge_recording(*scenario, arguments.log, kept.get());
   if (!run) return complain(run.error());
+  run->frames = kept;
   catch_interrupts();
   report::judge_by_programs(*scenario, *run, interrupted);
   if (auto written = write_reports(arguments.reports, *scenario, *run); !written)

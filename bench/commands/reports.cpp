@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "bench/drive/kept_frames.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/run_reports.hpp"
@@ -32,6 +33,10 @@ void remove_earlier(const Reports& reports) {
     std::error_code ignored;
     if (path != report::to_stdout) std::filesystem::remove(path, ignored);
   }
+}
+
+std::shared_ptr<drive::KeptFrames> frames_for(const Reports& reports) {
+  return reports.html.empty() ? nullptr : std::make_shared<drive::KeptFrames>();
 }
 
 Result<void> write_reports(const Reports& reports, const scenario::Scenario& scenario,

@@ -1,6 +1,7 @@
 // The report files of a run, as options of a command.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "bench/drive/session.hpp"
@@ -22,6 +23,10 @@ void declare(const Reports& reports, CommandFiles& files);
 /// Removes reports of an earlier run, so that none can be mistaken for a report of this run, however this run
 /// ends.
 void remove_earlier(const Reports& reports);
+
+/// What keeps the frames of a run; null: no report shows them. Attach it to the run, then store it as
+/// Run::frames.
+std::shared_ptr<drive::KeptFrames> frames_for(const Reports& reports);
 
 /// Writes the reports. Writes the text report to stdout, unless another report is written to stdout. If a
 /// report cannot be written, the other reports are still written, and the first error is returned.

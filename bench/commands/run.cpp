@@ -21,6 +21,7 @@
 #include "bench/doctor/interface.hpp"
 #include "bench/drive/contract.hpp"
 #include "bench/drive/inputs.hpp"
+#include "bench/drive/kept_frames.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/live/terminal.hpp"
 #include "bench/nodes/registry.hpp"
@@ -287,7 +288,9 @@ ExitCode execute(const Arguments& arguments) {
   auto view =
       OpenView::open(arguments.live, {.flight = live::flight_of(*scenario, options)}, std::move(displays));
   if (!view) return complain(view.error());
-  if (view->get() != nullptr) options.onlooker = &view->get()->onlooker();
+  if (view->get() != nullptr) options.onlookers.push_back(&view->get()->onlooker());
+  const auto kept = frames_for(arguments.reports);
+  if (kept) options.onlookers.push_back(kept.get());
   catch_interrupts();
   Result<drive::Run> finished = [&] {
     const ProgressLine line;
@@ -297,6 +300,7 @@ ExitCode execute(const Arguments& arguments) {
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });
   }();
+  if (finished) finished->frames = kept;
   if (finished) report::judge_by_programs(*scenario, *finished, interrupted);
   if (view->get() != nullptr) {
     if (finished)

@@ -117,13 +117,14 @@ observe::LoadBy load_by(const scenario::Scenario& scenario, const Manner& manner
 class Recording {
  public:
   Recording(const scenario::Scenario& scenario, const world::FlightRecord& truth, Flight flight,
-            Frames frames, std::string log, Manner manner)
+            Frames frames, std::string log, Manner manner, observe::Observer* also)
       : scenario_(scenario),
         flight_(std::move(flight)),
         truth_(flight_of(truth, flight_.per_run_truth)),
         frames_(std::move(frames)),
         log_(std::move(log)),
         manner_(manner),
+        also_(also),
         load_(manner.format, load_by(scenario, manner)) {}
 
   Result<Collected> judge() {
@@ -145,6 +146,7 @@ class Recording {
     watcher_ = dialect_->watcher(true);
     target_ = dialect_->target_watch(true);
     observers_ = {watcher_.get(), target_.get(), &load_};
+    if (also_ != nullptr) observers_.push_back(also_);
     dialogue_ = dialect_->dialogue();
     auto ending = replay();
     if (!ending) return tl::unexpected(ending.error());
@@ -261,6 +263,7 @@ class Recording {
   Frames frames_;
   std::string log_;
   Manner manner_;
+  observe::Observer* also_;  // null: none
   NoRigControl hands_{watcher_};
   std::unique_ptr<Dialect> dialect_;
   std::unique_ptr<Schedule> schedule_;
@@ -278,7 +281,8 @@ class Recording {
 
 }  // namespace
 
-Result<Run> judge_recording(const scenario::Scenario& scenario, const std::string& log) {
+Result<Run> judge_recording(const scenario::Scenario& scenario, const std::string& log,
+                            observe::Observer* also) {
   auto truth = make_truth(scenario);
   if (!truth) return failure(fmt::format("{}: {}", scenario.file, truth.error().message));
   auto flight = make_flight(scenario, *truth, 0);
@@ -294,7 +298,7 @@ Result<Run> judge_recording(const scenario::Scenario& scenario, const std::strin
         log));
   auto frames = Frames::open(*file);
   if (!frames) return tl::unexpected(frames.error());
-  Recording recording(scenario, *truth, std::move(*flight), std::move(*frames), log, *manner);
+  Recording recording(scenario, *truth, std::move(*flight), std::move(*frames), log, *manner, also);
   auto flown = recording.judge();
   if (!flown) return tl::unexpected(flown.error());
   std::string timing_unfit(manner->lockstep ? checks::virtual_time : unknown_lateness);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <list>
 #include <utility>
 
 #include "bench/checks/other_senders.hpp"
@@ -117,10 +118,10 @@ class Session {
       if (clock_ == ClockKind::real_time)
         delay_watches_.emplace(targets_.ids(), options_.realtime.has_value());
     }
-    std::optional<Attached> looking_on;
-    if (options_.onlooker != nullptr) {
-      options_.onlooker->departs(departure());
-      looking_on.emplace(link_, *options_.onlooker);
+    std::list<Attached> looking_on;
+    for (Onlooker* one : options_.onlookers) {
+      one->departs(departure());
+      looking_on.emplace_back(link_, *one);
     }
     std::optional<Attached> listening;
     if (schedule_->listens()) listening.emplace(link_, *schedule_);
@@ -143,7 +144,7 @@ class Session {
     const auto ended_before = targets_.ended();
     if (options_.for_verdict) dialect_->stop(link_, schedule_->outbox());
     commands_.finish();
-    if (options_.onlooker != nullptr) options_.onlooker->landed();
+    for (Onlooker* one : options_.onlookers) one->landed();
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
     seen.clipped = schedule_->outbox().clipped().to_text();

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@
 #include "dbc/realtime/process.hpp"
 
 namespace canhil::drive {
+
+class KeptFrames;
 
 /// simulated_wire: virtual time with simulated frame times.
 enum class ClockKind : std::uint8_t { real_time, lockstep, simulated_wire };
@@ -40,10 +43,10 @@ struct Options {
   std::vector<std::string> target_arguments;  ///< besides --bus and --dbc; the format determines --dbc
   std::optional<int> target_cpu;              ///< none: the CPUs that the bench had before it was pinned
   std::string operator_name{};                ///< the operator's name for the report; empty: not given
-  std::int64_t spin_ns = 0;      ///< time before each deadline in which the bench polls instead of sleeping
-  std::uint64_t run_index = 0;   ///< in a campaign: together with the seed, selects the random numbers
-  Onlooker* onlooker = nullptr;  ///< also receives every frame of the flight; null: none
-  bool for_verdict = true;       ///< false: observes only the target's frames, not times, load, bus and host
+  std::int64_t spin_ns = 0;     ///< time before each deadline in which the bench polls instead of sleeping
+  std::uint64_t run_index = 0;  ///< in a campaign: together with the seed, selects the random numbers
+  std::vector<Onlooker*> onlookers{};  ///< each also receives every frame of the flight
+  bool for_verdict = true;  ///< false: observes only the target's frames, not times, load, bus and host
 };
 
 /// The default format of a scenario's bus.
@@ -87,6 +90,7 @@ struct Run {
   double wall_s = 0;                 ///< from the start of the estimator to the end
   std::int64_t started_s = 0;        ///< since 1970, UTC; 0: unknown
   std::optional<Error> log_error{};  ///< see Collected
+  std::shared_ptr<const KeptFrames> frames{};  ///< of the flight; null: they were not kept
 };
 
 /// Runs a scenario. Error: the run was not possible (usage or configuration); if the target fails, the result

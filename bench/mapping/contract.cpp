@@ -42,6 +42,12 @@ bool Mapping::is_played(const MessageInfo& message, std::span<const scenario::No
   return !is_targets(message);
 }
 
+std::vector<const dbc::Database*> Mapping::databases() const {
+  std::vector<const dbc::Database*> all;
+  for (const MappedTarget& target : targets) all.push_back(&target.database);
+  return all;
+}
+
 std::string_view Mapping::sender_of(const MessageInfo& message) const {
   return sent_by[static_cast<std::size_t>(&message - messages.data())];
 }

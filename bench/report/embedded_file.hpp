@@ -1,4 +1,4 @@
-// Text files built into a program; embed_texts() of bench/report/CMakeLists.txt generates their lists.
+// Text files built into a program; cmake/embed_texts.cmake generates their lists.
 #pragma once
 
 #include <span>

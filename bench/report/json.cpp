@@ -11,6 +11,7 @@
 #include "bench/checks/bus_load.hpp"
 #include "bench/checks/result_json.hpp"
 #include "bench/report/flags.hpp"
+#include "bench/report/frames_around.hpp"
 #include "bench/report/json_timing.hpp"
 #include "bench/report/provenance.hpp"
 #include "bench/report/rounded.hpp"
@@ -293,6 +294,7 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
                              {"change_count", changes.size()},
                              {"changes", std::move(shown)}});
   });
+  if (run.frames) page["frames"] = frames_around_worst(scenario, run);
   return page;
 }
 

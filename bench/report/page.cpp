@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/report/page_parts.hpp"
+#include "bench/report/run_sections.hpp"
 
 namespace canhil::report {
 namespace {
@@ -23,67 +23,26 @@ std::string length_differs(const Json& report) {
   return {};
 }
 
-// The results of the run for each estimator.
-std::string results_section(const Json& report) {
-  if (!report.contains("results")) return "";
-  std::string out = "<section id=\"results\"><h2>Results</h2>\n";
-  for (const auto& [estimator, lines] : report.at("results").items()) {
-    Rows rows;
-    for (const Json& line : lines) {
-      std::string words;
-      for (const Json& figure : line.at("figures")) {
-        const std::string one = text_in(figure.at("words"));
-        if (!one.empty()) words += (words.empty() ? "" : ", ") + one;
-      }
-      rows.push_back({text_in(line.at("what")), words.empty() ? "none" : words});
-    }
-    out += fmt::format("<h3>{}</h3>\n", escaped(estimator)) + table({"what", "value"}, rows, "pairs");
-  }
-  return out + "</section>\n";
-}
-
-// The estimates and the truth over time.
-std::string estimates_section(const Json& report) {
-  if (report.at("series").empty()) return "";
-  std::string out = "<section id=\"estimates\"><h2>Estimates against the truth</h2>\n";
-  std::string estimator;
-  const auto end_of = [&](const std::string& of) {
-    return of.empty() ? ""
-                      : flags(report.at("flags"), of, report.at("duration_s").get<double>()) + "</div>\n";
-  };
-  std::size_t number = 0;
-  for (const Json& series : report.at("series")) {
-    const std::string own = series.at("estimator").get<std::string>();
-    if (own != estimator) {
-      out += end_of(estimator);
-      out += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(own));
-      estimator = own;
-    }
-    out += estimate(series, report.at("checks"), series_id(number++));
-  }
-  return out + end_of(estimator) + "</section>\n";
-}
-
 std::string page_of(const Json& report) {
-  const std::string verdict = report.at("verdict").get<std::string>();
-  const std::string title = escaped(report.at("title").get<std::string>());
+  const std::string outcome = report.at("verdict").get<std::string>();
+  const std::string title = report.at("title").get<std::string>();
   const Json& provenance = report.at("provenance");
-  const auto [style, sign] = look_of(verdict);
-  std::string out = fmt::format("<h1>{}</h1>\n", title);
-  out += fmt::format("<p class=\"sub\">{} &middot; bus {} &middot; {} &middot; {:g} s &middot; {}</p>\n",
-                     text_in(provenance.at("scenario")), text_in(provenance.at("bus")),
-                     text_in(provenance.at("clock")), report.at("duration_s").get<double>(),
-                     text_in(provenance.at("date")));
-  out += fmt::format("<p class=\"verdict {}\"><b>{} {}</b>{}</p>\n", style, sign, escaped(verdict),
-                     escaped(report.at("reason").get<std::string>()));
-  out += "<nav><a href=\"#checks\">checks</a>";
-  if (report.contains("results")) out += "<a href=\"#results\">results</a>";
-  out += "<a href=\"#timing\">latency and jitter</a>";
-  if (!report.at("series").empty()) out += "<a href=\"#estimates\">estimates</a>";
-  out += "<a href=\"#bus\">bus</a><a href=\"#provenance\">provenance</a></nav>\n";
-  out += checks_section(report) + results_section(report) + timing_section(report) +
-         estimates_section(report) + bus_section(report) + provenance_section(report);
-  return whole_page(fmt::format("{}: {}", escaped(verdict), title), styles, out);
+  const std::string about = fmt::format(
+      "{} &middot; bus {} &middot; {} &middot; {:g} s &middot; {}", text_in(provenance.at("scenario")),
+      text_in(provenance.at("bus")), text_in(provenance.at("clock")), report.at("duration_s").get<double>(),
+      text_in(provenance.at("date")));
+  std::vector<std::pair<std::string, std::string>> sections{{"checks", "checks"}};
+  if (report.contains("results")) sections.emplace_back("results", "results");
+  sections.emplace_back("timing", "latency and jitter");
+  if (!report.at("series").empty()) sections.emplace_back("estimates", "estimates");
+  sections.emplace_back("bus", "bus");
+  sections.emplace_back("provenance", "provenance");
+  return whole_page(escaped(fmt::format("{}: {}", outcome, title)), styles,
+                    head(title, about) + verdict(outcome, report.at("reason").get<std::string>()) +
+                        links(sections) + checks_section(report) + results_section(report) +
+                        timing_section(report) + estimates_section(report) + bus_section(report) +
+                        provenance_section(report),
+                    scripts);
 }
 
 }  // namespace

@@ -1,11 +1,22 @@
-// The parts of a report's page, each as HTML from the report's JSON: values, pictures, sections.
+// The parts of which the pages of a run, a campaign, a suite are made. A page is
+//
+//   whole_page(title, styles,
+//              head(title, "scenario &middot; bus") + verdict("fail", "2 of 3 runs") + links({{"checks",
+//              "checks"}}) +
+//                  section("checks", "Checks", judgements({...})) +
+//                  section("curves", "Curves", grid(figure("RMS", drawn(LinePlot{...}), "note"))) +
+//                  section("provenance", "Provenance", facts(json)),
+//              scripts);
+//
+// `scripts` only if the page has plots. table(), folded(), figure(): markup.hpp; drawn(), svg(): plot.hpp.
+// Every part is HTML that keeps its meaning without style sheet and script.
 #pragma once
-
-#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "bench/report/markup.hpp"
 
@@ -13,8 +24,9 @@ namespace canhil::report {
 
 using Json = nlohmann::ordered_json;
 
-/// The style of the page, built into the program.
+/// The style of the pages, and the script that makes their plots interactive, both built into the program.
 extern const EmbeddedFiles styles;
+extern const EmbeddedFiles scripts;
 
 /// A value of the report as HTML text.
 inline std::string text_in(const Json& value) {
@@ -31,42 +43,34 @@ inline Look look_of(std::string_view outcome) {
          : outcome == "fail" ? Look{"no", "&#10007;"}
                              : Look{"unknown", "?"};
 }
+/// An outcome with its sign and colour. `words` (HTML): what stands in place of the outcome; empty: the
+/// outcome.
+std::string outcome_words(std::string_view outcome, std::string_view words = "");
 
-/// A time of a distribution in ms.
-inline std::string ms(const Json& distribution, const char* key) {
-  return fmt::format("{:.3f}", distribution.at(key).get<double>() * 1e3);
-}
+/// The heading of a page; `about` is HTML.
+std::string head(std::string_view title, std::string_view about);
+/// The outcome of everything on the page, with its reason (plain text).
+std::string verdict(std::string_view outcome, std::string_view reason);
+/// Links to sections: id and title.
+std::string links(const std::vector<std::pair<std::string, std::string>>& sections);
+/// `content` is HTML.
+std::string section(std::string_view id, std::string_view title, std::string_view content);
+/// Figures side by side, as many as there is room for.
+std::string grid(std::string_view figures);
+/// A remark about something that is not known (plain text).
+std::string not_known(std::string_view what);
 
-// The pictures.
+/// A row of a table of judgements.
+struct Judged {
+  std::string name;  ///< plain text
+  std::string outcome;
+  std::string measured, expected, requirement;  ///< plain text
+  std::string link{};  ///< id of the element to which the name is a link; empty: none
+  std::string more{};  ///< HTML under the row; empty: nothing
+};
+std::string judgements(const std::vector<Judged>& all);
 
-/// A distribution of times.
-std::string histogram(const std::string& title, const Json& distribution);
-
-/// The largest time in each stretch of the run.
-std::string course(const std::string& title, const Json& line);
-
-/// A drawing of the largest value in each stretch of the run, on an axis that begins at zero. `scale`
-/// converts the numbers to the unit.
-std::string from_zero(const std::string& title, const std::string& unit, double stretch_s,
-                      const Json& largest, double scale);
-
-/// A quantity over the run. If the scale of this picture hides the later course or the limits of checks, a
-/// second picture shows that part of the run.
-std::string estimate(const Json& series, const Json& checks, std::string_view id);
-
-/// When the flags of an estimator were set; flags that never were are left out.
-std::string flags(const Json& all, const std::string& estimator, double end_s);
-
-// The sections.
-
-std::string checks_section(const Json& report);
-/// The id of the plot of a series, by its number in the report.
-std::string series_id(std::size_t number);
-/// Latency, jitter and lateness, and missing answers. In virtual time, the section gives only the reason why
-/// there are no times.
-std::string timing_section(const Json& report);
-/// Load, drops and errors.
-std::string bus_section(const Json& report);
-std::string provenance_section(const Json& report);
+/// Nested objects as a table of names and values, with rows such as "target: program".
+std::string facts(const Json& object);
 
 }  // namespace canhil::report

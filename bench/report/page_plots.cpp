@@ -1,4 +1,4 @@
-#include "bench/report/page_parts.hpp"
+#include "bench/report/run_sections.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,9 @@ LinePlot cut(LinePlot plot, const Part& part) {
   }
   plot.begins_at_first = true;
   std::erase_if(plot.bars, [&](const LinePlot::Bar& bar) { return bar.to_s < plot.t_s.front(); });
-  std::erase_if(plot.worst_s, [&](double t_s) { return t_s < plot.t_s.front() || t_s > plot.t_s.back(); });
+  std::erase_if(plot.worst, [&](const LinePlot::Ring& ring) {
+    return ring.t_s < plot.t_s.front() || ring.t_s > plot.t_s.back();
+  });
   return plot;
 }
 
@@ -114,63 +116,68 @@ std::optional<double> worst_of(const std::string& check, const Json& checks) {
   return std::nullopt;
 }
 
-// Adds the limits of checks to the plot, and when the worst values came, and describes them.
-std::string bars(const Json& series, const Json& checks, LinePlot& plot) {
-  if (!series.contains("bars")) return "";
-  std::string words;
+// Adds the limits of checks to the plot, and when the worst values came.
+void add_bars(const Json& series, const Json& checks, LinePlot& plot) {
+  if (!series.contains("bars")) return;
   for (const Json& bar : series.at("bars")) {
-    const LinePlot::Bar own{.below = bar.at("below").get<double>(),
-                            .from_s = bar.at("from_s").get<double>(),
-                            .to_s = bar.at("to_s").get<double>()};
+    LinePlot::Bar own{.below = bar.at("below").get<double>(),
+                      .from_s = bar.at("from_s").get<double>(),
+                      .to_s = bar.at("to_s").get<double>()};
+    const std::string check = bar.at("check").get<std::string>();
     const std::string statistic = bar.at("statistic").get<std::string>();
-    words += fmt::format("; limit of '{}': {}{:g} {} from {:g} to {:g} s", bar.at("check").get<std::string>(),
-                         statistic == "max" ? "" : statistic + " below ", own.below, plot.unit, own.from_s,
-                         own.to_s);
-    plot.bars.push_back(own);
-    if (const auto worst_s = worst_of(bar.at("check").get<std::string>(), checks)) {
-      words += fmt::format(", ring: the largest, at {:g} s", *worst_s);
-      plot.worst_s.push_back(*worst_s);
-    }
+    own.name = fmt::format("limit of '{}': {}{:g} {} from {:g} to {:g} s", check,
+                           statistic == "max" ? "" : statistic + " below ", own.below, plot.unit, own.from_s,
+                           own.to_s);
+    plot.bars.push_back(std::move(own));
+    if (const auto worst_s = worst_of(check, checks))
+      plot.worst.push_back(
+          {.t_s = *worst_s, .name = fmt::format("the largest that '{}' judged, at {:g} s", check, *worst_s)});
+  }
+}
+
+// Which limits of checks the picture does not show.
+std::string beyond_words(const LinePlot& plot) {
+  std::string words;
+  for (const LinePlot::Bar& bar : plot.bars) {
+    if (!shows(plot, bar)) words += (words.empty() ? "beyond this picture: " : "; ") + bar.name;
   }
   return words;
 }
 
-std::string beyond_words(const LinePlot& plot) {
-  const auto shown =
-      std::ranges::count_if(plot.bars, [&](const LinePlot::Bar& bar) { return shows(plot, bar); });
-  if (shown == std::ssize(plot.bars)) return "";
-  return shown == 0 ? " (beyond this picture)" : " (some beyond this picture)";
+std::string joined(const std::string& a, const std::string& b) {
+  return a + (a.empty() || b.empty() ? "" : "; ") + b;
 }
 
-// Adds the truth, the sigmas or the levels of a series to the plot, and describes the lines.
-std::string lines(const Json& series, LinePlot& plot) {
+bool any_value(const std::vector<double>& values) {
+  return std::ranges::any_of(values, [](double v) { return std::isfinite(v); });
+}
+
+// Adds the truth, the sigmas or the levels of a series to the plot, and names the curves. Returns what the
+// names do not say.
+std::string add_lines(const Json& series, LinePlot& plot) {
   const std::size_t size = plot.t_s.size();
+  plot.name = "value";
   if (series.contains("truth")) {
     plot.truth = numbers(series.at("truth"), size);
-    const bool any_truth = std::ranges::any_of(plot.truth, [](double v) { return std::isfinite(v); });
-    if (any_truth) return "solid: the estimate; dotted: the truth";
-    plot.truth.clear();
-    return series.at("estimator") == "plant" ? "an output of the plant" : "as reported; it has no truth";
-  }
-  if (series.contains("sigma")) {
+    plot.truth_name = "truth";
+    const bool any_truth = any_value(plot.truth);
+    const bool is_plants = series.at("estimator") == "plant";
+    plot.name = is_plants ? "output of the plant" : any_truth ? "estimate" : "as reported; it has no truth";
+    if (!any_truth) plot.truth.clear();
+  } else if (series.contains("sigma")) {
+    plot.name = "estimate less truth";
+    plot.limit_name = "\u00b13 sigma, as reported";
     plot.limit = numbers(series.at("sigma"), size);
     for (double& sigma : plot.limit) sigma *= 3;
-    const bool any_sigma = std::ranges::any_of(plot.limit, [](double v) { return std::isfinite(v); });
-    if (!any_sigma) {
-      plot.limit.clear();
-      plot.from_zero = std::ranges::none_of(plot.low, [](double v) { return v < 0; });  // true for a norm
-    }
-    return any_sigma
-               ? "solid: estimate less truth; dashed: plus and minus 3 sigma, as the target reports it, with "
-                 "gaps "
-                 "where it reported none in time or they lie beyond the picture"
-               : "solid: estimate less truth; the target reports no sigma for it";
-  }
-  if (series.contains("between_95_percent")) {
+    if (any_value(plot.limit)) return "";
+    plot.limit.clear();
+    plot.from_zero = std::ranges::none_of(plot.low, [](double v) { return v < 0; });  // true for a norm
+    return "the target reports no sigma for it";
+  } else if (series.contains("between_95_percent")) {
     plot.levels = numbers(series.at("between_95_percent"), series.at("between_95_percent").size());
-    return "dashed: 95 % of the values of a consistent filter lie between";
+    plot.levels_name = "between: 95 % of the values of a consistent filter";
   }
-  return "solid: its range in each stretch of time";
+  return "";
 }
 
 }  // namespace
@@ -194,19 +201,25 @@ std::string histogram(const std::string& title, const Json& distribution) {
 
 std::string from_zero(const std::string& title, const std::string& unit, double stretch_s,
                       const Json& largest, double scale) {
-  LinePlot plot{.title = title, .unit = unit, .t_s = {}, .low = {}, .high = {}, .from_zero = true};
+  LinePlot plot{.title = title,
+                .unit = unit,
+                .t_s = {},
+                .low = {},
+                .high = {},
+                .from_zero = true,
+                .name = fmt::format("the largest of each {:g} {}",
+                                    stretch_s < 1 ? stretch_s * 1e3 : stretch_s, stretch_s < 1 ? "ms" : "s")};
   for (const Json& value : largest) {
     plot.t_s.push_back((static_cast<double>(plot.t_s.size()) + 0.5) * stretch_s);
     plot.low.push_back(value.is_null() ? not_there : 0.0);
     plot.high.push_back(value.is_null() ? not_there : value.get<double>() * scale);
   }
-  return svg(plot);
+  return drawn(plot);
 }
 
 std::string course(const std::string& title, const Json& line) {
   const double stretch_s = line.at("stretch_s").get<double>();
-  return figure(title, from_zero(title, "ms", stretch_s, line.at("largest_s"), 1e3),
-                fmt::format("the largest of each {:g} ms", stretch_s * 1e3));
+  return figure(title, from_zero(title, "ms", stretch_s, line.at("largest_s"), 1e3), "");
 }
 
 std::string flags(const Json& all, const std::string& estimator, double end_s) {
@@ -249,9 +262,9 @@ std::string estimate(const Json& series, const Json& checks, std::string_view id
                          .from_zero = kind == "statistic"},
                 .around_zero = kind == "error" || kind == "innovation"};
   LinePlot& plot = course.plot;
-  const std::string note = lines(series, plot);
-  const std::string asked = bars(series, checks, plot);
-  std::string out = figure(title, svg(plot), note + asked + beyond_words(plot), id);
+  const std::string note = add_lines(series, plot);
+  add_bars(series, checks, plot);
+  std::string out = figure(title, drawn(plot), joined(note, beyond_words(plot)), id);
   if (kind == "statistic") return out;
   auto part = late_course(course);
   if (!part) part = judged_course(course);
@@ -265,11 +278,10 @@ std::string estimate(const Json& series, const Json& checks, std::string_view id
   const bool band_beyond = !second.limit.empty() && std::ranges::none_of(second.limit, [&](double limit) {
     return limit <= std::max(shown.high, -shown.low);
   });
-  return out + figure(fmt::format("{}, {}", title, when), svg(second),
-                      fmt::format("the same {}, where the axis is {:.0f} times as fine{}{}{}", when,
-                                  extent_of(plot).size() / shown.size(),
-                                  band_beyond ? "; 3 sigma lies beyond this picture" : "",
-                                  second.bars.empty() ? "" : asked, beyond_words(second)));
+  const std::string finer =
+      fmt::format("the axis is {:.0f} times as fine{}", extent_of(plot).size() / shown.size(),
+                  band_beyond ? "; 3 sigma lies beyond this picture" : "");
+  return out + figure(fmt::format("{}, {}", title, when), drawn(second), joined(finer, beyond_words(second)));
 }
 
 }  // namespace canhil::report

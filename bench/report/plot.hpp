@@ -1,4 +1,5 @@
-// Plots as SVG, drawn with the page's style classes. Dashes and shapes distinguish the lines without colour.
+// Plots as SVG. Dashes and shapes distinguish the lines without colour. What carries meaning is in
+// attributes, so a plot needs no style sheet; page.js makes a LinePlot interactive.
 #pragma once
 
 #include <algorithm>
@@ -39,12 +40,24 @@ struct Extent {
   [[nodiscard]] double size() const { return high - low; }
 };
 
-/// A quantity over time: its range in each stretch of time, between dashed limits.
+/// A quantity over time: its range in each stretch of time, between dashed limits. Or several named curves.
+/// The values are the coordinates of the curves in the SVG, with seven digits, so that page.js can read them.
 struct LinePlot {
   /// A check's limit for the absolute value, in a part of the time.
   struct Bar {
     double below = 0;
     double from_s = 0, to_s = 0;
+    std::string name{};  ///< in the legend
+  };
+  /// A ring around the largest value.
+  struct Ring {
+    double t_s = 0;
+    std::string name{};  ///< in the legend
+  };
+  /// A further curve, with one value for each time; not finite: a gap.
+  struct Line {
+    std::string name;
+    std::vector<double> values;
   };
   std::string title;
   std::string unit;
@@ -53,12 +66,17 @@ struct LinePlot {
   std::vector<double> limit{};    ///< dashed lines at +-limit; one for each time, or none; not finite: a gap
   std::vector<double> truth{};    ///< dotted line; one value for each time, or none; not finite: a gap
   std::vector<double> levels{};   ///< dashed horizontal lines
-  std::vector<Bar> bars{};        ///< heavy lines with marks at both ends
-  std::vector<double> worst_s{};  ///< times of rings around the largest value
-  bool from_zero = false;         ///< the axis begins at 0: for a quantity without sign
-  bool begins_at_first = false;   ///< the time axis begins at the first time instead of 0
+  std::vector<Bar> bars{};        ///< heavy lines with dots at both ends
+  std::vector<Ring> worst{};
+  std::vector<Line> lines{};     ///< each with its own dashes and colour
+  bool from_zero = false;        ///< the axis begins at 0: for a quantity without sign
+  bool begins_at_first = false;  ///< the time axis begins at the first time instead of 0
+  std::string name{};            ///< of the quantity in the legend; empty: `title`
+  std::string limit_name{}, truth_name{}, levels_name{};
+  std::string t_unit = "s";  ///< of the horizontal axis
 };
-std::string svg(const LinePlot& plot);
+/// An <svg> element and the legend; a line of text if there is nothing to show.
+std::string drawn(const LinePlot& plot);
 
 /// When flags were set: a row for each, with a bar for each stretch of time.
 struct FlagPlot {

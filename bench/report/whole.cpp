@@ -159,6 +159,21 @@ void one_check(const At& check) {
   }
 }
 
+void one_frame(const At& frame) {
+  number(frame["t_s"]);
+  for (const char* key : {"transmitted", "extended"}) flag(frame[key]);
+  if (count(frame["id"]) > std::numeric_limits<std::uint32_t>::max()) frame["id"].expected("an id of CAN");
+  text(frame["bytes"]);
+  if (frame.has("message")) text(frame["message"]);
+  if (!frame.has("signals")) return;
+  frame["signals"].each([](const At& signal) {
+    const Json& parts = signal.value;
+    if (!parts.is_array() || parts.size() != 3 || !parts[0].is_string() ||
+        !(parts[1].is_null() || parts[1].is_number()) || !parts[2].is_string())
+      signal.expected("[name, value, unit]");
+  });
+}
+
 }  // namespace
 
 std::string why_not_whole(const Json& report) {
@@ -181,6 +196,12 @@ std::string why_not_whole(const Json& report) {
     all["series"].each([](const At& series) {
       for (const char* key : {"estimator", "quantity", "unit", "kind"}) text(series[key]);
     });
+    if (all.has("frames")) {
+      all["frames"].each([](const At& around) {
+        text(around["check"]);
+        around["frames"].each(one_frame);
+      });
+    }
   } catch (const Wrong& wrong) {
     return wrong.what;
   }

@@ -15,6 +15,10 @@
 #include "dbc/wire/message_info.hpp"
 #include "dbc/wire/result.hpp"
 
+namespace canhil::dbc {
+struct Database;
+}
+
 namespace canhil::estimators {
 struct Estimator;
 }
@@ -82,6 +86,8 @@ struct Binding {
   [[nodiscard]] virtual bool is_of_events(const MessageInfo& /*message*/) const { return false; }
   /// The one of `senders` that sends a message of the bench; empty: the bench itself.
   [[nodiscard]] virtual std::string_view sender_of(const MessageInfo& /*message*/) const { return ""; }
+  /// The DBCs of the bus, with all signals. They live as long as the binding.
+  [[nodiscard]] virtual std::vector<const dbc::Database*> databases() const { return {}; }
   /// The only estimator whose targets send a message; empty: every target sends it, or none does.
   [[nodiscard]] virtual std::string_view estimator_of(const MessageInfo& /*message*/) const { return ""; }
   /// Error, one line: the scenario has no sensor for a message, or its messages cannot carry the values of

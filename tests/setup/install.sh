@@ -30,12 +30,12 @@ test_packages=(
 paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper, which refuses to run without it
 tidy_packages=(clang clang-tidy)
 docs_packages=(doxygen openssh-client) # API pages; the tutorial signs a report
-picture_packages=(chromium fonts-dejavu-core) # pictures of the report page
+picture_packages=(chromium chromium-driver python3-selenium fonts-dejavu-core) # pictures of the report page
 package_packages=(dpkg-dev file debootstrap help2man) # builds a Debian package and tests it in a fresh system
 full_packages=(
   rt-tests valgrind libclang-rt-14-dev
   qemu-system-x86 make gcc-12 libelf1 # an emulated PC with two CAN controllers; the PC's kernel is only unpacked, not installed
-  chromium chromium-driver python3-selenium # tests the live view's page in a browser
+  chromium chromium-driver python3-selenium # tests the pages of the live view and of a report in a browser
   help2man systemd # help2man makes the manual pages of the package; systemd-analyze checks the package's unit without starting it
   slurm-wlm munge # a cluster of one machine, for campaigns as job arrays; started by the test itself, never as a service
 )

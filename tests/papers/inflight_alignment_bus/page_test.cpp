@@ -12,7 +12,7 @@ using testing::Not;
 TEST(InflightPage, HasEveryFigureTableAndVerdictInOneFile) {
   const auto [html, text] = reproduced("inflight", "inflight_page");
   for (const char* figure : {"fig5", "fig6", "fig7", "fig8", "fig9", "fig10"})
-    EXPECT_THAT(html, HasSubstr(std::string("<figure id=\"") + figure + "\">"));
+    EXPECT_THAT(html, HasSubstr(std::string("<article class=\"figure\" id=\"") + figure + "\">"));
   for (const char* bar : {"bar B", "bar C", "bar D"}) EXPECT_THAT(html, HasSubstr(bar));
   for (const char* section : {"starts", "paths", "forms", "late", "losses", "settings"})
     EXPECT_THAT(html, HasSubstr(std::string("id=\"") + section + "\""));

@@ -37,16 +37,16 @@ void expect_names_within(const std::string& html, const std::string& name) {
 TEST(LosPage, HasEveryFigureTableAndVerdictInOneFile) {
   const auto [html, text] = reproduced("los", "los_page");
   for (const char* figure : {"fig2", "fig3"})
-    EXPECT_THAT(html, HasSubstr(std::string("<figure id=\"") + figure + "\">"));
+    EXPECT_THAT(html, HasSubstr(std::string("<article class=\"figure\" id=\"") + figure + "\">"));
   for (const char* section :
        {"open-loop", "closing-speed", "formulas", "closed-loop", "delays", "glint", "settings"})
     EXPECT_THAT(html, HasSubstr(std::string("id=\"") + section + "\""));
   EXPECT_THAT(html, Not(HasSubstr("src=")));  // the page needs no other file
   EXPECT_THAT(html, Not(HasSubstr("url(")));
-  const std::string fig2 = html.substr(html.find("<figure id=\"fig2\">"));
-  EXPECT_THAT(fig2.substr(0, fig2.find("</figure>")), HasSubstr("12 rad/s")) << "the best by miss";
-  EXPECT_THAT(fig2.substr(0, fig2.find("</figure>")), HasSubstr("Error bars: 95 % range of the RMS"));
-  expect_names_within(fig2.substr(0, fig2.find("</figure>")), "combined");
+  const std::string fig2 = html.substr(html.find("<article class=\"figure\" id=\"fig2\">"));
+  EXPECT_THAT(fig2.substr(0, fig2.find("</article>")), HasSubstr("12 rad/s")) << "the best by miss";
+  EXPECT_THAT(fig2.substr(0, fig2.find("</article>")), HasSubstr("Error bars: 95 % range of the RMS"));
+  expect_names_within(fig2.substr(0, fig2.find("</article>")), "combined");
   EXPECT_THAT(text, ContainsRegex("one gain for all noises: the same +our extension +RMS"))
       << "the paper does not claim it";
   EXPECT_THAT(text, HasSubstr("bar: combined over Kalman filter, 3-2 s"));

@@ -20,7 +20,7 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
   const auto [html, text] = reproduced("transfer", "paper_page");
   for (const char* figure : {"fig3", "fig4", "fig5", "fig6-kf", "fig6-h2", "fig7-heading", "fig7-roll",
                              "fig7-pitch", "velocity", "artefact", "noise"})
-    EXPECT_THAT(html, HasSubstr(std::string("<figure id=\"") + figure + "\">"));
+    EXPECT_THAT(html, HasSubstr(std::string("<article class=\"figure\" id=\"") + figure + "\">"));
   for (const char* bar : {"bar 4", "bar 5", "bar 6", "bar 7", "bar 8", "bar 9"})
     EXPECT_THAT(html, HasSubstr(bar));
   EXPECT_THAT(html, HasSubstr(">paper H2<")) << "what is known of the paper's own curve";

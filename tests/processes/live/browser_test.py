@@ -11,37 +11,13 @@ import tempfile
 import time
 import unittest
 
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
-from selenium.webdriver.support.ui import WebDriverWait
 
 sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from browser import DESKTOP, PHONE, open_browser, set_size, wait, widths  # noqa: E402
 from client import FLIGHTS, Bench  # noqa: E402
-
-DESKTOP, PHONE = (1280, 800), (390, 844)
-PATIENCE_S = 60
-
-def open_browser(folder):
-    options = webdriver.ChromeOptions()
-    options.binary_location = "/usr/bin/chromium"
-    for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars", f"--user-data-dir={folder}"):
-        options.add_argument(word)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
-
-
-def set_size(browser, size, dark=False):
-    width, height = size
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                            {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia",
-                            {"features": [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]})
-
-
-def wait(browser, script, what):
-    return WebDriverWait(browser, PATIENCE_S, 0.05).until(lambda _: browser.execute_script("return " + script), what)
 
 
 def charts(browser):
@@ -125,8 +101,7 @@ class Browser(unittest.TestCase):
             for size in (DESKTOP, PHONE):  # no element is wider than the page or overlaps another element
                 set_size(browser, size)
                 time.sleep(0.3)
-                widths = browser.execute_script("return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
-                self.assertLessEqual(widths[0], widths[1])
+                self.assertLessEqual(*widths(browser))
                 overlapping = browser.execute_script("""
                     const boxes = [...document.querySelectorAll(".tile, .chart, section table")].map(e => e.getBoundingClientRect()).filter(b => b.width);
                     return boxes.filter((a, i) => boxes.some((b, k) => k > i && a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1)).length""")

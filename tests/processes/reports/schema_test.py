@@ -91,7 +91,8 @@ class Reports(unittest.TestCase):
     @classmethod
     def fly(cls, name, scenario, *options):
         junit = cls.path(name).with_suffix(".xml")
-        done = subprocess.run([HIL_BENCH, "run", scenario, "--json", cls.path(name), "--junit", junit, *options],
+        done = subprocess.run([HIL_BENCH, "run", scenario, "--json", cls.path(name), "--junit", junit,
+                               "--html", cls.path(name).with_suffix(".html"), *options],
                               capture_output=True, text=True, timeout=120, check=False)
         assert done.returncode in (0, 1, 3), (name, done.stderr)
         cls.reports[name] = json.loads(cls.path(name).read_text(encoding="utf-8"))
@@ -114,6 +115,18 @@ class Reports(unittest.TestCase):
         for name, report in self.reports.items():
             with self.subTest(name):
                 self.assertEqual([f"{list(error.path)}: {error.message[:200]}" for error in validator.iter_errors(report)], [])
+
+    def test_frames_around_the_worst_value_have_its_time_and_their_signals(self):
+        for name, report in self.reports.items():
+            at = {check["name"]: check["worst_at_s"] for check in report["checks"] if "worst_at_s" in check}
+            with self.subTest(name):
+                self.assertEqual({around["check"] for around in report["frames"]}, set(at))
+                for around in report["frames"]:
+                    frames, worst_s = around["frames"], at[around["check"]]
+                    self.assertGreater(len(frames), 5, around["check"])
+                    self.assertLess(abs(frames[min(10, len(frames) - 1)]["t_s"] - worst_s), 1.2, around["check"])
+                    self.assertTrue(any(frame["transmitted"] for frame in frames))
+                    self.assertGreater(sum(len(frame.get("signals", [])) for frame in frames), len(frames) / 2, around["check"])
 
     def test_numbers_of_a_check_agree_with_its_outcome(self):
         judged = set()

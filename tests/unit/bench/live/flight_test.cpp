@@ -65,7 +65,7 @@ Result<drive::Run> fly(const scenario::Scenario& scenario, Flight* shown) {
   std::optional<LooksOn> onlooker;
   if (shown != nullptr) {
     *shown = flight_of(scenario, options);
-    options.onlooker = &onlooker.emplace(*shown);
+    options.onlookers = {&onlooker.emplace(*shown)};
   }
   const std::atomic<bool> stop = false;
   return drive::run(scenario, options, stop, [](std::int64_t) {});

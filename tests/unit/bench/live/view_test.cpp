@@ -43,7 +43,7 @@ TEST(LiveView, ShowsAFlightAndItsEnd) {
   options.bus = drive::BusName(std::string(drive::in_process_bus));
   Shown shown;
   View view(one(shown), {.flight = flight_of(*scenario, options)});
-  options.onlooker = &view.onlooker();
+  options.onlookers = {&view.onlooker()};
   const std::atomic<bool> stop = false;
   const auto run = drive::run(*scenario, options, stop, [](std::int64_t) {});
   ASSERT_TRUE(run) << run.error().message;

@@ -1,8 +1,11 @@
 // The content of the sections of a page: timing, results, bus.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bench/drive/kept_frames.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/run_reports.hpp"
 #include "tests/unit/bench/report/finished_run.hpp"
@@ -30,9 +33,8 @@ TEST(PageSections, TheLatencyIsSplitAndThePartsAddUp) {
   const std::string page = page_of(run_on_a_wire());
   EXPECT_THAT(page, HasSubstr("mean of 100 answered stimuli"));
   EXPECT_THAT(page, HasSubstr("a longest wait of 8191 us or more and a longest computing of 0 us"));
-  EXPECT_THAT(
-      page,
-      HasSubstr("target: computing</td><td data-label=\"ms\">0.200</td><td data-label=\"share\">15.4 %"));
+  EXPECT_THAT(page, HasSubstr("target: computing</td><td align=\"right\" data-label=\"ms\">0.200</td><td "
+                              "align=\"right\" data-label=\"share\">15.4 %"));
   EXPECT_THAT(
       text(scenario_of(), run_on_a_wire()),
       AllOf(HasSubstr("mean 1.300 ms of 100 stimuli"), HasSubstr("0.600 ms  answer: its frames on the wire"),
@@ -47,7 +49,7 @@ TEST(PageSections, WhatIsNotKnownOfTheSplitIsNotAZero) {
   EXPECT_TRUE(parts.at("reply_wire").is_null());
   EXPECT_TRUE(parts.at("target_queue").is_null());
   EXPECT_NEAR(parts.at("not_explained").get<double>(), 1e-3, 1e-12);
-  EXPECT_THAT(page_of(run), HasSubstr("<td data-label=\"ms\">not known</td>"));
+  EXPECT_THAT(page_of(run), HasSubstr("<td align=\"right\" data-label=\"ms\">not known</td>"));
   EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("target: computing")));
 }
 
@@ -58,12 +60,66 @@ TEST(PageSections, APartThatTheTargetCouldNotTellIsMarked) {
   const auto split = document(scenario_of(), run).at("split");
   EXPECT_EQ(split.at("at_least"), Json::array({"target_queue"}));
   EXPECT_EQ(split.at("at_most"), Json::array({"not_explained"}));
-  EXPECT_THAT(page_of(run), AllOf(HasSubstr("<td data-label=\"ms\">&ge; 0.100</td>"),
+  EXPECT_THAT(page_of(run), AllOf(HasSubstr("<td align=\"right\" data-label=\"ms\">&ge; 0.100</td>"),
                                   HasSubstr("reports no times beyond 8191 us")));
   EXPECT_THAT(
       text(scenario_of(), run),
       AllOf(HasSubstr("0.100 ms  target: from its stamp to its turn (at least: the target reports no more)"),
             HasSubstr("wait for the bus (at most)")));
+}
+
+// 100 samples of the carrier's rates, 10 ms apart, each with an answer 1 ms later.
+std::shared_ptr<const drive::KeptFrames> frames_of_samples_and_answers() {
+  auto kept = std::make_shared<drive::KeptFrames>();
+  for (int i = 0; i < 100; ++i) {
+    kept->transmitted(to_frame(messages::SlaveImuDeltaV{.delta_v_x_mps = 0.01 * i}, 3), i * 10'000'000, 0);
+    kept->received({.frame = to_frame(messages::AlignAttitude{.roll_deg = 0.5 * i}, 3),
+                    .t_ns = i * 10'000'000 + 1'000'000});
+  }
+  return kept;
+}
+
+TEST(PageSections, TheFramesAroundTheWorstValueStandAtItsCheck) {
+  drive::Run run = run_of();
+  run.verdict.checks[0].judgement.measurement.worst_at_us = 200'000;
+  run.frames = frames_of_samples_and_answers();
+  const Json report = document(scenario_of(), run);
+  ASSERT_EQ(report["frames"].size(), 1U) << "the other check has no worst value";
+  EXPECT_EQ(report["frames"][0]["check"], "latency");
+  const Json& frames = report["frames"][0]["frames"];
+  ASSERT_EQ(frames.size(), 40U);
+  EXPECT_DOUBLE_EQ(frames[0]["t_s"].get<double>(), 0.15);
+  EXPECT_DOUBLE_EQ(frames[10]["t_s"].get<double>(), 0.2);
+  EXPECT_EQ(frames[10]["message"], "SlaveImuDeltaV");
+  EXPECT_EQ(frames[10]["transmitted"], true);
+  const Json& answer = frames[11];
+  EXPECT_EQ(answer["message"], "AlignAttitude");
+  EXPECT_EQ(answer["transmitted"], false);
+  EXPECT_EQ(answer["bytes"].get<std::string>().size(), 23U);
+  const auto roll = std::ranges::find_if(answer["signals"], [](const Json& s) { return s[0] == "roll_deg"; });
+  ASSERT_NE(roll, answer["signals"].end());
+  EXPECT_NEAR((*roll)[1].get<double>(), 10, 0.001);
+  const std::string page = html(report).value();
+  EXPECT_THAT(page, AllOf(HasSubstr("frames around 0.2 s, when its worst value came"),
+                          HasSubstr("<b>0.<wbr>200000</b>"), HasSubstr("roll_deg 10 deg")));
+}
+
+TEST(PageSections, AFrameThatTheDbcDoesNotHaveIsShownByItsBytes) {
+  drive::Run run = run_of();
+  run.verdict.checks[0].judgement.measurement.worst_at_us = 0;
+  auto kept = std::make_shared<drive::KeptFrames>();
+  kept->transmitted({.id = 0x7FF, .size = 2, .data = {0xAB, 0x01}}, 0, 0);
+  run.frames = kept;
+  const Json report = document(scenario_of(), run);
+  EXPECT_FALSE(report["frames"][0]["frames"][0].contains("message"));
+  EXPECT_THAT(html(report).value(), AllOf(HasSubstr("7FF"), HasSubstr("AB 01")));
+}
+
+TEST(PageSections, WithoutFramesThePageSaysWhy) {
+  drive::Run run = run_of();
+  EXPECT_THAT(page_of(run), Not(HasSubstr("are not kept"))) << "no check has a worst value";
+  run.verdict.checks[0].judgement.measurement.worst_at_us = 200'000;
+  EXPECT_THAT(page_of(run), HasSubstr("are not kept: a run keeps frames only with --html"));
 }
 
 TEST(PageSections, TheSplitOfEachGroupStandsBesideThatOfAll) {

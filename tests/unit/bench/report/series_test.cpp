@@ -104,7 +104,7 @@ TEST(Series, ABarThatTheFirstInstantsHideIsDrawnInASecondPicture) {
   const std::string page = html(report).value();
   EXPECT_THAT(page, HasSubstr("limit of 'heading at the end': 2 mrad from 10 to 20 s"));
   EXPECT_THAT(page, ContainsRegex("<h3>heading error, from 1.[0-9]* s on</h3>"));
-  EXPECT_THAT(page, HasSubstr("class=\"bar\""));
+  EXPECT_THAT(page, HasSubstr("stroke-width=\"2.6\""));
   EXPECT_THAT(page, Not(HasSubstr("velocity error north, from")))
       << "its late course is as large as the first";
 }
@@ -127,7 +127,7 @@ TEST(Series, ShowTheEstimateBesideTheTruthWithoutAJumpAtSouth) {
     EXPECT_NEAR(point.high, point.truth.value(), 0.1);
     EXPECT_NEAR(point.low, point.truth.value(), 0.1);
   }
-  EXPECT_THAT(html(document(scenario_of(), run)).value(), HasSubstr("class=\"truth\""));
+  EXPECT_THAT(html(document(scenario_of(), run)).value(), HasSubstr("</svg> truth</span>"));
 }
 
 TEST(Series, ASigmaThatIsStaleIsAGap) {

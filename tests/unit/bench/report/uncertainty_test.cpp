@@ -86,8 +86,9 @@ TEST(Uncertainty, IsInTextJsonAndPageAlike) {
   EXPECT_EQ(report.at("uncertainty").at("k"), 2);
   EXPECT_THAT(text(scenario_of(), run),
               HasSubstr("uncertainty AlignVelocityD      p50 ±0.035  p99 ±0.035  max ±0.035 ms  (k = 2)"));
-  EXPECT_THAT(html(report).value(), HasSubstr("AlignVelocityD, p50</td><td data-label=\"ms\">0.301</td>"
-                                              "<td data-label=\"U ms\">&plusmn; 0.035</td>"));
+  EXPECT_THAT(html(report).value(),
+              HasSubstr("D, p50</td><td align=\"right\" data-label=\"ms\">0.<wbr>301</td>"
+                        "<td align=\"right\" data-label=\"U ms\">&plusmn; 0.<wbr>035</td>"));
 }
 
 TEST(Uncertainty, IsOnlyOfRealTime) {
