@@ -18,6 +18,7 @@
 
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/selection.hpp"
+#include "bench/drive/inputs.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/page_parts.hpp"
 #include "bench/report/run_reports.hpp"
@@ -279,10 +280,15 @@ Result<void> write(const RunArguments& arguments, const std::vector<Job>& jobs) 
   return report::write_file((fs::path(arguments.out) / "index.html").string(), index_page(jobs));
 }
 
-// The files that hold the results of all runs together.
+// The files of all runs together: an output of one must not be an input or an output of another.
 Result<void> check_files(const RunArguments& arguments, const std::vector<Job>& jobs) {
   CommandFiles files;
-  for (const Job& job : jobs) files.reads("scenario", job.planned.scenario.file);
+  for (const Job& job : jobs) {
+    files.reads(drive::inputs_of(job.planned.scenario));
+    files.may_write("--out", job.arguments.reports.json);
+    files.may_write("--out", job.arguments.reports.html);
+    files.may_write("--out", job.arguments.log);
+  }
   files.writes("--junit", arguments.reports.junit);
   if (!arguments.out.empty()) files.writes_file("--out", (fs::path(arguments.out) / "index.html").string());
   return files.check();

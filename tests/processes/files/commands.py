@@ -14,6 +14,9 @@ TABLE = {
     "hil-bench run": {"SCENARIO": "R", "--bus": "N", "--bus-of": "N", "--target": "R", "--dbc": "R", "--set": "N", "--faults": "R", "--json": "W",
                       "--junit": "W", "--html": "W", "--csv": "W", "--operator": "N", "--log": "W", "--select": "N", "--out": "F",
                       "--live-address": "N"},
+    "hil-bench new": {},
+    "hil-bench new mapping": {"FILE": "N", "--dbc": "R", "--device": "N", "--encoding": "N"},  # FILE: a new file, so it is no input
+    "hil-bench new scenario": {"FILE": "N", "--mapping": "R", "--estimator": "N"},
     "hil-bench report": {"FILE.json": "F"},
     "hil-bench compare": {"A.json": "R", "B.json": "R", "--before": "R", "--after": "R"},
     "hil-bench bus": {"BUS": "N"},
