@@ -168,8 +168,8 @@ Blocks draft_of_scenario(const Mapping& mapping, const std::string& file) {
     }
   }
   // Tables of the file's own come before arrays of tables only for the reader's eye; TOML does not mind.
-  std::ranges::stable_partition(blocks.begin() + 1, blocks.end(),
-                                [](const std::string& one) { return !one.starts_with("\n[["); });
+  std::stable_partition(blocks.begin() + 1, blocks.end(),
+                        [](const std::string& one) { return !one.starts_with("\n[["); });
   for (const quantities::Quantity* quantity : mapping.targets.front().quantities) {
     const ReferenceQuantity* reference = find_reference_quantity(quantity->name);
     const std::string limit = reference == nullptr || !reference->has_truth() ? "" : limit_of(reference->si);
