@@ -25,8 +25,8 @@ int main(int argc, char** argv) {
   if (argc > 1 && (argv[1] == campaign_name || argv[1] == accept_name || argv[1] == faults_name ||
                    argv[1] == reference_name))
     return become("hil-bench-campaign", {argv + 1, argv + argc});
-  constexpr std::array<AddCommand, 11> commands{add_run,         add_report, add_bus,    name_campaign,
-                                                add_diverge,     add_golden, add_doctor, add_schedulability,
-                                                add_conformance, add_log,    add_dbc};
+  constexpr std::array<AddCommand, 12> commands{
+      add_run,    add_new,    add_report,         add_bus,         name_campaign, add_diverge,
+      add_golden, add_doctor, add_schedulability, add_conformance, add_log,       add_dbc};
   return run_program(argc, argv, commands);
 }

@@ -36,6 +36,25 @@ foreach(program hil-bench hil-target)
   install(FILES ${CMAKE_SOURCE_DIR}/packaging/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
 endforeach()
 
+# The Python package, where Debian's Python looks for packages if the prefix is /usr. pip and this file describe it by the same pyproject.toml:
+# its entry point makes pytest load the plugin.
+file(STRINGS ${CMAKE_SOURCE_DIR}/python/pyproject.toml description REGEX "^description = ")
+string(REGEX REPLACE "^description = \"(.*)\"$" "\\1" description "${description}")
+file(STRINGS ${CMAKE_SOURCE_DIR}/python/pyproject.toml entry_point REGEX "^canhil = \"canhil[.]")
+string(REPLACE "\"" "" entry_point "${entry_point}")
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/python/METADATA @ONLY CONTENT "Metadata-Version: 2.1
+Name: canhil
+Version: @PROJECT_VERSION@
+Summary: @description@
+")
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/python/entry_points.txt @ONLY CONTENT "[pytest11]
+@entry_point@
+")
+set(python_packages lib/python3/dist-packages)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/canhil DESTINATION ${python_packages} FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+install(FILES ${CMAKE_BINARY_DIR}/python/METADATA ${CMAKE_BINARY_DIR}/python/entry_points.txt
+        DESTINATION ${python_packages}/canhil-${PROJECT_VERSION}.dist-info)
+
 # The unit file contains the path of the installed program, which is known only at installation.
 install(CODE "
   set(bindir \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\")
@@ -69,6 +88,6 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "can-utils, iproute2")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, libeigen3-dev, libfmt-dev, libexpected-dev, libpcap-dev, zlib1g-dev")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "can-utils, iproute2, python3")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-pytest, python3-pandas, python3-matplotlib, cmake, g++, libeigen3-dev, libfmt-dev, libexpected-dev, libpcap-dev, zlib1g-dev")
 include(CPack)

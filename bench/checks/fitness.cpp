@@ -34,6 +34,9 @@ std::uint64_t spoiled_by(const Histogram& delays, double most_s, double nominal_
   return static_cast<std::uint64_t>(values);
 }
 
+// Names the option that would help against a busy host, where it was not given.
+std::string remedy(const HostRecord& host) { return host.may_be_realtime ? "; --realtime would help" : ""; }
+
 }  // namespace
 
 std::string unfit_for_timing(const Observations& seen) {
@@ -49,8 +52,8 @@ std::string unfit_for_timing(const Observations& seen) {
     return fmt::format("the hypervisor gave {:.1f} % of this machine's CPU time to others",
                        host.stolen_share * 100);
   if (host.cpu_wait_s > most_waited * host.wall_s)
-    return fmt::format("no CPU was free for the bench for {:.1f} % of the run",
-                       host.cpu_wait_s / host.wall_s * 100);
+    return fmt::format("no CPU was free for the bench for {:.1f} % of the run{}",
+                       host.cpu_wait_s / host.wall_s * 100, remedy(host));
   return "";
 }
 
@@ -69,8 +72,8 @@ std::string unfit(const Evidence& evidence, double quantile, double bar_s) {
   if (lateness.count() == 0) return "the bench sent nothing";
   const double late_s = lateness.quantile_ns(quantile) * 1e-9;
   if (late_s <= lateness_share * bar_s) return "";
-  return fmt::format("this host kept the bench itself {:.2f} ms late ({}), more than {:g} % of the limit",
-                     late_s * 1e3, quantile_name(quantile), lateness_share * 100);
+  return fmt::format("this host kept the bench itself {:.2f} ms late ({}), more than {:g} % of the limit{}",
+                     late_s * 1e3, quantile_name(quantile), lateness_share * 100, remedy(evidence.seen.host));
 }
 
 std::string late_loop(const Evidence& evidence) {
@@ -101,11 +104,11 @@ Finding unless_target_delayed(const Evidence& evidence, double quantile, double 
   const double stalled_s = evidence.delays.stalls.quantile_ns(quantile) * 1e-9;
   if (std::max(waited_s, stalled_s) <= lateness_share * bar_s) return finding;
   finding.outcome = Outcome::not_measured;
-  finding.measured +=
-      fmt::format("; on this host {} for {:.2f} ms ({}), more than {:g} % of the limit",
-                  waited_s >= stalled_s ? "other programs kept the target waiting for a CPU"
-                                        : "no program could run on a CPU of the target",
-                  std::max(waited_s, stalled_s) * 1e3, quantile_name(quantile), lateness_share * 100);
+  finding.measured += fmt::format("; on this host {} for {:.2f} ms ({}), more than {:g} % of the limit{}",
+                                  waited_s >= stalled_s ? "other programs kept the target waiting for a CPU"
+                                                        : "no program could run on a CPU of the target",
+                                  std::max(waited_s, stalled_s) * 1e3, quantile_name(quantile),
+                                  lateness_share * 100, remedy(evidence.seen.host));
   return finding;
 }
 
@@ -125,9 +128,10 @@ Finding unless_host_disturbed(const Evidence& evidence, double quantile, double 
   finding.outcome = Outcome::not_measured;
   finding.measured += fmt::format(
       "; {} of {} are beyond the limit, and this host can have caused {}: {} of the bench's stimuli were "
-      "off, and the target had no CPU {} times, each by more than {:g} % of the limit",
+      "off, and the target had no CPU {} times, each by more than {:g} % of the limit{}",
       times.outside, times.count, std::min(times.outside, late + delayed), late,
-      waits.count_above(most_s * 1e9) + stalls.count_above(most_s * 1e9), lateness_share * 100);
+      waits.count_above(most_s * 1e9) + stalls.count_above(most_s * 1e9), lateness_share * 100,
+      remedy(evidence.seen.host));
   return finding;
 }
 

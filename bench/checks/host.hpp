@@ -23,8 +23,10 @@ struct HostRecord {
                                    ///< that cannot step
   double wall_s = 0;               ///< length of the interval that the values below cover
   double cpu_run_s = 0;            ///< time in which the bench ran
-  double cpu_wait_s = 0;        ///< time in which the bench was ready to run but other programs held the CPU
-  double stolen_share = 0;      ///< fraction of the CPUs' time that the hypervisor gave to other guests
+  double cpu_wait_s = 0;    ///< time in which the bench was ready to run but other programs held the CPU
+  double stolen_share = 0;  ///< fraction of the CPUs' time that the hypervisor gave to other guests
+  bool may_be_realtime =
+      false;  ///< the bench has no real-time scheduling, so its option --realtime would help
   std::uint64_t preempted = 0;  ///< how often the bench lost the CPU although it had more to do
 };
 

@@ -46,6 +46,7 @@ struct CheckArguments {
   std::string log, scenario;
   std::optional<std::uint64_t> seed;
   std::string faults;
+  std::vector<std::string> settings;  // each as KEY=VALUE
   Reports reports;
 };
 
@@ -161,7 +162,9 @@ ExitCode replay(const ReplayArguments& arguments) {
 }
 
 ExitCode check(const CheckArguments& arguments) {
-  auto scenario = drive::read_scenario(arguments.scenario);
+  const auto settings = scenario::parse_settings(arguments.settings);
+  if (!settings) return complain(settings.error());
+  auto scenario = drive::read_scenario(arguments.scenario, *settings);
   if (!scenario) return complain(scenario.error());
   if (!arguments.faults.empty()) {
     if (auto added = drive::add_faults(*scenario, arguments.faults); !added) return complain(added.error());
@@ -230,6 +233,10 @@ void add_check(command_line::Command app, int& code) {
   command.add_option("SCENARIO", arguments->scenario, "scenario file (TOML), its checks may have changed")
       .required();
   command.add_number("--seed", arguments->seed, "of the run, where it was another than the scenario's");
+  command
+      .add_option("--set", arguments->settings,
+                  "KEY=VALUE: a value that the run had in place of the scenario's")
+      .one_word_each();
   command.add_option("--faults", arguments->faults, "file of [[fault]] tables that the run had in addition");
   add_reports(command, arguments->reports);
   command.on_given([&code, arguments] { code = static_cast<int>(check(*arguments)); });

@@ -1,154 +1,23 @@
-#include "bench/commands/subcommands.hpp"
-
 #include <fmt/format.h>
-#include <net/if.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
-#include "bench/commands/live.hpp"
-#include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
-#include "bench/commands/reports.hpp"
+#include "bench/commands/run_many.hpp"
+#include "bench/commands/run_options.hpp"
+#include "bench/commands/subcommands.hpp"
 #include "bench/doctor/interface.hpp"
-#include "bench/drive/contract.hpp"
-#include "bench/drive/inputs.hpp"
 #include "bench/drive/kept_frames.hpp"
-#include "bench/drive/session.hpp"
 #include "bench/live/terminal.hpp"
-#include "bench/nodes/registry.hpp"
-#include "bench/observe/recorder.hpp"
-#include "bench/processes/command.hpp"
 #include "bench/report/program_checks.hpp"
-#include "bench/scenario/binding.hpp"
-#include "bench/scenario/commands.hpp"
-#include "bench/scenario/nearest.hpp"
-#include "dbc/files/command_files.hpp"
-#include "dbc/ports/local_bus.hpp"
-#include "dbc/realtime/command_line.hpp"
 
 namespace canhil::commands {
 namespace {
-
-constexpr std::size_t heap_bytes = 64 << 20;  // enough for a recording of several minutes
-
-// The arguments as given on the command line.
-struct Arguments {
-  std::string scenario;
-  std::string bus{local_prefix};     // a private bus
-  std::vector<std::string> bus_of;   // each as NODE=BUS
-  std::vector<std::string> targets;  // empty: the hil-target beside this program
-  std::string dbc;                   // empty: the DBC of the scenario
-  std::string faults;                // file of additional faults; empty: none
-  bool lockstep = false;
-  bool no_commands = false;
-  std::optional<std::uint64_t> seed;
-  realtime::Options realtime;
-  std::optional<int> target_cpu;
-  std::optional<int> spin_us;
-  std::string operator_name;
-  Reports reports;
-  std::string log;
-  Live live;
-  bool terminal = false;
-};
-
-bool is_external(const Arguments& arguments) { return arguments.targets == std::vector<std::string>{"none"}; }
-
-// The name of a node without underscores, in lower case: gps, GPS and Gps name the same node; master_ins and
-// MasterIns, too, name the same node.
-std::string plain(std::string name) {
-  std::erase(name, '_');
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return name;
-}
-
-// Whether a node of the bench is on the bus of a scenario.
-bool is_on_bus(const scenario::Scenario& scenario, std::string_view sender) {
-  const scenario::Binding& binding = *scenario.binding;
-  return std::ranges::any_of(binding.messages, [&](const MessageInfo& one) {
-    return !is_targets(one) && binding.sender_of(one) == sender &&
-           (binding.is_played(one, scenario.nodes) || binding.is_of_events(one));
-  });
-}
-
-// Parses all NODE=BUS, and replaces NODE by the name of the node in the DBC. The frames of the bench itself
-// and of the target always use --bus.
-Result<drive::BusOf> buses_of(const Arguments& arguments, const scenario::Scenario& scenario) {
-  const std::vector<std::string>& senders = scenario.binding->senders;
-  drive::BusOf all;
-  for (const std::string& text : arguments.bus_of) {
-    const std::size_t equals = text.find('=');
-    const auto node = std::ranges::find_if(
-        senders, [&](const std::string& name) { return plain(name) == plain(text.substr(0, equals)); });
-    const std::string bus = equals == std::string::npos ? "" : text.substr(equals + 1);
-    if (node == senders.end() || bus.empty() || bus == local_prefix || drive::BusName(bus).in_process)
-      return failure(fmt::format(
-          "--bus-of '{}': expected NODE=BUS with NODE one of {} and BUS an interface or local:NAME", text,
-          fmt::join(senders, ", ")));
-    if (std::ranges::find(all, *node, &drive::BusOf::value_type::first) != all.end())
-      return failure(
-          fmt::format("--bus-of '{}': {} has a bus already, expected each node once", text, *node));
-    if (bus == arguments.bus)
-      return failure(
-          fmt::format("--bus-of '{}': is the bus of all others, expected another than --bus", text));
-    if (!is_on_bus(scenario, *node))
-      return failure(
-          fmt::format("--bus-of '{}': {} has no such node, expected one that it has", text, scenario.file));
-    all.emplace_back(*node, bus);
-  }
-  return all;
-}
-
-// The bit rates of an interface's controller, as the kernel reports them; empty if the kernel reports none.
-WireFacts controller_of(const std::string& bus) {
-  const auto interface = doctor::find_interface(bus);
-  if (!interface || !interface->controller) return {};
-  return {.rates = {.nominal = interface->controller->nominal.bitrate,
-                    .data = interface->controller->data.bitrate}};
-}
-
-drive::Options options_of(const Arguments& arguments, drive::BusName bus, drive::BusOf bus_of,
-                          BusFormat format) {
-  drive::Options options;
-  options.format = format;
-  const bool external = is_external(arguments);
-  options.bus = std::move(bus);
-  // The name of a private bus contains the process id, so two benches on one machine do not share a bus. With
-  // --target none, the name is fixed, so that an external target can use this name.
-  options.bus.text = named_local(options.bus.text, external ? "canhil" : fmt::format("canhil-{}", getpid()));
-  if (!external)
-    options.targets = arguments.targets.empty()
-                          ? std::vector{processes::quoted_word(own_folder() + "/hil-target")}
-                          : arguments.targets;
-  if (arguments.bus_of.empty()) options.controller = controller_of(options.bus.text);
-  options.lockstep = arguments.lockstep;
-  if (!arguments.log.empty()) options.log_path = arguments.log;
-  options.realtime = arguments.realtime.request();
-  if (options.realtime) {
-    options.realtime->heap_bytes = heap_bytes;
-    // Every target inherits the scheduling policy and the priority. hil-target, in addition, gets these
-    // options, so that it also locks its memory.
-    if (arguments.targets.empty())
-      options.target_arguments = {"--realtime", "--priority", std::to_string(options.realtime->priority)};
-  }
-  options.bus_of = std::move(bus_of);
-  for (const auto& [node, own] : options.bus_of) {
-    if (!external) options.target_arguments.insert(options.target_arguments.end(), {"--bus", own});
-  }
-  options.target_cpu = arguments.target_cpu;
-  options.operator_name = arguments.operator_name;
-  options.spin_ns = std::int64_t{arguments.spin_us.value_or(0)} * 1000;
-  return options;
-}
 
 // A text such as "[===   ] 7.3 / 20 s".
 std::string progress_text(std::int64_t t_us, std::int64_t duration_us) {
@@ -156,72 +25,10 @@ std::string progress_text(std::int64_t t_us, std::int64_t duration_us) {
   return fmt::format("{} {:.1f} / {:g} s", progress_bar(t_s / duration_s), t_s, duration_s);
 }
 
-void remove_earlier(const Arguments& arguments) {
+void remove_earlier(const RunArguments& arguments) {
   remove_earlier(arguments.reports);
   std::error_code ignored;
   std::filesystem::remove(arguments.log, ignored);
-}
-
-Result<void> check_files(const Arguments& arguments, const scenario::Scenario& scenario,
-                         const drive::Options& options) {
-  CommandFiles files;
-  files.reads(drive::inputs_of(scenario));
-  if (arguments.dbc != name_of(BusFormat::classic) && arguments.dbc != name_of(BusFormat::fd))
-    files.reads("--dbc", arguments.dbc);
-  for (const std::string& command : options.targets) files.reads(drive::inputs_of_target(command));
-  declare(arguments.reports, files);
-  files.writes_file("--log", arguments.log);
-  if (!arguments.log.empty()) files.may_write("incomplete log", observe::incomplete_log(arguments.log));
-  return files.check();
-}
-
-Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
-  const bool here = bus.in_process;
-  if (here && !arguments.targets.empty())
-    return failure(
-        "--target: with --bus in-process the device is in hil-bench itself, expected only one of the two");
-  if (here && (arguments.realtime.wanted || arguments.spin_us))
-    return failure(
-        "--bus in-process: virtual time has no deadlines, expected neither --realtime nor --spin-us");
-  if (bus.rounding == Rounding::none && !arguments.log.empty())
-    return failure(
-        fmt::format("--log: a log has no room for the frames of '{}', expected in-process", arguments.bus));
-  // Frames on two buses have no common order: the answer to a step could arrive before a sample on the other
-  // bus.
-  if (!arguments.bus_of.empty() && (arguments.lockstep || here))
-    return failure("--bus-of: one step over two buses has no order, expected real time");
-  if (arguments.lockstep && bus.wire && bus.wire->order == QueueOrder::priority)
-    return failure(
-        fmt::format("--lockstep: with the queues of --bus '{}' Sync overtakes the samples of its step, "
-                    "expected queue=fifo",
-                    arguments.bus));
-  if (arguments.target_cpu && (is_external(arguments) || here))
-    return failure("--target-cpu: no target is started here, expected one with --target and a bus");
-  if (arguments.target_cpu) {
-    if (auto known = realtime::check_cpu("--target-cpu", *arguments.target_cpu); !known) return known;
-  }
-  static const std::vector<std::string> known{std::string(drive::in_process_bus), std::string(local_prefix)};
-  const bool names_one = is_local(arguments.bus) || here;
-  const std::string meant = scenario::nearest(arguments.bus, known);
-  if (!names_one && !meant.empty() && if_nametoindex(arguments.bus.c_str()) == 0)
-    return failure(
-        fmt::format("--bus '{}': there is no such interface, expected '{}'", arguments.bus, meant));
-  return {};
-}
-
-// The format of the bus: from the command line, from the scenario, or from both if they agree.
-Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario& scenario) {
-  if (arguments.dbc.empty()) return drive::format_of(scenario);
-  if (!scenario.binding->containers)
-    return failure(fmt::format("--dbc {}: {} has a mapping, whose DBC counts, expected one of the two",
-                               arguments.dbc, scenario.file));
-  auto named = named_contract(arguments.dbc);
-  if (named && scenario.fd && *scenario.fd != (*named == BusFormat::fd)) {
-    return failure(fmt::format("--dbc '{}': {} has dbc = \"{}\", expected one of the two or both alike",
-                               arguments.dbc, scenario.file,
-                               name_of(*scenario.fd ? BusFormat::fd : BusFormat::classic)));
-  }
-  return named;
 }
 
 // Appends the state of the controller to an error: if the bit rates of the nodes differ, or if no other node
@@ -236,75 +43,43 @@ Error with_controller(Error error, const std::string& bus) {
   return error;
 }
 
-// Checks that there is a target of the scenario for each program.
-Result<void> check_targets(const Arguments& arguments, const scenario::Scenario& scenario) {
-  const std::size_t most = scenario.binding->handshake ? 1 : scenario.targets.size();
-  if (arguments.targets.size() > most)
-    return failure(fmt::format("--target: is given {} times, expected at most {}, as {} has {} on its bus",
-                               arguments.targets.size(), most, scenario.file,
-                               most == 1 ? "one target" : fmt::format("{} targets", most)));
-  if (arguments.targets.empty() && !scenario.binding->handshake)
-    return failure(
-        fmt::format("--target: is missing, and the target of {} is not hil-target, expected its program, or "
-                    "none if it runs elsewhere",
-                    scenario.file));
-  if (arguments.targets.size() > 1 && std::ranges::find(arguments.targets, "none") != arguments.targets.end())
-    return failure("--target none: is given beside a program, expected only one of the two");
-  return {};
+// Flies one scenario, and writes its reports.
+ExitCode execute(const RunArguments& arguments) {
+  auto planned = plan_run(arguments, arguments.scenarios.front());
+  if (!planned) return complain(planned.error());
+  return fly(arguments, *planned, [](const drive::Run&) { return Result<void>(); });
 }
 
-// Checks that the name fits into one line of the text report and into XML.
-Result<void> check_operator(const std::string& name) {
-  const bool plain =
-      std::ranges::none_of(name, [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; });
-  return plain ? Result<void>()
-               : failure("--operator: holds a control character, expected a name on one line");
-}
+}  // namespace
 
-ExitCode execute(const Arguments& arguments) {
-  if (auto fine = check_operator(arguments.operator_name); !fine) return complain(fine.error());
-  const drive::BusName bus(arguments.bus);
-  if (auto fine = check_bus(arguments, bus); !fine) return complain(fine.error());
-  if (arguments.no_commands) scenario::forbid_commands();
-  auto scenario = drive::read_scenario(arguments.scenario);
-  if (!scenario) return complain(scenario.error());
-  if (!arguments.faults.empty()) {
-    if (auto added = drive::add_faults(*scenario, arguments.faults); !added) return complain(added.error());
-  }
-  if (auto fine = check_targets(arguments, *scenario); !fine) return complain(fine.error());
-  auto bus_of = buses_of(arguments, *scenario);
-  if (!bus_of) return complain(bus_of.error());
-  const auto format = format_of(arguments, *scenario);
-  if (!format) return complain(format.error());
-  if (arguments.seed) scenario->seed = *arguments.seed;
-  drive::Options options = options_of(arguments, bus, std::move(*bus_of), *format);
-  if (auto fine = check_files(arguments, *scenario, options); !fine) return complain(fine.error());
+ExitCode fly(const RunArguments& arguments, PlannedRun& planned,
+             const std::function<Result<void>(const drive::Run&)>& then) {
   std::vector<std::unique_ptr<live::Display>> displays;
   if (arguments.terminal) {
     auto terminal = live::open_terminal();
     if (!terminal) return complain(terminal.error());
     displays.push_back(std::move(*terminal));
   }
-  auto view =
-      OpenView::open(arguments.live, {.flight = live::flight_of(*scenario, options)}, std::move(displays));
+  auto view = OpenView::open(arguments.live, {.flight = live::flight_of(planned.scenario, planned.options)},
+                             std::move(displays));
   if (!view) return complain(view.error());
-  if (view->get() != nullptr) options.onlookers.push_back(&view->get()->onlooker());
+  if (view->get() != nullptr) planned.options.onlookers.push_back(&view->get()->onlooker());
   const auto kept = frames_for(arguments.reports);
-  if (kept) options.onlookers.push_back(kept.get());
+  if (kept) planned.options.onlookers.push_back(kept.get());
   catch_interrupts();
   Result<drive::Run> finished = [&] {
     const ProgressLine line;
     bool begun = false;
-    return drive::run(*scenario, options, interrupted, [&](std::int64_t t_us) {
+    return drive::run(planned.scenario, planned.options, interrupted, [&](std::int64_t t_us) {
       if (!std::exchange(begun, true)) remove_earlier(arguments);
-      line.show([&] { return progress_text(t_us, scenario->duration_us); });
+      line.show([&] { return progress_text(t_us, planned.scenario.duration_us); });
     });
   }();
   if (finished) finished->frames = kept;
-  if (finished) report::judge_by_programs(*scenario, *finished, interrupted);
+  if (finished) report::judge_by_programs(planned.scenario, *finished, interrupted);
   if (view->get() != nullptr) {
     if (finished)
-      view->get()->show(live::flight_of(*scenario, *finished));
+      view->get()->show(live::flight_of(planned.scenario, *finished));
     else
       view->get()->show_ended(finished.error().message);
     if (arguments.terminal) view->get()->close();  // the terminal is restored before the report is printed
@@ -318,61 +93,20 @@ ExitCode execute(const Arguments& arguments) {
     const std::string warning = realtime::frequency_warning(*finished->host);
     if (!warning.empty()) say(warning);
   }
-  if (auto written = write_reports(arguments.reports, *scenario, *finished); !written)
+  if (auto written = write_reports(arguments.reports, planned.scenario, *finished); !written)
     return complain(written.error());
+  if (auto written = then(*finished); !written) return complain(written.error());
   view->hold();
   return exit_code(finished->verdict.outcome);
 }
 
-}  // namespace
-
 void add_run(command_line::Command app, int& code) {
-  auto arguments = std::make_shared<Arguments>();
-  const auto command = app.add_subcommand("run", "run a scenario against a target and judge it");
-  command.add_option("SCENARIO", arguments->scenario, "scenario file (TOML)").required();
-  command.add_option(
-      "--bus", arguments->bus,
-      "can0, vcan0: SocketCAN; local:NAME: embedded bus; local: a private one (default); in-process: virtual "
-      "time. local: and in-process take a simulated wire: '?bitrate=500000', then &data-bitrate=2000000, "
-      "&queue=fifo|priority, &bit-error-rate=1e-6, &seed=3. 'in-process?unrounded': frames that round "
-      "nothing");
-  command
-      .add_option("--bus-of", arguments->bus_of,
-                  "NODE=BUS: this node sends on a bus of its own, such as gps=can1; may be given again. The "
-                  "target is to listen there too")
-      .one_word_each();
-  command
-      .add_option("--target", arguments->targets,
-                  "program to start as target, with its arguments, as one word: 'python3 mine.py --gain 3' "
-                  "(default: hil-target beside hil-bench); none: it runs elsewhere. With several mapped "
-                  "targets: may be given again")
-      .one_word_each();
-  command.add_option(
-      "--dbc", arguments->dbc,
-      "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them (default: the "
-      "scenario's, else canhil)");
-  command.add_option("--faults", arguments->faults,
-                     "file of [[fault]] tables, in addition to the scenario's (docs/faults.md)");
-  command.add_flag("--no-commands", arguments->no_commands,
-                   "refuse scenarios that execute something: commands, programs, FMUs");
-  const auto lockstep =
-      command.add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
-  realtime::add_options(command, arguments->realtime).excludes(lockstep);
-  command.add_number("--target-cpu", arguments->target_cpu,
-                     "the only CPU of the target that this command starts", 0, 1023);
-  command
-      .add_number("--spin-us", arguments->spin_us,
-                  "poll for so long before each deadline instead of sleeping up to it", 0, 10'000)
-      .excludes(lockstep);
-  command.add_number("--seed", arguments->seed, "another seed than the scenario's");
-  add_reports(command, arguments->reports);
-  command.add_option("--operator", arguments->operator_name,
-                     "who runs it, for the reports: 'Ada Lovelace' (default: not said)");
-  command.add_option("--log", arguments->log,
-                     "record every frame: *.log (candump), *.pcap (Wireshark), *.asc (Vector)");
-  command.add_flag("--tui", arguments->terminal, "show it on one screen of this terminal while it goes on")
-      .excludes(add_live(command, arguments->live));
-  command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
+  auto arguments = std::make_shared<RunArguments>();
+  const auto command = app.add_subcommand("run", "run scenarios against a target and judge it");
+  add_options(command, *arguments);
+  command.on_given([&code, arguments] {
+    code = static_cast<int>(are_many(*arguments) ? run_many(*arguments) : execute(*arguments));
+  });
 }
 
 }  // namespace canhil::commands

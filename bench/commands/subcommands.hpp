@@ -13,6 +13,9 @@ inline constexpr const char* log_to_read =
 /// `hil-bench run SCENARIO`: one run and its verdict.
 void add_run(command_line::Command app, int& code);
 
+/// `hil-bench new mapping|scenario FILE`: writes a file to begin with.
+void add_new(command_line::Command app, int& code);
+
 /// `hil-bench report` and `hil-bench compare`: commands for reports of finished runs.
 void add_report(command_line::Command app, int& code);
 

@@ -50,7 +50,7 @@ scenario::DbcVocabulary contract() {
 Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
                                           std::span<const scenario::Setting> settings,
                                           std::optional<std::string> folder, const mapping::ReadText& read) {
-  const auto by = mapping::contract_of(text, name, contract(), read);
+  const auto by = mapping::contract_of(text, name, contract(), read, settings);
   if (!by) return tl::unexpected(by.error());
   auto scenario = scenario::parse(text, name, *by, settings, std::move(folder));
   if (scenario && by->binding->hash != 0)
@@ -69,10 +69,11 @@ Result<void> add_faults(scenario::Scenario& scenario, std::string_view text, con
   return scenario::add_faults(scenario, text, name, estimators::bound_to(contract(), scenario.binding), some);
 }
 
-Result<scenario::Scenario> read_scenario(const std::string& file) {
+Result<scenario::Scenario> read_scenario(const std::string& file,
+                                         std::span<const scenario::Setting> settings) {
   const auto text = read_text_file(file, "a scenario file", scenario::most_toml_bytes);
   if (!text) return tl::unexpected(text.error());
-  return parse_scenario(*text, file);
+  return parse_scenario(*text, file, settings);
 }
 
 }  // namespace canhil::drive

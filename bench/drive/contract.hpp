@@ -24,7 +24,8 @@ Result<scenario::Scenario> parse_scenario(std::string_view text, const std::stri
                                           std::span<const scenario::Setting> settings = {},
                                           std::optional<std::string> folder = {},
                                           const mapping::ReadText& read = mapping::read_from_disk);
-Result<scenario::Scenario> read_scenario(const std::string& file);
+Result<scenario::Scenario> read_scenario(const std::string& file,
+                                         std::span<const scenario::Setting> settings = {});
 
 /// Adds the [[fault]] tables of a file to the scenario. Error: one line.
 Result<void> add_faults(scenario::Scenario& scenario, const std::string& file);

@@ -136,8 +136,9 @@ const quantities::Layout* find_layout(std::string_view columns) {
 }
 
 Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::string& file,
-                                            const scenario::DbcVocabulary& own, const ReadText& read) {
-  Section root = Section::parse(text, file);
+                                            const scenario::DbcVocabulary& own, const ReadText& read,
+                                            std::span<const scenario::Setting> settings) {
+  Section root = Section::parse(text, file, settings);
   if (root.error() || !root.has("target")) return own;
   std::vector<std::string> files;
   for (Section& target : root.table_or_tables("target")) {

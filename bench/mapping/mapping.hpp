@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -262,10 +263,11 @@ estimators::Estimator estimator_of(const MappedTarget& target);
 
 /// The vocabulary for reading a scenario. If the targets of the scenario name mappings (by paths relative
 /// to the scenario's file), the vocabulary comes from these; otherwise it comes from canhil's own DBC. An
-/// error is one line of text. This function does not report syntax errors of TOML; the reader of the scenario
-/// reports them.
+/// error is one line of text. `settings`: see scenario::parse(). This function does not report syntax errors
+/// of TOML; the reader of the scenario reports them.
 Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::string& file,
                                             const scenario::DbcVocabulary& own,
-                                            const ReadText& read = read_from_disk);
+                                            const ReadText& read = read_from_disk,
+                                            std::span<const scenario::Setting> settings = {});
 
 }  // namespace canhil::mapping

@@ -64,8 +64,11 @@ CpuAccount cpu_account(std::string_view schedstat, std::string_view stat) {
   return account;
 }
 
-HostWatch::HostWatch(int stamp_clock)
-    : stamp_clock_(stamp_clock), start_ns_(clock_ns(CLOCK_MONOTONIC)), start_(cpu_account_now()) {}
+HostWatch::HostWatch(int stamp_clock, bool may_be_realtime)
+    : stamp_clock_(stamp_clock),
+      may_be_realtime_(may_be_realtime),
+      start_ns_(clock_ns(CLOCK_MONOTONIC)),
+      start_(cpu_account_now()) {}
 
 void HostWatch::transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {
   if (stamp_clock_ == CLOCK_MONOTONIC || frame.id != messages::Sync::info.id) return;
@@ -83,6 +86,7 @@ checks::HostRecord HostWatch::record() const {
           .cpu_run_s = static_cast<double>(now.run_ns - start_.run_ns) * 1e-9,
           .cpu_wait_s = static_cast<double>(now.wait_ns - start_.wait_ns) * 1e-9,
           .stolen_share = static_cast<double>(now.stolen_ticks - start_.stolen_ticks) / all,
+          .may_be_realtime = may_be_realtime_,
           .preempted = now.preempted - start_.preempted};
 }
 

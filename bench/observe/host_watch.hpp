@@ -44,13 +44,14 @@ CpuAccount cpu_account(std::string_view schedstat, std::string_view stat);
 /// Watches from the construction of this object on.
 class HostWatch final : public Observer {
  public:
-  /// `stamp_clock`: Port::stamp_clock().
-  explicit HostWatch(int stamp_clock);
+  /// `stamp_clock`: Port::stamp_clock(). `may_be_realtime`: see checks::HostRecord.
+  HostWatch(int stamp_clock, bool may_be_realtime);
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   [[nodiscard]] checks::HostRecord record() const;
 
  private:
   int stamp_clock_;
+  bool may_be_realtime_;
   std::int64_t start_ns_;
   CpuAccount start_;
   ClockSteps steps_;

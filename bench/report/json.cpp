@@ -188,6 +188,7 @@ Json provenance(const scenario::Scenario& scenario, const drive::Run& run) {
       {"cpu_model", cpu_model()},
       {"target", target(run)}};
   if (!run.options.operator_name.empty()) json["operator"] = run.options.operator_name;
+  for (const scenario::Setting& one : scenario.settings) json["settings"][one.key] = one.value;
   for (const auto& [node, bus] : run.options.bus_of) json["bus_of"][node] = bus;
   for (const drive::Adapter& adapter : run.adapters) json["adapters"].push_back(object(adapter));
   for (const drive::RunFile& file : run.files) json["files"].push_back(object(file));

@@ -82,19 +82,30 @@ std::string junit_suite(std::string_view name, std::string_view package,
 namespace {
 
 // Operator, program and machine, as in the provenance of the JSON report.
-Properties properties_of(const drive::Run& run) {
+Properties properties_of(const scenario::Scenario& scenario, const drive::Run& run) {
   Properties properties{{"version", std::string(version_text())}, {"revision", std::string(revision())}};
   if (!run.options.operator_name.empty()) properties.emplace_back("operator", run.options.operator_name);
   properties.emplace_back("host", host_name());
   properties.emplace_back("kernel", kernel());
   properties.emplace_back("cpu_model", cpu_model());
   properties.emplace_back("bus", run.options.bus.text);
+  for (const scenario::Setting& one : scenario.settings) properties.emplace_back("set " + one.key, one.value);
   for (const drive::Adapter& adapter : run.adapters) properties.emplace_back("adapter", to_text(adapter));
   properties.emplace_back("target", target_program(run));
   if (!run.seen.target_version.empty()) properties.emplace_back("target_version", run.seen.target_version);
   for (const drive::RunFile& file : run.files)
     properties.emplace_back("sha256 of " + file.role, file.identity.sha256 + "  " + file.name);
   return properties;
+}
+
+// The whole run as a test case.
+CheckResult completes(Outcome outcome, const std::string& measured) {
+  return {.name = "run completes",
+          .kind = "run",
+          .requirement = "",
+          .outcome = outcome,
+          .measured = measured,
+          .expected = "completed"};
 }
 
 }  // namespace
@@ -104,20 +115,24 @@ std::string junit_whole(std::string_view suites) {
 }
 
 std::string junit(const scenario::Scenario& scenario, const drive::Run& run) {
+  return junit_whole(junit_suite(scenario, run));
+}
+
+std::string junit_suite_not_run(const scenario::Scenario& scenario, const std::string& why) {
+  return junit_suite(scenario.title, package_of(scenario.file), {completes(Outcome::fail, why)}, 0, 0);
+}
+
+std::string junit_suite(const scenario::Scenario& scenario, const drive::Run& run) {
   // The whole run is a test case too: a run that ended early fails even if no check does.
   std::vector<CheckResult> cases = run.verdict.checks;
   const bool early = run.ending.kind != drive::Ending::Kind::completed;
   const bool interrupted = run.ending.kind == drive::Ending::Kind::interrupted;
-  cases.insert(cases.begin(), CheckResult{.name = "run completes",
-                                          .kind = "run",
-                                          .requirement = "",
-                                          .outcome = interrupted ? Outcome::not_measured
-                                                     : early     ? Outcome::fail
-                                                                 : Outcome::pass,
-                                          .measured = early ? run.ending.detail : "completed",
-                                          .expected = "completed"});
-  return junit_whole(junit_suite(scenario.title, package_of(scenario.file), cases, run.wall_s, run.started_s,
-                                 properties_of(run)));
+  cases.insert(cases.begin(), completes(interrupted ? Outcome::not_measured
+                                        : early     ? Outcome::fail
+                                                    : Outcome::pass,
+                                        early ? run.ending.detail : "completed"));
+  return junit_suite(scenario.title, package_of(scenario.file), cases, run.wall_s, run.started_s,
+                     properties_of(scenario, run));
 }
 
 }  // namespace canhil::report

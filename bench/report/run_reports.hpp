@@ -24,6 +24,10 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run);
 /// expected value and the id of the requirement, and, where the check has numbers, `value`, `limit`, `unit`,
 /// `margin` and `worst_at_s`, as in the JSON. The time stamp of the suite is the start of the run (UTC).
 std::string junit(const scenario::Scenario& scenario, const drive::Run& run);
+/// The test suite of a run, for a JUnit file of several runs.
+std::string junit_suite(const scenario::Scenario& scenario, const drive::Run& run);
+/// The test suite of a run that did not begin; `why`: the error.
+std::string junit_suite_not_run(const scenario::Scenario& scenario, const std::string& why);
 /// Properties of a whole suite: name and value.
 using Properties = std::vector<std::pair<std::string, std::string>>;
 /// A test suite for a JUnit file, with a test case for each check. `package`: what the test cases belong to,

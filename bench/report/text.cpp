@@ -190,6 +190,8 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
         fmt::format("  bench {}{}\n", realtime::to_text(*run.host),
                     run.options.spin_ns > 0 ? fmt::format(", spin {} us", run.options.spin_ns / 1000) : "");
   }
+  for (const scenario::Setting& one : scenario.settings)
+    page += fmt::format("  set {} = {}\n", one_line(one.key), one_line(one.value));
   for (const std::string& line : period_overrides(scenario)) page += fmt::format("  {}\n", line);
   for (const faults::FaultReport& fault : run.faults)
     page += fmt::format("  fault '{}' of the {}: {}\n", one_line(fault.name), faults::name(fault.stage),

@@ -314,6 +314,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   if (folder) root.look_in(std::move(*folder));
   Scenario scenario;
   scenario.file = name;
+  scenario.settings.assign(settings.begin(), settings.end());
   scenario.hash = hash_of(text, settings);
   scenario.title = root.text({"title", "One line, shown in every report."});
   constexpr double longest_s = 86'400;

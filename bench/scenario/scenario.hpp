@@ -44,6 +44,7 @@ struct InputFile {
 struct Scenario {
   std::string file;  ///< as named by the user
   std::vector<InputFile> inputs{};
+  std::vector<Setting> settings{};  ///< values that replaced those of the file
   std::uint64_t hash = 0;  ///< FNV-1a of text, settings and recordings: provenance in reports and campaigns
   std::uint64_t recordings_hash = 0;  ///< hash of the recordings alone; 0: no recordings
   std::string title;

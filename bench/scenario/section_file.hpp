@@ -62,20 +62,48 @@ struct Section::File {
     error = Error{one_line(fmt::format("{}: {}", where(line), what))};  // a key may contain any character
   }
 
+  /// The table of an array of tables that a part of a setting's key names: by its `name`, or by its number,
+  /// counted from 1. Null: the array has none; this is reported as an error.
+  toml::table* element(toml::array& array, const Setting& setting, std::string_view of,
+                       std::string_view part) {
+    std::size_t number = 0;
+    for (toml::node& node : array) {
+      toml::table* table = node.as_table();
+      if (table == nullptr) break;
+      const toml::node* own_name = table->get("name");
+      if ((own_name != nullptr && own_name->value<std::string>() == part) ||
+          fmt::format("{}", ++number) == part)
+        return table;
+    }
+    fail(0, fmt::format("key '{}': no [[{}]] is '{}', expected the name of one, or its number from 1 to {}",
+                        setting.key, of, part, array.size()));
+    return nullptr;
+  }
+
   /// Sets a value by its key, and creates missing tables.
   void set(const Setting& setting) {
     if (std::ranges::count(setting.key, '.') >= most_key_parts) return fail(0, deep_key);
     toml::table* table = &root;
     std::string_view rest = setting.key;
-    for (auto dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
-      toml::node& next = table->insert(rest.substr(0, dot), toml::table{}).first->second;
+    const auto next_part = [&rest] {
+      const std::string_view part = rest.substr(0, rest.find('.'));
+      rest.remove_prefix(part.size() + 1);
+      return part;
+    };
+    while (rest.find('.') != std::string_view::npos) {
+      const std::string_view part = next_part();
+      toml::node& next = table->insert(part, toml::table{}).first->second;
+      toml::array* tables = next.is_array_of_tables() ? next.as_array() : nullptr;
+      if (tables != nullptr && rest.find('.') != std::string_view::npos) {
+        table = element(*tables, setting, part, next_part());
+        if (table == nullptr) return;
+        continue;
+      }
       table = next.as_table();
       if (table == nullptr) {
-        fail(0, fmt::format("key '{}': '{}' {}, expected a table", setting.key, rest.substr(0, dot),
-                            type_of(next)));
+        fail(0, fmt::format("key '{}': '{}' {}, expected a table", setting.key, part, type_of(next)));
         return;
       }
-      rest.remove_prefix(dot + 1);
     }
     const toml::table value = toml::parse(fmt::format("value = {}", setting.value));
     table->insert_or_assign(rest, *value.get("value"));

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "dbc/wire/result.hpp"
 
 namespace canhil::scenario {
 
@@ -12,5 +15,12 @@ struct Setting {
   std::vector<std::string> elements;  ///< elements of an array, each as TOML text
   int line = 0;                       ///< line of the setting's definition
 };
+
+/// Reads KEY=VALUE, as a user gives it on a command line. VALUE is a TOML value; a text that is not a TOML
+/// value counts as a string, so strings need no quotes: target.algorithm=ekf. A table gives a setting for
+/// each of its keys. The error is one line.
+Result<std::vector<Setting>> parse_setting(std::string_view text);
+/// The settings of all options `--set`; a key may be set only once. The error is one line with the option.
+Result<std::vector<Setting>> parse_settings(const std::vector<std::string>& texts);
 
 }  // namespace canhil::scenario

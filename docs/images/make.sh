@@ -40,4 +40,9 @@ picture report_pass timed 1000,920 "$(only checks)"
 picture report_estimates timed 1000,655 "$(only estimates)$no_head"'figure:nth-of-type(n+3) figcaption,figure:nth-of-type(n+5){display:none}'
 picture report_latency timed 1000,1120 "$(only timing)$no_head"
 picture report_fault fault 1000,455 "$(only estimates)"'h2,h3:not(figure h3),figcaption,figure:first-of-type,figure:nth-of-type(n+4){display:none}'
+# The page that pytest keeps of the failed test of docs/python.md.
+(cd "$work" && PATH=$(dirname "$bench"):$PATH PYTHONPATH=$root/python PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -m pytest -q -p canhil.pytest_plugin -p no:cacheprovider \
+  --rootdir "$work" "$root/docs/examples/python/test_bias.py" --canhil-bus in-process --canhil-artefacts kept >"$work/text") || true
+cp "$work"/kept/*/report.html "$work/python.html" || { cat "$work/text" >&2; exit 1; }
+picture python_fail python 1000,560 "section:not(#checks):not(#estimates),nav,#checks,h1,.sub{display:none}"'h3:not(figure h3),figcaption,figure:nth-of-type(n+5),figure:nth-of-type(-n+2){display:none}'
 picture report_fail fault 420,1250 "$(only checks)" --blink-settings=preferredColorScheme=0

@@ -30,7 +30,7 @@ BLOCK = re.compile(
 
 def of_any_host(line):
     """The line without parts that differ between hosts: the duration of a run, the revision, the fingerprint of a new key."""
-    line = re.sub(r"\bin \d+(\.\d+)? s\b", "in T s", line.rstrip())
+    line = re.sub(r"\bin \d+(\.\d+)? ?s\b", "in T s", line.rstrip())
     line = re.sub(r"revision [0-9a-f]+(-dirty)?", "revision REVISION", line)
     return re.sub(r"SHA256:\S+", "SHA256:KEY", line)
 

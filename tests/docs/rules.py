@@ -39,6 +39,7 @@ ANY_PORT = (r"--live\b( \d+)?", "--live 0")  # tests run in parallel and would c
 RULES = (
     # Commands that cannot be run here, or that another test runs.
     Rule(r"", pages=r"docs/tutorial\.md$", why_not="is run for what it prints: tests/docs/outputs.py"),
+    Rule(r"", pages=r"docs/python\.md$", why_not="is run for what it prints: tests/python/page.py"),
     Rule(r"^bash bench/demo\.sh", why_not="installs packages and builds: .ci/run starts from there"),
     Rule(r"^bash tests/run\.sh", why_not="is what runs this test"),
     Rule(r"with_fifth|tests/fifth_estimator/", why_not="a build of its own: tests/run.sh --full makes it"),

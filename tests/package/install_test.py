@@ -37,6 +37,15 @@ class Installed(unittest.TestCase):
                   "--log", f"{self.folder.name}/run.pcap", code=3, cwd=self.folder.name)
         self.assertIn("PASS          error attitude.heading", out)
 
+    def test_python_finds_the_package_and_its_plugin(self):
+        out = run(sys.executable, "-c", "import canhil, importlib.metadata as m\n"
+                  f"print(canhil.run('{self.flights}/los_quick.toml', bus='in-process').verdict)\n"
+                  "print(m.version('canhil'), [one.value for one in m.entry_points(group='pytest11') if one.name == 'canhil'])",
+                  cwd=self.folder.name, env=os.environ | {"PYTHONPATH": f"{self.prefix}/lib/python3/dist-packages",
+                                                          "PATH": f"{self.prefix}/bin:/usr/bin:/bin"})
+        version = re.search(r"project\(canhil VERSION (\S+)", open(f"{SOURCE}/CMakeLists.txt").read())[1]
+        self.assertEqual(out, f"not measured\n{version} ['canhil.pytest_plugin']\n")
+
     def test_finds_its_own_data(self):
         out = run(self.program("hil-bench"), "conformance", code=0, cwd=self.folder.name)
         self.assertIn("rules kept", out)

@@ -25,6 +25,8 @@ test_packages=(
   python3-pandas # an example of docs/recordings.md
   python3-yaml # reads the pipelines in docs/examples
   python3-jsonschema # validates reports by docs/report.schema.json
+  python3-pytest python3-pytest-xdist python3-coverage mypy flake8 python3-matplotlib # the Python package: its tests, its types, the pictures of docs/python.md
+  python3-pip python3-setuptools python3-wheel python3-venv # installs the Python package from the source tree
   can-utils iproute2 kmod busybox user-mode-linux # for tests on vcan; user-mode Linux provides vcan if the machine's kernel has no vcan
 )
 paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper, which refuses to run without it

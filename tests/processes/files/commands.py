@@ -11,8 +11,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 # The test compares this table with the --help of the programs.
 TABLE = {
     "hil-bench": {},
-    "hil-bench run": {"SCENARIO": "R", "--bus": "N", "--bus-of": "N", "--target": "R", "--dbc": "R", "--faults": "R", "--json": "W",
-                      "--junit": "W", "--html": "W", "--csv": "W", "--operator": "N", "--log": "W", "--live-address": "N"},
+    "hil-bench run": {"SCENARIO": "R", "--bus": "N", "--bus-of": "N", "--target": "R", "--dbc": "R", "--set": "N", "--faults": "R", "--json": "W",
+                      "--junit": "W", "--html": "W", "--csv": "W", "--operator": "N", "--log": "W", "--select": "N", "--out": "F",
+                      "--live-address": "N"},
+    "hil-bench new": {},
+    "hil-bench new mapping": {"FILE": "N", "--dbc": "R", "--device": "N", "--encoding": "N"},  # FILE: a new file, so it is no input
+    "hil-bench new scenario": {"FILE": "N", "--mapping": "R", "--estimator": "N"},
     "hil-bench report": {"FILE.json": "F"},
     "hil-bench compare": {"A.json": "R", "B.json": "R", "--before": "R", "--after": "R"},
     "hil-bench bus": {"BUS": "N"},
@@ -40,7 +44,7 @@ TABLE = {
     "hil-bench log compare": {"A": "R", "B": "R", "--dbc": "R", "--json": "W"},
     "hil-bench decode": {"LOG": "R", "--dbc": "R", "--encoding": "N", "--format": "N", "--only": "N", "--out": "W"},
     "hil-bench replay": {"LOG": "R", "--bus": "N", "--channel": "N", "--only": "N", "--direction": "N"},
-    "hil-bench check": {"LOG": "R", "SCENARIO": "R", "--faults": "R", "--json": "W", "--junit": "W", "--html": "W", "--csv": "W"},
+    "hil-bench check": {"LOG": "R", "SCENARIO": "R", "--set": "N", "--faults": "R", "--json": "W", "--junit": "W", "--html": "W", "--csv": "W"},
     "hil-bench dbc": {},
     "hil-bench dbc lint": {"FILE": "R", "--encoding": "N", "--sarif": "W"},
     "hil-bench dbc show": {"FILE": "R", "MESSAGE": "N", "--encoding": "N"},

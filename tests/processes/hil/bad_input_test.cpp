@@ -131,7 +131,7 @@ TEST(BadInput, UnknownOption) {
   expect_one_line(hil_bench("campaign x.toml --ouy y"),
                   "option '--ouy' is unknown, expected '--out'; see hil-bench "
                   "campaign --help\n");
-  expect_one_line(hil_bench("run x.toml y.toml"), "y.toml; see hil-bench run --help\n");
+  expect_one_line(hil_bench("check x.log y.toml z.toml"), "z.toml; see hil-bench check --help\n");
   expect_one_line(hil_target("--bus x --speed 3"), "--speed");
   expect_one_line(hil_target(""), "--bus");
 }
@@ -182,8 +182,8 @@ TEST(BadInput, UnknownSubcommand) {
   expect_one_line(hil_bench("runn x.toml"), "hil-bench: subcommand 'runn' is unknown, expected 'run'");
   expect_one_line(
       hil_bench("zebra"),
-      "subcommand 'zebra' is unknown, expected one of: run, report, compare, bus, accept, campaign, faults, "
-      "reference, diverge, golden, doctor, schedulability");
+      "subcommand 'zebra' is unknown, expected one of: run, new, report, compare, bus, accept, campaign, "
+      "faults, reference, diverge, golden, doctor, schedulability");
   expect_one_line(hil_bench(""), "subcommand is required");
 }
 

@@ -33,6 +33,7 @@ using namespace estimators;
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::int64_t second_us = 1'000'000;
 constexpr std::int64_t duration_us = 4 * second_us;
@@ -550,6 +551,9 @@ TEST_F(Judged, TimingIsNotMeasuredByALateBenchWhateverTheTargetDid) {
   EXPECT_EQ(judge(heartbeat, "virtual time").outcome, Outcome::not_measured);
   EXPECT_EQ(judge(heartbeat, "virtual time").measured, "virtual time");
   EXPECT_EQ(judge(attitude, "virtual time").outcome, Outcome::pass) << "outputs are judged on any host";
+  EXPECT_THAT(judge(latency).measured, Not(HasSubstr("--realtime")));
+  seen_.host.may_be_realtime = true;
+  EXPECT_THAT(judge(latency).measured, HasSubstr("more than 50 % of the limit; --realtime would help"));
 }
 
 TEST_F(Judged, TimingIsNotMeasuredWithLostFrames) {

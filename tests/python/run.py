@@ -1,0 +1,101 @@
+"""Tests the Python package against a built bench. Usage: run.py CASE BUILD SOURCE, with a case of CASES."""
+
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+CASE, BUILD, SOURCE = sys.argv[1], *map(Path, sys.argv[2:4])
+HERE = Path(__file__).resolve().parent
+PACKAGE = SOURCE / "python"
+LEAST_COVERED_PERCENT = 95
+LARGEST_OVERHEAD_S = 0.05
+ENVIRONMENT = os.environ | {
+    "PATH": f"{BUILD}:/usr/bin:/bin",
+    "PYTHONPATH": str(PACKAGE),
+    "PYTHONDONTWRITEBYTECODE": "1",
+    "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",  # other plugins of the machine
+    "LC_ALL": "C.UTF-8",
+}
+PLUGIN = ["-p", "canhil.pytest_plugin", "-p", "no:cacheprovider"]
+
+
+def call(*words: object, cwd: Path = SOURCE, **environment: str) -> str:
+    ended = subprocess.run(
+        [str(word) for word in words], cwd=cwd, env=ENVIRONMENT | environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    if ended.returncode != 0:
+        sys.exit(f"{' '.join(map(str, words))}: exit code {ended.returncode}\n{ended.stdout}")
+    return ended.stdout
+
+
+def package(scratch: Path) -> None:
+    """The tests and the examples in the docstrings; they cover the package."""
+    file = {"COVERAGE_FILE": str(scratch / "coverage")}
+    coverage = [sys.executable, "-m", "coverage"]
+    tests = ["-m", "pytest", *PLUGIN, "-p", "pytester", "-q", "--doctest-modules", "--basetemp", scratch / "tests"]
+    print(call(*coverage, "run", f"--source={PACKAGE}/canhil", *tests, "--rootdir", HERE,
+               *sorted(HERE.glob("*_test.py")), PACKAGE / "canhil", **file))
+    print(call(*coverage, "report", "--show-missing", f"--fail-under={LEAST_COVERED_PERCENT}", **file))
+
+
+def types(scratch: Path) -> None:
+    """mypy strict and flake8."""
+    print(call("/usr/bin/mypy", f"--cache-dir={scratch}", "canhil", cwd=PACKAGE))
+    example = SOURCE / "docs/examples/python"
+    print(call("/usr/bin/flake8", "--max-line-length=140", "canhil", "setup.py", *example.glob("*.py"), cwd=PACKAGE))
+
+
+def pip(scratch: Path) -> None:
+    """pip installs the package from a copy of the source tree, and pytest loads the plugin by itself."""
+    copy = scratch / "source"
+    call("/usr/bin/cp", "-r", "--parents", "python", "CMakeLists.txt", scratch)  # pip leaves files in the tree
+    python = scratch / "venv/bin/python"
+    call(sys.executable, "-m", "venv", "--system-site-packages", scratch / "venv")
+    call(python, "-m", "pip", "install", "--no-index", "--no-build-isolation", scratch / "python", PYTHONPATH="")
+    copy.mkdir()
+    (copy / "los_quick.toml").write_bytes((SOURCE / "bench/flights/los_quick.toml").read_bytes())
+    environment = {name: value for name, value in ENVIRONMENT.items() if name not in ("PYTHONPATH", "PYTEST_DISABLE_PLUGIN_AUTOLOAD")}
+    words = [python, "-m", "pytest", "-q", "-n", "2", "--canhil-bus", "in-process", "."]
+    ended = subprocess.run(words, cwd=copy, env=environment, capture_output=True, text=True)
+    assert "1 skipped" in ended.stdout, ended.stdout + ended.stderr
+    version = re.search(r"project\(canhil VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text())
+    shown = subprocess.run([python, "-c", "import importlib.metadata as m; print(m.version('canhil'))"], env=environment, capture_output=True, text=True)
+    assert version and shown.stdout.strip() == version[1], shown.stdout
+
+
+def overhead(scratch: Path) -> None:
+    """A run by the package takes little longer than the same command: medians, because other programs disturb single runs."""
+    sys.path.insert(0, str(PACKAGE))
+    os.environ.update(ENVIRONMENT)
+    import canhil
+
+    scenario = SOURCE / "bench/flights/los_quick.toml"
+    files = [("--json", "r.json"), ("--junit", "r.xml"), ("--csv", "r.csv"), ("--log", "r.log")]
+    words = ["hil-bench", "run", str(scenario), "--bus", "in-process"]
+    words += [word for option, name in files for word in (option, str(scratch / name))]
+    by_command, by_package = [], []
+    for _ in range(11):
+        start = time.perf_counter()
+        subprocess.run(words, capture_output=True, check=False)
+        by_command.append(time.perf_counter() - start)
+        start = time.perf_counter()
+        assert canhil.run(scenario, bus="in-process").verdict is canhil.Verdict.NOT_MEASURED
+        by_package.append(time.perf_counter() - start)
+    more_s = statistics.median(by_package) - statistics.median(by_command)
+    print(f"{1e3 * statistics.median(by_command):.1f} ms by the command, {1e3 * more_s:.1f} ms more by the package")
+    assert more_s < LARGEST_OVERHEAD_S, f"{more_s:.3f} s, expected less than {LARGEST_OVERHEAD_S} s"
+
+
+def page(scratch: Path) -> None:
+    """The examples of docs/python.md do what the page says, and draw its pictures."""
+    print(call(sys.executable, HERE / "page.py", BUILD))
+
+
+CASES = {"Package": package, "Types": types, "Pip": pip, "Overhead": overhead, "Page": page}
+with tempfile.TemporaryDirectory(prefix="canhil-python-") as folder:
+    CASES[CASE](Path(folder))
