@@ -68,10 +68,10 @@ std::string marked_summary(const Cells& cells) {
   const auto any = [&](Kind kind) {
     return std::ranges::any_of(cells, [&](const Responded* cell) { return cell->run.response.kind == kind; });
   };
-  const auto [style, sign] = report::look_of(any(Kind::violated)       ? "fail"
-                                             : any(Kind::not_measured) ? "not measured"
-                                                                       : "pass");
-  return fmt::format("<span class=\"{}\">{}</span> {}", style, sign, escaped(summary(cells)));
+  return report::outcome_words(any(Kind::violated)       ? "fail"
+                               : any(Kind::not_measured) ? "not measured"
+                                                         : "pass",
+                               escaped(summary(cells)));
 }
 
 }  // namespace

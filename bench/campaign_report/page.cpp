@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "bench/campaign_report/matrix.hpp"
 #include "bench/campaign_report/report.hpp"
 #include "bench/report/page_parts.hpp"
@@ -10,70 +13,80 @@ namespace {
 
 using report::escaped;
 
-std::string sign_of(std::string_view outcome) {
-  const auto [style, sign] = report::look_of(outcome);
-  return fmt::format("<span class=\"{}\">{} {}</span>", style, sign, outcome);
-}
-
 std::string endings_section(const Evaluation& evaluation) {
   report::Rows rows;
   for (const Endings& one : evaluation.endings)
     rows.push_back({escaped(one.variant), fmt::format("{} of {}", one.completed, one.runs),
                     one.first_fault.empty() ? "-" : escaped(one.first_fault)});
-  return "<section><h2>Runs</h2>\n" +
-         report::table({"variant", "completed", "first run that was not"}, rows) + "</section>\n";
+  return report::section("runs", "Runs",
+                         report::table({"variant", "completed", "first run that was not"}, rows));
 }
 
+// The limit's margin, as the report of a run shows it.
 std::string margin_of(const Answer& answer) {
   const auto margin = checks::margin(answer.judgement);
-  return margin ? fmt::format("{:.1f} %", 100 * *margin) : "-";
+  return margin ? fmt::format("; margin {:.1f} %", 100 * *margin) : "";
 }
+
+std::string curve_id(std::string_view metric) { return fmt::format("curve {}", metric); }
 
 std::string answers_section(const Evaluation& evaluation) {
-  report::Rows rows;
+  std::vector<report::Judged> all;
   for (const Answer& answer : evaluation.answers) {
     const auto outcome = answer.outcome();
-    rows.push_back({escaped(answer.metric), escaped(answer.variant),
-                    outcome ? sign_of(checks::name(*outcome)) : std::string("-"), escaped(answer.measured),
-                    escaped(answer.expected), margin_of(answer), escaped(answer.requirement)});
+    all.push_back({.name = fmt::format("{}: {}", answer.metric, answer.variant),
+                   .outcome = outcome ? std::string(checks::name(*outcome)) : "",
+                   .measured = answer.measured + margin_of(answer),
+                   .expected = answer.expected,
+                   .requirement = answer.requirement,
+                   .link = answer.curve.empty() ? "" : curve_id(answer.metric)});
   }
-  if (rows.empty()) return "";
-  return "<section><h2>Answers</h2>\n" +
-         report::table(
-             {"metric or check", "variant", "outcome", "measured", "expected", "margin", "requirement"},
-             rows) +
-         "</section>\n";
+  return all.empty() ? "" : report::section("answers", "Answers", report::judgements(all));
 }
 
+std::vector<double> times_of(const Answer& answer) {
+  std::vector<double> t_s;
+  for (const CurvePoint& point : answer.curve) t_s.push_back(static_cast<double>(point.t_us) / 1e6);
+  return t_s;
+}
+
+// The curves of a metric: one picture for all variants with the same times.
 std::string curves_section(const Evaluation& evaluation) {
-  std::string figures;
+  std::vector<report::LinePlot> plots;
+  std::vector<std::string> metrics;
   for (const Answer& answer : evaluation.answers) {
     if (answer.curve.empty()) continue;
     const quantities::Unit& unit = answer.quantity->unit;
-    report::LinePlot plot{.title = fmt::format("{}, {}", answer.metric, answer.variant),
-                          .unit = std::string(unit.name),
-                          .t_s = {},
-                          .low = {},
-                          .high = {}};
-    plot.from_zero = true;
-    for (const CurvePoint& point : answer.curve) {
-      plot.t_s.push_back(static_cast<double>(point.t_us) / 1e6);
-      plot.low.push_back(point.rms / unit.factor);
-      plot.high.push_back(point.rms / unit.factor);
+    std::vector<double> t_s = times_of(answer), values;
+    for (const CurvePoint& point : answer.curve) values.push_back(point.rms / unit.factor);
+    if (plots.empty() || metrics.back() != answer.metric || plots.back().t_s != t_s) {
+      report::LinePlot& plot = plots.emplace_back();
+      plot.title = fmt::format("{}, RMS over the runs", answer.metric);
+      plot.unit = std::string(unit.name);
+      plot.t_s = std::move(t_s);
+      plot.from_zero = true;
+      plot.begins_at_first = true;
+      metrics.push_back(answer.metric);
     }
-    figures += report::figure(plot.title, report::svg(plot), "RMS over the runs, by time in s.");
+    plots.back().lines.push_back({.name = answer.variant, .values = std::move(values)});
   }
-  return figures.empty() ? "" : "<section><h2>Curves</h2>\n" + figures + "</section>\n";
+  std::string figures;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const bool first =
+        std::ranges::find(metrics, metrics[i]) - metrics.begin() == static_cast<std::ptrdiff_t>(i);
+    figures += report::figure(plots[i].title, report::drawn(plots[i]), "", first ? curve_id(metrics[i]) : "");
+  }
+  return figures.empty() ? "" : report::section("curves", "Curves", report::grid(figures));
 }
 
 std::string provenance_of(const Campaign& campaign, const Identity& identity) {
-  const report::Rows rows{
-      {"campaign", escaped(campaign.sources.file)},
+  const report::Json facts{
+      {"campaign", campaign.sources.file},
       {"hash of the campaign", fmt::format("{:016x}", identity.campaign_hash)},
       {"hash of the DBC", fmt::format("{:016x}", identity.dbc_hash)},
-      {"program", escaped(identity.program)},
-      {"target", identity.target.empty() ? "the target's own code, in process" : escaped(identity.target)}};
-  return "<section><h2>Provenance</h2>\n" + report::table({"what", "value"}, rows) + "</section>\n";
+      {"program", identity.program},
+      {"target", identity.target.empty() ? "the target's own code, in process" : identity.target}};
+  return report::section("provenance", "Provenance", report::facts(facts));
 }
 
 }  // namespace
@@ -81,16 +94,16 @@ std::string provenance_of(const Campaign& campaign, const Identity& identity) {
 std::string page(const Reported& all) {
   const auto& [campaign, evaluation, folder] = all;
   const std::string_view verdict = checks::name(evaluation.outcome());
-  const auto [style, sign] = report::look_of(verdict);
-  std::string body = fmt::format("<h1>{}</h1>\n<p class=\"sub\">{} runs of each variant</p>\n",
-                                 escaped(campaign.title), campaign.runs);
-  body += fmt::format("<p class=\"verdict {}\"><b>{} {}</b> {}</p>\n", style, sign, verdict,
-                      escaped(evaluation.not_judged()));
+  std::string body = report::head(campaign.title, fmt::format("{}: {} runs of each of {} variants",
+                                                              escaped(campaign.sources.file), campaign.runs,
+                                                              campaign.variants.size())) +
+                     report::verdict(verdict, evaluation.not_judged());
   if (!campaign.matrix || !evaluation.answers.empty())
     body += endings_section(evaluation) + answers_section(evaluation) + curves_section(evaluation);
   if (campaign.matrix) body += matrix_html(campaign, evaluation, folder);
   body += provenance_of(campaign, evaluation.identity);
-  return report::whole_page(fmt::format("{}: {}", verdict, escaped(campaign.title)), report::styles, body);
+  return report::whole_page(escaped(fmt::format("{}: {}", verdict, campaign.title)), report::styles, body,
+                            report::scripts);
 }
 
 }  // namespace canhil::campaign

@@ -17,6 +17,7 @@
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/program.hpp"
 #include "bench/commands/reports.hpp"
+#include "bench/drive/kept_frames.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/observe/recorder.hpp"
 #include "bench/papers/names.hpp"
@@ -136,9 +137,12 @@ ExitCode replay(const ReplayArguments& arguments) {
   }
   declare(arguments.reports, files);
   if (auto fine = files.check(); !fine) return complain(fine.error());
+  const auto kept = frames_for(arguments.reports);
+  if (kept) options.onlookers.push_back(kept.get());
   catch_interrupts();
   auto finished = drive::run(*scenario, options, interrupted, [](std::int64_t) {});
   if (!finished) return end_with(finished.error());
+  finished->frames = kept;
   report::judge_by_programs(*scenario, *finished, interrupted);
   if (arguments.reports.json != report::to_stdout && arguments.reports.junit != report::to_stdout) {
     if (auto shown = report::show(fmt::format("variant {} · run {}\n",
