@@ -7,7 +7,7 @@ function(embed_texts out)
   string(REGEX REPLACE "[^=;]+=" "" files "${ARG_LISTS}")
   string(REPLACE "," ";" files "${files}")
   list(TRANSFORM files PREPEND ${ARG_FOLDER}/)
-  set(script ${CMAKE_SOURCE_DIR}/bench/report/embed.cmake)
+  set(script ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
   add_custom_command(
     OUTPUT ${source}
     COMMAND ${CMAKE_COMMAND} -DHEADER=${ARG_HEADER} -DNAMESPACE=${ARG_NAMESPACE} -DFOLDER=${ARG_FOLDER}

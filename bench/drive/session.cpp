@@ -176,11 +176,9 @@ class Session {
  private:
   Result<void> open_log() {
     if (!options_.log_path) return {};
-    return observe::Recorder::open(*options_.log_path, *port_)
-        .map([&](std::unique_ptr<observe::Recorder> log) {
-          log_ = std::move(log);
-          link_.attach(*log_);
-        });
+    return observe::Recorder::open(*options_.log_path, *port_).map([&](auto log) {
+      link_.attach(*(log_ = std::move(log)));
+    });
   }
 
   // Why waiting for the target is pointless; none: the bench can wait.

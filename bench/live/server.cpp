@@ -48,8 +48,8 @@ struct File {
   std::string_view path, type, text;
 };
 
-std::string_view text_of(const report::EmbeddedFiles& files, std::string_view name) {
-  return std::ranges::find(files, name, &report::EmbeddedFile::name)->text;
+std::string_view text_of(const EmbeddedFiles& files, std::string_view name) {
+  return std::ranges::find(files, name, &EmbeddedFile::name)->text;
 }
 
 // The page, with the token inserted into each address to which the page refers.

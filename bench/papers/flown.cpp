@@ -25,12 +25,11 @@ const campaign::Answer& find_answer(const Flown& flown, std::string_view variant
   no_such(flown.name, fmt::format("such answer for '{}'", variant));
 }
 
-Result<campaign::Campaign> read_embedded(const report::EmbeddedFile& file, report::EmbeddedFiles scenarios) {
+Result<campaign::Campaign> read_embedded(const EmbeddedFile& file, EmbeddedFiles scenarios) {
   return campaign::parse_campaign(
       file.text, fmt::format("{}.toml", file.name), [&](const std::string& name) -> Result<std::string> {
-        const auto found = std::ranges::find_if(scenarios, [&](const report::EmbeddedFile& one) {
-          return name == fmt::format("{}.toml", one.name);
-        });
+        const auto found = std::ranges::find_if(
+            scenarios, [&](const EmbeddedFile& one) { return name == fmt::format("{}.toml", one.name); });
         if (found == scenarios.end()) no_such(file.name, fmt::format("scenario '{}'", name));
         return std::string(found->text);
       });
@@ -114,10 +113,10 @@ std::filesystem::path results_file(const FlyOptions& options, std::string_view c
   return options.folder / fmt::format("{}.sqlite", campaign);
 }
 
-Result<std::optional<Results>> fly(report::EmbeddedFiles campaigns, report::EmbeddedFiles scenarios,
+Result<std::optional<Results>> fly(EmbeddedFiles campaigns, EmbeddedFiles scenarios,
                                    const FlyOptions& options, const std::atomic<bool>& stop) {
   Results results;
-  for (const report::EmbeddedFile& file : campaigns) {
+  for (const EmbeddedFile& file : campaigns) {
     auto campaign = read_embedded(file, scenarios);
     if (!campaign) return tl::unexpected(campaign.error());
     if (options.runs) campaign->runs = *options.runs;

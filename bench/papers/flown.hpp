@@ -16,7 +16,7 @@
 #include "bench/campaign/store.hpp"
 #include "bench/papers/figure.hpp"
 #include "bench/papers/template.hpp"
-#include "bench/report/embedded_file.hpp"
+#include "dbc/text/embedded_file.hpp"
 
 namespace canhil::papers {
 
@@ -78,7 +78,7 @@ std::filesystem::path results_file(const FlyOptions& options, std::string_view c
 
 /// Flies those runs of the campaigns whose results are not yet in the folder. None: `stop` ended the flights
 /// early. An error is one line of text.
-Result<std::optional<Results>> fly(report::EmbeddedFiles campaigns, report::EmbeddedFiles scenarios,
+Result<std::optional<Results>> fly(EmbeddedFiles campaigns, EmbeddedFiles scenarios,
                                    const FlyOptions& options, const std::atomic<bool>& stop);
 
 }  // namespace canhil::papers

@@ -30,25 +30,25 @@ void add_shared_names(Names& names, const Results& results, std::uint64_t runs, 
 // file with results of its campaign table2 that was flown without rounding on the bus; empty: no such file.
 // If stored results cannot be read, the error is one line of text.
 namespace transfer_alignment {
-extern const report::EmbeddedFiles campaigns, scenarios, templates;
+extern const EmbeddedFiles campaigns, scenarios, templates;
 Result<PageContent> page_content(const Results& results, const FlyOptions& options,
                                  const std::filesystem::path& exact);
 }  // namespace transfer_alignment
 
 namespace inflight_alignment {
-extern const report::EmbeddedFiles campaigns, scenarios, templates;
+extern const EmbeddedFiles campaigns, scenarios, templates;
 Result<PageContent> page_content(const Results& results, const FlyOptions& options,
                                  const std::filesystem::path& exact);
 }  // namespace inflight_alignment
 
 namespace los_rate {
-extern const report::EmbeddedFiles campaigns, scenarios, templates;
+extern const EmbeddedFiles campaigns, scenarios, templates;
 Result<PageContent> page_content(const Results& results, const FlyOptions& options,
                                  const std::filesystem::path& exact);
 }  // namespace los_rate
 
 namespace wind {
-extern const report::EmbeddedFiles campaigns, scenarios, templates;
+extern const EmbeddedFiles campaigns, scenarios, templates;
 Result<PageContent> page_content(const Results& results, const FlyOptions& options,
                                  const std::filesystem::path& exact);
 }  // namespace wind

@@ -18,7 +18,7 @@ namespace {
 // A new paper must be added to `papers` below and to paper_names.
 struct Paper {
   std::string_view name;
-  const report::EmbeddedFiles &campaigns, &scenarios, &templates;
+  const EmbeddedFiles &campaigns, &scenarios, &templates;
   Result<PageContent> (*page_content)(const Results& results, const FlyOptions& options,
                                       const std::filesystem::path& exact);
   std::string_view judged;  // the campaign with the limits
@@ -89,7 +89,7 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
                            .progress = request.progress};
   CommandFiles files;
   files.reads("--exact", request.exact.string());
-  for (const report::EmbeddedFile& campaign : paper->campaigns)
+  for (const EmbeddedFile& campaign : paper->campaigns)
     files.may_write("results", results_file(options, campaign.name).string());
   files.writes_file("page", reproduced.page.string());
   if (auto distinct = files.check_distinct(); !distinct) return tl::unexpected(distinct.error());

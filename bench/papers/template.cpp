@@ -14,7 +14,7 @@ namespace mustache = kainjow::mustache;
 
 class Context final : public mustache::basic_context<std::string> {
  public:
-  Context(report::EmbeddedFiles files, const Names& names) : files_(files), names_(names) {}
+  Context(EmbeddedFiles files, const Names& names) : files_(files), names_(names) {}
 
   // A section is either shown or hidden; it does not add names.
   void push(const mustache::data* /*data*/) override {}
@@ -35,7 +35,7 @@ class Context final : public mustache::basic_context<std::string> {
   }
 
   [[nodiscard]] std::string file(std::string_view name) const {
-    const auto found = std::ranges::find(files_, name, &report::EmbeddedFile::name);
+    const auto found = std::ranges::find(files_, name, &EmbeddedFile::name);
     if (found == files_.end()) throw std::logic_error(fmt::format("template: no file '{}'", name));
     std::string_view text = found->text;
     if (text.find("{{ ") != std::string_view::npos)
@@ -64,12 +64,11 @@ class Context final : public mustache::basic_context<std::string> {
   }
   [[nodiscard]] bool stands(std::string_view tag, std::string_view sign) const {
     const std::string whole = fmt::format("{{{{{}{}}}}}", sign, tag);
-    return std::ranges::any_of(files_, [&](const report::EmbeddedFile& one) {
-      return one.text.find(whole) != std::string_view::npos;
-    });
+    return std::ranges::any_of(
+        files_, [&](const EmbeddedFile& one) { return one.text.find(whole) != std::string_view::npos; });
   }
 
-  report::EmbeddedFiles files_;
+  EmbeddedFiles files_;
   const Names& names_;
   mutable std::map<std::string, mustache::data> known_;
 };
@@ -92,7 +91,7 @@ std::string number(std::string_view format, double value) {
   return fmt::format(fmt::runtime(fmt::format("{{:{}}}", format)), value);
 }
 
-std::string filled(report::EmbeddedFiles templates, const Names& names) {
+std::string filled(EmbeddedFiles templates, const Names& names) {
   Context context(templates, names);
   mustache::mustache page(context.file("page"));
   page.set_custom_escape([](const std::string& text) { return text; });

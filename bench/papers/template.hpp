@@ -8,7 +8,7 @@
 #include <string_view>
 #include <variant>
 
-#include "bench/report/embedded_file.hpp"
+#include "dbc/text/embedded_file.hpp"
 
 namespace canhil::papers {
 
@@ -39,6 +39,6 @@ std::string number(std::string_view format, double value);
 /// The template `page` with its names filled in; {{>other}} includes another template. Throws
 /// std::logic_error if a tag is unknown, has too many or too few words, or has no value; the message is one
 /// line that contains the tag. Templates are built into the program, and tests fill all of them.
-std::string filled(report::EmbeddedFiles templates, const Names& names);
+std::string filled(EmbeddedFiles templates, const Names& names);
 
 }  // namespace canhil::papers

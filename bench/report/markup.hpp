@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/report/embedded_file.hpp"
+#include "dbc/text/embedded_file.hpp"
 
 namespace canhil::report {
 
@@ -15,7 +15,8 @@ namespace canhil::report {
 std::string escaped(std::string_view plain);
 
 /// HTML whose long words may be broken: after at least `few` characters behind punctuation or before a
-/// capital, at the latest after 16 characters. The text itself stays the same.
+/// capital, at the latest after 16 characters. The text itself stays the same. The style sheet has
+/// other ways and hides the breaks.
 std::string breakable(std::string_view html, std::size_t few = 6);
 
 /// HTML in a colour of the palette, and bold: `name` is a class of the style sheet and a colour of the

@@ -79,7 +79,7 @@ std::string judgements(const std::vector<Judged>& all) {
         {name, outcome_words(one.outcome), escaped(one.measured), escaped(one.expected) + requirement});
     if (!one.more.empty()) rows.push_back({one.more});
   }
-  return table({"check", "outcome", "measured", "expected &middot; requirement"}, rows);
+  return table({"check", "outcome", "measured", "expected"}, rows);
 }
 
 std::string facts(const Json& object) {

@@ -64,7 +64,7 @@ std::string not_known(std::string_view what);
 struct Judged {
   std::string name;  ///< plain text
   std::string outcome;
-  std::string measured, expected, requirement;  ///< plain text
+  std::string measured, expected, requirement;  ///< plain text; the requirement stands behind `expected`
   std::string link{};  ///< id of the element to which the name is a link; empty: none
   std::string more{};  ///< HTML under the row; empty: nothing
 };

@@ -125,13 +125,14 @@ void add_bars(const Json& series, const Json& checks, LinePlot& plot) {
                       .to_s = bar.at("to_s").get<double>()};
     const std::string check = bar.at("check").get<std::string>();
     const std::string statistic = bar.at("statistic").get<std::string>();
-    own.name = fmt::format("limit of '{}': {}{:g} {} from {:g} to {:g} s", check,
+    own.name = fmt::format("limit of '{}': {}{:g} {} from {:g} to {:g}\u00a0s", check,
                            statistic == "max" ? "" : statistic + " below ", own.below, plot.unit, own.from_s,
                            own.to_s);
     plot.bars.push_back(std::move(own));
     if (const auto worst_s = worst_of(check, checks))
       plot.worst.push_back(
-          {.t_s = *worst_s, .name = fmt::format("the largest that '{}' judged, at {:g} s", check, *worst_s)});
+          {.t_s = *worst_s,
+           .name = fmt::format("the largest that '{}' judged, at {:g}\u00a0s", check, *worst_s)});
   }
 }
 

@@ -23,8 +23,8 @@ const Names names{{"runs", [](Words&) { return "300"; }},
                   {"empty", [](Words&) { return ""; }}};
 
 std::string filled(std::string_view page) {
-  const std::array files{report::EmbeddedFile{"page", page}, report::EmbeddedFile{"note", "of {{runs}}\n"},
-                         report::EmbeddedFile{"torn", "{{runs"}};
+  const std::array files{EmbeddedFile{"page", page}, EmbeddedFile{"note", "of {{runs}}\n"},
+                         EmbeddedFile{"torn", "{{runs"}};
   return papers::filled(files, names);
 }
 
@@ -45,7 +45,7 @@ TEST(Template, IsFilledWithFiguresByTheirNames) {
 
 TEST(Template, EscapesNothing) {
   const Names own{{"tag", [](Words&) { return "a < b & \"c\""; }}};
-  const std::array files{report::EmbeddedFile{"page", "{{tag}}"}};
+  const std::array files{EmbeddedFile{"page", "{{tag}}"}};
   EXPECT_EQ(papers::filled(files, own), "a < b & \"c\"");
 }
 

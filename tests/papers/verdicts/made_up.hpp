@@ -22,7 +22,7 @@ namespace canhil::papers {
 
 struct Paper {
   std::string name;
-  const report::EmbeddedFiles &campaigns, &scenarios;
+  const EmbeddedFiles &campaigns, &scenarios;
   Result<PageContent> (*page_content)(const Results& results, const FlyOptions& options,
                                       const std::filesystem::path& exact);
 };
@@ -36,10 +36,10 @@ inline const std::vector<Paper> papers{
 
 inline constexpr std::uint64_t runs_of_each = 2;
 
-inline campaign::Campaign read(const Paper& paper, const report::EmbeddedFile& file) {
+inline campaign::Campaign read(const Paper& paper, const EmbeddedFile& file) {
   auto campaign = campaign::parse_campaign(file.text, fmt::format("{}.toml", file.name),
                                            [&](const std::string& name) -> Result<std::string> {
-                                             for (const report::EmbeddedFile& scenario : paper.scenarios)
+                                             for (const EmbeddedFile& scenario : paper.scenarios)
                                                if (name == fmt::format("{}.toml", scenario.name))
                                                  return std::string(scenario.text);
                                              return failure(name);
@@ -91,7 +91,7 @@ class MadeUp {
     options_.folder = std::filesystem::path(test::own_folder()) / paper.name;
     std::filesystem::remove_all(options_.folder);
     std::filesystem::create_directories(options_.folder);
-    for (const report::EmbeddedFile& file : paper.campaigns) {
+    for (const EmbeddedFile& file : paper.campaigns) {
       Flown flown{.name = std::string(file.name), .campaign = read(paper, file), .evaluation = {}};
       flown.evaluation.answers = answers_at(flown.campaign, {});
       for (campaign::Answer& answer : flown.evaluation.answers) {

@@ -102,7 +102,7 @@ TEST(Series, ABarThatTheFirstInstantsHideIsDrawnInASecondPicture) {
   ASSERT_NE(heading, all.end());
   EXPECT_EQ((*heading)["bars"][0]["check"], "heading at the end");
   const std::string page = html(report).value();
-  EXPECT_THAT(page, HasSubstr("limit of 'heading at the end': 2 mrad from 10 to 20 s"));
+  EXPECT_THAT(page, HasSubstr("limit of 'heading at the end': 2 mrad from 10 to 20\u00a0s"));
   EXPECT_THAT(page, ContainsRegex("<h3>heading error, from 1.[0-9]* s on</h3>"));
   EXPECT_THAT(page, HasSubstr("stroke-width=\"2.6\""));
   EXPECT_THAT(page, Not(HasSubstr("velocity error north, from")))

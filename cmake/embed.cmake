@@ -1,11 +1,11 @@
-# Writes text files as string literals, in lists of report::EmbeddedFile that HEADER declares. The name of a file omits its
+# Writes text files as string literals, in lists of EmbeddedFile that HEADER declares. The name of a file omits its
 # extension. cmake -DHEADER=... -DNAMESPACE=... -DFOLDER=... -DTEXTS=name=a.toml,b.toml;other=c.css -DOUT=... -P embed.cmake
 set(out "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\nnamespace {\n")
 foreach(list IN LISTS TEXTS)
   string(REGEX MATCH "^([^=]+)=(.*)$" matched "${list}")
   set(name ${CMAKE_MATCH_1})
   string(REPLACE "," ";" files "${CMAKE_MATCH_2}")
-  string(APPEND out "\nconstexpr report::EmbeddedFile ${name}_files[]{\n")
+  string(APPEND out "\nconstexpr EmbeddedFile ${name}_files[]{\n")
   foreach(file IN LISTS files)
     get_filename_component(stem ${file} NAME_WE)
     file(READ ${FOLDER}/${file} text)
@@ -16,6 +16,6 @@ foreach(list IN LISTS TEXTS)
 endforeach()
 string(APPEND out "\n}  // namespace\n\n")
 foreach(name IN LISTS names)
-  string(APPEND out "const report::EmbeddedFiles ${name}{${name}_files};\n")
+  string(APPEND out "const EmbeddedFiles ${name}{${name}_files};\n")
 endforeach()
 file(WRITE ${OUT} "${out}\n}  // namespace ${NAMESPACE}\n")

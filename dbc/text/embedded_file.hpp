@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-namespace canhil::report {
+namespace canhil {
 
 struct EmbeddedFile {
   std::string_view name;  ///< without its extension
@@ -12,4 +12,4 @@ struct EmbeddedFile {
 };
 using EmbeddedFiles = std::span<const EmbeddedFile>;
 
-}  // namespace canhil::report
+}  // namespace canhil
