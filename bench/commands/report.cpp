@@ -11,6 +11,7 @@
 #include "bench/commands/exit_code.hpp"
 #include "bench/report/compare.hpp"
 #include "bench/report/file.hpp"
+#include "bench/report/history.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/signature.hpp"
 #include "dbc/files/command_files.hpp"
@@ -63,6 +64,7 @@ struct Sides {
   std::string a, b;
   std::vector<std::string> before, after;
   double tolerance_percent = 100 * report::usual_tolerance;
+  std::string history, html;
 };
 
 Result<report::Reports> read_all(const std::vector<std::string>& paths) {
@@ -75,12 +77,53 @@ Result<report::Reports> read_all(const std::vector<std::string>& paths) {
   return reports;
 }
 
+// The reports of runs in a folder; other files are left out.
+Result<std::vector<report::Kept>> reports_in(const std::string& folder) {
+  std::vector<report::Kept> reports;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".json") continue;
+    auto report = report::read_document(entry.path().string());
+    if (!report) return tl::unexpected(report.error());
+    reports.push_back({.file = entry.path().string(), .report = std::move(*report)});
+  }
+  if (error) return failure(fmt::format("--history '{}': {}, expected a folder", folder, error.message()));
+  if (reports.empty())
+    return failure(
+        fmt::format("--history '{}': has no report, expected files of hil-bench run --json", folder));
+  return reports;
+}
+
+ExitCode tell_history(const Sides& arguments) {
+  auto reports = reports_in(arguments.history);
+  if (!reports) return complain(reports.error());
+  CommandFiles files;
+  for (const report::Kept& one : *reports) files.reads("report", one.file);
+  files.writes_file("--html", arguments.html);
+  if (auto fine = files.check(); !fine) return complain(fine.error());
+  const auto told = report::history(std::move(*reports), arguments.tolerance_percent / 100);
+  if (!told) return complain(told.error());
+  if (auto shown = report::show(told->text); !shown) return complain(shown.error());
+  if (!arguments.html.empty()) {
+    if (auto written = report::write_file(arguments.html, told->page); !written)
+      return complain(written.error());
+  }
+  return exit_code(told->outcome);
+}
+
 ExitCode compare_sides(Sides sides) {
+  if (!sides.history.empty()) {
+    if (!sides.a.empty() || !sides.before.empty() || !sides.after.empty())
+      return complain({"--history: excludes reports to compare, expected one of the two"});
+    return tell_history(sides);
+  }
+  if (!sides.html.empty()) return complain({"--html: is the page of a history, expected --history FOLDER"});
   const bool two = !sides.a.empty() && !sides.b.empty();
   const bool several = !sides.before.empty() && !sides.after.empty();
   const bool any_option = !sides.before.empty() || !sides.after.empty();
   if (!(two && !any_option) && !(several && sides.a.empty()))
-    return complain({"compare: expected A.json B.json, or --before A.json... --after B.json..."});
+    return complain(
+        {"compare: expected A.json B.json, or --before A.json... --after B.json..., or --history FOLDER"});
   if (two) {
     sides.before = {sides.a};
     sides.after = {sides.b};
@@ -122,6 +165,11 @@ void add_report(command_line::Command app, int& code) {
   compare.add_number(
       "--tolerance", sides->tolerance_percent,
       "largest loss of a check's margin that is not worse, in percent of the limit; default 10", 0, 1000);
+  compare.add_option(
+      "--history", sides->history,
+      "folder of reports: how the checks of each scenario developed, and whether the newest run is "
+      "worse than those before");
+  compare.add_option("--html", sides->html, "with --history: also as one HTML page, to a file");
   compare.on_given([&code, sides] { code = static_cast<int>(compare_sides(*sides)); });
 }
 

@@ -114,8 +114,8 @@ TEST(FifthEstimator, ItsCheckWorksInAScenarioACampaignAndASuite) {
            "[[campaign]]\nfile = '../campaign.toml'\n";
     const Ended run = hil_bench(fmt::format("run {}/flight.toml --bus in-process --json -", folder));
     const Ended campaign = hil_bench(fmt::format("campaign {0}/campaign.toml --out {0} --json -", folder));
-    const Ended suite =
-        hil_bench(fmt::format("accept baro_inertial --suites {} --target '{}' --json -", folder, HIL_TARGET));
+    const Ended suite = hil_bench(fmt::format(
+        "accept --estimator baro_inertial --suites {} --target '{}' --json -", folder, HIL_TARGET));
     fs::remove(folder + "/campaign.sqlite");
     std::vector<std::string> found{json_of(run.out)["checks"][0]["outcome"],
                                    json_of(campaign.out)["answers"][0]["outcome"]};

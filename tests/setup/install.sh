@@ -24,7 +24,8 @@ test_packages=(
   python3 python3-can python3-canmatrix tshark # independent programs for comparison: a CAN node, a DBC reader, a reader of captures
   python3-pandas # an example of docs/recordings.md
   python3-yaml # reads the pipelines in docs/examples
-  python3-jsonschema # validates reports by docs/report.schema.json
+  python3-jsonschema # validates reports by the schemas in docs
+  python3-warlock # makes readers of the schemas in docs
   python3-pytest python3-pytest-xdist python3-coverage mypy flake8 python3-matplotlib # the Python package: its tests, its types, the pictures of docs/python.md
   python3-pip python3-setuptools python3-wheel python3-venv # installs the Python package from the source tree
   can-utils iproute2 kmod busybox user-mode-linux # for tests on vcan; user-mode Linux provides vcan if the machine's kernel has no vcan

@@ -1,6 +1,6 @@
-"""Validates reports of several kinds of runs by docs/report.schema.json: schema_test.py HIL_BENCH SOURCE.
+"""Validates reports of several kinds by the schemas in docs, and reads them by readers made of the schemas: schema_test.py HIL_BENCH SOURCE.
 
-The validator is python3-jsonschema. In this test the schema permits no key that it does not name, so a key that
+The validator is python3-jsonschema, the maker of readers python3-warlock. In this test the schema permits no key that it does not name, so a key that
 a report gains must be described.
 """
 import copy
@@ -14,6 +14,7 @@ import xml.etree.ElementTree
 from pathlib import Path
 
 import jsonschema
+import warlock
 
 HIL_BENCH, SOURCE = sys.argv[1], Path(sys.argv[2])
 SCHEMA = json.loads((SOURCE / "docs/report.schema.json").read_text(encoding="utf-8"))
@@ -128,6 +129,57 @@ class Reports(unittest.TestCase):
                     self.assertTrue(any(frame["transmitted"] for frame in frames))
                     self.assertGreater(sum(len(frame.get("signals", [])) for frame in frames), len(frames) / 2, around["check"])
 
+    def batches(self):
+        """Reports of a campaign, a matrix of faults and a suite, each with its schema."""
+        folder = Path(self.folder.name)
+        faults = folder / "set.toml"
+        faults.write_text(FAULT % "SeekerAngles", encoding="utf-8")
+        campaign = folder / "batch.toml"
+        campaign.write_text(f"""title = "Batch"
+runs = 2
+seed = 1
+[[variant]]
+name = "A"
+scenario = "{SOURCE}/bench/flights/transfer_alignment_quick.toml"
+[[check]]
+kind = "error"
+quantity = "attitude.heading"
+below_deg = 90
+[[metric]]
+kind = "rms_curve"
+quantity = "attitude.heading"
+[[metric]]
+kind = "value_at"
+quantity = "attitude.heading"
+at_s = 2.0
+at_most_mrad = 2000
+""", encoding="utf-8")
+        for schema, words in (("campaign", ("campaign", campaign)), ("campaign", ("faults", FLIGHTS[0].parent / "los_quick.toml", "--set", faults)),
+                              ("accept", ("accept", "--estimator", "los_rate", "--family", "protocol"))):
+            out = ("--out", folder) if schema == "campaign" else ()
+            done = subprocess.run([HIL_BENCH, *words, *out, "--json", "-"], capture_output=True, text=True, timeout=120, check=False)
+            assert done.returncode in (0, 1), done.stderr
+            yield words[0], json.loads((SOURCE / f"docs/{schema}.schema.json").read_text(encoding="utf-8")), json.loads(done.stdout)
+
+    def test_of_campaigns_matrices_and_suites_fit_their_schemas(self):
+        for name, schema, report in self.batches():
+            with self.subTest(name):
+                jsonschema.Draft7Validator.check_schema(schema)
+                errors = jsonschema.Draft7Validator(strict(schema)).iter_errors(report)
+                self.assertEqual([f"{list(error.path)}: {error.message[:200]}" for error in errors], [])
+                reader = warlock.model_factory(schema)  # a reader that a public tool makes of the schema
+                self.assertEqual(reader(**report).outcome, report["outcome"])
+
+    def test_a_reader_made_of_the_schema_reads_them_all(self):
+        reader = warlock.model_factory(SCHEMA)
+        self.assertGreater(len(self.reports), 10)
+        for name, report in self.reports.items():
+            with self.subTest(name):
+                read = reader(**report)
+                self.assertEqual((read.verdict, len(read.checks)), (report["verdict"], len(report["checks"])))
+        with self.assertRaises(warlock.InvalidOperation):
+            read.verdict = "maybe"
+
     def test_numbers_of_a_check_agree_with_its_outcome(self):
         judged = set()
         for name, check in self.checks():
@@ -184,6 +236,23 @@ class Reports(unittest.TestCase):
         self.assertIn("worse    check 'error los.rate rms 3 to 2 s to go': pass; 0.9849 -> 1.451 mrad/s, limit < 2.3 mrad/s, "
                       "margin 57.2 % -> 36.9 %\n", done.stdout)
         self.assertEqual(self.compare(self.reports["los_quick"], drifted, "--tolerance", "30").returncode, 0)
+        folder = Path(self.folder.name, "history")
+        folder.mkdir()
+        for day, report in enumerate((self.reports["los_quick"], self.reports["los_quick"], drifted), 1):
+            report = copy.deepcopy(report)
+            report["provenance"].update(date=f"2026-11-0{day}T00:00:00Z", scenario="los_quick.toml")
+            (folder / f"{9 - day}.json").write_text(json.dumps(report), encoding="utf-8")
+        page = Path(self.folder.name, "history.html")
+        told = subprocess.run([HIL_BENCH, "compare", "--history", folder, "--html", page], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(told.returncode, 1, told)
+        self.assertIn("worse  error los.rate rms 3 to 2 s to go: pass; 0.9849 -> 1.451 mrad/s, limit < 2.3 mrad/s; margin 36.9 %, "
+                      "before 57.2 % (median of 2, 57.2 to 57.2 %)", told.stdout)
+        self.assertIn("same   miss_distance: pass", told.stdout)
+        self.assertIn("margins of the checks", page.read_text(encoding="utf-8"))
+        (folder / "6.json").unlink()
+        self.assertEqual(subprocess.run([HIL_BENCH, "compare", "--history", folder], capture_output=True, timeout=60, check=False).returncode, 0)
+        (folder / "7.json").unlink()
+        self.assertEqual(subprocess.run([HIL_BENCH, "compare", "--history", folder], capture_output=True, timeout=60, check=False).returncode, 3)
         for wrong in ("-1", "nan", "x"):
             self.assertEqual(self.compare(drifted, drifted, "--tolerance", wrong).returncode, 2)
 
