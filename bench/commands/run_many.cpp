@@ -87,11 +87,12 @@ Result<void> check(const RunArguments& arguments) {
   if (arguments.live.wanted() || arguments.terminal)
     return failure(fmt::format("{}: shows one run, and there are several scenarios, expected one scenario",
                                arguments.terminal ? "--tui" : "--live"));
-  if (arguments.at_once.value_or(1) > 1 && arguments.bus != local_prefix &&
-      !drive::BusName(arguments.bus).in_process)
+  const drive::BusName bus(arguments.bus);
+  const bool shared = is_external(arguments) || (!bus.in_process && named_local(bus.text, "own") == bus.text);
+  if (arguments.at_once.value_or(1) > 1 && shared)
     return failure(
         fmt::format("-j {}: the scenarios would share --bus '{}', expected a private bus (local:, the "
-                    "default) or in-process",
+                    "default) and a --target to start, or in-process",
                     *arguments.at_once, arguments.bus));
   return {};
 }
@@ -118,9 +119,9 @@ Result<std::vector<Job>> plan(const RunArguments& arguments) {
       job.arguments.log = stem.string() + ".log";
     }
     job.arguments.reports.junit.clear();
+    if (!selects((*files)[i] + "\n" + title_of((*files)[i]))) continue;
     auto planned = plan_run(job.arguments, (*files)[i], static_cast<int>(i) + 1);
     if (!planned) return tl::unexpected(planned.error());
-    if (!selects((*files)[i] + "\n" + planned->scenario.title)) continue;
     job.planned = std::move(*planned);
     const auto same = std::ranges::find(jobs, job.name, &Job::name);
     if (same != jobs.end())

@@ -26,13 +26,13 @@
 #include "dbc/files/command_files.hpp"
 
 namespace canhil::commands {
-namespace {
-
-constexpr std::size_t heap_bytes = 64 << 20;  // enough for a recording of several minutes
-
 bool is_external(const RunArguments& arguments) {
   return arguments.targets == std::vector<std::string>{"none"};
 }
+
+namespace {
+
+constexpr std::size_t heap_bytes = 64 << 20;  // enough for a recording of several minutes
 
 // The name of a node without underscores, in lower case: gps, GPS and Gps name the same node; master_ins and
 // MasterIns, too, name the same node.

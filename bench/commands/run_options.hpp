@@ -43,6 +43,9 @@ struct RunArguments {
   std::string out;             ///< folder of the reports of several scenarios; empty: none
 };
 
+/// Whether the target runs elsewhere: --target none.
+bool is_external(const RunArguments& arguments);
+
 /// Adds the options. `arguments` must outlive parsing.
 void add_options(command_line::Command command, RunArguments& arguments);
 

@@ -116,6 +116,13 @@ Result<std::vector<std::string>> scenario_files(const std::vector<std::string>& 
   return files;
 }
 
+std::string title_of(const std::string& file) {
+  const auto text = read_text_file(file, "a scenario file", scenario::most_toml_bytes);
+  if (!text) return "";
+  auto root = scenario::Section::parse(*text, file);
+  return root.holds_text("title") ? root.text("title") : "";
+}
+
 Result<Selects> selection(std::string_view expression) {
   auto selects = Reader(expression).read();
   if (!selects) return selects;

@@ -16,6 +16,9 @@ namespace canhil::commands {
 /// that cannot be read.
 Result<std::vector<std::string>> scenario_files(const std::vector<std::string>& scenarios);
 
+/// The title of a scenario; empty: the file has none, or cannot be read.
+std::string title_of(const std::string& file);
+
 /// Whether a text is selected.
 using Selects = std::function<bool(std::string_view text)>;
 /// Reads an expression of words with `and`, `or`, `not` and parentheses: a word holds for a text that

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Union
 
 from canhil import program
@@ -32,9 +32,9 @@ class Comparison:
 
 
 def _reports(runs: Runs) -> list[program.StrPath]:
-    several = [runs] if isinstance(runs, (Run, str, Path)) else runs
+    several = [runs] if isinstance(runs, (Run, str, os.PathLike)) else runs
     files: list[program.StrPath] = []
-    for one in several:  # type: ignore[union-attr]
+    for one in several:
         files.append(one.folder / "report.json" if isinstance(one, Run) else one)
     return files
 

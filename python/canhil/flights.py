@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -204,7 +205,7 @@ def run(
     if target is not None:
         words += ["--target", program.command_of(target)]
     words += settings_of(set or {})
-    if isinstance(faults, (str, Path)):
+    if isinstance(faults, (str, os.PathLike)):
         words += ["--faults", faults]
     elif faults:
         tables: Any = faults

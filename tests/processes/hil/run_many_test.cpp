@@ -92,6 +92,8 @@ TEST(RunMany, FliesNothingIfOneScenarioIsWrong) {
   std::ofstream(folder + "/wrong.toml") << "title = \"wrong\"\nduration_s = 3\n";
   expect_one_line(hil_bench(fmt::format("run {} --bus in-process --out {}", folder, out)), "wrong.toml");
   EXPECT_FALSE(fs::exists(out));
+  EXPECT_EQ(hil_bench(fmt::format("run {} --bus in-process -k 'not wrong'", folder)).code, 1)
+      << "what is not selected may be wrong";
   fs::remove(folder + "/wrong.toml");
   const std::string both = fmt::format("run {0}/good.toml {0}/below --bus in-process ", folder);
   for (const std::string option : {"--json x.json", "--html x.html", "--csv x.csv", "--log x.log"})
@@ -99,6 +101,7 @@ TEST(RunMany, FliesNothingIfOneScenarioIsWrong) {
                     "is one file, and there are several scenarios, expected --out FOLDER");
   expect_one_line(hil_bench(both + "--tui"), "expected one scenario");
   expect_one_line(hil_bench(fmt::format("run {} --bus vcan0 -j 2", folder)), "would share --bus 'vcan0'");
+  expect_one_line(hil_bench(fmt::format("run {} --target none -j 2", folder)), "would share --bus 'local:'");
   expect_one_line(hil_bench(fmt::format("run {0}/good.toml {0}/good.toml --bus in-process", folder)),
                   "expected each scenario once");
   fs::create_directories(scratch("empty"));
