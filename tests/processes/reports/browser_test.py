@@ -64,10 +64,10 @@ class Browser(unittest.TestCase):
         cls.temporary.cleanup()
 
     @classmethod
-    def fly(cls, name, *arguments):
-        """Flies the flight of the tutorial; writes its page to NAME.html. Returns its report."""
+    def fly(cls, name, *arguments, flight="transfer_alignment"):
+        """Flies a flight, that of the tutorial if none is named; writes its page to NAME.html. Returns its report."""
         page, report = cls.folder / f"{name}.html", cls.folder / f"{name}.json"
-        done = subprocess.run([HIL_BENCH, "run", "bench/flights/transfer_alignment.toml", *arguments, "--html", page, "--json", report],
+        done = subprocess.run([HIL_BENCH, "run", f"bench/flights/{flight}.toml", *arguments, "--html", page, "--json", report],
                               cwd=ROOT, capture_output=True, text=True)
         if done.returncode not in (0, 1, 3):  # pass, fail, not measured
             raise AssertionError(done.stderr)
@@ -287,6 +287,9 @@ class Browser(unittest.TestCase):
         faults = self.folder / "gyro.toml"
         faults.write_text(FAULT)
         self.fly("fault", "--bus", "in-process", "--faults", faults)
+        bias = self.folder / "bias.toml"  # as in docs/examples/python/test_bias.py
+        bias.write_text('[[fault]]\nname = "bias"\nkind = "bias"\nquantity = "seeker.error_pitch"\nby_mrad = 4\nfrom_s = 2.5\nto_s = 2.7\n')
+        self.fly("python", "--bus", "in-process", "--faults", bias, flight="los_quick")
         only = "section:not(#{}),nav{{display:none}}".format
         no_head = "h1,.sub,.verdict,h2{display:none}body{padding-top:0}"
         self.picture("report_pass", 1000, only("checks"), height=920)
@@ -297,6 +300,8 @@ class Browser(unittest.TestCase):
         self.picture("report_fail", 420, only("checks"), page="fault", dark=True, height=1250)
         self.picture("report_cursor", 1000, only("estimates") + no_head, act=self.zoom_with_cursor)
         self.picture("report_frames", 1000, only("checks") + no_head, act=self.open_frames, height=760)
+        self.picture("python_fail", 1000, only("estimates") + "h1,.sub,h3:not(.figure h3),.note,.figure:first-of-type,.figure:nth-of-type(n+4){display:none}",
+                     page="python")
         self.picture("report_strict", 1000, None, strict=True, height=760)
 
     def picture(self, name, width, style, page="run", act=None, height=None, **how):
