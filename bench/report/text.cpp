@@ -56,7 +56,7 @@ std::string to_text(const checks::BusRecord& bus, std::int64_t first_ns) {
   return lines;
 }
 
-double ms(std::int64_t ns) { return static_cast<double>(ns) * 1e-6; }
+double in_ms(std::int64_t ns) { return static_cast<double>(ns) * 1e-6; }
 
 std::string milliseconds(const checks::Distribution& d) {
   return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  p99.9 {:.3f}  max {:.3f} ms", d.p50 * 1e3,
@@ -124,7 +124,7 @@ std::string split_words(const checks::TimingRecord& timing) {
   lines += fmt::format(
       "    slowest: {} after {:.3f} ms at t={:.3f} s; in that 0.1 s the target's longest wait was "
       "{}, its longest computing {}\n",
-      slowest.message, ms(slowest.latency_ns), static_cast<double>(slowest.t_ns) * 1e-9,
+      slowest.message, in_ms(slowest.latency_ns), static_cast<double>(slowest.t_ns) * 1e-9,
       limited_us(slowest.queue_max_us), limited_us(slowest.compute_max_us));
   return lines;
 }
@@ -144,13 +144,13 @@ std::string wire_words(const checks::Observations& seen) {
       *std::ranges::max_element(bounds, {}, [](const checks::WireBound& bound) {
         return static_cast<double>(bound.longest_ns) / static_cast<double>(*bound.bound_ns);
       });
-  std::string lines =
-      fmt::format("  over the bus                  bounds for {} of {}; nearest {}: {:.3f} of {:.3f} ms\n",
-                  bounds.size(), messages, nearest.message, ms(nearest.longest_ns), ms(*nearest.bound_ns));
+  std::string lines = fmt::format(
+      "  over the bus                  bounds for {} of {}; nearest {}: {:.3f} of {:.3f} ms\n", bounds.size(),
+      messages, nearest.message, in_ms(nearest.longest_ns), in_ms(*nearest.bound_ns));
   for (const checks::WireBound& bound : bounds) {
     if (bound.longest_ns > *bound.bound_ns)
-      lines += fmt::format("    beyond: {} {:.3f} ms, bound {:.3f} ms\n", bound.message, ms(bound.longest_ns),
-                           ms(*bound.bound_ns));
+      lines += fmt::format("    beyond: {} {:.3f} ms, bound {:.3f} ms\n", bound.message,
+                           in_ms(bound.longest_ns), in_ms(*bound.bound_ns));
   }
   return lines;
 }
