@@ -16,7 +16,7 @@ std::vector<std::string> percentiles(std::string first, const Json& distribution
   std::vector<std::string> cells{std::move(first), distribution.at("count").dump()};
   const bool none = distribution.at("count").get<std::uint64_t>() == 0;
   for (const char* key : {"min", "p50", "p90", "p99", "p999", "max"})
-    cells.push_back(none ? "&ndash;" : quantile_ms(distribution, key));
+    cells.push_back(none ? "&ndash;" : ms(distribution, key));
   return cells;
 }
 
@@ -99,8 +99,8 @@ std::string uncertainty_table(const Json& report) {
   for (const auto& [message, figures] : uncertainty.at("latency_s").items()) {
     for (const auto& [name, one] : figures.items()) {
       std::vector<std::string>& row = rows.emplace_back();
-      row = {escaped(fmt::format("{}, {}", message, name)), quantile_ms(one, "value"),
-             "&plusmn; " + quantile_ms(one, "expanded")};
+      row = {escaped(fmt::format("{}, {}", message, name)), ms(one, "value"),
+             "&plusmn; " + ms(one, "expanded")};
       for (const auto& [influence, half_width] : one.at("half_widths").items()) {
         if (rows.size() == 1) head.push_back(escaped(influence) + " &micro;s");
         row.push_back(us(half_width));
