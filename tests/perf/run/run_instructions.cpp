@@ -16,7 +16,9 @@ using namespace canhil;
 [[gnu::noinline]] std::size_t one_run(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                       std::uint64_t index) {
   const auto finished = drive::run_in_process(scenario, truth, index);
-  return finished ? campaign::series_of(index, *finished, truth, estimators::of(scenario)).samples.size() : 0;
+  if (!finished) return 0;
+  return campaign::samples_of(finished->seen, finished->per_run_truth, truth, estimators::of(scenario))
+      .size();
 }
 
 }  // namespace

@@ -13,8 +13,9 @@ using testing::Not;
 Finding finding(const std::string& id, const std::vector<Outcome>& outcomes) {
   Finding one{.requirement = {.id = id, .family = "errors", .text = "It <is>."}, .items = {}};
   for (const Outcome outcome : outcomes)
-    one.items.push_back({.requirement = id,
-                         .name = "flight 'a'",
+    one.items.push_back({.name = "flight 'a'",
+                         .kind = "error",
+                         .requirement = id,
                          .outcome = outcome,
                          .measured = "5 & more",
                          .expected = "4"});
