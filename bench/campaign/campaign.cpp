@@ -64,26 +64,40 @@ std::optional<std::vector<GivenCheck>> read_run_checks(Section& root, const std:
   return checks;
 }
 
-/// Makes a matrix of faults from the variants, whose cells become the variants.
-Result<void> add_faults(Section& root, std::vector<Made> made, const ScenarioText& text, Campaign& campaign) {
-  Section section = root.table({"faults", "Flies each variant first without a fault, then with each fault."});
-  const std::string set = section.text(
+/// [faults] as written in the file.
+struct GivenFaults {
+  std::string set;  ///< file of the faults; empty: they are drawn
+  std::uint64_t seed = 1;
+};
+
+std::optional<GivenFaults> read_faults(Section& root) {
+  auto section =
+      root.optional_table({"faults", "Flies each variant first without a fault, then with each fault."});
+  if (!section) return std::nullopt;
+  GivenFaults faults;
+  faults.set = section->text(
       {"set",
        "File of `[[fault]]` tables, relative to the campaign file: each is a row; those with the same "
        "`together` fly at once. Default: each kind on each node, at times drawn from the seed."},
       "");
-  if (!set.empty()) section.refuse("seed", "has no effect beside set", "one of the two");
-  const auto seed = static_cast<std::uint64_t>(
-      section.optional_integer({"seed", "Of what is drawn. Default: 1."}, 0).value_or(1));
-  section.finish();
-  if (const auto error = root.error()) return tl::unexpected(*error);
+  if (!faults.set.empty()) section->refuse("seed", "has no effect beside set", "one of the two");
+  faults.seed = static_cast<std::uint64_t>(
+      section->optional_integer({"seed", "Of what is drawn. Default: 1."}, 0).value_or(1));
+  section->finish();
+  return faults;
+}
+
+/// Makes a matrix of faults from the variants, whose cells become the variants.
+Result<void> add_faults(const GivenFaults& faults, std::vector<Made> made, const ScenarioText& text,
+                        Campaign& campaign) {
+  const std::string& set = faults.set;
   if (!set.empty()) {
     if (auto added = add_source(campaign.sources, set, text); !added) return added;
   }
   std::vector<matrix::Column> columns;
   for (Made& one : made) columns.push_back(std::move(one.column));
   const fs::path folder = fs::path(campaign.sources.file).parent_path();
-  auto matrix = set.empty() ? matrix::drawn_matrix(std::move(columns), seed)
+  auto matrix = set.empty() ? matrix::drawn_matrix(std::move(columns), faults.seed)
                             : matrix::matrix_of(std::move(columns), campaign.sources.scenarios.at(set),
                                                 (folder / set).string());
   if (!matrix) return tl::unexpected(matrix.error());
@@ -161,32 +175,32 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
                 fmt::format("at most {}", most_runs));
   // Without faults, the number of a run selects its random numbers; with faults, each run has a seed of its
   // own, so that a violation can be saved as a scenario.
-  const bool with_faults = root.has("faults");
+  const auto faults = read_faults(root);
   const auto seed = root.optional_integer({"seed",
                                            "Seed of all random numbers, in place of the seeds of the "
                                            "scenarios. With `[faults]` it may be absent: "
                                            "then each scenario has its own seed."},
                                           0);
-  if (!seed && !with_faults) root.missing("seed", "a whole number, at least 0");
+  if (!seed && !faults) root.missing("seed", "a whole number, at least 0");
   campaign.seed = static_cast<std::uint64_t>(seed.value_or(0));
   const std::vector<Given> given = read_given(root);
   const std::vector<Point> points = read_sweep(root, given);
+  const auto checks = read_run_checks(root, given, faults.has_value(), campaign);
   if (const auto error = root.error()) return tl::unexpected(*error);
   for (const Given& one : given) {
     if (auto read = add_source(campaign.sources, one.scenario, scenario_text); !read)
       return failure(fmt::format("{}:{}: variant '{}': {}", file, one.line, one.name, read.error().message));
   }
-  const auto checks = read_run_checks(root, given, with_faults, campaign);
   auto made = make_variants(given, points,
                             {.sources = campaign.sources,
                              .text = scenario_text,
                              .seed = seed ? std::optional(campaign.seed) : std::nullopt,
                              .checks = checks ? &*checks : nullptr,
-                             .with_samples = root.has("metric") || (!with_faults && !campaign.checks)});
+                             .with_samples = root.has("metric") || (!faults && !campaign.checks)});
   if (!made) return tl::unexpected(made.error());
   for (const Made& one : *made) campaign.variants.push_back(one.variant);
-  if (with_faults) {
-    if (auto added = add_faults(root, std::move(*made), scenario_text, campaign); !added)
+  if (faults) {
+    if (auto added = add_faults(*faults, std::move(*made), scenario_text, campaign); !added)
       return tl::unexpected(added.error());
   }
   campaign.hash = with_recordings(hash_of(campaign.sources), campaign.variants);

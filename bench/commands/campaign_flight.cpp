@@ -203,6 +203,7 @@ ExitCode fly(const campaign::Campaign& campaign, const CampaignFlight& flight, c
     if (course) course->end(checks::Outcome::not_measured, "interrupted");
     return end_interrupted(fmt::format("; --resume goes on with {}", file->string()));
   }
+  if (campaign.matrix && flight.resume) say(report::signature_line(file->string()));
   const ExitCode code = shard->count > 1 ? ExitCode::pass : report_on_one(campaign, *file, flight.reports);
   if (course) course->end(outcome_of(code), shard->count > 1 ? "the shard is flown" : "");
   view->hold();

@@ -229,6 +229,12 @@ Part campaign_part() {
                        {.name = "[[variant]]",
                         .about = "A campaign has at least one variant.",
                         .keys = in_table(with("[[variant]]\nset = {}\n"), "variant[1]")},
+                       {.name = "[faults]",
+                        .about = "Flies each variant with faults (campaigns.md).",
+                        .keys = in_table(with("faults = {}\n"), "faults")},
+                       {.name = "[[check]]",
+                        .about = "A check of every run has the keys that it has in a scenario, and these.",
+                        .keys = in_table(with("[[check]]\n"), "check[1]")},
                        {.name = "[[metric]]", .about = "", .keys = {}}}};
   for (const AskedKey& one : of_all) {
     if (one.key.name != "quantity") part.tables.back().keys.push_back(one);

@@ -18,19 +18,19 @@ TABLE = {
     "hil-bench new mapping": {"FILE": "N", "--dbc": "R", "--device": "N", "--encoding": "N"},  # FILE: a new file, so it is no input
     "hil-bench new scenario": {"FILE": "N", "--mapping": "R", "--estimator": "N"},
     "hil-bench report": {"FILE.json": "F"},
-    "hil-bench compare": {"A.json": "R", "B.json": "R", "--before": "R", "--after": "R"},
+    "hil-bench compare": {"A.json": "R", "B.json": "R", "--before": "R", "--after": "R", "--history": "R", "--html": "W"},
     "hil-bench bus": {"BUS": "N"},
     "hil-bench accept": {"--target": "R", "--estimator": "N", "--suites": "R", "--family": "N", "--json": "W", "--junit": "W",
                          "--html": "W"},
-    "hil-bench campaign": {"FILE": "R", "--out": "F", "--shard": "N", "--target": "R", "--json": "W", "--live-address": "N",
+    "hil-bench campaign": {"FILE": "R", "--out": "F", "--shard": "N", "--target": "R", "--json": "W", "--junit": "W", "--html": "W", "--csv": "W", "--live-address": "N",
                            "--paper": "N", "--exact": "R"},
     "hil-bench campaign merge": {"OUT": "W", "SHARD": "R"},
-    "hil-bench campaign report": {"RESULTS": "R"},
-    "hil-bench campaign export": {"RESULTS": "R", "--format": "N"},
-    "hil-bench campaign replay": {"FILE": "R", "--variant": "N", "--log": "W"},
-    "hil-bench faults": {"SCENARIO": "R", "--set": "R", "--out": "F", "--shard": "N", "--target": "R", "--json": "W", "--html": "W",
+    "hil-bench campaign report": {"RESULTS": "R", "--json": "W", "--junit": "W", "--html": "W", "--csv": "W"},
+    "hil-bench campaign export": {"RESULTS": "R", "--format": "N", "--variant": "N", "--quantity": "N"},
+    "hil-bench campaign replay": {"FILE": "R", "--variant": "N", "--log": "W", "--json": "W", "--junit": "W", "--html": "W", "--csv": "W"},
+    "hil-bench faults": {"SCENARIO": "R", "--set": "R", "--out": "F", "--shard": "N", "--target": "R", "--json": "W", "--junit": "W", "--html": "W", "--csv": "W",
                          "--live-address": "N"},
-    "hil-bench faults merge": {"RESULTS": "R", "--json": "W", "--html": "W"},
+    "hil-bench faults merge": {"RESULTS": "R", "--json": "W", "--junit": "W", "--html": "W", "--csv": "W"},
     "hil-bench reference": {},
     "hil-bench diverge": {"A": "R", "B": "R"},
     "hil-bench golden": {},
@@ -109,6 +109,8 @@ class Workplace:
         shutil.copy(self.folder / "plain.toml", self.folder / "golden" / "plain.toml")
         shutil.copy(self.folder / "run.log", self.folder / "golden" / "plain.log")
         self.run("hil-bench", "campaign", "campaign.toml", "--out", "part.sqlite")
+        (self.folder / "history").mkdir()
+        shutil.copy(self.folder / "run.json", self.folder / "history" / "a.json")
         (self.folder / "matrix").mkdir()
         self.run("hil-bench", "faults", "plain.toml", "--set", "faults.toml", "--out", "matrix")
 
@@ -145,7 +147,9 @@ LINES = [
     ("hil-bench accept", ("--suites", "suites/acceptance", *TARGET), (*SUITE, "my-target", CAMPAIGN)),
     ("hil-bench campaign", ("campaign.toml", "--out", "new.sqlite", *TARGET),
      ("campaign.toml", "recorded.toml", "run.log", "my-target", "gain.txt", CAMPAIGN)),
+    ("hil-bench compare", ("--history", "history"), ("history/a.json",)),
     ("hil-bench campaign merge", ("part.sqlite",), ("part.sqlite",)),
+    ("hil-bench campaign report", ("part.sqlite",), ("part.sqlite",)),
     ("hil-bench campaign replay", ("campaign.toml", "0"), ("campaign.toml", "recorded.toml", "run.log")),
     ("hil-bench faults", ("recorded.toml", "--set", "faults.toml", "--out", "new", *TARGET),
      ("recorded.toml", "run.log", "faults.toml", "my-target", "gain.txt")),

@@ -68,8 +68,8 @@ class Text(InFolder):
         text = output.decode("utf-8") if isinstance(output, bytes) else output
         self.assertIsNone(FORBIDDEN.search(text), ascii(text))
         if shown:
-            for escape in shown.values():
-                self.assertIn(escape, text, ascii(text[:2000]))
+            for escape in shown.values():  # a page may break a long word, with an element that holds nothing
+                self.assertIn(escape, text.replace("<wbr>", ""), ascii(text[:2000]))
         return text
 
     def test_of_a_dbc(self):
