@@ -35,7 +35,7 @@ class Campaign:
         self.results = results
         """The SQLite file of the results."""
         self._owner = owner
-        self.document: Json = json.loads(program.call("campaign", "report", results, "--json")[1])
+        self.document: Json = json.loads(program.call("campaign", "report", results, "--json", "-")[1])
         """The JSON of `hil-bench campaign report`."""
 
     def __repr__(self) -> str:

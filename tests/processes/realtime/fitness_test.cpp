@@ -108,8 +108,11 @@ class Hog {
 // 5 % of the run. The host of a virtual machine can take CPU time too. If it does, the bench reports this
 // first.
 const std::string no_cpu =
-    "(no CPU was free for the bench for|the hypervisor gave) [0-9.]+ % of (the run|this machine's .*)";
-const std::string late = "this host kept the bench itself .* ms late \\(.*\\), more than 50 % of the limit";
+    "(no CPU was free for the bench for|the hypervisor gave) [0-9.]+ % of (the run|this machine's .*)(; "
+    "--realtime would help)?";
+const std::string late =
+    "this host kept the bench itself .* ms late \\(.*\\), more than 50 % of the limit(; --realtime would "
+    "help)?";
 
 // Expects that the timing checks with limits of a few ms are not measured, with the reason `no_cpu` or
 // `late`, and that all other checks pass. The heartbeat check is not examined.
