@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "bench/campaign/seconds.hpp"
 #include "bench/campaign_report/matrix.hpp"
 #include "bench/campaign_report/report.hpp"
 #include "bench/report/page_parts.hpp"
@@ -28,9 +30,23 @@ std::string margin_of(const Answer& answer) {
   return margin ? fmt::format("; margin {:.1f} %", 100 * *margin) : "";
 }
 
-std::string curve_id(std::string_view metric) { return fmt::format("curve {}", metric); }
+// The metrics with curves, in the order of their pictures.
+std::vector<std::string> metrics_with_curves(const Evaluation& evaluation) {
+  std::vector<std::string> metrics;
+  for (const Answer& answer : evaluation.answers) {
+    if (!answer.curve.empty() && (metrics.empty() || metrics.back() != answer.metric))
+      metrics.push_back(answer.metric);
+  }
+  return metrics;
+}
+
+// The id of the first picture of a metric: a number, because a name may contain any character.
+std::string curve_id(const std::vector<std::string>& metrics, const std::string& metric) {
+  return fmt::format("curve-{}", std::ranges::find(metrics, metric) - metrics.begin());
+}
 
 std::string answers_section(const Evaluation& evaluation) {
+  const std::vector<std::string> drawn = metrics_with_curves(evaluation);
   std::vector<report::Judged> all;
   for (const Answer& answer : evaluation.answers) {
     const auto outcome = answer.outcome();
@@ -39,42 +55,42 @@ std::string answers_section(const Evaluation& evaluation) {
                    .measured = answer.measured + margin_of(answer),
                    .expected = answer.expected,
                    .requirement = answer.requirement,
-                   .link = answer.curve.empty() ? "" : curve_id(answer.metric)});
+                   .link = answer.curve.empty() ? "" : curve_id(drawn, answer.metric)});
   }
   return all.empty() ? "" : report::section("answers", "Answers", report::judgements(all));
 }
 
-std::vector<double> times_of(const Answer& answer) {
-  std::vector<double> t_s;
-  for (const CurvePoint& point : answer.curve) t_s.push_back(static_cast<double>(point.t_us) / 1e6);
-  return t_s;
-}
-
 // The curves of a metric: one picture for all variants with the same times.
-std::string curves_section(const Evaluation& evaluation) {
+std::vector<report::LinePlot> plots_of(const std::string& metric, const Evaluation& evaluation) {
   std::vector<report::LinePlot> plots;
-  std::vector<std::string> metrics;
   for (const Answer& answer : evaluation.answers) {
-    if (answer.curve.empty()) continue;
+    if (answer.metric != metric || answer.curve.empty()) continue;
     const quantities::Unit& unit = answer.quantity->unit;
-    std::vector<double> t_s = times_of(answer), values;
-    for (const CurvePoint& point : answer.curve) values.push_back(point.rms / unit.factor);
-    if (plots.empty() || metrics.back() != answer.metric || plots.back().t_s != t_s) {
+    std::vector<double> t_s, values;
+    for (const CurvePoint& point : answer.curve) {
+      t_s.push_back(seconds(point.t_us));
+      values.push_back(point.rms / unit.factor);
+    }
+    if (plots.empty() || plots.back().t_s != t_s) {
       report::LinePlot& plot = plots.emplace_back();
-      plot.title = fmt::format("{}, RMS over the runs", answer.metric);
+      plot.title = fmt::format("{}, RMS over the runs", metric);
       plot.unit = std::string(unit.name);
       plot.t_s = std::move(t_s);
       plot.from_zero = true;
       plot.begins_at_first = true;
-      metrics.push_back(answer.metric);
     }
     plots.back().lines.push_back({.name = answer.variant, .values = std::move(values)});
   }
+  return plots;
+}
+
+std::string curves_section(const Evaluation& evaluation) {
+  const std::vector<std::string> metrics = metrics_with_curves(evaluation);
   std::string figures;
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    const bool first =
-        std::ranges::find(metrics, metrics[i]) - metrics.begin() == static_cast<std::ptrdiff_t>(i);
-    figures += report::figure(plots[i].title, report::drawn(plots[i]), "", first ? curve_id(metrics[i]) : "");
+  for (const std::string& metric : metrics) {
+    std::string id = curve_id(metrics, metric);
+    for (const report::LinePlot& plot : plots_of(metric, evaluation))
+      figures += report::figure(plot.title, report::drawn(plot), "", std::exchange(id, ""));
   }
   return figures.empty() ? "" : report::section("curves", "Curves", report::grid(figures));
 }

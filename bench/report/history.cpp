@@ -116,8 +116,8 @@ std::string picture_of(const std::vector<Course>& courses) {
 }
 
 // One scenario: its lines of text and its section of the page.
-void tell(const std::string& scenario, const std::vector<const Kept*>& runs, double tolerance, History& out,
-          std::string& sections) {
+void tell(const std::string& scenario, std::size_t number, const std::vector<const Kept*>& runs,
+          double tolerance, History& out, std::string& sections) {
   const std::string head = fmt::format("{}: {} runs, {} to {}", scenario, runs.size(),
                                        date_of(runs.front()->report), date_of(runs.back()->report));
   out.text += one_line(head) + "\n";
@@ -141,7 +141,7 @@ void tell(const std::string& scenario, const std::vector<const Kept*>& runs, dou
     return;
   }
   if (out.outcome != Outcome::fail) out.outcome = worse ? Outcome::fail : Outcome::pass;
-  sections += section("", head, picture_of(courses) + judgements(rows));
+  sections += section(fmt::format("scenario-{}", number), head, picture_of(courses) + judgements(rows));
 }
 
 }  // namespace
@@ -158,10 +158,11 @@ Result<History> history(std::vector<Kept> reports, double tolerance) {
       return failure(fmt::format("file '{}': {}", one.file, error.what()));
     }
   }
+  std::size_t number = 0;
   for (auto& [scenario, runs] : by_scenario) {
     std::ranges::stable_sort(runs, {}, [](const Kept* one) { return date_of(one->report); });
     try {
-      tell(scenario, runs, tolerance, out, sections);
+      tell(scenario, ++number, runs, tolerance, out, sections);
     } catch (const Json::exception& error) {
       return failure(fmt::format("scenario '{}': {}", scenario, error.what()));
     }

@@ -121,6 +121,14 @@ class Text(InFolder):
     def test_of_a_campaign_and_of_a_fault_matrix(self):
         self.quick("evil.toml", title=f'"T {TOML}"')
         self.write("c.toml", f'title = "C {TOML}"\nruns = 1\nseed = 1\n[[variant]]\nname = "V, {TOML}"\nscenario = "evil.toml"\n')
+        for name in ('"><script>', "a b"):
+            self.write("m.toml", (self.folder / "c.toml").read_text() +
+                       f"[[metric]]\nname = '{name}'\nkind = \"rms_curve\"\nquantity = \"los.rate.pitch\"\n")
+            self.bench("campaign", "m.toml", "--html", "m.html", "--out", "m.sqlite")
+            page = (self.folder / "m.html").read_text()
+            self.assertNotIn('"><script>', page)
+            self.assertEqual([one for one in re.findall(r'(?:id="|href="#)([^"]*)"', page) if not re.fullmatch(r"[\w-]+", one)], [])
+            (self.folder / "m.sqlite").unlink()
         self.clean(self.bench("campaign", "c.toml").stdout, IN_TOML)
         self.clean(self.bench("campaign", "report", "c.sqlite").stdout, IN_TOML)
         table = self.clean(self.bench("campaign", "export", "c.sqlite").stdout, IN_TOML)
