@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
+
+#include "bench/campaign/seconds.hpp"
+#include "bench/checks/probability.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -39,12 +41,6 @@ std::string value_text(double value, const std::string& unit) {
   return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
-double median_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
 std::size_t count(const std::vector<InRun>& all, Outcome outcome) {
   return static_cast<std::size_t>(std::ranges::count(all, outcome, &InRun::outcome));
 }
@@ -61,10 +57,10 @@ void add_values(const std::vector<InRun>& all, Answer& out) {
   if (worst == nullptr) return;
   out.judgement = worst->result->judgement;
   const std::string& unit = out.judgement.criterion.unit;
-  const double value = *out.judgement.measurement.value, median = median_of(values);
+  const double value = *out.judgement.measurement.value, median = checks::median(values);
   out.measured += fmt::format("; worst {} in run {}", value_text(value, unit), worst->run->run);
   if (const auto at_us = out.judgement.measurement.worst_at_us)
-    out.measured += fmt::format(" at {:g} s", static_cast<double>(*at_us) / 1e6);
+    out.measured += fmt::format(" at {:g} s", seconds(*at_us));
   out.measured += fmt::format(", median {}", value_text(median, unit));
   out.figures.emplace_back("worst_run", static_cast<double>(worst->run->run));
   out.figures.emplace_back("median", median);

@@ -19,13 +19,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Requires at least one value.
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t above = values.size() / 2, below = (values.size() - 1) / 2;
-  return (values[below] + values[above]) / 2;
-}
-
 double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -100,7 +93,7 @@ RunDistribution run_distribution(std::span<const RunSeries> runs, const Quantity
   const auto n = static_cast<double>(values.size());
   found.mean = sum_of(values) / n;
   found.rms = std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / n);
-  found.median = median(values);
+  found.median = checks::median(values);
   found.p90 = checks::quantile(values, 0.9);
   const auto inside = std::ranges::count_if(values, [&](double value) { return value < bound; });
   found.below = static_cast<double>(inside) / static_cast<double>(runs.size());

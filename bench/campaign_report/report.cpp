@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "bench/campaign/seconds.hpp"
 #include "bench/campaign_report/matrix.hpp"
 #include "bench/checks/result_json.hpp"
 #include "dbc/text/escape.hpp"
@@ -40,7 +41,7 @@ ordered_json curve_of(const Answer& answer) {
   const quantities::Unit unit = answer.quantity->unit;
   ordered_json times = ordered_json::array(), values = ordered_json::array(), missing = ordered_json::array();
   for (const CurvePoint& point : answer.curve) {
-    times.push_back(static_cast<double>(point.t_us) / 1e6);
+    times.push_back(seconds(point.t_us));
     values.push_back(point.rms / unit.factor);
     missing.push_back(point.missing);
   }

@@ -1,5 +1,6 @@
 #include "bench/checks/probability.hpp"
 
+#include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -8,6 +9,12 @@
 namespace canhil::checks {
 
 using boost::math::complement;
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t above = values.size() / 2, below = (values.size() - 1) / 2;
+  return (values[below] + values[above]) / 2;
+}
 
 double chi_squared_quantile(double degrees_of_freedom, double p) {
   return quantile(boost::math::chi_squared(degrees_of_freedom), p);

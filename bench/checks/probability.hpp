@@ -2,7 +2,12 @@
 // Boost.Math takes seconds to compile.
 #pragma once
 
+#include <vector>
+
 namespace canhil::checks {
+
+/// The median of at least one value; of an even number, the mean of the two in the middle.
+double median(std::vector<double> values);
 
 /// The value x for which P(X <= x) is p, where X is chi-squared.
 double chi_squared_quantile(double degrees_of_freedom, double p);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bench/checks/probability.hpp"
 #include "bench/checks/result_json.hpp"
 #include "bench/report/page_parts.hpp"
 #include "bench/report/plot.hpp"
@@ -54,11 +55,6 @@ std::optional<double> margin_in(const std::optional<checks::CheckResult>& result
   return result ? checks::margin(result->judgement) : std::nullopt;
 }
 
-double median_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  return 0.5 * (values[values.size() / 2] + values[(values.size() - 1) / 2]);
-}
-
 std::string outcome_in(const std::optional<checks::CheckResult>& result) {
   return result ? std::string(checks::name(result->outcome)) : "not there";
 }
@@ -82,7 +78,7 @@ Line line_of(const Course& course, double tolerance) {
                              *value, unit.empty() ? "" : " ", unit, to_text(newest->judgement.criterion));
   }
   if (const auto margin = margin_in(newest); margin && !before.empty()) {
-    const double usual = median_of(before);
+    const double usual = checks::median(before);
     line.words += fmt::format(
         "; margin {:.1f} %, before {:.1f} % (median of {}, {:.1f} to {:.1f} %)", 100 * *margin, 100 * usual,
         before.size(), 100 * *std::ranges::min_element(before), 100 * *std::ranges::max_element(before));
