@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "bench/campaign/matrix/flights.hpp"
 #include "bench/campaign_report/cells.hpp"
@@ -148,6 +149,7 @@ std::string matrix_html(const Campaign& campaign, const Evaluation& evaluation,
   const Responses all = responses_in(campaign, evaluation);
   std::string body = fmt::format("<p class=\"sub\">{} &middot; seed {} &middot; against {}</p>\n",
                                  escaped(counts(all)), all.matrix.seed, escaped(target_words(evaluation)));
+  std::size_t number = 0;
   for (const Table& table : tables(all)) {
     std::vector<std::string> head{"fault"};
     for (const std::string& one : table.heads) head.push_back(escaped(one));
@@ -157,15 +159,14 @@ std::string matrix_html(const Campaign& campaign, const Evaluation& evaluation,
       for (const Cells& each : cells) rows.back().push_back(marked_summary(each));
     }
     const std::string shown = report::table(head, rows);
-    body += table.title.empty()
-                ? shown
-                : fmt::format("<section><h2>{}</h2>\n{}</section>\n", escaped(table.title), shown);
+    body +=
+        table.title.empty() ? shown : report::section(fmt::format("matrix-{}", ++number), table.title, shown);
   }
-  for (const auto& [kind, title] :
-       {std::pair(Kind::not_measured, "Not measured"), std::pair(Kind::violated, "Violated")}) {
+  for (const auto& [kind, id, title] : {std::tuple(Kind::not_measured, "not-measured", "Not measured"),
+                                        std::tuple(Kind::violated, "violated", "Violated")}) {
     const auto lines = lines_of(all, kind, folder);
     if (!lines.empty())
-      body += fmt::format("<section><h2>{}</h2>\n<pre>{}</pre></section>\n", title, escaped_lines(lines));
+      body += report::section(id, title, fmt::format("<pre>{}</pre>\n", escaped_lines(lines)));
   }
   return body;
 }

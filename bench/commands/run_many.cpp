@@ -253,19 +253,18 @@ std::string index_page(const std::vector<Job>& jobs) {
   report::Rows rows;
   for (const Job& job : jobs) {
     const std::string outcome = outcome_name(job);
-    const auto [style, sign] = report::look_of(outcome == "error" ? "fail" : outcome);
     const bool flown = !job.result.is_null();
     const std::string title = report::escaped(job.planned.scenario.title);
     rows.push_back(
-        {fmt::format("<span class=\"{}\">{} {}</span>", style, sign, outcome),
+        {report::outcome_words(outcome == "error" ? "fail" : outcome, outcome),
          flown ? fmt::format("<a href=\"{}.html\">{}</a>", report::escaped(job.name), title) : title,
          report::escaped(job.planned.scenario.file), report::escaped(reason_of(job)),
          flown ? fmt::format("{:.2f}", job.result.at("wall_s").get<double>()) : ""});
   }
-  return report::whole_page(
-      fmt::format("{} scenarios", jobs.size()), report::styles,
-      fmt::format("<h1>{} scenarios</h1>\n<p class=\"sub\">{}</p>\n", jobs.size(), counts_of(jobs)) +
-          report::table({"outcome", "scenario", "file", "reason", "time [s]"}, rows));
+  const std::string title = fmt::format("{} scenarios", jobs.size());
+  return report::whole_page(title, report::styles,
+                            report::head(title, counts_of(jobs)) +
+                                report::table({"outcome", "scenario", "file", "reason", "time [s]"}, rows));
 }
 
 Result<void> write(const RunArguments& arguments, const std::vector<Job>& jobs) {
