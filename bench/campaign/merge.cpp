@@ -43,6 +43,7 @@ Result<void> check_replaceable(const std::filesystem::path& out, const Identity&
 Result<void> merge(const std::filesystem::path& out, std::span<const std::filesystem::path> files) {
   const auto shards = Shards::open(files);
   if (!shards) return tl::unexpected(shards.error());
+  if (auto complete = shards->check_complete(); !complete) return complete;
   if (auto free = check_replaceable(out, shards->first().identity()); !free) return free;
   auto file = OutputFile::create(out.string());
   if (!file) return tl::unexpected(file.error());

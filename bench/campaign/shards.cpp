@@ -56,7 +56,6 @@ Result<Shards> Shards::open(std::span<const std::filesystem::path> files) {
   auto campaign = campaign_of(shards.first());
   if (!campaign) return tl::unexpected(campaign.error());
   shards.campaign_ = std::move(*campaign);
-  if (auto complete = shards.check_complete(); !complete) return tl::unexpected(complete.error());
   return shards;
 }
 
@@ -93,8 +92,9 @@ Result<Finished> Shards::load(const Key& key) const {
 Result<std::vector<RunSeries>> Shards::load(std::size_t variant) const {
   if (stores_.size() == 1) return first().load(variant);
   std::vector<RunSeries> runs;
-  for (std::uint64_t run = 0; run < campaign_.runs; ++run) {
-    auto finished = load(Key{.variant = variant, .run = run});
+  const auto end = holders_.lower_bound({.variant = variant + 1});
+  for (auto one = holders_.lower_bound({.variant = variant}); one != end; ++one) {
+    auto finished = load(one->first);
     if (!finished) return tl::unexpected(finished.error());
     runs.push_back(std::move(finished->series));
   }

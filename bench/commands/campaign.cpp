@@ -85,15 +85,6 @@ ExitCode merge(const MergeArguments& arguments) {
   return merged ? ExitCode::pass : complain(merged.error());
 }
 
-ExitCode report_on_results(const ReportArguments& arguments) {
-  const std::vector<fs::path> files(arguments.files.begin(), arguments.files.end());
-  CommandFiles named;
-  for (const std::string& file : arguments.files) named.reads("RESULTS", file);
-  declare(arguments.reports, named);
-  if (auto fine = named.check(); !fine) return complain(fine.error());
-  return report_on(files, arguments.reports);
-}
-
 ExitCode export_results(const ExportArguments& arguments) {
   const auto store = campaign::Store::open(arguments.results);
   if (!store) return complain(store.error());
@@ -110,7 +101,7 @@ Result<std::size_t> variant_named(const campaign::Campaign& campaign, const std:
   if (found != campaign.variants.end()) return static_cast<std::size_t>(found - campaign.variants.begin());
   std::vector<std::string> names;
   for (const auto& known : campaign.variants) names.push_back(known.name);
-  return failure(fmt::format("{}: variant '{}' is unknown, expected one of {}", campaign.sources.file, name,
+  return failure(fmt::format("{}: variant '{}' is unknown, expected {}", campaign.sources.file, name,
                              scenario::expected_instead(name, names)));
 }
 
@@ -172,7 +163,8 @@ void add_report(command_line::Command campaign, int& code) {
                   "merged results, those of an undivided campaign, or all shards")
       .required();
   add_reports(command, arguments->reports);
-  command.on_given([&code, arguments] { code = static_cast<int>(report_on_results(*arguments)); });
+  command.on_given(
+      [&code, arguments] { code = static_cast<int>(report_on(arguments->files, arguments->reports)); });
 }
 
 void add_export(command_line::Command campaign, int& code) {

@@ -95,8 +95,8 @@ ExitCode show(const campaign::Reported& all, const CampaignReports& reports) {
   return exit_code(all.evaluation.outcome());
 }
 
-ExitCode report_on_one(const campaign::Campaign& campaign, const fs::path& file,
-                       const CampaignReports& reports) {
+ExitCode report_on_file(const campaign::Campaign& campaign, const fs::path& file,
+                        const CampaignReports& reports) {
   const auto store = campaign::Store::open(file);
   if (!store) return complain(store.error());
   const auto evaluation = campaign::evaluate(campaign, *store);
@@ -204,35 +204,30 @@ ExitCode fly(const campaign::Campaign& campaign, const CampaignFlight& flight, c
     return end_interrupted(fmt::format("; --resume goes on with {}", file->string()));
   }
   if (campaign.matrix && flight.resume) say(report::signature_line(file->string()));
-  const ExitCode code = shard->count > 1 ? ExitCode::pass : report_on_one(campaign, *file, flight.reports);
+  const ExitCode code = shard->count > 1 ? ExitCode::pass : report_on_file(campaign, *file, flight.reports);
   if (course) course->end(outcome_of(code), shard->count > 1 ? "the shard is flown" : "");
   view->hold();
   return code;
 }
 
-ExitCode report_on(std::span<const fs::path> files, const CampaignReports& reports) {
-  ExitCode code = ExitCode::usage;
-  if (files.size() == 1) {
-    const auto store = campaign::Store::open(files.front());
-    if (!store) return complain(store.error());
-    const auto campaign = campaign::campaign_of(*store);
-    if (!campaign) return complain(campaign.error());
-    if (auto fine = check_report(reports, *campaign, {}); !fine) return complain(fine.error());
-    code = report_on_one(*campaign, files.front(), reports);
-  } else {
-    const auto shards = campaign::Shards::open(files);
-    if (!shards) return complain(shards.error());
-    const campaign::Campaign& campaign = shards->campaign();
-    if (auto fine = check_report(reports, campaign, {}); !fine) return complain(fine.error());
-    auto evaluation =
-        campaign::evaluate(campaign, [&](std::size_t variant) { return shards->load(variant); });
-    if (!evaluation) return complain(evaluation.error());
-    evaluation->identity = shards->first().identity();
-    code = show({.campaign = campaign, .evaluation = *evaluation, .folder = files.front().parent_path()},
-                reports);
-  }
+ExitCode report_on(const std::vector<std::string>& files, const CampaignReports& reports) {
+  if (auto distinct = check_distinct_inputs(files); !distinct) return complain(distinct.error());
+  CommandFiles named;
+  for (const std::string& file : files) named.reads("RESULTS", file);
+  declare(reports, named);
+  if (auto fine = named.check(); !fine) return complain(fine.error());
+  const std::vector<fs::path> paths(files.begin(), files.end());
+  const auto shards = campaign::Shards::open(paths);
+  if (!shards) return complain(shards.error());
+  const campaign::Campaign& campaign = shards->campaign();
+  if (auto fine = check_report(reports, campaign, {}); !fine) return complain(fine.error());
+  auto evaluation = campaign::evaluate(campaign, [&](std::size_t variant) { return shards->load(variant); });
+  if (!evaluation) return complain(evaluation.error());
+  evaluation->identity = shards->first().identity();
+  const ExitCode code =
+      show({.campaign = campaign, .evaluation = *evaluation, .folder = paths.front().parent_path()}, reports);
   if (code == ExitCode::usage) return code;
-  for (const fs::path& file : files) say(report::signature_line(file.string()));
+  for (const std::string& file : files) say(report::signature_line(file));
   return code;
 }
 

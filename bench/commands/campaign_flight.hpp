@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +51,6 @@ FlightOptions add_flight(command_line::Command command, CampaignFlight& flight);
 ExitCode fly(const campaign::Campaign& campaign, const CampaignFlight& flight, const std::string& stem);
 
 /// Prints the report on stored results: one file, or all shards.
-ExitCode report_on(std::span<const std::filesystem::path> files, const CampaignReports& reports);
+ExitCode report_on(const std::vector<std::string>& files, const CampaignReports& reports);
 
 }  // namespace canhil::commands

@@ -91,16 +91,6 @@ ExitCode execute(const Arguments& arguments) {
   return fly(*campaign, arguments.flight, std::string(faults_name));
 }
 
-ExitCode merge(const MergeArguments& arguments) {
-  const std::vector<fs::path> files(arguments.files.begin(), arguments.files.end());
-  if (auto distinct = check_distinct_inputs(arguments.files); !distinct) return complain(distinct.error());
-  CommandFiles named;
-  for (const std::string& file : arguments.files) named.reads("RESULTS", file);
-  declare(arguments.reports, named);
-  if (auto fine = named.check(); !fine) return complain(fine.error());
-  return report_on(files, arguments.reports);
-}
-
 }  // namespace
 
 void add_faults(command_line::Command app, int& code) {
@@ -119,7 +109,8 @@ void add_faults(command_line::Command app, int& code) {
   const auto merge_command = command.add_subcommand("merge", "the matrix of shards put together");
   merge_command.add_option("RESULTS", merging->files, "results of the shards").required();
   add_reports(merge_command, merging->reports);
-  merge_command.on_given([&code, merging] { code = static_cast<int>(merge(*merging)); });
+  merge_command.on_given(
+      [&code, merging] { code = static_cast<int>(report_on(merging->files, merging->reports)); });
   command.on_given([&code, arguments, command, scenarios] {
     if (command.subcommand_given()) return;
     if (!scenarios.given()) command_line::throw_required("SCENARIO, or merge");
