@@ -12,6 +12,7 @@
 #include "bench/commands/campaign.hpp"
 #include "bench/commands/campaign_flight.hpp"
 #include "bench/drive/contract.hpp"
+#include "bench/scenario/setting.hpp"
 #include "dbc/files/command_files.hpp"
 #include "dbc/files/text_file.hpp"
 
@@ -34,19 +35,6 @@ struct MergeArguments {
   CampaignReports reports;
 };
 
-// A TOML string.
-std::string toml_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
-    else
-      out += c;
-  }
-  return out + '"';
-}
-
 // The name of a scenario's file, without folder and extension, or, if that is not unique, the whole path.
 std::string name_of(const std::string& file, const std::vector<std::string>& all) {
   const auto stem = [](const std::string& path) { return fs::path(path).stem().string(); };
@@ -57,14 +45,16 @@ std::string name_of(const std::string& file, const std::vector<std::string>& all
 
 // The campaign file that stands for the arguments.
 std::string text_of(const Arguments& arguments) {
-  std::string text = fmt::format("title = {}\nruns = {}\n\n[faults]\n",
-                                 toml_string(fmt::format("Faults: {}", fmt::join(arguments.scenarios, ", "))),
-                                 arguments.runs.value_or(1));
+  std::string text =
+      fmt::format("title = {}\nruns = {}\n\n[faults]\n",
+                  scenario::toml_string(fmt::format("Faults: {}", fmt::join(arguments.scenarios, ", "))),
+                  arguments.runs.value_or(1));
   text += arguments.set.empty() ? fmt::format("seed = {}\n", arguments.seed.value_or(1))
-                                : fmt::format("set = {}\n", toml_string(arguments.set));
+                                : fmt::format("set = {}\n", scenario::toml_string(arguments.set));
   for (const std::string& file : arguments.scenarios)
-    text += fmt::format("\n[[variant]]\nname = {}\nscenario = {}\n",
-                        toml_string(name_of(file, arguments.scenarios)), toml_string(file));
+    text +=
+        fmt::format("\n[[variant]]\nname = {}\nscenario = {}\n",
+                    scenario::toml_string(name_of(file, arguments.scenarios)), scenario::toml_string(file));
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bench/mapping/guess.hpp"
+#include "bench/scenario/setting.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -125,8 +126,8 @@ Blocks draft_of_mapping(const dbc::Database& database, std::string_view device, 
                   "the signs: the bench has\n"
                   "# the axes forward, right, down and north, east, down; a minus before a quantity turns "
                   "its sign. docs/mapping.md\n"
-                  "# explains the keys; hil-bench dbc check lists what is left out.\ndbc = \"{}\"\n",
-                  dbc)};
+                  "# explains the keys; hil-bench dbc check lists what is left out.\ndbc = {}\n",
+                  scenario::toml_string(dbc))};
   std::set<std::string> played, reported;
   for (const dbc::Message& message : database.messages) {
     if (message.sender != device && receives(message, device)) blocks.push_back(play_of(message, played));
@@ -141,15 +142,15 @@ Blocks draft_of_mapping(const dbc::Database& database, std::string_view device, 
 }
 
 Blocks draft_of_scenario(const Mapping& mapping, const std::string& file) {
-  Blocks blocks{
-      fmt::format("# A draft: a flight with turns, sensors without errors, and a check for each quantity. "
-                  "docs/scenarios.md explains\n"
-                  "# the keys.\ntitle = \"Draft: {}\"\nduration_s = 20.0\nseed = 1\n\n[target]\nmapping = "
-                  "\"{}\"\n\n[truth]\nlatitude_deg = 48.0\n"
-                  "longitude_deg = 11.0\nheight_m = 500.0\ntrajectory = \"s_path\"\nspeed_mps = "
-                  "15.0\nheading_deg = 45.0\n"
-                  "heading_amplitude_deg = 30\nturn_period_s = 10.0\n",
-                  mapping.targets.front().name, file)};
+  Blocks blocks{fmt::format(
+      "# A draft: a flight with turns, sensors without errors, and a check for each quantity. "
+      "docs/scenarios.md explains\n"
+      "# the keys.\ntitle = {}\nduration_s = 20.0\nseed = 1\n\n[target]\nmapping = "
+      "{}\n\n[truth]\nlatitude_deg = 48.0\n"
+      "longitude_deg = 11.0\nheight_m = 500.0\ntrajectory = \"s_path\"\nspeed_mps = "
+      "15.0\nheading_deg = 45.0\n"
+      "heading_amplitude_deg = 30\nturn_period_s = 10.0\n",
+      scenario::toml_string("Draft: " + mapping.targets.front().name), scenario::toml_string(file))};
   std::vector<const sensors::Kind*> written;
   for (const Play& play : mapping.plays) {
     std::vector<const sensors::Kind*> needed{play.sensor};

@@ -23,4 +23,7 @@ Result<std::vector<Setting>> parse_setting(std::string_view text);
 /// The settings of all options `--set`; a key may be set only once. The error is one line with the option.
 Result<std::vector<Setting>> parse_settings(const std::vector<std::string>& texts);
 
+/// A text as a TOML string, in quotes.
+std::string toml_string(std::string_view text);
+
 }  // namespace canhil::scenario

@@ -7,6 +7,18 @@
 
 namespace canhil::scenario {
 
+std::string toml_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    else
+      out += c;
+  }
+  return out + '"';
+}
+
 std::string toml_text(const toml::node& node) {
   if (const auto* real = node.as_floating_point())
     return fmt::format("{}", real->get());  // shortest exact representation

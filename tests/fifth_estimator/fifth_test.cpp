@@ -119,7 +119,8 @@ TEST(FifthEstimator, ItsCheckWorksInAScenarioACampaignAndASuite) {
     fs::remove(folder + "/campaign.sqlite");
     std::vector<std::string> found{json_of(run.out)["checks"][0]["outcome"],
                                    json_of(campaign.out)["answers"][0]["outcome"]};
-    for (const auto& item : json_of(suite.out)["suites"][0]["requirements"][0]["items"]) {
+    const auto suites = json_of(suite.out)["suites"];
+    for (const auto& item : suites[0]["requirements"][0]["items"]) {
       if (item["kind"] == "spread") found.push_back(item["outcome"]);
     }
     return found;

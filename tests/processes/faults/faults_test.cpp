@@ -26,17 +26,20 @@ std::string file(const std::string& name, const std::string& text) {
   return path;
 }
 
-// Three faults: two of a seeker at 200 Hz (an outage, damaged frames), and one of a master INS (lost frames).
-// The seeker and the master INS are in different scenarios.
-std::string small_set() {
-  return file("small.toml", R"(
+// An outage of a seeker at 200 Hz.
+const std::string seeker_away = R"(
 [[fault]]
 name = "seeker away"
 kind = "lost"
 messages = ["SeekerAntenna", "SeekerAngles", "SeekerMotion", "SeekerRange"]
 from_s = 2
 to_s = 2.3
-[[fault]]
+)";
+
+// Three faults: two of a seeker at 200 Hz (an outage, damaged frames), and one of a master INS (lost frames).
+// The seeker and the master INS are in different scenarios.
+std::string small_set() {
+  return file("small.toml", seeker_away + R"([[fault]]
 name = "one in ten damaged"
 kind = "damaged"
 messages = ["SeekerAngles"]
@@ -224,14 +227,7 @@ TEST(Faults, BadInputIsOneLine) {
 TEST(Faults, AreVariantsOfACampaign) {
   const std::string folder = scratch("campaign");
   fs::create_directories(folder);
-  std::ofstream(folder + "/away.toml") << R"(
-[[fault]]
-name = "seeker away"
-kind = "lost"
-messages = ["SeekerAntenna", "SeekerAngles", "SeekerMotion", "SeekerRange"]
-from_s = 2
-to_s = 2.3
-)";
+  std::ofstream(folder + "/away.toml") << seeker_away;
   std::ofstream(folder + "/c.toml") << fmt::format(R"(
 title = "Glint and losses"
 runs = 2

@@ -67,6 +67,21 @@ TEST(New, AMappingHasWhatNamesAndUnitsTell) {
   EXPECT_THAT(text, HasSubstr("INS_Yaw = \"attitude.heading\""));
 }
 
+// A path is a TOML string, whatever characters it has.
+TEST(New, APathMayHaveQuotes) {
+  const std::string folder = scratch("quo\"ted"), in_shell = fmt::format("'{}'", folder);
+  fs::create_directories(folder);
+  fs::copy_file(examples + "car/car.dbc", folder + "/car.dbc", fs::copy_options::overwrite_existing);
+  for (const char* name : {"/m.mapping.toml", "/m.toml"}) fs::remove(scratch("quoted") + name);
+  fs::create_directories(scratch("quoted"));
+  const std::string mapping = scratch("quoted") + "/m.mapping.toml", scenario = scratch("quoted") + "/m.toml";
+  const Ended mapped =
+      hil_bench(fmt::format("new mapping {} --dbc {}/car.dbc --device INS", mapping, in_shell));
+  EXPECT_EQ(mapped.code, 0) << mapped.err;
+  EXPECT_EQ(mapped.err, "") << "it is read again";
+  EXPECT_EQ(hil_bench(fmt::format("new scenario {} --mapping {}", scenario, mapping)).err, "");
+}
+
 TEST(New, AScenarioOfAnEstimatorFlies) {
   const std::string scenario = scratch("wind_of_my_own.toml");
   fs::remove(scenario);
