@@ -138,8 +138,8 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   // contradicts itself, and while the heading sigma is above this
   // limit: the axes of the reported tilts and velocity may then be turned by any angle.
   void doubt(Context& context) const {
-    // The sigma that sin_cos reports is 36 deg where its covariance says 30 deg.
-    const double known_sigma = (tuning_.filter.algorithm == ia::Algorithm::sin_cos ? 36 : 30) * deg;
+    // The sigma that sin_cos reports is 40 deg where its covariance says 30 deg.
+    const double known_sigma = (tuning_.filter.algorithm == ia::Algorithm::sin_cos ? 40 : 30) * deg;
     context.consistency.distrust(state_.fixes.charts.alarmed() || ia::is_off_circle(state_) ||
                                  !(ia::uncertainty(state_).attitude(2, 2) <= known_sigma * known_sigma));
   }

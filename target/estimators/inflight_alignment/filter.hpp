@@ -111,7 +111,7 @@ struct Uncertainty {
   Eigen::Vector3d accel_bias, gyro_bias;               // sigmas, body [m/s^2], [rad/s]
   Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();  // sigmas, NED [m]
 };
-/// The uncertainty after the last update or prediction.
+/// The uncertainty after the last update or prediction; that of the recommended filter includes a margin.
 Uncertainty uncertainty(const State& state);
 
 /// sin_cos: true if the estimates of sine and cosine of the heading error are too far from a circle of radius

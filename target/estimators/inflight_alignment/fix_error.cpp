@@ -7,11 +7,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A Gauss-Markov error of variance 1 and time t has the density 2 t/(1 + (w t)^2) at the angular frequency w;
-// over all t, its largest value is 1/w. White noise of variance 1 in fixes at 1 Hz, and a Gauss-Markov error
-// of this variance and time, together are above it from 1/120 to 1/5 rad/s, except for 1/13 to 1/5 rad/s,
-// where they are up to 30 % below it; there the real error has no white noise beside it.
-constexpr double covering_variance = 2, covering_time = 60;
+// For an error of variance 1 whose correlation time is not told. A Gauss-Markov error of the time t has the
+// density 2 t/(1 + (w t)^2) at the angular frequency w, whose largest value over all t is 1/w. The sum of
+// these two errors is above it from 1/120 to 1/15 rad/s (fixes at 1 Hz). At 1/5 rad/s, which matters if the
+// real error has 5 s, it is 0.6 of it.
+constexpr double covering_white = 1.5, covering_variance = 2, covering_time = 60;
 
 }  // namespace
 
@@ -32,6 +32,7 @@ FixErrorModel fix_error_model(const Settings& settings) {
   if (time > 0) {
     model.white -= correlated;
   } else {
+    model.white += (covering_white - 1) * correlated;
     correlated *= covering_variance;
     time = covering_time;
   }

@@ -12,6 +12,9 @@ TEST(Honesty, OfTheTransferAlignment) {
 TEST(Honesty, OfTheInflightAlignment) {
   expect_bars_met("bench/monte_carlo/honesty/inflight_alignment.toml", 117, 40);
 }
+TEST(Honesty, OfTheInflightAlignmentInOtherRegimes) {
+  expect_bars_met("bench/monte_carlo/honesty/inflight_regimes.toml", 118, 16);
+}
 TEST(Honesty, OfTheLosRate) { expect_bars_met("bench/monte_carlo/honesty/los_rate.toml", 44, 60); }
 TEST(Honesty, OfTheWind) { expect_bars_met("bench/monte_carlo/honesty/wind.toml", 23, 24); }
 
