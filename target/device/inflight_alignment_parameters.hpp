@@ -94,8 +94,8 @@ inline constexpr std::array inflight_alignment_parameters = [] {
           "resolved and feeds it back to the INS.",
           [](InflightTuning& t, double v) { t.filter.handover_sigma = v * deg; }},
       Row{P::gate_nis, 30, 0, 1e9, real, any_time,
-          "Fixes whose normalised innovation squared (NIS) is larger than this value are refused. 0: no "
-          "gate.",
+          "Fixes whose normalised innovation squared (NIS) is larger than this value are refused; in "
+          "`sin_cos`, half of it after a refused fix. 0: no gate.",
           [](InflightTuning& t, double v) { t.filter.gate_nis = v; }},
       Row{P::gate_recovery, 5, 0, 1e6, whole, any_time,
           "The gate refuses at most this number of fixes in a row. The filter uses the next fix even if it "
