@@ -219,8 +219,8 @@ constexpr auto parameters = [] {
   return names_of(accel_bias_sigma_ug, gyro_bias_sigma_degph, accel_noise_ugprthz, gyro_noise_degprth,
                   closed_loop, output_interval_ms, aiding, attitude_error_frame, ukf_root, ukf_covariance,
                   fix_noise_horizontal_m, fix_noise_vertical_m, fix_bias_sigma_m, fix_bias_walk_mprts,
-                  fix_correlated_percent, fix_correlation_s, initial_height_sigma_m, handover_sigma_deg,
-                  gate_nis, gate_recovery, late_fixes);
+                  initial_height_sigma_m, handover_sigma_deg, gate_nis, gate_recovery, late_fixes,
+                  fix_correlated_percent, fix_correlation_s);
 }();
 constexpr std::array<std::string_view, 1> nodes{"slave_imu"};
 
