@@ -55,6 +55,12 @@ struct Alignment {
   Answering filters;
 };
 
+/// False for the answer of a filter that has only predicted; it has no innovation.
+constexpr bool answers_measurement(const auto& answer) {
+  if constexpr (requires { answer.outcome; }) return answer.outcome != messages::FixOutcome::predicted;
+  return true;
+}
+
 /// Creates the tracks of attitude, velocity and innovations. `filter`: the answers of the filter; each answer
 /// has the members cause_us, attitude_sigma, velocity_sigma and innovation.
 template <class Answers>
@@ -128,7 +134,10 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
   each_axis(of.innovation, [&](const Quantity& quantity, const std::string& name, int axis) {
     Track track = of.filters.track(quantity, "innovation " + name);
     track.kind = Track::Kind::innovation;
-    for (const auto& a : filter) track.points.push_back({.t_us = a.cause_us, .value = a.innovation(axis)});
+    for (const auto& a : filter) {
+      if (!answers_measurement(a)) continue;
+      track.points.push_back({.t_us = a.cause_us, .value = a.innovation(axis)});
+    }
     give(std::move(track));
   });
 }

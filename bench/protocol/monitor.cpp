@@ -170,7 +170,10 @@ void Monitor::decode(const Frame& frame, std::size_t index) {
     // When the answer is complete, it consists of the newest arrival of each of its messages.
     const auto whole = reception->take(frame, index, now_us_, seen_);
     if (!whole) return;
-    for (const std::size_t message : whole->messages) ++seen_.answers[message];
+    for (const std::size_t message : whole->messages) {
+      const auto owed = all_messages[message].answers;  // a further answer does not replace one that is owed
+      if (std::ranges::find(owed, whole->cause_group) != owed.end()) ++seen_.answers[message];
+    }
     if (stopwatch_)
       stopwatch_->answered(whole->messages, whole->cause_group, whole->cause_us, whole->cause_counter);
     return;

@@ -1,8 +1,11 @@
 #include "bench/sensors/ssbl.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "bench/sensors/constant_error.hpp"
+#include "bench/sensors/error_stack.hpp"
 #include "bench/sensors/sampler.hpp"
 
 namespace canhil::sensors {
@@ -36,6 +39,9 @@ NodeSettings read(const NodeTable& table, Section& section) {
   node.range_noise = section.number(
       {"range_noise_percent", "White noise in proportion to the slant range, 1-sigma of a fix."},
       Limits::between(0, 100), 0);
+  node.further = read_error_stacks(section, {.of = "the vehicle's position relative to the ship, [N, E, D]",
+                                             .correlated = "correlated_m",
+                                             .correlation = "correlation_s"});
   node.faults = read_fix_faults(section);
   return {table, node};
 }
@@ -46,7 +52,8 @@ class Ssbl final : public Sampler<SsblSettings> {
       : Sampler(node, run),
         stream_(run.stream("ssbl")),
         ship_error_(draw(config_.ship_error, stream_)),
-        bias_(draw(config_.bias, stream_)) {}
+        bias_(draw(config_.bias, stream_)),
+        further_(config_.further, 1e-6 * static_cast<double>(node.period_us()), run.stream("ssbl.further")) {}
 
  private:
   bool take(std::int64_t t_us, Sample& sample) override {
@@ -60,18 +67,28 @@ class Ssbl final : public Sampler<SsblSettings> {
     const Vector3 sigma = (config_.noise.array().square() + range_noise.array().square()).sqrt();
     const Vector3 noise = sigma.cwiseProduct(stream_.normal3());
     const Fate fate = draw_fate(config_.faults, t_us, stream_);
-    Vector3 measured = relative + bias_ + noise + fate.jump;
+    Vector3 measured = relative + bias_ + noise + fate.jump + further_.wander();
     if (fate.invalid) measured.setZero();  // an invalid fix has no position
     const world::Position reported = displaced(ship, ship_error_);
-    sample.values = {measured.x(),       measured.y(),     reported.latitude, reported.height,
-                     reported.longitude, sigma.maxCoeff(), measured.z()};
+    sample.values = {measured.x(),       measured.y(),          reported.latitude, reported.height,
+                     reported.longitude, reported_sigma(sigma), measured.z()};
     sample.invalid = fate.invalid ? 1 : 0;
     return !fate.lost;
+  }
+
+  // The 1-sigma of the white noise and of the correlated error, of the worst axis.
+  [[nodiscard]] double reported_sigma(const Vector3& white) const {
+    double largest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      largest = std::max(largest,
+                         std::hypot(white(axis), config_.further[static_cast<std::size_t>(axis)].correlated));
+    return largest;
   }
 
   world::Stream stream_;
   Vector3 ship_error_;
   Vector3 bias_;
+  world::TriadErrors further_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "bench/scenario/schedule.hpp"
 #include "bench/sensors/fix_faults.hpp"
+#include "bench/world/error_stack.hpp"
 #include "bench/world/stream.hpp"
 
 namespace canhil::sensors {
@@ -17,8 +18,9 @@ struct SsblSettings {
   world::RandomConstant ship_error{};  ///< error of the position that the ship reports, NED [m]
   world::RandomConstant bias{};        ///< error of the relative position, NED [m]
   world::Vector3 noise =
-      world::Vector3::Zero();  ///< 1-sigma of each relative position at zero range, NED [m]
-  double range_noise = 0;      ///< 1-sigma per fix and component, divided by the slant range
+      world::Vector3::Zero();            ///< 1-sigma of each relative position at zero range, NED [m]
+  double range_noise = 0;                ///< 1-sigma per fix and component, divided by the slant range
+  world::TriadErrors::Stacks further{};  ///< NED [m]
   FixFaults faults{};
 };
 

@@ -60,6 +60,9 @@ class ImuStream {
   /// Epoch of the INS.
   [[nodiscard]] std::int64_t now_us() const { return now_us_; }
 
+  /// The counter of the last sample.
+  [[nodiscard]] std::uint8_t counter() const { return group_.counter(); }
+
   /// Returns a fault if the IMU has been silent for too long in the bench's time base.
   Health tick(Context& context) const {
     if (context.now_us - now_us_ <= silence_limit_us) return Health::good;

@@ -27,12 +27,13 @@ constexpr double ug = 1e-6 * 9.80665;
 
 constexpr std::int64_t history_us = 5'000'000;
 constexpr std::size_t history_length = 5120;         // increments; at most one arrives per millisecond
+constexpr std::int64_t outage_us = 2'000'000;        // without an update for longer, predictions are answered
 constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix further ahead of the INS is rejected
 constexpr std::size_t pending_limit = 4;             // fixes that may wait for the INS
 
 struct Fix {
   FixSource source = FixSource::ssbl;
-  ia::GeodeticPosition position;
+  ia::GeodeticPosition position{};
   double horizontal_sigma = 0, vertical_sigma = 0;  // reported by the source of the fix [m]
 };
 
@@ -84,8 +85,9 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     filter.velocity_sigma_0.setConstant(initial.velocity_sigma);
     filter.tilt_sigma_0 = initial.tilt_sigma;
     filter.heading_sigma_0 = initial.heading_sigma;
+    filter.fix_reported_horizontal = filter.fix_reported_vertical = 0;
     state_ = ia::initial(nav_of(initial), filter);
-    start_us_ = initial.t_us;
+    start_us_ = updated_us_ = initial.t_us;
     history_.restart(initial.t_us);
     imu_.start(initial.t_us, tuning_.output_interval_us);
     pending_.clear();
@@ -127,16 +129,19 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   }
 
   Health tick(Context context) override {
-    doubt_heading(context);
+    doubt(context);
     return imu_.tick(context);
   }
 
  private:
-  // While the heading sigma is above this limit, the axes of the reported tilts and velocity may be turned by
-  // any angle, so the adapter reports that the sigmas are not valid.
-  void doubt_heading(Context& context) const {
-    constexpr double known_sigma = 30 * deg;
-    context.consistency.distrust(!(ia::uncertainty(state_).attitude(2, 2) <= known_sigma * known_sigma));
+  // The sigmas are not valid while innovations have a lasting mean, while the estimate of the heading
+  // contradicts itself, and while the heading sigma is above this
+  // limit: the axes of the reported tilts and velocity may then be turned by any angle.
+  void doubt(Context& context) const {
+    // The sigma that sin_cos reports is 40 deg where its covariance says 30 deg.
+    const double known_sigma = (tuning_.filter.algorithm == ia::Algorithm::sin_cos ? 40 : 30) * deg;
+    context.consistency.distrust(state_.fixes.charts.alarmed() || ia::is_off_circle(state_) ||
+                                 !(ia::uncertainty(state_).attitude(2, 2) <= known_sigma * known_sigma));
   }
 
   template <class Message>
@@ -155,6 +160,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     if (!best.v_eb_n.allFinite() || !best.C_bn.allFinite()) return numeric_fault(context);
     if (imu_.answer_is_due(tuning_.output_interval_us)) {
       imu_.answer<FixAttitude, FixVelocityNE, FixVelocityD>(best, context.answers);
+      if (imu_.now_us() - updated_us_ > outage_us) answer_prediction(context);
     }
     return health;
   }
@@ -214,28 +220,22 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return refuse(fix, FixOutcome::future, context);
   }
 
-  // The filter's settings for one fix. The noise of the fix is the larger of two sigmas: the sigma that the
-  // source of the fix reports, and the sigma in the settings.
-  [[nodiscard]] ia::Settings settings_for(const Fix& fix) const {
-    ia::Settings filter = tuning_.filter;
-    filter.fix_noise_horizontal = std::max(filter.fix_noise_horizontal, fix.horizontal_sigma);
-    filter.fix_noise_vertical = std::max(filter.fix_noise_vertical, fix.vertical_sigma);
-    return filter;
-  }
-
   Health update(const At<Fix>& fix, Context& context) {
-    const ia::UpdateResult result =
-        history_.update(state_, fix.value.position, fix.t_us, settings_for(fix.value));
-    doubt_heading(context);
+    tuning_.filter.fix_reported_horizontal = fix.value.horizontal_sigma;
+    tuning_.filter.fix_reported_vertical = fix.value.vertical_sigma;
+    const ia::UpdateResult result = history_.update(state_, fix.value.position, fix.t_us, tuning_.filter);
+    doubt(context);
     switch (result.outcome) {
       case ia::Outcome::ok:
+        updated_us_ = fix.t_us;
         observe(result, context.consistency);
-        answer(fix, result.gate_opened ? FixOutcome::recovered : FixOutcome::accepted, result, context);
+        answer(fix, result.gate_opened ? FixOutcome::recovered : FixOutcome::accepted, result, state_,
+               context);
         return Health::good;
       case ia::Outcome::gated:
         ++gated_;
-        observe(result, context.consistency);
-        answer(fix, FixOutcome::gated, result, context);
+        if (state_.rejected > 1) observe(result, context.consistency);
+        answer(fix, FixOutcome::gated, result, state_, context);
         return Health::good;
       case ia::Outcome::non_finite:
       case ia::Outcome::not_positive_definite:
@@ -253,19 +253,34 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return refuse(fix, FixOutcome::out_of_order, context);
   }
 
-  Health refuse(const At<Fix>& fix, FixOutcome why, Context& context) {
-    ++refused_;
+  // Answers the last IMU sample with the prediction of the filter, whose sigmas grow while no fix is used.
+  void answer_prediction(Context& context) {
+    const At<Fix> cause{
+        .t_us = imu_.now_us(), .counter = imu_.counter(), .value = {.source = FixSource::imu}};
+    ia::State now = state_;
+    ia::predict(now, tuning_.filter);
+    answer(cause, FixOutcome::predicted, nothing_measured(), now, context);
+  }
+
+  // The result of an update that has not happened.
+  [[nodiscard]] ia::UpdateResult nothing_measured() const {
     const strapdown::NavState now = ia::estimate(state_).nav;
     ia::UpdateResult nothing;
     nothing.position = {now.latitude, now.longitude, now.height};
-    answer(fix, why, nothing, context);
+    return nothing;
+  }
+
+  Health refuse(const At<Fix>& fix, FixOutcome why, Context& context) {
+    ++refused_;
+    answer(fix, why, nothing_measured(), state_, context);
     return Health::good;
   }
 
-  void answer(const At<Fix>& fix, FixOutcome outcome, const ia::UpdateResult& result, Context& context) {
+  void answer(const At<Fix>& fix, FixOutcome outcome, const ia::UpdateResult& result, const ia::State& state,
+              Context& context) {
     Answers& answers = context.answers;
-    const ia::Estimate best = ia::estimate(state_);
-    const ia::Uncertainty sigma = ia::uncertainty(state_);
+    const ia::Estimate best = ia::estimate(state);
+    const ia::Uncertainty sigma = ia::uncertainty(state);
     const Eigen::Vector3d attitude = sigma.attitude.diagonal().cwiseMax(0).cwiseSqrt() / deg;
     answers.send(FixInnovation{.innovation_north_m = result.innovation.x(),
                                .innovation_east_m = result.innovation.y(),
@@ -320,6 +335,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   ia::History<history_length> history_{0, history_us};
   FixQueue<Fix, pending_limit> pending_;  // fixes ahead of the INS
   std::int64_t start_us_ = 0;
+  std::int64_t updated_us_ = 0;            // time of validity of the last fix that the filter used
   std::uint32_t gated_ = 0, refused_ = 0;  // numbers of fixes since the start
 };
 

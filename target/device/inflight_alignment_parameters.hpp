@@ -77,6 +77,15 @@ inline constexpr std::array inflight_alignment_parameters = [] {
           "Density of the random walk of the error that `fix_bias_sigma_m` describes; 0: the error is "
           "constant.",
           [](InflightTuning& t, double v) { t.filter.fix_bias_noise_density = v; }},
+      Row{P::fix_correlated_percent, 100, 0, 100, real, stopped_only,
+          "`sin_cos`: share of the variance of a fix's noise that is correlated in time. 0: the noise is "
+          "white.",
+          [](InflightTuning& t, double v) { t.filter.fix_correlated_share = v / 100; }},
+      Row{P::fix_correlation_s, 0, 0, 1e5, real, any_time,
+          "`sin_cos`: correlation time of this share. 0: not known; the sigmas then cover all times from 5 "
+          "to "
+          "120 s, also if the white noise is as large as the noise.",
+          [](InflightTuning& t, double v) { t.filter.fix_correlation_time = v; }},
       Row{P::initial_height_sigma_m, 0, 0, 1e5, real, stopped_only,
           "1-sigma of the height at the start; 0: the filter uses `position_m` of `[target.initial_sigma]`.",
           [](InflightTuning& t, double v) { t.height_sigma = v; }},
@@ -85,8 +94,8 @@ inline constexpr std::array inflight_alignment_parameters = [] {
           "resolved and feeds it back to the INS.",
           [](InflightTuning& t, double v) { t.filter.handover_sigma = v * deg; }},
       Row{P::gate_nis, 30, 0, 1e9, real, any_time,
-          "Fixes whose normalised innovation squared (NIS) is larger than this value are refused. 0: no "
-          "gate.",
+          "Fixes whose normalised innovation squared (NIS) is larger than this value are refused; in "
+          "`sin_cos`, half of it after a refused fix. 0: no gate.",
           [](InflightTuning& t, double v) { t.filter.gate_nis = v; }},
       Row{P::gate_recovery, 5, 0, 1e6, whole, any_time,
           "The gate refuses at most this number of fixes in a row. The filter uses the next fix even if it "

@@ -20,6 +20,7 @@ using world::units::degph;
 using world::units::ug;
 
 std::string_view group_of(FixSource source) {
+  if (source == FixSource::imu) return messages::SlaveImuStatus::info.sample_group;
   return source == FixSource::gps ? messages::GpsTime::info.sample_group
                                   : messages::SsblRelativeD::info.sample_group;
 }
@@ -27,7 +28,8 @@ std::string_view group_of(FixSource source) {
 struct FixGroup : AnswerGroup<FixInnovation, FixPositionLatitude, FixPositionLongitude, FixAttitudeSigma,
                               FixVelocitySigma, FixPositionSigma, FixGyroBias, FixGyroBiasSigma, FixAccelBias,
                               FixAccelBiasSigma, FixBias, FixBiasSigma, FixStatus, FixUpdate> {
-  /// The cause is a fix of one of two sources. The message FixStatus names the source.
+  /// The cause is a fix of one of two sources, or the IMU sample of a prediction. The message FixStatus names
+  /// the source.
   [[nodiscard]] Whole whole(std::int64_t now_us) const {
     Whole answer = AnswerGroup::whole(now_us);
     answer.cause_group = group_of(get<FixStatus>().source);
@@ -109,7 +111,8 @@ std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Win
 }
 
 bool has_time_and_truth(const FixAnswer& answer, const world::FlightRecord& truth) {
-  const bool considered = used(answer.outcome) || answer.outcome == messages::FixOutcome::gated;
+  const bool considered = used(answer.outcome) || answer.outcome == messages::FixOutcome::gated ||
+                          answer.outcome == messages::FixOutcome::predicted;
   return considered && answer.cause_us >= 0 && answer.cause_us <= truth.known_until_us();
 }
 

@@ -26,11 +26,11 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 18> kept{
-    &misalignment_north,  &misalignment_east,  &misalignment_down, &attitude_roll, &attitude_pitch,
-    &attitude_heading,    &velocity_north,     &velocity_east,     &velocity_down, &innovation_nis,
-    &position_north,      &position_east,      &position_down,     &heading_sigma, &covariance_repairs,
-    &velocity_down_sigma, &trusted_over_sigma, &degraded};
+constexpr std::array<const Quantity*, 19> kept{
+    &misalignment_north,  &misalignment_east,  &misalignment_down,  &attitude_roll, &attitude_pitch,
+    &attitude_heading,    &velocity_north,     &velocity_east,      &velocity_down, &innovation_nis,
+    &position_north,      &position_east,      &position_down,      &heading_sigma, &covariance_repairs,
+    &velocity_down_sigma, &trusted_over_sigma, &overdue_over_sigma, &degraded};
 
 constexpr auto of_runs = and_alignment_reported(
     std::array<const Quantity*, 10>{&position_north, &position_east, &position_down, &position_horizontal,
@@ -49,6 +49,9 @@ constexpr Layout layout{.kept = kept, .derived = derived, .answers_may_omit = tr
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   const InflightAnswers& answers = seen.of<InflightAnswers>();
+  constexpr double beyond = 5;
+  constexpr std::int64_t to_warn_us = 10'000'000;
+  std::optional<std::int64_t> first_beyond_us;
   for (const FixAnswer& update : answers.fixes) {
     if (!has_time_and_truth(update, truth.flight)) continue;
     const auto after = answers.navigation.first_after(update.cause_us, update.navigation_us, truth.flight);
@@ -62,6 +65,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
             ? 0
             : std::max({over_sigma(phi, update.attitude_sigma), over_sigma(v, update.velocity_sigma),
                         over_sigma(p, update.position_sigma)});
+    if (trusted > beyond && !first_beyond_us) first_beyond_us = update.cause_us;
+    const bool overdue = first_beyond_us && update.cause_us - *first_beyond_us > to_warn_us;
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
                                                  phi.z(),
@@ -79,6 +84,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  static_cast<double>(update.repairs),
                                                  update.velocity_sigma.z(),
                                                  trusted,
+                                                 overdue ? trusted : 0.0,
                                                  update.degraded ? 1.0 : 0.0};
     samples.add(update.cause_us, values);
   }
@@ -213,7 +219,8 @@ constexpr auto parameters = [] {
   return names_of(accel_bias_sigma_ug, gyro_bias_sigma_degph, accel_noise_ugprthz, gyro_noise_degprth,
                   closed_loop, output_interval_ms, aiding, attitude_error_frame, ukf_root, ukf_covariance,
                   fix_noise_horizontal_m, fix_noise_vertical_m, fix_bias_sigma_m, fix_bias_walk_mprts,
-                  initial_height_sigma_m, handover_sigma_deg, gate_nis, gate_recovery, late_fixes);
+                  initial_height_sigma_m, handover_sigma_deg, gate_nis, gate_recovery, late_fixes,
+                  fix_correlated_percent, fix_correlation_s);
 }();
 constexpr std::array<std::string_view, 1> nodes{"slave_imu"};
 

@@ -92,11 +92,13 @@ enum { /* FixOutcome */
   CANHIL_FIX_OUTCOME_WRONG_SOURCE = 6,
   CANHIL_FIX_OUTCOME_INVALID = 7,
   CANHIL_FIX_OUTCOME_BEFORE_START = 8,
-  CANHIL_FIX_OUTCOME_NUMERIC = 9
+  CANHIL_FIX_OUTCOME_NUMERIC = 9,
+  CANHIL_FIX_OUTCOME_PREDICTED = 10
 };
 enum { /* FixSource */
   CANHIL_FIX_SOURCE_SSBL = 0,
-  CANHIL_FIX_SOURCE_GPS = 1
+  CANHIL_FIX_SOURCE_GPS = 1,
+  CANHIL_FIX_SOURCE_IMU = 2
 };
 enum { /* Parameter */
   CANHIL_PARAMETER_ACCEL_BIAS_SIGMA_UG = 0,
@@ -124,6 +126,8 @@ enum { /* Parameter */
   CANHIL_PARAMETER_GATE_NIS = 22,
   CANHIL_PARAMETER_GATE_RECOVERY = 23,
   CANHIL_PARAMETER_LATE_FIXES = 24,
+  CANHIL_PARAMETER_FIX_CORRELATED_PERCENT = 25,
+  CANHIL_PARAMETER_FIX_CORRELATION_S = 26,
   CANHIL_PARAMETER_JERK_DENSITY_M2PS5 = 64,
   CANHIL_PARAMETER_THERMAL_NOISE_PITCH_RADPM2 = 65,
   CANHIL_PARAMETER_THERMAL_NOISE_YAW_RADPM2 = 66,
@@ -942,7 +946,7 @@ typedef struct { unsigned char estimator; unsigned long hash24; } canhil_exchang
 static const canhil_exchange canhil_exchanges[] = {
   {0, 0x91A9CAUL}, /* none */
   {1, 0xEC38ADUL}, /* transfer_alignment */
-  {2, 0x42DFF6UL}, /* inflight_alignment */
+  {2, 0x3993EDUL}, /* inflight_alignment */
   {3, 0x695B46UL}, /* los_rate */
   {4, 0xEB5C2DUL}, /* wind */
 };

@@ -37,6 +37,8 @@ struct Errors {
   Vector<N> x = Vector<N>::Zero();
   Matrix<N, N> P = Matrix<N, N>::Zero();
   SinCosForm form = SinCosForm::levelled;  // used only by sin_cos
+  // levelled: sum, since the last fix, of the sigmas of the vertical force's second-order term [m/s]
+  double second_order = 0;
 };
 
 /// The gravity error of an INS per metre of its position error dR, NED: the gravity error dg [m/s^2] is the

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "target/estimators/inflight_alignment/fix.hpp"
 #include "target/estimators/inflight_alignment/psi_angle.hpp"
 #include "target/estimators/inflight_alignment/sin_cos.hpp"
@@ -15,6 +18,20 @@ Vector<N> errors_now(const Errors<N>& errors, const Interval& interval) {
   } else {
     return predicted<N>(errors.x, interval);
   }
+}
+
+// Widens the sigmas that the recommended filter reports. Its errors match its covariance, but there are many
+// components and times in a run: one of 2,500 runs of 300 s would have some error beyond 5 sigma. So the
+// sigmas of position, velocity and attitude are wider by 10 %. While the heading is not well known, its error
+// is not normal (s and k are linear, the angle is not), so the sigmas of heading and velocity are also wider
+// by the second order of the heading's sigma: by 1 % at 6 deg, by 25 % at 30 deg and beyond.
+void widen(Uncertainty& u) {
+  constexpr double margin = 1.1, share = 2, most = 0.55;
+  const double by_heading = 1 + std::min(share * u.attitude(2, 2), most);
+  u.attitude *= margin * margin;
+  u.attitude(2, 2) *= by_heading;
+  u.velocity *= margin * std::sqrt(by_heading);
+  u.position *= margin;
 }
 
 template <class Visitor>
@@ -66,7 +83,25 @@ Uncertainty uncertainty(const State& state) {
                   .accel_bias = sigma.template segment<3>(At::accel_bias),
                   .gyro_bias = sigma.template segment<3>(At::gyro_bias)};
     if constexpr (At::has_fix_bias) u.fix_bias = sigma.template segment<3>(At::fix_bias);
+    if constexpr (is_sin_cos<N>) {
+      if (errors.form == SinCosForm::levelled) widen(u);
+    }
     return u;
+  });
+}
+
+bool is_off_circle(const State& state) {
+  return with_errors(state, []<int N>(const Errors<N>& errors) {
+    if constexpr (is_sin_cos<N>) {
+      constexpr double most_sigmas = 4, tolerance = 0.05;
+      constexpr int sine = Layout<N>::attitude + 2;
+      const Vector<2> point(errors.x(sine), 1 - errors.x(sine + 1));  // s, 1 - k
+      const Vector<2> outward = Vector<2>(point.x(), -point.y()) / point.norm();
+      const double variance = outward.dot(errors.P.template block<2, 2>(sine, sine) * outward);
+      return std::abs(point.norm() - 1) > most_sigmas * std::sqrt(variance) + tolerance;
+    } else {
+      return false;
+    }
   });
 }
 

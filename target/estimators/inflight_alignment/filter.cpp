@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "target/estimators/inflight_alignment/fix.hpp"
+#include "target/estimators/inflight_alignment/fix_error.hpp"
 #include "target/estimators/inflight_alignment/psi_angle.hpp"
 #include "target/estimators/inflight_alignment/sin_cos.hpp"
+#include "target/estimators/inflight_alignment/wrong_fixes.hpp"
 #include "target/estimators/strapdown/attitude.hpp"
 #include "target/estimators/strapdown/earth.hpp"
 
@@ -57,7 +59,7 @@ Errors<N> initial_errors(const Settings& settings) {
   sigma.template segment<3>(At::gyro_bias).setConstant(settings.gyro_bias_sigma_0);
   if constexpr (!is_sin_cos<N>) sigma(At::attitude + 2) = heading;
   if constexpr (At::has_fix_bias)
-    sigma.template segment<3>(At::fix_bias).setConstant(settings.fix_bias_sigma_0);
+    sigma.template segment<3>(At::fix_bias) = fix_error_model(settings).state.cwiseSqrt();
   Errors<N> errors;
   errors.P = sigma.cwiseAbs2().asDiagonal();
   errors.form = settings.sin_cos_form;
@@ -67,10 +69,12 @@ Errors<N> initial_errors(const Settings& settings) {
 
 // Predicts the errors over the interval. Returns how often P was repaired.
 template <int N>
-int predict_errors(Errors<N>& errors, const Interval& interval, const Settings& settings) {
+int predict_errors(Errors<N>& errors, const State& state, const Settings& settings) {
+  const Interval& interval = state.ins.interval;
   if (!(interval.duration > 0)) return 0;
   if constexpr (is_sin_cos<N>) {
     predict_sin_cos<N>(errors, interval, settings);
+    predict_fix_bias<N>(errors, state.fixes.seen, settings, interval.duration);
   } else {
     if (settings.algorithm == Algorithm::ukf) return predict_ukf<N>(errors, interval, settings);
     predict_ekf<N>(errors, interval, settings);
@@ -88,8 +92,9 @@ Vector3d position_difference(const GeodeticPosition& ins, const GeodeticPosition
 enum class SensorBiases : std::uint8_t { stay, fed_back };
 
 // Corrects position and velocity of the INS by their estimated errors, and its attitude by C_pc. Adds the
-// estimated errors of the fix bias and, with SensorBiases::fed_back, of the sensor biases to the bias
-// estimates. Zeroes the states that it has fed back, except the attitude, which the caller zeroes.
+// estimated errors of the fix bias (not in the levelled form, where it need not be constant) and, with
+// SensorBiases::fed_back, of the sensor biases to the bias estimates. Zeroes the states that it has fed back,
+// except the attitude, which the caller zeroes.
 template <int N>
 void feed_back(State& state, Errors<N>& errors, const Matrix3d& C_pc, SensorBiases biases) {
   using At = Layout<N>;
@@ -98,8 +103,10 @@ void feed_back(State& state, Errors<N>& errors, const Matrix3d& C_pc, SensorBias
                             x.template segment<3>(At::velocity), C_pc);
   x.template head<6>().setZero();
   if constexpr (At::has_fix_bias) {
-    state.fix_bias += x.template segment<3>(At::fix_bias);
-    x.template segment<3>(At::fix_bias).setZero();
+    if (!is_sin_cos<N> || errors.form == SinCosForm::published) {
+      state.fix_bias += x.template segment<3>(At::fix_bias);
+      x.template segment<3>(At::fix_bias).setZero();
+    }
   }
   if (biases == SensorBiases::stay) return;
   state.accel_bias += x.template segment<3>(At::accel_bias);
@@ -142,25 +149,36 @@ UpdateResult update_errors(State& state, const Errors<N>& before, const Geodetic
                            const Vector3d& difference, const Settings& settings) {
   UpdateResult result;
   Errors<N> errors = before;
-  result.repairs = predict_errors<N>(errors, state.ins.interval, settings);
+  FixErrors fixes = state.fixes;
+  fixes.told = fix_error_model(settings).state;
+  if constexpr (Layout<N>::has_fix_bias)  // if fixes now report a larger sigma
+    errors.P.diagonal().template segment<3>(Layout<N>::fix_bias) +=
+        (fixes.told - state.fixes.told).cwiseMax(0);
+  result.repairs = predict_errors<N>(errors, state, settings);
   result.innovation = difference + state.fix_bias - errors.x.template segment<3>(Layout<N>::position);
   if constexpr (Layout<N>::has_fix_bias)
     result.innovation += errors.x.template segment<3>(Layout<N>::fix_bias);
 
   result.position = corrected(ins, errors.x.template segment<3>(Layout<N>::position));
 
-  const auto c = correction<N>(errors, result.innovation, settings);
+  auto c = correction<N>(errors, result.innovation, settings);
   result.innovation_covariance = c.S;
   result.outcome = Outcome::non_finite;
   if (!c.S.allFinite() || !result.innovation.allFinite()) return result;
   result.outcome = Outcome::not_positive_definite;
   if (!c.positive_definite) return result;
   result.nis = c.nis;
-  const bool beyond_gate = settings.gate_nis > 0 && c.nis > settings.gate_nis;
+  const bool doubted = is_doubted(c.nis, state.rejected, settings);
+  const bool beyond_gate = settings.gate_nis > 0 && doubted;
   if (beyond_gate && state.rejected < settings.gate_recovery) {
     result.outcome = Outcome::gated;
     ++state.rejected;
     return result;
+  }
+  if (models_fix_errors(settings)) {
+    if (doubted) widen<N>(errors, fixes, result.innovation, 0);
+    if (doubted || watch<N>(errors, fixes, result.innovation, c.S))
+      c = correction<N>(errors, result.innovation, settings);
   }
   errors.x += c.dx;
   errors.P = c.P;
@@ -175,7 +193,9 @@ UpdateResult update_errors(State& state, const Errors<N>& before, const Geodetic
   result.position = corrected(ins, errors.x.template segment<3>(Layout<N>::position));
   if constexpr (!is_sin_cos<N>) errors.x(8) = std::remainder(errors.x(8), 2 * std::numbers::pi);
   if (is_sin_cos<N> || settings.closed_loop) close_loop<N>(state, errors, settings);
+  errors.second_order = 0;
   state.errors = errors;
+  state.fixes = fixes;
   state.ins.interval = Interval{};
   state.updated_at = state.ins.steps;
   state.rejected = 0;
@@ -189,9 +209,10 @@ State initial(const strapdown::NavState& nav, const Settings& settings) {
   State state;
   state.ins.nav = nav;
   state.to_be_levelled = is_levelled_first(settings);
+  state.fixes.told = fix_error_model(settings).state;
   const bool ssbl = settings.aiding == Aiding::ssbl;
   if (settings.algorithm == Algorithm::sin_cos) {
-    if (ssbl) {
+    if (ssbl || models_fix_errors(settings)) {
       state.errors = initial_errors<19>(settings);
     } else {
       state.errors = initial_errors<16>(settings);
@@ -220,8 +241,7 @@ bool prediction_is_due(const State& state, const Settings& settings) {
 
 void predict(State& state, const Settings& settings) {
   const int repairs = std::visit(
-      [&]<int N>(Errors<N>& errors) { return predict_errors<N>(errors, state.ins.interval, settings); },
-      state.errors);
+      [&]<int N>(Errors<N>& errors) { return predict_errors<N>(errors, state, settings); }, state.errors);
   state.repairs += static_cast<std::uint32_t>(repairs);
   state.ins.interval = Interval{};
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <variant>
 
+#include "target/estimators/filtering/mean_charts.hpp"
 #include "target/estimators/inflight_alignment/error_model.hpp"
 #include "target/estimators/strapdown/imu_increment.hpp"
 #include "target/estimators/strapdown/mechanization.hpp"
@@ -25,6 +26,13 @@ struct GeodeticPosition {
   double height = 0;                   // above the ellipsoid [m]
 };
 
+/// What the fixes so far tell of their errors; used by the recommended filter.
+struct FixErrors {
+  Eigen::Vector3d told = Eigen::Vector3d::Zero();  // variance of fix_bias by the last used fix, NED [m^2]
+  Eigen::Vector3d seen = Eigen::Vector3d::Zero();  // further variance that innovations showed, NED [m^2]
+  filtering::MeanCharts<3> charts;                 // of the innovations, divided by their sigmas
+};
+
 /// All that the filter keeps between two samples.
 struct State {
   Ins ins;
@@ -32,11 +40,12 @@ struct State {
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   // estimate, subtracted from the IMU [rad/s]
   Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();    // estimate, subtracted from fixes, NED [m]
   std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of the INS; N from the settings
-  std::uint32_t updated_at = 0;                                         // step of the last update
-  std::uint32_t rejected = 0;                                           // number of consecutive gated fixes
-  std::uint32_t repairs = 0;    // how often P lost its positive definiteness
-  bool to_be_levelled = false;  // sin_cos: the first IMU sample levels the INS
-  bool handed_over = false;     // sin_cos: tilt and heading were fed back at the last fix
+  FixErrors fixes;
+  std::uint32_t updated_at = 0;  // step of the last update
+  std::uint32_t rejected = 0;    // number of consecutive gated fixes
+  std::uint32_t repairs = 0;     // how often P lost its positive definiteness
+  bool to_be_levelled = false;   // sin_cos: the first IMU sample levels the INS
+  bool handed_over = false;      // sin_cos: tilt and heading were fed back at the last fix
 };
 
 /// How a fix was processed.
@@ -102,7 +111,11 @@ struct Uncertainty {
   Eigen::Vector3d accel_bias, gyro_bias;               // sigmas, body [m/s^2], [rad/s]
   Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();  // sigmas, NED [m]
 };
-/// The uncertainty after the last update or prediction.
+/// The uncertainty after the last update or prediction; that of the recommended filter includes a margin.
 Uncertainty uncertainty(const State& state);
+
+/// sin_cos: true if the estimates of sine and cosine of the heading error are too far from a circle of radius
+/// 1 for their covariance: on a straight path a wrong gyro bias moves them by its ratio to the earth's rate.
+bool is_off_circle(const State& state);
 
 }  // namespace canhil::inflight_alignment

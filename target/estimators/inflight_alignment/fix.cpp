@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "target/estimators/inflight_alignment/fix_error.hpp"
 #include "target/estimators/strapdown/earth.hpp"
 
 namespace canhil::inflight_alignment {
@@ -12,9 +13,7 @@ using Eigen::Vector3d;
 template <int N>
 filtering::Correction<N, 3> correction(const Errors<N>& prior, const Vector3d& innovation,
                                        const Settings& settings) {
-  const double h = settings.fix_noise_horizontal * settings.fix_noise_horizontal;
-  const double v = settings.fix_noise_vertical * settings.fix_noise_vertical;
-  const Matrix3d R = Vector3d(h, h, v).asDiagonal();
+  const Matrix3d R = fix_error_model(settings).white.asDiagonal();
   if constexpr (Layout<N>::has_fix_bias) {
     return filtering::update_state_difference<Layout<N>::position, Layout<N>::fix_bias, N, 3>(prior.P, R,
                                                                                               innovation);

@@ -10,7 +10,10 @@ TEST(Honesty, OfTheTransferAlignment) {
   expect_bars_met("bench/monte_carlo/honesty/transfer_alignment.toml", 71, 100);
 }
 TEST(Honesty, OfTheInflightAlignment) {
-  expect_bars_met("bench/monte_carlo/honesty/inflight_alignment.toml", 117, 40);
+  expect_bars_met("bench/monte_carlo/honesty/inflight_alignment.toml", 119, 40);
+}
+TEST(Honesty, OfTheInflightAlignmentInOtherRegimes) {
+  expect_bars_met("bench/monte_carlo/honesty/inflight_regimes.toml", 50, 16);
 }
 TEST(Honesty, OfTheLosRate) { expect_bars_met("bench/monte_carlo/honesty/los_rate.toml", 44, 60); }
 TEST(Honesty, OfTheWind) { expect_bars_met("bench/monte_carlo/honesty/wind.toml", 23, 24); }

@@ -115,7 +115,7 @@ TEST(Generated, EnumeratorsHaveTheNamesOfTheDbc) {
   EXPECT_EQ(messages::name_of(messages::Parameter::h2_alpha_rule), "h2_alpha_rule");
   EXPECT_EQ(messages::from_name<messages::Parameter>("closed_loop"), messages::Parameter::closed_loop);
   EXPECT_EQ(messages::from_name<messages::Parameter>("open_loop"), std::nullopt);
-  EXPECT_EQ(messages::enumerators<messages::FixSource>.size(), 2U);
+  EXPECT_EQ(messages::enumerators<messages::FixSource>.size(), 3U);
   EXPECT_EQ(static_cast<int>(test_messages::motorola::Gear::reverse), -1);
   static_assert(std::is_same_v<std::underlying_type_t<test_messages::motorola::Gear>, std::int8_t>);
 }

@@ -171,7 +171,7 @@ TEST(SinCos, LevelledKnowsWhatUnknownTiltsDoToTheVertical) {
   errors.P(6, 6) = errors.P(7, 7) = variance;
   predict_sin_cos<16>(errors, interval, settings);
   EXPECT_NEAR(errors.x(5), -standard_gravity * variance, 1e-12);
-  EXPECT_NEAR(errors.P(5, 5), standard_gravity * standard_gravity * variance * variance, 1e-12);
+  EXPECT_NEAR(errors.P(5, 5), 4 * standard_gravity * standard_gravity * variance * variance, 1e-12);
 }
 
 template <int N>
