@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "bench/campaign/seconds.hpp"
+#include "bench/checks/probability.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -288,11 +289,19 @@ void answer(const Consistency& rule, const Runs& runs, const Runs& /*other*/, An
   out.figures = {{"mean", found.mean}, {"low", found.low}, {"high", found.high}, {"inside", found.inside}};
   Bars bars(out, found.missing == 0);
   bars.between(found.mean, rule.mean_between, rule.quantity->unit);
+  if (rule.mean_probability) {
+    const double tail = (1 - *rule.mean_probability) / 2, n = static_cast<double>(runs.size());
+    const double degrees_of_freedom = rule.quantity->degrees_of_freedom * n;
+    bars.between(found.mean,
+                 std::pair(checks::chi_squared_quantile(degrees_of_freedom, tail) / n,
+                           checks::chi_squared_quantile_above(degrees_of_freedom, tail) / n),
+                 rule.quantity->unit);
+  }
   bars.at_least(found.inside, rule.inside_at_least, percent, "inside in ");
 }
 
 void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
-  const Divergence found = divergence(runs, *rule.quantity, rule.beyond, rule.from_us);
+  const Divergence found = divergence(runs, *rule.quantity, rule.beyond, rule.from_us, rule.within_us);
   const std::size_t astray = found.faulted + found.beyond;
   out.measured = fmt::format("{} of {} runs ({} ended early)", astray, found.runs, found.faulted);
   if (rule.from_us) out.measured += ", largest " + with_unit(found.largest, rule.quantity->unit);

@@ -209,6 +209,8 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
     rule.mean_between = section.interval({"mean_between", "Limit: the mean lies between these two values."},
                                          Limits::at_least(0));
   section.optional("mean_between");
+  rule.mean_probability = section.optional_number(
+      {"mean_probability", "Limit: `probability` of the mean, one value a run."}, Limits::between(0.5, 1));
   rule.inside_at_least = section.optional_number(
       {"inside_at_least", "Limit: the fraction of updates inside the interval is at least this value."},
       Limits::between(0, 1));
@@ -224,9 +226,11 @@ Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
                                            "All errors from this time on are judged. Without this key, only "
                                            "the error at the end of each run is judged."},
                                           Limits{});  // samples by time to go have negative times
+  if (rule.from_us)
+    rule.within_us = section.optional_time_us(
+        {"within_s", "Errors count only later than this after the run's first one."}, Limits::at_least(0));
   rule.at_most = section.optional_integer({"at_most", "Limit: the number of runs is at most this value."}, 0);
-  rule.at_least =
-      section.optional_integer({"at_least", "Limit: the number of runs is at least this value."}, 0);
+  rule.at_least = section.optional_integer({"at_least", "Limit: the least number of runs."}, 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }

@@ -149,6 +149,8 @@ struct Consistency {
   double probability = 0.95;
   std::optional<std::pair<double, double>> mean_between;
   std::optional<double>
+      mean_probability;  ///< the mean lies in the interval of this probability for one value a run
+  std::optional<double>
       inside_at_least;  ///< required fraction of the updates whose mean lies within the bounds
 };
 
@@ -159,8 +161,11 @@ struct Diverged {
   static constexpr std::string_view meaning =
       "Number of runs that ended early, or whose error is beyond `beyond_UNIT` or is not a number.";
   const Quantity* quantity = &quantities::attitude_heading;
-  double beyond = 0;                              ///< [SI]
-  std::optional<std::int64_t> from_us;            ///< none: only the end of a run is judged
+  double beyond = 0;                    ///< [SI]
+  std::optional<std::int64_t> from_us;  ///< none: only the end of a run is judged
+  /// With `from_us`: an error counts only if it is later than this after the run's first one beyond the
+  /// limit.
+  std::optional<std::int64_t> within_us;
   std::optional<std::int64_t> at_most, at_least;  ///< limits of the number of runs
 };
 

@@ -274,10 +274,36 @@ double largest_magnitude(const RunSeries& run, const Quantity& quantity, std::in
   return largest;
 }
 
+// The time of the first sample from `from_us` on with a |quantity| above the bound, plus `within_us`.
+std::int64_t allowed_until(const RunSeries& run, const Quantity& quantity, double bound, std::int64_t from_us,
+                           std::int64_t within_us) {
+  const auto times = run.samples.times();
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const bool above = !(std::abs(run.samples.value(i, quantity)) <= bound);
+    if (times[i] >= from_us && above) return times[i] + within_us + 1;
+  }
+  return from_us;
+}
+
+// Whether a NEES or NIS is infinite, from `from_us` on or else in the last sample: the sigmas of such an
+// answer are no numbers.
+bool has_infinite_statistic(const RunSeries& run, std::optional<std::int64_t> from_us) {
+  const auto times = run.samples.times();
+  const std::size_t last = times.empty() ? 0 : times.size() - 1;
+  const auto from =
+      from_us ? static_cast<std::size_t>(std::ranges::lower_bound(times, *from_us) - times.begin()) : last;
+  return std::ranges::any_of(run.samples.layout().kept, [&](const Quantity* one) {
+    if (one->degrees_of_freedom == 0) return false;
+    for (std::size_t i = from; i < times.size(); ++i)
+      if (std::isinf(run.samples.value(i, *one))) return true;
+    return false;
+  });
+}
+
 }  // namespace
 
 Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound,
-                      std::optional<std::int64_t> from_us) {
+                      std::optional<std::int64_t> from_us, std::optional<std::int64_t> within_us) {
   constexpr std::int64_t at_the_end = std::numeric_limits<std::int64_t>::max();
   Divergence result{.runs = runs.size()};
   for (const RunSeries& run : runs) {
@@ -287,7 +313,12 @@ Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity,
     }
     const double magnitude =
         from_us ? largest_magnitude(run, quantity, *from_us) : last_magnitude(run, quantity, at_the_end);
-    if (!(magnitude <= bound)) ++result.beyond;
+    if (within_us) {
+      const std::int64_t late_us = allowed_until(run, quantity, bound, *from_us, *within_us);
+      const bool any_later = !run.samples.times().empty() && run.samples.times().back() >= late_us;
+      if (any_later && !(largest_magnitude(run, quantity, late_us) <= bound)) ++result.beyond;
+    } else if (!(magnitude <= bound) || has_infinite_statistic(run, from_us))
+      ++result.beyond;
     if (!std::isnan(result.largest) && !(magnitude <= result.largest)) result.largest = magnitude;
   }
   return result;

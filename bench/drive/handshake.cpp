@@ -78,6 +78,7 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
       });
   if (!answered) return answered;
   const ParamAck& ack = *dialogue.mailbox().acknowledgement;
+  if (wanted.stated && ack.status == ParameterStatus::unknown) return {};
   if (ack.status != ParameterStatus::accepted) {
     return failure(fmt::format("{}: {:g} was sent and refused by the target: {}", wanted.where,
                                static_cast<double>(value), refusal(ack, estimator)));

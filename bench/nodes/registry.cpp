@@ -54,7 +54,8 @@ const std::vector<Kind>& kinds() {
                      .samples = sensor->samples,
                      .only_named = sensor->only_named,
                      .read = sensor->read,
-                     .aid = sensor->aid},
+                     .aid = sensor->aid,
+                     .data_sheet = sensor->data_sheet},
            .signals = is_sent ? signals_of(*closes, sensor->outputs) : signals_in_si(sensor->outputs),
            .fits = fits_of(sensor->key)});
     }

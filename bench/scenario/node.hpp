@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "bench/scenario/schedule.hpp"
 #include "dbc/wire/message_info.hpp"
@@ -30,6 +31,12 @@ struct Aid {
   double (*lost)(const NodeSettings& node) = nullptr;
 };
 
+/// An error of a sensor as its data sheet states it.
+struct Stated {
+  std::string_view name;  ///< ends in the unit: "gyro_misalignment_sigma_mrad"
+  double value = 0;       ///< in this unit
+};
+
 /// Facts about a kind of node for scenarios.
 struct NodeTable {
   std::string_view key;  ///< key of the node's table: "gps"
@@ -44,6 +51,7 @@ struct NodeTable {
   /// Reads the table; unknown keys are detected afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
   std::optional<Aid> aid{};
+  std::vector<Stated> (*data_sheet)(const NodeSettings& node) = nullptr;  ///< null: states nothing
 };
 
 /// The settings of a node on the bus. Immutable; copies of a scenario share the same settings.

@@ -350,6 +350,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   if (!contract.binding->any_sensor) expect_aid(root, scenario, contract);
   read_nodes_of_plants(root, scenario, contract, true);
   read_sensors(root, scenario, contract);
+  if (contract.binding->handshake) add_stated(scenario.targets, scenario.nodes, contract);
   if (!scenario.truth_is_known()) refuse_errors_of_start(root, scenario);
   scenario.events = read_events(root, *contract.binding, scenario.duration_us);
   read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},

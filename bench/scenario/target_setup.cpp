@@ -129,6 +129,26 @@ TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
 
 }  // namespace
 
+void add_stated(std::vector<TargetSetup>& targets, std::span<const NodeSettings> nodes,
+                const DbcVocabulary& contract) {
+  for (TargetSetup& target : targets) {
+    const auto known = facts_of(contract, target.estimator).parameters;
+    for (const NodeSettings& node : nodes) {
+      if (node.is_recorded() || node.table().data_sheet == nullptr) continue;
+      for (const Stated& stated : node.table().data_sheet(node)) {
+        const std::string name(stated.name);
+        const bool set =
+            std::ranges::find(target.parameters, name, &Parameter::name) != target.parameters.end();
+        if (set || std::ranges::find(known, stated.name) == known.end()) continue;
+        target.parameters.push_back({.name = name,
+                                     .value = stated.value,
+                                     .where = fmt::format("data sheet of {}", node.table().key),
+                                     .stated = true});
+      }
+    }
+  }
+}
+
 std::vector<TargetSetup> read_targets(Section& root, const DbcVocabulary& contract) {
   std::vector<TargetSetup> targets;
   for (Section& section : root.table_or_tables("target")) {

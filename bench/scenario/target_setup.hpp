@@ -28,6 +28,7 @@ struct Parameter {
   std::string name;
   double value = 0;
   std::string where{};  ///< in the scenario, for messages: "my.toml:31: key 'target.parameters.h2_case'"
+  bool stated = false;  ///< not in the scenario, but in a sensor's data sheet: a target may not know it
 };
 
 /// Settings for a target that receives nothing at the start (Binding::handshake).
@@ -46,6 +47,11 @@ struct TargetSetup {
   std::vector<Parameter> parameters;                        ///< in the DBC's order
   std::optional<OwnStart> own_start{};                      ///< none: the handshake configures the target
 };
+
+class NodeSettings;
+/// Adds the parameters that the data sheets of the sensors state and the scenario does not set.
+void add_stated(std::vector<TargetSetup>& targets, std::span<const NodeSettings> nodes,
+                const DbcVocabulary& contract);
 
 /// All estimators of the target, or all mapped targets: at least one, without duplicates.
 std::vector<TargetSetup> read_targets(Section& root, const DbcVocabulary& contract);

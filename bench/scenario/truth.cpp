@@ -174,8 +174,9 @@ constexpr std::array motion_readers{MotionReader{"rest", read_rest},
 
 double read_heading(Section& section) {
   return section.number({"heading_deg",
-                         "Heading. `rest`, `level_acceleration`: constant; `weave`, `s_path`: the mean; "
-                         "other trajectories: the heading at the start."},
+                         "Heading. `rest`, `level_acceleration`: constant; `s_path`: the mean; other "
+                         "trajectories: the heading at the start. `weave`: the heading then swings to "
+                         "the right by twice `heading_amplitude_deg`, and back."},
                         Limits::between(-180, 360));
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/sampler.hpp"
 #include "bench/world/correlated_noise.hpp"
 
@@ -38,6 +39,8 @@ NodeSettings read(const NodeTable& table, Section& section) {
   node.correlation_time = section.number(
       {"correlation_time_s", "Correlation time of the correlated part of the noise (`correlated_fraction`)."},
       Limits::above(0), node.correlation_time);
+  node.velocity_bias = read_constants(section, "velocity_bias_mps", "the velocity, [N, E, D]");
+  node.attitude_bias = read_constants(section, "attitude_bias_deg", "roll, pitch and heading");
   node.loss = read_sample_loss(section);
   return {table, node};
 }
@@ -50,7 +53,11 @@ class GliderNav final : public LossySampler<GliderNavSettings> {
         stream_(run.stream("glider_nav")),
         velocity_(noise(node)),
         rates_(noise(node)),
-        attitude_(noise(node)) {}
+        attitude_(noise(node)) {
+    world::Stream biases = run.stream("glider_nav.bias");
+    velocity_bias_ = world::draw(config_.velocity_bias, biases);
+    attitude_bias_ = world::draw(config_.attitude_bias, biases);
+  }
 
  private:
   world::CorrelatedNoise noise(const NodeSettings& node) {
@@ -59,11 +66,11 @@ class GliderNav final : public LossySampler<GliderNavSettings> {
   }
   void fill(std::int64_t t_us, Sample& sample) override {
     const auto truth = *truth_.at(t_us);
-    const Vector3 velocity =
-        Vector3(truth[0], truth[1], truth[9]) + config_.velocity_noise * velocity_.next(stream_);
+    const Vector3 velocity = Vector3(truth[0], truth[1], truth[9]) + velocity_bias_ +
+                             config_.velocity_noise * velocity_.next(stream_);
     const Vector3 rates = Vector3(truth[6], truth[7], truth[8]) + config_.rate_noise * rates_.next(stream_);
-    const Vector3 angles =
-        Vector3(truth[3], truth[4], truth[5]) + config_.attitude_noise * attitude_.next(stream_);
+    const Vector3 angles = Vector3(truth[3], truth[4], truth[5]) + attitude_bias_ +
+                           config_.attitude_noise * attitude_.next(stream_);
     sample.values = {velocity.x(), velocity.y(), truth[2],  angles.x(), angles.y(),
                      angles.z(),   rates.x(),    rates.y(), rates.z(),  velocity.z()};
   }
@@ -78,6 +85,7 @@ class GliderNav final : public LossySampler<GliderNavSettings> {
   world::CorrelatedNoise velocity_;
   world::CorrelatedNoise rates_;
   world::CorrelatedNoise attitude_;
+  Vector3 velocity_bias_, attitude_bias_;
 };
 
 }  // namespace

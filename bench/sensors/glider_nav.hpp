@@ -3,6 +3,7 @@
 
 #include "bench/scenario/schedule.hpp"
 #include "bench/sensors/sample_loss.hpp"
+#include "bench/world/stream.hpp"
 
 namespace canhil::sensors {
 
@@ -15,7 +16,9 @@ struct GliderNavSettings {
   /// The fraction of the variance that comes from a first-order Gauss-Markov process. The rest of the
   /// variance is white noise.
   double correlated_fraction = 0;
-  double correlation_time = 60;  ///< [s]
+  double correlation_time = 60;           ///< [s]
+  world::RandomConstant velocity_bias{};  ///< NED [m/s]
+  world::RandomConstant attitude_bias{};  ///< roll, pitch, heading [rad]
   SampleLoss loss{};
 };
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/scenario/scenario.hpp"
 #include "bench/scenario/section.hpp"
@@ -24,6 +25,7 @@ using scenario::Limits;
 using scenario::NodeSettings;
 using scenario::NodeTable;
 using scenario::Section;
+using scenario::Stated;
 
 class SensorFaults;
 
@@ -101,6 +103,9 @@ struct Kind {
   bool at_every_epoch = false;  ///< the sensor's period defines the epochs of the flight record
   const Kind* of = nullptr;     ///< the kind of a named sensor, whose name is `key`; null: no name of its own
   bool only_named = false;      ///< a mapping declares the name and the values of each such sensor
+  /// What the maker of the sensor would state about its errors beyond noise and bias. A target's parameter of
+  /// the same name has this value unless the scenario sets it. Null: nothing.
+  std::vector<scenario::Stated> (*data_sheet)(const NodeSettings& node) = nullptr;
   /// Why a scenario has no truth of what the sensor measures; empty: it has. Null: `samples` says it.
   std::string (*why_no_truth)(const NodeSettings& node, const scenario::Scenario& scenario) = nullptr;
 };

@@ -3,6 +3,7 @@
 
 #include "bench/scenario/schedule.hpp"
 #include "bench/sensors/sample_loss.hpp"
+#include "bench/world/error_stack.hpp"
 #include "bench/world/navigation_errors.hpp"
 
 namespace canhil::sensors {
@@ -11,6 +12,7 @@ namespace canhil::sensors {
 struct MasterInsSettings {
   scenario::Schedule schedule{};
   world::NavigationErrorModel errors{};  ///< white: drawn for each sample
+  world::TriadErrors::Stacks further{};  ///< of the velocity, NED
   SampleLoss loss{};
 };
 

@@ -280,12 +280,18 @@ void Seeker::guide(const Guidance& answer) {
   run_.guide(use_us, std::array{omega_los_n.x(), omega_los_n.y(), omega_los_n.z(), sample.closing_speed});
 }
 
+std::vector<Stated> data_sheet(const NodeSettings& node) {
+  const RandomValue& bias = node.own<SeekerSettings>()->errors.gyro_bias;
+  return {{"antenna_rate_bias_sigma_radps", std::hypot(bias.value, bias.sigma)}};
+}
+
 }  // namespace
 
 constinit const Kind seeker{.key = "seeker",
                             .samples = "plant.range",
                             .read = read,
                             .make = make<Seeker>,
-                            .outputs = {.values = values, .flags = flags}};
+                            .outputs = {.values = values, .flags = flags},
+                            .data_sheet = data_sheet};
 
 }  // namespace canhil::sensors

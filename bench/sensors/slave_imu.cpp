@@ -4,11 +4,13 @@
 
 #include <array>
 #include <string>
+#include <tuple>
 
 #include "bench/sensors/constant_error.hpp"
 #include "bench/sensors/error_stack.hpp"
 #include "bench/sensors/sampler.hpp"
 #include "bench/world/mounting.hpp"
+#include "bench/world/units.hpp"
 
 namespace canhil::sensors {
 namespace {
@@ -214,6 +216,21 @@ class SlaveImu final : public Sampler<SlaveImuSettings> {
   world::Vector3 v_taken_ = world::Vector3::Zero();
 };
 
+// 1-sigma of an error that is constant and drawn for each run: the largest of the axes.
+double size_of(const world::RandomConstant& error) {
+  return (error.value.cwiseAbs2() + error.sigma.cwiseAbs2()).cwiseSqrt().maxCoeff();
+}
+
+std::vector<Stated> data_sheet(const NodeSettings& node) {
+  const SlaveImuSettings& imu = *node.own<SlaveImuSettings>();
+  const auto& [gyro, accel] = std::tie(imu.errors.gyro, imu.errors.accel);
+  return {{"gyro_scale_factor_sigma_ppm", size_of(gyro.scale_factor) / world::units::ppm},
+          {"gyro_misalignment_sigma_mrad", gyro.misalignment_sigma / world::units::mrad},
+          {"accel_scale_factor_sigma_ppm", size_of(accel.scale_factor) / world::units::ppm},
+          {"accel_misalignment_sigma_mrad", accel.misalignment_sigma / world::units::mrad},
+          {"lever_arm_sigma_m", imu.lever_arm.cwiseAbs().maxCoeff()}};
+}
+
 }  // namespace
 
 world::ImuIncrement increment_at_imu(const SlaveImuSettings& settings, const world::FlightRecord& flight,
@@ -228,6 +245,7 @@ constinit const Kind slave_imu{.key = "slave_imu",
                                .read = read,
                                .make = make<SlaveImu>,
                                .outputs = {.values = values, .flags = flags},
-                               .at_every_epoch = true};
+                               .at_every_epoch = true,
+                               .data_sheet = data_sheet};
 
 }  // namespace canhil::sensors

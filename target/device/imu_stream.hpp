@@ -8,6 +8,7 @@
 
 #include "dbc/wire/time_base.hpp"
 #include "target/device/adapter.hpp"
+#include "target/device/bridging_error.hpp"
 #include "target/device/group_intake.hpp"
 #include "target/estimators/strapdown/attitude.hpp"
 #include "target/estimators/strapdown/imu_increment.hpp"
@@ -26,7 +27,11 @@ template <class UpdateResult>
 void observe(const UpdateResult& result, ConsistencyMonitor& monitor) {
   const Eigen::Vector3d sigma = result.innovation_covariance.diagonal().cwiseSqrt();
   const Eigen::Vector3d normalised = result.innovation.cwiseQuotient(sigma);
-  monitor.observe(result.nis, {normalised.data(), 3});
+  if constexpr (requires { result.lasting; }) {
+    monitor.observe(result.nis, {normalised.data(), 3}, {result.lasting.data(), 3});
+  } else {
+    monitor.observe(result.nis, {normalised.data(), 3});
+  }
 }
 
 /// The INS state for an initial state from the bus.
@@ -54,6 +59,7 @@ class ImuStream {
     now_us_ = t_us;
     answered_us_ = t_us - output_interval_us;
     previous_ = {};
+    bridging_.reset();
     coasting_ = false;
   }
 
@@ -158,8 +164,8 @@ class ImuStream {
     return Taken::stepped;
   }
 
-  // Bridges a gap with increments that are computed from the mean of the rates before and after the gap. The
-  // next answer is marked as coasting.
+  // Bridges a gap with increments that are computed from the mean of the rates before and after the gap, and
+  // that say how wrong they may be. The next answer is marked as coasting.
   template <class Step>
   void bridge(const strapdown::ImuIncrement& after, std::int64_t gap_us, const Step& step) {
     coasting_ = true;
@@ -167,10 +173,13 @@ class ImuStream {
         std::clamp<std::int64_t>((gap_us + interval_us_ / 2) / interval_us_, 1, most_parts);
     const strapdown::ImuIncrement before = previous_.dt > 0 ? previous_ : after;
     const double dt = static_cast<double>(gap_us) * us / static_cast<double>(missing);
+    const auto [theta, velocity] = bridging_.of_gap(static_cast<std::size_t>(missing), dt, before, after);
     const strapdown::ImuIncrement mean{
         .delta_theta = (before.delta_theta / before.dt + after.delta_theta / after.dt) * (dt / 2),
         .delta_v = (before.delta_v / before.dt + after.delta_v / after.dt) * (dt / 2),
-        .dt = dt};
+        .dt = dt,
+        .delta_theta_variance = theta / static_cast<double>(missing),
+        .delta_v_variance = velocity / static_cast<double>(missing)};
     const std::int64_t start_us = now_us_;
     for (std::int64_t i = 1; i <= missing; ++i) take(mean, start_us + gap_us * i / missing, step);
   }
@@ -178,6 +187,7 @@ class ImuStream {
   template <class Step>
   void take(const strapdown::ImuIncrement& imu, std::int64_t t_us, const Step& step) {
     step(imu, t_us);
+    bridging_.take(imu);
     previous_ = imu;
     now_us_ = t_us;
   }
@@ -187,6 +197,7 @@ class ImuStream {
   std::int64_t answered_us_ = 0;  // epoch of the last answer
   std::int64_t interval_us_ = 0;  // of the last sample
   strapdown::ImuIncrement previous_;
+  BridgingError bridging_;
   bool coasting_ = false;
 };
 

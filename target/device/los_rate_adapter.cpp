@@ -110,6 +110,9 @@ constexpr std::array rows{
         "1-sigma that the filter assumes for the antenna rate while this rate is not measured. This value "
         "makes the sigma of the answers grow while the filter coasts.",
         [](Tuning& t, double v) { t.antenna_rate_sigma = v; }},
+    Row{Parameter::antenna_rate_bias_sigma_radps, 0, 0, 1, real, stopped_only,
+        "`combined`: 1-sigma of a lasting error of the antenna rates. The reported sigmas allow for it.",
+        [](Tuning& t, double v) { t.antenna_rate_bias_sigma = v; }},
     Row{Parameter::missile_acceleration_sigma_mps2, standard.missile_acceleration_sigma, 0, 1e4, real,
         stopped_only,
         "1-sigma that the filter assumes for the missile's acceleration while this acceleration is not "

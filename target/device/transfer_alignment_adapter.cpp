@@ -24,6 +24,8 @@ constexpr double deg = std::numbers::pi / 180;
 constexpr double degph = deg / 3600;
 constexpr double degprth = deg / 60;
 constexpr double ug = 1e-6 * 9.80665;
+constexpr double ppm = 1e-6;
+constexpr double mrad = 1e-3;
 
 constexpr std::int64_t history_us = 500'000;
 constexpr std::size_t history_length = 512;          // increments; at most one arrives per millisecond
@@ -31,7 +33,8 @@ constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix further ahead of t
 constexpr std::size_t pending_limit = 8;             // velocities that may wait for the INS
 
 // The parameters, each in the unit that its name states. The defaults are the settings that reproduce the
-// paper, except that `loop` has the recommended value.
+// paper, except that `loop` has the recommended value, and the errors that the recommended filter considers
+// are those of ordinary sensors.
 struct Tuning {
   ta::Settings filter;
   std::int64_t output_interval_us = 0;
@@ -56,8 +59,32 @@ constexpr std::array rows{
         [](Tuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
     Row{Parameter::velocity_noise_m2ps, 0.01, 1e-9, 1e4, real, any_time,
         "Density R of the master's velocity noise, in (m/s)^2 s. The filter uses the covariance R/dt, where "
-        "dt is the time between two velocities of the master.",
+        "dt is the master's period; with `closed_loop` 0 or 1, the time since the last velocity.",
         [](Tuning& t, double v) { t.filter.velocity_noise_density = v; }},
+    Row{Parameter::accel_scale_factor_sigma_ppm, 300, 0, 1e5, real, stopped_only,
+        "1-sigma of the accelerometers' scale factors. The filter considers this error, and the next six, "
+        "but "
+        "does not estimate them; only with `closed_loop` 2. The defaults are those of ordinary sensors.",
+        [](Tuning& t, double v) { t.filter.accel_scale_factor_sigma = v * ppm; }},
+    Row{Parameter::accel_misalignment_sigma_mrad, 0.5, 0, 100, real, stopped_only,
+        "1-sigma of each misalignment of an accelerometer towards another axis.",
+        [](Tuning& t, double v) { t.filter.accel_misalignment_sigma = v * mrad; }},
+    Row{Parameter::gyro_scale_factor_sigma_ppm, 300, 0, 1e5, real, stopped_only,
+        "1-sigma of the gyros' scale factors.",
+        [](Tuning& t, double v) { t.filter.gyro_scale_factor_sigma = v * ppm; }},
+    Row{Parameter::gyro_misalignment_sigma_mrad, 0.5, 0, 100, real, stopped_only,
+        "1-sigma of each misalignment of a gyro towards another axis.",
+        [](Tuning& t, double v) { t.filter.gyro_misalignment_sigma = v * mrad; }},
+    Row{Parameter::lever_arm_sigma_m, 0.5, 0, 100, real, stopped_only,
+        "1-sigma of the lever arm from the master's place to the IMU, each axis.",
+        [](Tuning& t, double v) { t.filter.lever_arm_sigma = v; }},
+    Row{Parameter::velocity_correlated_mps, 0.05, 0, 100, real, stopped_only,
+        "1-sigma of an error of the master's velocity that is correlated in time, in addition to the white "
+        "noise.",
+        [](Tuning& t, double v) { t.filter.velocity_correlated_sigma = v; }},
+    Row{Parameter::velocity_correlation_s, 5, 1e-3, 1e6, real, stopped_only,
+        "Correlation time of `velocity_correlated_mps`.",
+        [](Tuning& t, double v) { t.filter.velocity_correlation_s = v; }},
     Row{Parameter::h2_case, 2, 1, 4, whole, stopped_only,
         "`robust_h2`: structure of the model's uncertainty, given as the number of a case in the published "
         "paper (papers/transfer.md).",
@@ -117,6 +144,7 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
     ta::Settings& filter = tuning_.filter;
     filter.velocity_sigma_0.setConstant(initial.velocity_sigma);
     filter.attitude_sigma_0 = {initial.tilt_sigma, initial.tilt_sigma, initial.heading_sigma};
+    filter.velocity_period = 1e-6 * static_cast<double>(MasterInsVelocityD::info.cycle_time_us);
     state_ = ta::initial(nav_of(initial), filter);
     history_.restart(initial.t_us);
     imu_.start(initial.t_us, tuning_.output_interval_us);
@@ -224,10 +252,12 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
 
   void answer_filter(const At<Eigen::Vector3d>& fix, const ta::UpdateResult& result, Context& context) {
     Answers& answers = context.answers;
-    const ta::StateVector sigma = state_.P.diagonal().cwiseMax(0).cwiseSqrt();
+    const ta::Covariance P =
+        tuning_.filter.loop == ta::Loop::invariant ? ta::reported_covariance(state_) : state_.P;
+    const ta::StateVector sigma = P.diagonal().cwiseMax(0).cwiseSqrt();
     const auto correlation = [&](int i, int j) {
       const double product = sigma(ta::attitude_state + i) * sigma(ta::attitude_state + j);
-      return product > 0 ? state_.P(ta::attitude_state + i, ta::attitude_state + j) / product : 0.0;
+      return product > 0 ? P(ta::attitude_state + i, ta::attitude_state + j) / product : 0.0;
     };
     const ta::Ins& ins = best_estimate();
     answers.send(AlignInnovation{.innovation_north_mps = result.innovation.x(),

@@ -27,6 +27,9 @@ constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of navig
 // start are too high for this averaging: of 200 flights with coefficient errors of 20 %, 15 had errors of
 // more than 5 sigma within 0.3 s.
 constexpr std::int64_t settling_us = 1'000'000;
+// For this time after the model was unreliable (without deflections of the fins, or outside its range), the
+// wind may still be wrong.
+constexpr std::int64_t recovery_us = 5'000'000;
 // Physical limits. They are below the limits of the bus, so that the bus can also carry invalid values.
 constexpr double ground_speed_most = 600;
 constexpr double rate_most = 300 * deg;
@@ -182,9 +185,9 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
         fins_, design_);
     count(result, context);
     if (result.outcome == wind::Outcome::started) settled_us_ = t_us + settling_us;
+    if (result.flags.degraded()) settled_us_ = std::max(settled_us_, t_us + recovery_us);
     context.consistency.distrust(t_us < settled_us_);
-    if (result.outcome == wind::Outcome::updated)
-      context.consistency.observe(result.nis, {result.normalised.data(), 9});
+    if (result.outcome == wind::Outcome::updated) observe(result, context.consistency);
     const std::int64_t interval_us = t_us - newest_us_;
     const bool is_due = t_us - answered_us_ >= tuning_.output_interval_us - interval_us / 2;
     newest_us_ = std::max(newest_us_, t_us);
@@ -192,6 +195,14 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
                           result.flags.fins_late || result.flags.fins_not_physical;
     if (is_due) answered_us_ = t_us;
     if (is_due || reserved) answer(t_us, static_cast<WindOutcome>(result.outcome), result, context);
+  }
+
+  // The reported sigmas allow for lasting errors, so the sigmas of the innovation do too.
+  static void observe(const wind::UpdateResult& result, ConsistencyMonitor& monitor) {
+    const Eigen::Array<double, 9, 1> variance = 1 + result.lasting.array();
+    const Eigen::Array<double, 9, 1> z = result.normalised.array() / variance.sqrt();
+    const Eigen::Array<double, 9, 1> lasting = result.lasting.array() / variance;
+    monitor.observe(z.square().sum(), {z.data(), 9}, {lasting.data(), 9});
   }
 
   static void count(const wind::UpdateResult& result, Context& context) {

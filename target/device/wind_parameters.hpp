@@ -50,6 +50,13 @@ inline constexpr std::array wind_parameters = [] {
           "coefficient. With `process_noise` 2 or 3 the reported sigmas include this error, except with "
           "`h_infinity`.",
           [](WindTuning& t, double v) { t.filter.coefficient_sigma = v / 100; }},
+      Row{P::nav_velocity_bias_sigma_mps, 0.25, 0, 100, real, any_time,
+          "1-sigma of a lasting error of navigation's velocity, each axis. The reported sigmas allow for it "
+          "(`process_noise` 2 and 3).",
+          [](WindTuning& t, double v) { t.filter.velocity_bias_sigma = v; }},
+      Row{P::nav_attitude_bias_sigma_deg, 0.25, 0, 45, real, any_time,
+          "1-sigma of a lasting error of navigation's roll, pitch and heading, likewise.",
+          [](WindTuning& t, double v) { t.filter.attitude_bias_sigma = v * deg; }},
       Row{P::glider_velocity_sigma_mps, 0.25, 1e-3, 1e3, real, any_time,
           "1-sigma that the filter assumes for a velocity sample.",
           [](WindTuning& t, double v) { t.filter.velocity_sigma = v; }},

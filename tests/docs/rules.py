@@ -84,7 +84,9 @@ PREPARED = {
     "docs/dbc.md": ("cp tests/data/dbc/multiplexed.dbc motion.dbc",),
     "docs/mapping.md": ("cp docs/examples/own_ecu/own_ecu.mapping.toml docs/examples/own_ecu/own_ecu.dbc .",),
     "docs/recorded-data.md": (
-        "cp bench/flights/transfer_alignment_quick.toml my.toml",
+        r"sed 's/^\[target.parameters\]/&\naccel_scale_factor_sigma_ppm = 0\naccel_misalignment_sigma_mrad = 0\ngyro_scale_factor_sigma_ppm = 0\n"
+        r"gyro_misalignment_sigma_mrad = 0\nlever_arm_sigma_m = 0\nvelocity_correlated_mps = 0\nvelocity_correlation_s = 60/' "
+        "bench/flights/transfer_alignment_quick.toml > my.toml",
         r"sed -E '/^\[(master_ins|slave_imu)\]/,/^$/{/^[a-z]/d; s/^\[.*/&\nrecorded = \"first.log\"/}' my.toml > my_again.toml",
     ),
     "docs/report.md": tuple(f"{RUN} --json {name}.json" for name in ("run", "other", "before", "after", "a1", "a2", "a3", "a4", "b1", "b2", "b3", "b4"))

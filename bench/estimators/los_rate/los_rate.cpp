@@ -182,7 +182,7 @@ constexpr auto parameters = [] {
                   gap_limit_ms, low_pass_bandwidth_radps, low_pass_damping, range_max_m,
                   closing_speed_max_mps, blind_range_m, range_sigma_m, range_gate_m, closing_speed_gate_mps,
                   relock_samples, range_unchanged_limit_ms, field_of_view_rad, antenna_rate_sigma_radps,
-                  missile_acceleration_sigma_mps2);
+                  missile_acceleration_sigma_mps2, antenna_rate_bias_sigma_radps);
 }();
 constexpr std::array<std::string_view, 1> nodes{"seeker"};
 

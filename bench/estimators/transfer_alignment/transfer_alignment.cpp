@@ -39,7 +39,9 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     // Only the attitude is compared with its reported sigma. The reported velocity sigma is valid only at the
     // time of the cause: during an acceleration of 1 g, a heading error causes a velocity error that exceeds
     // this sigma before the next answer.
-    const double trusted = update.degraded ? 0 : over_sigma(phi, update.attitude_sigma);
+    // The sigma cannot know of IMU samples that were lost between the update and that answer.
+    const bool bridged_since = answers.navigation[answer].coasting;
+    const double trusted = update.degraded || bridged_since ? 0 : over_sigma(phi, update.attitude_sigma);
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
                                                  phi.z(),
@@ -111,7 +113,9 @@ constexpr auto parameters = [] {
   using enum messages::Parameter;
   return names_of(accel_bias_sigma_ug, gyro_bias_sigma_degph, accel_noise_ugprthz, gyro_noise_degprth,
                   velocity_noise_m2ps, h2_case, h2_alpha_rule, h2_alpha_mps2, fading_per_s, mechanization,
-                  closed_loop, output_interval_ms, gate_nis, gate_recovery);
+                  closed_loop, output_interval_ms, gate_nis, gate_recovery, accel_scale_factor_sigma_ppm,
+                  accel_misalignment_sigma_mrad, gyro_scale_factor_sigma_ppm, gyro_misalignment_sigma_mrad,
+                  lever_arm_sigma_m, velocity_correlated_mps, velocity_correlation_s);
 }();
 constexpr std::array<std::string_view, 2> nodes{"slave_imu", "master_ins"};
 

@@ -164,7 +164,8 @@ constexpr auto parameters = [] {
                   glider_rate_sigma_degps, glider_attitude_sigma_deg, theta_per_s, theta_cap_per_s,
                   theta_rate_weight, adaptation_time_s, adaptation_limit, initial_air_velocity_sigma_mps,
                   initial_rate_sigma_degps, initial_wind_sigma_mps, fins_late_ms, fins_missing_ms,
-                  glider_nav_coast_s, glider_nav_stale_ms, glider_nav_gate_mps, coefficient_sigma_percent);
+                  glider_nav_coast_s, glider_nav_stale_ms, glider_nav_gate_mps, coefficient_sigma_percent,
+                  nav_velocity_bias_sigma_mps, nav_attitude_bias_sigma_deg);
 }();
 constexpr std::array<std::string_view, 2> nodes{"glider_nav", "fins"};
 

@@ -1,9 +1,12 @@
 #include "target/estimators/los_rate/filter.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace canhil::los_rate {
 namespace {
+
+constexpr double lag_per_drift = 2;  // of the rate, in Om times the mean innovation
 
 Plane angle(const Planes<double>& planes) { return {planes.yaw, planes.pitch}; }
 Plane acceleration(const Planes<double>& planes) { return {planes.yaw, -planes.pitch}; }
@@ -117,6 +120,22 @@ double normalised(Plane innovation, const Planes<double>& S) {
   return innovation.imag() * innovation.imag() / S.pitch + innovation.real() * innovation.real() / S.yaw;
 }
 
+// What the mean of the innovations says about the lag of the rate. After a sudden turn of the target, the
+// errors of a filter with third-order Butterworth poles of bandwidth Om satisfy e_w = e_e' + 2 Om e_e, and K1
+// is 2 Om Ts; so the innovations show a lag of the rate early, whatever its size. The part of the mean that
+// noise explains (1.5 sigma) does not count.
+void note_lag(State& state, Plane innovation, const Planes<double>& K1, const Design& design,
+              UpdateResult& result) {
+  const auto lag = [&](double drift, double S, double K) {
+    const double noise = std::sqrt(S * K / 2);  // of a mean with the gain K1
+    return lag_per_drift * K / design.settings.sample_period * std::max(std::abs(drift) - 1.5 * noise, 0.0);
+  };
+  const Plane change = innovation - state.drift;
+  state.drift += Plane(K1.yaw * change.real(), K1.pitch * change.imag());
+  result.lag = {.pitch = lag(state.drift.imag(), result.innovation_variance.pitch, K1.pitch),
+                .yaw = lag(state.drift.real(), result.innovation_variance.yaw, K1.yaw)};
+}
+
 void update_kalman(State& state, Plane innovation, const Design& design, UpdateResult& result) {
   const Planes<double> R = of_planes(
       design, [&](auto plane) { return sample_variance(plane(design.settings.noise), result.used.range); });
@@ -124,6 +143,7 @@ void update_kalman(State& state, Plane innovation, const Design& design, UpdateR
   result.innovation_variance = {state.P.pitch.ee + R.pitch, state.P.yaw.ee + R.yaw};
   result.nis = normalised(innovation, result.innovation_variance);
   correct(state, innovation, K);
+  note_lag(state, innovation, {K.pitch.e, K.yaw.e}, design, result);
   state.P = of_planes(design, [&](auto plane) { return updated(plane(state.P), plane(K)); });
 }
 
@@ -147,6 +167,7 @@ void update_closed(State& state, Plane innovation, const Design& design, UpdateR
   result.innovation_variance = {closed.pitch.S, closed.yaw.S};
   result.nis = normalised(innovation, result.innovation_variance);
   correct(state, innovation, {closed.pitch.gain.K, closed.yaw.gain.K});
+  note_lag(state, innovation, {closed.pitch.gain.K.e, closed.yaw.gain.K.e}, design, result);
   state.covariance = false;
   result.sigma = {closed.pitch.gain.sigma, closed.yaw.gain.sigma};
 }
@@ -215,7 +236,11 @@ void advance(State& state, const Measurement& m, const Sample& sample, bool rang
   // A closed gain is valid only for one nominal step that begins in the steady state. After a gap or a coast
   // P is larger, so the update uses a Kalman gain.
   const bool uneven = !low_pass && (sample.gap > 0 || state.coasted_s > 0);
-  const bool kalman = settings.algorithm == Algorithm::kalman || state.start_up_s > 0 || uneven;
+  const bool beyond_table =
+      settings.algorithm == Algorithm::combined &&
+      (result.used.range > settings.range_max || result.used.closing_speed > settings.closing_speed_max);
+  const bool kalman =
+      settings.algorithm == Algorithm::kalman || state.start_up_s > 0 || uneven || beyond_table;
   if (!state.covariance && (!measured || kalman)) {
     const Geometry begin{result.used.range + result.used.closing_speed * m.dt, result.used.closing_speed};
     state.P = of_planes(
@@ -308,8 +333,11 @@ Planes<Sigma> reported_sigma(const UpdateResult& result, const Design& design) {
     const double bandwidth = std::pow(s.jerk_density / R_y, 1.0 / 6);
     return 0.885 * s.acceleration_sigma_0 / (bandwidth * result.used.range);
   });
-  sigma.pitch.rate = std::hypot(sigma.pitch.rate, lag.pitch / 3);
-  sigma.yaw.rate = std::hypot(sigma.yaw.rate, lag.yaw / 3);
+  const auto add = [&](double& rate, double usual_lag, double seen_lag) {
+    rate = std::hypot(std::hypot(rate, usual_lag / 2), std::hypot(seen_lag, s.antenna_rate_bias_sigma));
+  };
+  add(sigma.pitch.rate, lag.pitch, result.lag.pitch);
+  add(sigma.yaw.rate, lag.yaw, result.lag.yaw);
   return sigma;
 }
 

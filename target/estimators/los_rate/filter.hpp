@@ -26,6 +26,7 @@ struct Measurement {
 /// All that the filter keeps between two samples.
 struct State {
   Plane error, rate, acceleration;  // of the LOS and the target
+  Plane drift;                      // recent mean of the innovations [rad]
   Motion motion;                    // the last measurement of each component
   bool motion_known = false;        // the last sample contained all components that the algorithm uses
   Planes<Covariance> P;             // valid if `covariance`; only pitch if the noises are equal
@@ -56,6 +57,7 @@ struct UpdateResult {
   Planes<double> innovation_variance{1, 1};  // [rad^2]
   double nis = 0;                            // of both planes (2 degrees of freedom); 0 without an update
   Planes<Sigma> sigma;                       // after the step
+  Planes<double> lag;                        // of the rate, as the innovations show it [rad/s]
   Geometry used;                             // in gain and transition: range (clamped) and closing speed
 };
 
@@ -74,7 +76,7 @@ UpdateResult step(State& state, const Measurement& measurement, const Design& de
 /// The sigmas to report for a step. Those of Algorithm::combined include the lag after a sudden turn of the
 /// target, which white jerk does not model. After a step A of the acceleration, the rate of a filter with
 /// third-order Butterworth poles of bandwidth Om lags by up to 0.885 A/(Om r). The lag for
-/// A = acceleration_sigma_0 is taken as 3 sigma.
+/// A = acceleration_sigma_0 is taken as 2 sigma. A larger lag shows in the innovations (note_lag()).
 Planes<Sigma> reported_sigma(const UpdateResult& result, const Design& design);
 
 /// The estimate of a state, with the signs of pitch and yaw.

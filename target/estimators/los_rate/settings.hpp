@@ -54,6 +54,7 @@ struct Settings {
   double range_unchanged_limit = 0.1;  // a range that does not change for longer is stale [s]
 
   double field_of_view = 0.15;              // largest error angle off the antenna's axis [rad]
+  double antenna_rate_bias_sigma = 0;       // of a lasting error of the antenna rate, each plane [rad/s]
   double antenna_rate_sigma = 0.5;          // of an antenna rate that was not measured [rad/s]
   double missile_acceleration_sigma = 100;  // of a missile acceleration that was not measured [m/s^2]
 };

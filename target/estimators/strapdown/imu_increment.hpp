@@ -9,6 +9,9 @@ struct ImuIncrement {
   Eigen::Vector3d delta_theta = Eigen::Vector3d::Zero();  // integral of omega_ib_b [rad]
   Eigen::Vector3d delta_v = Eigen::Vector3d::Zero();      // integral of f_ib_b [m/s]
   double dt = 0;                                          // [s]
+  // Variances of the errors of an increment that bridges lost samples, beyond those of the sensor.
+  Eigen::Vector3d delta_theta_variance = Eigen::Vector3d::Zero();  // [rad^2]
+  Eigen::Vector3d delta_v_variance = Eigen::Vector3d::Zero();      // [(m/s)^2]
 };
 
 /// The increment minus constant biases of the rate [rad/s] and the specific force [m/s^2].

@@ -1,5 +1,6 @@
 #include "target/estimators/transfer_alignment/filter.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "target/estimators/filtering/kalman.hpp"
@@ -10,8 +11,12 @@
 namespace canhil::transfer_alignment {
 namespace {
 
+constexpr double longest_prediction = 0.25;  // [s]
+constexpr double longest_period = 1;         // of the master: a longer wait is an outage [s]
+
 struct Prediction {
   Covariance P;
+  Sensitivity S;
   StateVector x;
   double alpha = 0, beta = 0;
   bool degraded = false;
@@ -25,11 +30,35 @@ bool beyond_the_start(const Covariance& P, const Settings& settings) {
            initial_variance(settings).segment<3>(attitude_state).sum());
 }
 
+// Lost samples of the IMU were bridged by estimates.
+void add_bridging_noise(Covariance& P, const Interval& interval, const Measured& measured) {
+  const Eigen::Matrix3d C = interval.C_bn_integral / interval.duration;
+  const Eigen::Matrix3d squares = C.cwiseAbs2();
+  P.diagonal().segment<3>(velocity_state) += squares * measured.delta_v_variance;
+  P.diagonal().segment<3>(attitude_state) += squares * measured.delta_theta_variance;
+}
+
+// The master's period after a wait for a velocity. The settings state the noise as a density, which belongs
+// to this period. A wait that is longer than the period counts once it comes twice in a row: a single one is
+// a lost velocity.
+double period_after(const State& state) {
+  const double wait = std::min(state.ins.since_velocity, longest_period);
+  const bool again = std::abs(wait - state.velocity_wait) < 0.1 * wait;
+  return again ? wait : std::min(wait, state.velocity_period);
+}
+
 // P <- Phi P Phi' + Q_k, Phi = I + (A + P N'N/beta) dt, Q_k = (beta L L' + Q) dt. The whole update interval
 // is one step, as the definition of the H2 filter includes the length of the step.
-Prediction predict(const State& state, const Settings& settings) {
+Prediction predicted(const State& state, const Settings& settings) {
   const Interval& interval = state.ins.interval;
   Prediction next;
+  next.S = state.S;
+  next.degraded = state.degraded;
+  if (!(interval.duration > 0)) {
+    next.P = state.P;
+    next.x = state.x;
+    return next;
+  }
   Covariance G = transition_increment(interval);
   Eigen::Matrix3d Q_velocity = Eigen::Matrix3d::Zero();
   if (settings.algorithm == Algorithm::robust_h2) {
@@ -52,6 +81,12 @@ Prediction predict(const State& state, const Settings& settings) {
       next.P *= std::exp(2 * settings.fading_per_s * interval.duration);
   }
   next.P.diagonal() += process_noise(settings, interval.duration);
+  if (settings.loop == Loop::invariant) {
+    add_bridging_noise(next.P, interval, state.ins.measured);
+    if (considers(settings))
+      predict_considered(next.P, next.S, transition_increment(interval), interval, state.ins.measured,
+                         settings);
+  }
   next.x = state.x;
   if (settings.loop == Loop::open) next.x.noalias() += G.lazyProduct(state.x);
   return next;
@@ -76,6 +111,8 @@ State initial(const strapdown::NavState& nav, const Settings& settings) {
   state.ins.nav = nav;
   state.P = initial_variance(settings).asDiagonal();
   state.x.setZero();
+  state.S.setZero();
+  state.velocity_period = settings.velocity_period;
   return state;
 }
 
@@ -87,6 +124,24 @@ void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings&
   ins.nav = step.nav;
   ins.previous = clean;
   extend(ins.interval, step, imu.dt);
+  ins.since_velocity += imu.dt;
+  ins.measured.delta_v += clean.delta_v;
+  ins.measured.delta_theta += clean.delta_theta;
+  ins.measured.delta_v_variance += imu.delta_v_variance;
+  ins.measured.delta_theta_variance += imu.delta_theta_variance;
+}
+
+bool prediction_is_due(const State& state, const Settings& settings) {
+  return settings.loop == Loop::invariant && state.ins.interval.duration > longest_prediction;
+}
+
+void predict(State& state, const Settings& settings) {
+  const Prediction next = predicted(state, settings);
+  state.P = next.P;
+  state.S = next.S;
+  state.degraded = next.degraded;
+  state.ins.interval = {};
+  state.ins.measured = {};
 }
 
 UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, const Settings& settings) {
@@ -96,22 +151,28 @@ UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, const 
 UpdateResult update_with_difference(State& state, const Eigen::Vector3d& difference,
                                     const Settings& settings) {
   UpdateResult result;
-  const double duration = state.ins.interval.duration;
-  if (!(duration > 0)) return result;
+  if (!(state.ins.since_velocity > 0)) return result;
   result.outcome = Outcome::non_finite;
   if (!difference.allFinite()) return result;
 
-  const Prediction prior = predict(state, settings);
+  const Prediction prior = predicted(state, settings);
   result.alpha = prior.alpha;
   result.beta = prior.beta;
   result.degraded = prior.degraded;
   result.innovation = difference - prior.x.segment<3>(velocity_state);
   // The settings state the master's noise as a density. The variance over an interval is the density divided
   // by the length of the interval, so the result does not depend on the update rate.
-  const Eigen::Matrix3d R = Eigen::Matrix3d::Identity() * (settings.velocity_noise_density / duration);
-  const auto correction =
-      filtering::update_states<velocity_state, state_count, 3>(prior.P, R, result.innovation);
+  const double period = settings.loop == Loop::invariant ? period_after(state) : state.ins.interval.duration;
+  const Eigen::Matrix3d R = Eigen::Matrix3d::Identity() * (settings.velocity_noise_density / period);
+  const bool with_considered = settings.loop == Loop::invariant && considers(settings);
+  DifferenceOf H;
+  if (with_considered)
+    H = difference_of(state.ins.nav.C_bn, state.ins.previous.delta_theta / state.ins.previous.dt, settings);
+  const auto correction = with_considered ? update_considered(prior.P, prior.S, H, R, result.innovation)
+                                          : filtering::update_states<velocity_state, state_count, 3>(
+                                                prior.P, R, result.innovation);
   result.innovation_covariance = correction.S;
+  if (with_considered) result.lasting = considered_share(prior.S, H, correction.S);
   if (!correction.S.allFinite()) return result;
   result.outcome = Outcome::not_positive_definite;
   if (!correction.positive_definite) return result;
@@ -135,14 +196,35 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
   result.outcome = Outcome::ok;
   state.P = correction.P;
   state.rejected = 0;
+  state.degraded = false;
+  state.velocity_period = period;
+  state.velocity_wait = state.ins.since_velocity;
   state.ins.interval = Interval{};
+  state.ins.measured = Measured{};
+  state.ins.since_velocity = 0;
   if (settings.loop == Loop::open) {
     state.x = prior.x + result.dx;
     return result;
   }
   state.ins = corrected(state.ins, result.dx);
-  if (settings.loop == Loop::invariant) turn_with_correction(state.P, result.dx.segment<3>(attitude_state));
+  if (settings.loop == Loop::invariant) {
+    const Eigen::Vector3d phi = result.dx.segment<3>(attitude_state);
+    turn_with_correction(state.P, phi);
+    if (with_considered) {
+      state.S = prior.S;
+      correct_considered(state.S, correction.K, H);
+      const Eigen::Matrix3d turn = strapdown::exp_rotation(phi);
+      state.S.middleRows<3>(velocity_state) = (turn * state.S.middleRows<3>(velocity_state)).eval();
+      state.S.middleRows<3>(attitude_state) = (turn * state.S.middleRows<3>(attitude_state)).eval();
+    }
+  }
   return result;
+}
+
+Covariance reported_covariance(const State& state) {
+  Covariance P = state.P;
+  if (state.ins.interval.duration > 0) add_bridging_noise(P, state.ins.interval, state.ins.measured);
+  return P;
 }
 
 Ins estimate(const State& state) { return corrected(state.ins, state.x); }

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "target/estimators/strapdown/mechanization.hpp"
+#include "target/estimators/transfer_alignment/considered.hpp"
 #include "target/estimators/transfer_alignment/error_model.hpp"
 #include "target/estimators/transfer_alignment/settings.hpp"
 
@@ -18,15 +19,21 @@ struct Ins {
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  // estimate, subtracted from the IMU [m/s^2]
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   // [rad/s]
   strapdown::ImuIncrement previous;                      // the last increment, bias-corrected
-  Interval interval;                                     // since the last update
+  Interval interval;                                     // since the last update or prediction
+  Measured measured;                                     // in this interval
+  double since_velocity = 0;                             // time since the last update [s]
 };
 
 /// All that the filter keeps between two samples.
 struct State {
   Ins ins;
-  Covariance P;                // posterior of the last update
+  Covariance P;                // posterior of the last update, or of the last prediction after it
   StateVector x;               // estimated errors of ins at the last update; zero in a closed loop
   std::uint32_t rejected = 0;  // number of consecutive gated velocities
+  Sensitivity S;               // zero unless the settings state errors to consider
+  double velocity_period = 0;  // of the master [s]
+  double velocity_wait = 0;    // between the last two velocities [s]
+  bool degraded = false;       // UpdateResult::degraded of a prediction since the last update
 };
 
 /// The outcome of an update by a velocity of the master.
@@ -46,10 +53,12 @@ struct UpdateResult {
   Outcome outcome = Outcome::no_interval;
   Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // V_slave - V_master, minus x in an open loop [m/s]
   Eigen::Matrix3d innovation_covariance = Eigen::Matrix3d::Zero();  // [(m/s)^2]
-  double nis = 0;                                                   // chi-squared, 3 degrees of freedom
-  StateVector dx = StateVector::Zero();                             // K innovation: the correction
-  double alpha = 0;                                                 // H2 [m/s^2]
-  double beta = 0;                                                  // H2; 0: a Kalman step without H2 terms
+  // The share of each variance of the innovation that comes from errors that the filter considers.
+  Eigen::Vector3d lasting = Eigen::Vector3d::Zero();
+  double nis = 0;                        // chi-squared, 3 degrees of freedom
+  StateVector dx = StateVector::Zero();  // K innovation: the correction
+  double alpha = 0;                      // H2 [m/s^2]
+  double beta = 0;                       // H2; 0: a Kalman step without H2 terms
   bool degraded = false;  // H2 with Loop::invariant: P of the attitude exceeded P0, so this was a Kalman step
 };
 
@@ -61,6 +70,12 @@ State initial(const strapdown::NavState& nav, const Settings& settings);
 /// integrals since the last update (Ins::interval).
 void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings);
 
+/// Whether a velocity is so late that the filter predicts without it. Only with Loop::invariant: one step
+/// over an outage would be too long for a prediction of the first order.
+bool prediction_is_due(const State& state, const Settings& settings);
+/// Predicts P to the INS's epoch.
+void predict(State& state, const Settings& settings);
+
 /// Processes the master's velocity [m/s, NED] valid at the last IMU epoch: propagates P over the interval
 /// since the last update in one step, updates P by the measurement, and in a closed loop corrects the INS.
 UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, const Settings& settings);
@@ -68,6 +83,9 @@ UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, const 
 /// update() with the difference V_slave - V_master [m/s], for a caller that has interpolated V_slave.
 UpdateResult update_with_difference(State& state, const Eigen::Vector3d& difference,
                                     const Settings& settings);
+
+/// The covariance of the errors at the INS's epoch: P, and the bridges over lost IMU samples since.
+Covariance reported_covariance(const State& state);
 
 /// The best estimate: the INS itself in a closed loop, the INS minus x (of the last update) in an open loop.
 Ins estimate(const State& state);

@@ -18,6 +18,15 @@ struct HistoryModel {
   static void step(State& state, const Increment& imu, const Settings& settings) {
     propagate(state, imu, settings);
   }
+  /// See transfer_alignment::prediction_is_due().
+  static bool prediction_is_due(const State& state, const Settings& settings) {
+    return transfer_alignment::prediction_is_due(state, settings);
+  }
+  /// See transfer_alignment::predict().
+  static void predict(State& state, const Settings& settings) {
+    transfer_alignment::predict(state, settings);
+  }
+
   /// Applies a measurement. If there is an `earlier` state, interpolates the velocity by `share` between the
   /// two epochs.
   static UpdateResult update(State& state, const Ins* earlier, double share,
@@ -32,8 +41,9 @@ struct HistoryModel {
   static void keep_refusal(State& state, const State& tried) { state.rejected = tried.rejected; }
 };
 
-/// filtering::History of the transfer alignment, about 0.4 kB per increment.
-template <std::size_t Capacity>
-using History = filtering::History<HistoryModel, Capacity>;
+/// filtering::History of the transfer alignment, with the predictions of an outage; about 0.5 kB per
+/// increment.
+template <std::size_t Capacity, std::size_t Predictions = 4>
+using History = filtering::History<HistoryModel, Capacity, Predictions>;
 
 }  // namespace canhil::transfer_alignment

@@ -50,9 +50,21 @@ struct Settings {
   double gate_nis = 2000;
   std::uint32_t gate_recovery = 5;  // the gate refuses at most this many velocities in a row
 
-  double velocity_noise_density = 0.01;                   // R of the master: R_k = R/dt [(m/s)^2 s]
+  // R of the master: R_k = R/dt [(m/s)^2 s]. dt: the time since the last velocity; with Loop::invariant, the
+  // master's period, so that the first velocity after an outage counts as any other.
+  double velocity_noise_density = 0.01;
+  double velocity_period = 0.1;  // Loop::invariant: the master's period, until velocities show it [s]
   double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]
   double gyro_noise_density = 0.125 * rad_per_deg / 60;   // [rad/s/sqrt(Hz)]
+
+  // Loop::invariant: errors that the filter considers (considered.hpp), 1-sigma.
+  double accel_scale_factor_sigma = 0;   // [-]
+  double accel_misalignment_sigma = 0;   // of each axis towards each other one [rad]
+  double gyro_scale_factor_sigma = 0;    // [-]
+  double gyro_misalignment_sigma = 0;    // [rad]
+  double lever_arm_sigma = 0;            // from the master's place to the IMU, each axis [m]
+  double velocity_correlated_sigma = 0;  // of the master, in addition to the white noise [m/s]
+  double velocity_correlation_s = 5;     // its correlation time [s]
 
   Eigen::Vector3d velocity_sigma_0 = Eigen::Vector3d::Constant(1.0);                          // NED [m/s]
   Eigen::Vector3d attitude_sigma_0 = Eigen::Vector3d::Constant(rad_per_deg);                  // NED [rad]

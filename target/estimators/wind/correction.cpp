@@ -9,7 +9,6 @@ namespace canhil::wind {
 namespace {
 
 using Matrix6 = filtering::Matrix<6, 6>;
-using ByShare = Eigen::Matrix<double, 1, part_count>;
 
 // Updates by one scalar measurement h x, which is element `index` of the observation. The caller provides
 // Ph = P h', S = h P h' + R and residual = innovation - h dx.
@@ -27,17 +26,23 @@ void absorb(Correction& c, int index, const StateVector& Ph, double S, double re
 }  // namespace
 
 Correction corrected(const Covariance& P, const Observation& innovation, const GroundVelocity& at,
-                     const Observation& noise_variance, Sensitivity* sensitivity) {
+                     const Observation& noise_variance, Sensitivity* sensitivity,
+                     const LastingErrors& sigma) {
   Correction c;
   c.P = P;
-  const auto absorb_sensitivity = [&](const StateVector& Ph, double S, const auto& by_share) {
-    sensitivity->noalias() -= ((1 / S) * Ph).lazyProduct(by_share);
+  // `by`: minus the derivative of the residual with respect to the lasting errors.
+  const auto absorb_sensitivity = [&](int index, const StateVector& Ph, double S, const LastingErrors& by) {
+    c.lasting(index) = by.cwiseProduct(sigma).squaredNorm() / S;
+    sensitivity->noalias() -= ((1 / S) * Ph).lazyProduct(by);
   };
   for (int i = 3; i < 9; ++i) {  // rates and Euler angles are states themselves
     const StateVector Ph = c.P.col(i);
     const double S = Ph(i) + noise_variance(i);
     absorb(c, i, Ph, S, innovation(i) - c.dx(i));
-    if (sensitivity != nullptr) absorb_sensitivity(Ph, S, ByShare(sensitivity->row(i)));
+    if (sensitivity == nullptr) continue;
+    LastingErrors by = sensitivity->row(i);
+    if (i >= attitude_at) by(attitude_bias_at + i - attitude_at) -= 1;
+    absorb_sensitivity(i, Ph, S, by);
   }
   for (int i = 0; i < 3; ++i) {  // ground velocity: row i of [C_bn 0 d(C_bn v_a)/dPhi I]
     const auto by_v_a = at.C_bn.row(i).transpose();
@@ -52,10 +57,11 @@ Correction corrected(const Covariance& P, const Observation& innovation, const G
     const double S = times_h(Ph) + noise_variance(i);
     absorb(c, i, Ph, S, innovation(i) - times_h(c.dx));
     if (sensitivity == nullptr) continue;
-    ByShare by_share = sensitivity->row(wind_at + i);
-    by_share += by_v_a.transpose().lazyProduct(sensitivity->middleRows<3>(air_velocity_at));
-    by_share += by_attitude.transpose().lazyProduct(sensitivity->middleRows<3>(attitude_at));
-    absorb_sensitivity(Ph, S, by_share);
+    LastingErrors by = sensitivity->row(wind_at + i);
+    by += by_v_a.transpose().lazyProduct(sensitivity->middleRows<3>(air_velocity_at));
+    by += by_attitude.transpose().lazyProduct(sensitivity->middleRows<3>(attitude_at));
+    by(velocity_bias_at + i) -= 1;
+    absorb_sensitivity(i, Ph, S, by);
   }
   return c;
 }

@@ -12,14 +12,18 @@ struct Correction {
   // The whitened innovation: each component minus its prediction from the components processed before it.
   // This difference is divided by its sigma. Rates are processed first, then angles, then velocity.
   Observation normalised;
+  // The variance of each component's part that lasting errors cause, which is the same in every sample.
+  Observation lasting = Observation::Zero();
   double nis = 0;          // innovation' S^-1 innovation = |normalised|^2: chi-squared of 9 if consistent
   double determinant = 1;  // of S, in the units of the innovation
 };
 
 /// The Kalman update of P by an observation with the given innovation and with uncorrelated noises of the
-/// given variances. Also updates the sensitivity, S+ = (I - K H) S, if the caller passes one.
+/// given variances. If the caller passes a sensitivity, also updates it for lasting errors with the given
+/// sigmas: S+ = (I - K H) S + K E, where E has the errors of navigation.
 Correction corrected(const Covariance& P, const Observation& innovation, const GroundVelocity& at,
-                     const Observation& noise_variance, Sensitivity* sensitivity = nullptr);
+                     const Observation& noise_variance, Sensitivity* sensitivity = nullptr,
+                     const LastingErrors& sigma = LastingErrors::Zero());
 
 /// The given theta, lowered if necessary so that theta lambda_max(S^1/2 L P L' S^1/2) <= cap. L selects the
 /// air velocity and the rates; S is diag(1, 1, 1, w, w, w) with the rate weight w.

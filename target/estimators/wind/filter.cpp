@@ -39,9 +39,9 @@ bool is_stale(State& state, const Observation& y, double gap, const Settings& se
   return state.unchanged_s > settings.stale_limit;
 }
 
-// Null: coefficient errors are not considered.
+// Null: lasting errors are not considered.
 Sensitivity* sensitivity_of(State& state, const Settings& settings) {
-  return considers_coefficients(settings) ? &state.sensitivity : nullptr;
+  return considers_lasting_errors(settings) ? &state.sensitivity : nullptr;
 }
 
 // Makes the next usable sample restart the filter, which then uses only the wind of this state.
@@ -71,9 +71,12 @@ void start(State& state, const Navigation& n, const Settings& settings) {
   P.block<3, 3>(wind_at, air_velocity_at) = -P_wind * C_nb.transpose();
   P.block<3, 3>(attitude_at, air_velocity_at) = -R_attitude * D.transpose() * C_nb.transpose();
   filtering::mirror_lower<12>(P);
-  state.sensitivity.topRows<9>().setZero();
-  state.sensitivity.middleRows<3>(air_velocity_at) =
-      -C_nb.lazyProduct(state.sensitivity.bottomRows<3>());  // coefficients do not affect the ground velocity
+  Sensitivity& S = state.sensitivity;
+  S.topRows<9>().setZero();
+  S.block<3, 3>(attitude_at, attitude_bias_at).setIdentity();
+  S.middleRows<3>(air_velocity_at) = -C_nb.lazyProduct(S.bottomRows<3>());
+  S.block<3, 3>(air_velocity_at, velocity_bias_at) += C_nb;
+  S.block<3, 3>(air_velocity_at, attitude_bias_at) -= C_nb * D;
   state.started = true;
   state.sample_used = true;
   state.coasted_s = 0;
@@ -173,6 +176,7 @@ void use(State& state, const Navigation& n, const Observation& y, double gap, co
   const Answer answer =
       update(state.x, state.P, result.innovation, at, interval, design, sensitivity_of(state, settings));
   result.normalised = answer.normalised;
+  result.lasting = answer.lasting;
   result.nis = answer.nis;
   result.surprise = answer.surprise;
   result.theta = answer.theta;
@@ -245,8 +249,8 @@ State initial(const Start& s, const Design& design) {
 }
 
 Covariance reported_covariance(const State& state, const Settings& settings) {
-  if (!considers_coefficients(settings)) return state.P;
-  const Sensitivity by_sigma = settings.coefficient_sigma * state.sensitivity;
+  if (!considers_lasting_errors(settings)) return state.P;
+  const Sensitivity by_sigma = state.sensitivity * lasting_sigma(settings).asDiagonal();
   Covariance P = state.P + by_sigma.lazyProduct(by_sigma.transpose());
   filtering::mirror_lower<12>(P);
   return P;

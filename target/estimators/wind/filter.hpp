@@ -26,7 +26,7 @@ struct Navigation {
 struct State {
   StateVector x = StateVector::Zero();
   Covariance P = Covariance::Identity();
-  Sensitivity sensitivity = Sensitivity::Zero();  // if considers_coefficients()
+  Sensitivity sensitivity = Sensitivity::Zero();  // if considers_lasting_errors()
   bool started = false;                           // false: only the wind in x and P is valid
   std::optional<std::int64_t> t_us;
   bool sample_used = false;                // the sample of t_us was used
@@ -77,12 +77,13 @@ struct UpdateResult {
   Flags flags;
   Observation innovation = Observation::Zero();  // ground velocity, rates, Euler angles
   Observation normalised = Observation::Zero();  // innovation, whitened (correction.hpp)
+  Observation lasting = Observation::Zero();     // its variance by lasting errors
   double nis = 0;                                // 9 degrees of freedom; 0 without an update
   double surprise = 0;                           // nis + ln det S; 0 without an update
   double theta = 0;                              // H-infinity, as used
 };
 
-/// P plus the effect of constant errors of the coefficients: P + sigma^2 S S' (Schmidt's considered
+/// P plus the effect of lasting errors: P + S diag(sigma^2) S' (Schmidt's considered
 /// parameters with an unchanged gain: Jazwinski 1970, sect. 8.4).
 Covariance reported_covariance(const State& state, const Settings& settings);
 

@@ -139,6 +139,14 @@ Covariance predicted(const Covariance& P, const Growth& G) {
       P, [&G](const auto& M) { return M.template leftCols<8>().lazyProduct(G.transpose()); });
 }
 
+LastingErrors lasting_sigma(const Settings& settings) {
+  LastingErrors sigma;
+  sigma.head<part_count>().setConstant(settings.coefficient_sigma);
+  sigma.segment<3>(velocity_bias_at).setConstant(settings.velocity_bias_sigma);
+  sigma.segment<3>(attitude_bias_at).setConstant(settings.attitude_bias_sigma);
+  return sigma;
+}
+
 void predict(Sensitivity& S, const Growth& G, const LoadsByPart& loads, double dt, const Design& design) {
   const auto add_half = [&] {
     S.block<3, force_part_count>(air_velocity_at, 0) += (dt / 2) * loads.specific_force;
@@ -146,7 +154,7 @@ void predict(Sensitivity& S, const Growth& G, const LoadsByPart& loads, double d
         ((dt / 2) * design.inertia_inverse).lazyProduct(loads.moment);
   };
   add_half();
-  const filtering::Matrix<9, part_count> grown = G.lazyProduct(S.topRows<8>());
+  const filtering::Matrix<9, lasting_count> grown = G.lazyProduct(S.topRows<8>());
   S.topRows<9>() += grown;
   add_half();
 }

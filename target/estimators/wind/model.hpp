@@ -64,12 +64,20 @@ Growth growth(const Jacobian& A, double dt);
 /// Phi P Phi'; the caller adds Q.
 Covariance predicted(const Covariance& P, const Growth& G);
 
-/// Sensitivity of the states' errors to constant coefficient errors: dx divided by the relative error of each
-/// part of each coefficient (LoadsByPart).
-using Sensitivity = filtering::Matrix<12, part_count>;
+/// Lasting errors: the relative error of each part of each coefficient (LoadsByPart), and the errors of
+/// navigation's velocity (NED) and Euler angles.
+inline constexpr int lasting_count = part_count + 6;
+inline constexpr int velocity_bias_at = part_count;      ///< the first lasting error of the velocity
+inline constexpr int attitude_bias_at = part_count + 3;  ///< the first lasting error of the Euler angles
+using LastingErrors = Eigen::Matrix<double, 1, lasting_count>;
+/// The 1-sigma values of the lasting errors that the settings state.
+LastingErrors lasting_sigma(const Settings& settings);
 
-/// S+ = Phi S + (I + Phi)/2 (dx'/de) dt, where e are the relative errors of the parts; dx'/de follows from
-/// `loads`.
+/// Sensitivity of the states' errors to lasting errors: dx divided by each of them.
+using Sensitivity = filtering::Matrix<12, lasting_count>;
+
+/// S+ = Phi S + (I + Phi)/2 (dx'/de) dt, where e are the lasting errors; dx'/de follows from `loads`, and is
+/// 0 for errors of navigation.
 void predict(Sensitivity& S, const Growth& G, const LoadsByPart& loads, double dt, const Design& design);
 
 /// C_bn v_a, C_bn and d(C_bn v_a)/dPhi.

@@ -77,9 +77,12 @@ Observation innovation_of(const Observation& y, const StateVector& x, const Grou
 Answer update(StateVector& x, Covariance& P, const Observation& innovation, const GroundVelocity& at,
               double interval, const Design& design, Sensitivity* sensitivity) {
   const Settings& settings = design.settings;
-  Answer answer{.innovation = innovation, .normalised = {}};
-  Correction c = corrected(P, innovation, at, noise_variance(settings), sensitivity);
+  Answer answer{.innovation = innovation, .normalised = {}, .lasting = {}};
+  Correction c = sensitivity == nullptr ? corrected(P, innovation, at, noise_variance(settings))
+                                        : corrected(P, innovation, at, noise_variance(settings), sensitivity,
+                                                    lasting_sigma(settings));
   answer.normalised = c.normalised;
+  answer.lasting = c.lasting;
   answer.nis = c.nis;
   answer.surprise = c.nis + std::log(c.determinant);
   if (settings.algorithm == Algorithm::h_infinity) {

@@ -44,7 +44,10 @@ struct Settings {
   ProcessNoise process_noise = ProcessNoise::likeliest;
   Densities density;
 
-  double coefficient_sigma = 0.05;  // constant relative error of each part of each coefficient
+  // Lasting errors that the reported sigmas allow for (NOTES.md), 1-sigma.
+  double coefficient_sigma = 0.05;                  // relative, of each part of each coefficient
+  double velocity_bias_sigma = 0.25;                // of navigation, each axis [m/s]
+  double attitude_bias_sigma = 0.25 * rad_per_deg;  // of navigation, each angle [rad]
 
   double velocity_sigma = 0.25;                // of a navigation sample's ground velocity, NED [m/s]
   double rate_sigma = 0.125 * rad_per_deg;     // [rad/s]
@@ -58,7 +61,7 @@ struct Settings {
   double adaptation_time = 0.3;   // time constant of the adapted noise if NIS/9 is 2 [s]
   double adaptation_limit = 1e4;  // upper limit of the factor on the variance of the adapted noise
 
-  double gust_noise = 4;        // of the wind, for the bank's gust filter [m/s/sqrt(s)]
+  double gust_noise = 12;       // of the wind, for the bank's gust filter [m/s/sqrt(s)]
   double memory = 1;            // of the bank's likelihoods [s]
   double odds_of_gusts = 1e-3;  // prior weight of the gust filter relative to the other filter
 
@@ -81,11 +84,10 @@ struct Settings {
   double rate_most = 10;            // likewise [rad/s]
 };
 
-/// True if the reported sigmas include the effect of constant coefficient errors. Those of the H-infinity
-/// filter never do.
-constexpr bool considers_coefficients(const Settings& settings) {
-  return settings.coefficient_sigma > 0 && follows_loads(settings.process_noise) &&
-         settings.algorithm != Algorithm::h_infinity;
+/// True if the reported sigmas include the effect of lasting errors of coefficients and navigation. Those of
+/// the H-infinity filter never do.
+constexpr bool considers_lasting_errors(const Settings& settings) {
+  return follows_loads(settings.process_noise) && settings.algorithm != Algorithm::h_infinity;
 }
 
 }  // namespace canhil::wind

@@ -16,7 +16,17 @@ TEST(Honesty, OfTheInflightAlignmentInOtherRegimes) {
   expect_bars_met("bench/monte_carlo/honesty/inflight_regimes.toml", 50, 16);
 }
 TEST(Honesty, OfTheLosRate) { expect_bars_met("bench/monte_carlo/honesty/los_rate.toml", 44, 60); }
-TEST(Honesty, OfTheWind) { expect_bars_met("bench/monte_carlo/honesty/wind.toml", 23, 24); }
+TEST(Honesty, OfTheWind) { expect_bars_met("bench/monte_carlo/honesty/wind.toml", 25, 24); }
+// With the errors of ordinary sensors, told truthfully and wrongly. The full campaigns have 200 runs.
+TEST(Honesty, OfTheTransferAlignmentWithOrdinarySensors) {
+  expect_bars_met("bench/monte_carlo/honesty/ordinary_sensors.toml", 38, 12);
+}
+TEST(Honesty, OfTheWindWithOrdinarySensors) {
+  expect_bars_met("bench/monte_carlo/honesty/ordinary_glide.toml", 15, 4);
+}
+TEST(Honesty, OfTheLosRateWithAnOrdinarySeeker) {
+  expect_bars_met("bench/monte_carlo/honesty/ordinary_seeker.toml", 6, 30);
+}
 
 }  // namespace
 }  // namespace canhil::papers

@@ -69,6 +69,20 @@ TEST(Bars, OfValuesWindowsPairsAndDivergence) {
   EXPECT_EQ(passed("kind = 'divergence'\nbeyond_mrad = 5\nat_least = 3\n", 1), true);
 }
 
+TEST(Bars, OfConsistencyAndWarnings) {
+  // NIS is 0 in all four runs; 99.9 % of the means of four chi-square values lie between 0.5 and 8.
+  const auto campaign =
+      parse(two_variants +
+            "[[metric]]\nkind = 'consistency'\nquantity = 'innovation.nis'\nmean_probability = 0.999\n");
+  ASSERT_TRUE(campaign) << campaign.error().message;
+  EXPECT_EQ(evaluate(*campaign, runs_of)->answers.at(0).passed, false);
+  // The heading of A is beyond 1 mrad for some updates, that of B for all.
+  const std::string warning = "kind = 'divergence'\nfrom_s = 0\nbeyond_mrad = 1\n";
+  EXPECT_EQ(passed(warning + "within_s = 9\nat_most = 0\n", 1), true);
+  EXPECT_EQ(passed(warning + "within_s = 1\nat_most = 0\n", 1), false);
+  EXPECT_EQ(passed(warning + "within_s = 1\nat_most = 3\n", 1), true);
+}
+
 TEST(Bars, OfDistributions) {
   const auto of_b = [](const std::string& bar) {  // the four runs of B have 8, 8, 8 and 0 mrad
     return passed("kind = 'distribution'\nat_s = 0.3\n" + bar, 1);

@@ -108,7 +108,7 @@ TEST_P(BadNavigation, IsNamedCoastedOverAndForgotten) {
       ASSERT_EQ(status[k].fault, GetParam().fault) << k;
       ASSERT_EQ(updates[k].nis, 0) << k;
     }
-    EXPECT_GT(sigmas[last - 1].wind_sigma_north_mps, sigmas[bad_from - 1].wind_sigma_north_mps);
+    EXPECT_GT(sigmas[last - 1].wind_sigma_north_mps, sigmas[noticed].wind_sigma_north_mps);
     EXPECT_EQ(status[bad_to].outcome, WindOutcome::updated);
     EXPECT_EQ(bench.last<TargetCounters>()->bad_group, GetParam().bad_groups);
     if (algorithm == Algorithm::ekf) expect_recovered(bench);

@@ -275,7 +275,7 @@ TEST(ClosedGain, ReportedSigmaAllowsForATurnAllAtOnce) {
       const double reported = reported_sigma(result, design).yaw.rate, own = result.sigma.yaw.rate;
       if (k == 600) allowed = std::sqrt(reported * reported - own * own);
     }
-    EXPECT_NEAR(lag / (3 * allowed), 1, 0.1);
+    EXPECT_NEAR(lag / (2 * allowed), 1, 0.1);
   }
 }
 
