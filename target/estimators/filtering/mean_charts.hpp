@@ -25,6 +25,7 @@ namespace canhil::filtering {
 template <std::size_t components>
 class MeanCharts {
  public:
+  /// Forgets everything.
   void reset() { *this = {}; }
 
   /// Forgets the means, but not the alarms; call it after the covariance was widened. An alarm begins anew if
@@ -49,6 +50,7 @@ class MeanCharts {
     was_beyond_ = beyond;
   }
 
+  /// True while at least one chart has an alarm.
   [[nodiscard]] bool alarmed() const {
     const auto any = [](const auto& charts) { return std::ranges::any_of(charts, &Chart::alarmed); };
     return std::ranges::any_of(charts_, any);
@@ -56,12 +58,13 @@ class MeanCharts {
   /// True if the last innovation began an alarm, or renewed one.
   [[nodiscard]] bool begins() const { return begins_; }
 
-  /// The mean of a component in its sigmas, of the chart with the highest level, and its memory in updates.
-  /// Shortly after the begin of an error the mean is smaller than the error, as the memory reaches before it.
+  /// A mean, and the memory of its chart in updates.
   struct Mean {
     double value = 0;
     int memory = 0;
   };
+  /// The mean of a component in its sigmas, of the chart with the highest level. Shortly after the begin of
+  /// an error the mean is smaller than the error, as the memory reaches before it.
   [[nodiscard]] Mean mean(std::size_t component) const {
     const auto& charts = charts_[component];
     const auto level = [](const Chart& chart) { return std::abs(chart.level()); };
