@@ -12,9 +12,9 @@
 
 namespace canhil::target {
 
-/// The answers to one received frame. There are at most 134 frames, namely if both alignment estimators run:
+/// The answers to one received frame. There are at most 148 frames, namely if both alignment estimators run:
 /// then one IMU sample triggers, for each of the two estimators, a navigation group and the filter groups of
-/// all fixes that waited for this sample.
+/// all fixes that waited for this sample, and for in-flight alignment a prediction.
 using Answers = Outbox<160>;
 
 /// Numbers of lost or discarded frames and groups since reset, by reason.

@@ -10,7 +10,7 @@
 
 namespace canhil::target {
 
-/// Two control charts of exponentially weighted averages (Roberts, 'Control Chart Tests Based on Geometric
+/// Control charts of exponentially weighted averages (Roberts, 'Control Chart Tests Based on Geometric
 /// Moving Averages', 1959). Each chart updates a sum S by S <- k S + z, where the factor k (`keep`) is less
 /// than 1. If the filter is consistent, z has mean 0 and variance 1, so S has the variance 1/(1 - k^2):
 ///   size   z = (NIS - m)/sqrt(2 m), where the NIS is chi-squared with m degrees of freedom. This chart
@@ -33,7 +33,7 @@ class ConsistencyMonitor {
   /// estimator expects to come from lasting errors, which it considers; empty: none.
   void observe(double nis, std::span<const double> normalised, std::span<const double> lasting = {}) {
     const auto m = static_cast<double>(normalised.size());
-    inconsistent_ = size_.alarmed((nis - m) / std::sqrt(2 * m));
+    observe_size(nis, m);
     double share = 0;
     for (std::size_t i = 0; i < normalised.size(); ++i) {
       const double of_this = lasting.empty() ? 0 : lasting[i];
@@ -50,6 +50,9 @@ class ConsistencyMonitor {
     inconsistent_ = correlation_.alarmed(normalised, share) || inconsistent_;
   }
 
+  /// Adds only a NIS with m degrees of freedom, for an estimator that does not expect white innovations.
+  void observe_size(double nis, double m) { inconsistent_ = size_.alarmed((nis - m) / std::sqrt(2 * m)); }
+
   /// Sets whether the estimator reports that its sigmas are not valid now.
   void distrust(bool distrusted) { distrusted_ = distrusted; }
 
@@ -57,16 +60,16 @@ class ConsistencyMonitor {
 
  private:
   // A control chart S with a memory of `updates` updates. The deviation z of a single update is limited to
-  // `largest` sigmas. The alarm begins when S exceeds 6 times its standard deviation, and ends after 2 *
-  // `updates` consecutive updates with S below 2 times its standard deviation. With `either_side`, |S| is
-  // compared instead of S.
-  template <int updates, int largest, bool either_side, int quiet_updates = 2 * updates>
+  // `largest` sigmas. The alarm begins when S exceeds 6 times its standard deviation, and ends after
+  // `quiet_updates` consecutive updates with S below `quiet_level` times its standard deviation. With
+  // `either_side`, |S| is compared instead of S.
+  template <int updates, int largest, bool either_side, int quiet_updates = 2 * updates, int quiet_level = 2>
   class Chart {
    public:
     bool alarmed(double z) {
       sum_ = keep * sum_ + (z > -largest ? std::min<double>(z, largest) : z <= -largest ? -largest : largest);
       const double level = (either_side ? std::abs(sum_) : sum_) * std::sqrt(1 - keep * keep);
-      quiet_ = level < (quiet_updates > 2 * updates ? 4 : 2) ? quiet_ + 1 : 0;
+      quiet_ = level < quiet_level ? quiet_ + 1 : 0;
       if (level > 6) alarm_ = true;
       if (quiet_ >= quiet_updates) alarm_ = false;
       return alarm_;
@@ -121,7 +124,7 @@ class ConsistencyMonitor {
   static constexpr int bias_updates = 500, recent_updates = 50;
   Chart<20, 6, false> size_;
   std::array<Chart<bias_updates, 4, true>, 9> bias_{};
-  std::array<Chart<recent_updates, 4, true, 2 * bias_updates>, 9> recent_bias_{};
+  std::array<Chart<recent_updates, 4, true, 2 * bias_updates, 4>, 9> recent_bias_{};
   Correlation<50> correlation_;
   bool inconsistent_ = false, distrusted_ = false;
 };

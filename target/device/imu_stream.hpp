@@ -161,6 +161,8 @@ class ImuStream {
       bridge(imu, gap_us, step);
     }
     take(imu, t_us, step);
+    bridging_.take(imu);
+    previous_ = imu;
     return Taken::stepped;
   }
 
@@ -171,9 +173,12 @@ class ImuStream {
     coasting_ = true;
     const std::int64_t missing =
         std::clamp<std::int64_t>((gap_us + interval_us_ / 2) / interval_us_, 1, most_parts);
-    const strapdown::ImuIncrement before = previous_.dt > 0 ? previous_ : after;
+    const bool first = !(previous_.dt > 0);
+    const strapdown::ImuIncrement before = first ? after : previous_;
     const double dt = static_cast<double>(gap_us) * us / static_cast<double>(missing);
-    const auto [theta, velocity] = bridging_.of_gap(static_cast<std::size_t>(missing), dt, before, after);
+    const auto [theta, velocity] =
+        bridging_.of_gap(static_cast<std::size_t>(missing), dt,
+                         first ? strapdown::ImuIncrement{.dt = after.dt} : before, after);
     const strapdown::ImuIncrement mean{
         .delta_theta = (before.delta_theta / before.dt + after.delta_theta / after.dt) * (dt / 2),
         .delta_v = (before.delta_v / before.dt + after.delta_v / after.dt) * (dt / 2),
@@ -187,8 +192,6 @@ class ImuStream {
   template <class Step>
   void take(const strapdown::ImuIncrement& imu, std::int64_t t_us, const Step& step) {
     step(imu, t_us);
-    bridging_.take(imu);
-    previous_ = imu;
     now_us_ = t_us;
   }
 

@@ -12,6 +12,7 @@
 #include "target/device/imu_stream.hpp"
 #include "target/device/inflight_alignment_parameters.hpp"
 #include "target/device/tuned_adapter.hpp"
+#include "target/estimators/inflight_alignment/fix_error.hpp"
 #include "target/estimators/inflight_alignment/history.hpp"
 #include "target/estimators/strapdown/earth.hpp"
 
@@ -34,7 +35,7 @@ constexpr std::size_t pending_limit = 4;             // fixes that may wait for 
 struct Fix {
   FixSource source = FixSource::ssbl;
   ia::GeodeticPosition position{};
-  double horizontal_sigma = 0, vertical_sigma = 0;  // reported by the source of the fix [m]
+  ia::FixSigma reported{};
 };
 
 std::optional<ia::Algorithm> algorithm_of(Algorithm algorithm) {
@@ -85,7 +86,6 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     filter.velocity_sigma_0.setConstant(initial.velocity_sigma);
     filter.tilt_sigma_0 = initial.tilt_sigma;
     filter.heading_sigma_0 = initial.heading_sigma;
-    filter.fix_reported_horizontal = filter.fix_reported_vertical = 0;
     state_ = ia::initial(nav_of(initial), filter);
     start_us_ = updated_us_ = initial.t_us;
     history_.restart(initial.t_us);
@@ -135,12 +135,12 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
 
  private:
   // The sigmas are not valid while innovations have a lasting mean, while the estimate of the heading
-  // contradicts itself, and while the heading sigma is above this
-  // limit: the axes of the reported tilts and velocity may then be turned by any angle.
+  // contradicts itself, and while the heading sigma is above a limit: the axes of the reported tilts and
+  // velocity may then be turned by any angle.
   void doubt(Context& context) const {
     // The sigma that sin_cos reports is 40 deg where its covariance says 30 deg.
     const double known_sigma = (tuning_.filter.algorithm == ia::Algorithm::sin_cos ? 40 : 30) * deg;
-    context.consistency.distrust(state_.fixes.charts.alarmed() || ia::is_off_circle(state_) ||
+    context.consistency.distrust(state_.fixes.charts.alarmed() || state_.off_circle ||
                                  !(ia::uncertainty(state_).attitude(2, 2) <= known_sigma * known_sigma));
   }
 
@@ -184,8 +184,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
                                    horizontal.relative_north_m / (earth.meridian_radius + latitude.height_m),
                                longitude.longitude_deg * deg + horizontal.relative_east_m / parallel_radius,
                                latitude.height_m - vertical.relative_down_m},
-                  .horizontal_sigma = longitude.relative_sigma_m,
-                  .vertical_sigma = longitude.relative_sigma_m};
+                  .reported = {longitude.relative_sigma_m, longitude.relative_sigma_m}};
     const std::int64_t t_us = unwrap_us(vertical.time_of_validity_us, context.now_us);
     return on_fix({t_us, ssbl_group_.counter(), fix}, valid, context);
   }
@@ -198,8 +197,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     const auto& time = gps_group_.get<GpsTime>();
     const Fix fix{.source = FixSource::gps,
                   .position = {latitude.latitude_deg * deg, longitude.longitude_deg * deg, latitude.height_m},
-                  .horizontal_sigma = time.horizontal_sigma_m,
-                  .vertical_sigma = time.vertical_sigma_m};
+                  .reported = {time.horizontal_sigma_m, time.vertical_sigma_m}};
     const std::int64_t t_us = unwrap_us(time.time_of_validity_us, context.now_us);
     return on_fix({t_us, gps_group_.counter(), fix}, valid, context);
   }
@@ -221,20 +219,19 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   }
 
   Health update(const At<Fix>& fix, Context& context) {
-    tuning_.filter.fix_reported_horizontal = fix.value.horizontal_sigma;
-    tuning_.filter.fix_reported_vertical = fix.value.vertical_sigma;
-    const ia::UpdateResult result = history_.update(state_, fix.value.position, fix.t_us, tuning_.filter);
+    const ia::UpdateResult result =
+        history_.update(state_, {fix.value.position, fix.value.reported}, fix.t_us, tuning_.filter);
     doubt(context);
     switch (result.outcome) {
       case ia::Outcome::ok:
-        updated_us_ = fix.t_us;
-        observe(result, context.consistency);
+        updated_us_ = imu_.now_us();
+        monitor(result, context.consistency);
         answer(fix, result.gate_opened ? FixOutcome::recovered : FixOutcome::accepted, result, state_,
                context);
         return Health::good;
       case ia::Outcome::gated:
         ++gated_;
-        if (state_.rejected > 1) observe(result, context.consistency);
+        if (state_.rejected > 1) monitor(result, context.consistency);
         answer(fix, FixOutcome::gated, result, state_, context);
         return Health::good;
       case ia::Outcome::non_finite:
@@ -251,6 +248,16 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     }
     ++context.losses.late;
     return refuse(fix, FixOutcome::out_of_order, context);
+  }
+
+  // The model of correlated fix errors covers many correlation times. So the innovations that it expects are
+  // not white, and their means are judged by its own charts.
+  void monitor(const ia::UpdateResult& result, ConsistencyMonitor& consistency) const {
+    if (ia::models_fix_errors(tuning_.filter)) {
+      consistency.observe_size(result.nis, 3);
+    } else {
+      observe(result, consistency);
+    }
   }
 
   // Answers the last IMU sample with the prediction of the filter, whose sigmas grow while no fix is used.
@@ -335,7 +342,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   ia::History<history_length> history_{0, history_us};
   FixQueue<Fix, pending_limit> pending_;  // fixes ahead of the INS
   std::int64_t start_us_ = 0;
-  std::int64_t updated_us_ = 0;            // time of validity of the last fix that the filter used
+  std::int64_t updated_us_ = 0;            // when the filter used a fix the last time
   std::uint32_t gated_ = 0, refused_ = 0;  // numbers of fixes since the start
 };
 

@@ -63,8 +63,9 @@ inline constexpr std::array inflight_alignment_parameters = [] {
             t.filter.ukf_covariance = static_cast<ia::UkfCovariance>(std::lround(v));
           }},
       Row{P::fix_noise_horizontal_m, 2, 1e-3, 1e4, real, any_time,
-          "1-sigma that the filter assumes for the white noise of a fix, in north and east. If a fix reports "
-          "a larger sigma, the filter uses the reported sigma.",
+          "1-sigma that the filter assumes for a fix, in north and east. If a fix reports a larger sigma, "
+          "the "
+          "filter uses the reported sigma.",
           [](InflightTuning& t, double v) { t.filter.fix_noise_horizontal = v; }},
       Row{P::fix_noise_vertical_m, 2, 1e-3, 1e4, real, any_time,
           "The same as `fix_noise_horizontal_m`, for the height.",
@@ -83,8 +84,7 @@ inline constexpr std::array inflight_alignment_parameters = [] {
           [](InflightTuning& t, double v) { t.filter.fix_correlated_share = v / 100; }},
       Row{P::fix_correlation_s, 0, 0, 1e5, real, any_time,
           "`sin_cos`: correlation time of this share. 0: not known; the sigmas then cover all times from 5 "
-          "to "
-          "120 s, also if the white noise is as large as the noise.",
+          "to 120 s.",
           [](InflightTuning& t, double v) { t.filter.fix_correlation_time = v; }},
       Row{P::initial_height_sigma_m, 0, 0, 1e5, real, stopped_only,
           "1-sigma of the height at the start; 0: the filter uses `position_m` of `[target.initial_sigma]`.",

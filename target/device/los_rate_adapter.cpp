@@ -282,6 +282,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     nothing.outcome = why;
     nothing.blind = last_.blind;
     nothing.sigma = last_.sigma;
+    nothing.lag = last_.lag;
     nothing.used = last_.used;
     answer(t_us, nothing, context);
     return Health::good;

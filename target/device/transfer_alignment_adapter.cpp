@@ -62,9 +62,8 @@ constexpr std::array rows{
         "dt is the master's period; with `closed_loop` 0 or 1, the time since the last velocity.",
         [](Tuning& t, double v) { t.filter.velocity_noise_density = v; }},
     Row{Parameter::accel_scale_factor_sigma_ppm, 300, 0, 1e5, real, stopped_only,
-        "1-sigma of the accelerometers' scale factors. The filter considers this error, and the next six, "
-        "but "
-        "does not estimate them; only with `closed_loop` 2. The defaults are those of ordinary sensors.",
+        "1-sigma of the accelerometers' scale factors. The filter considers this error, and the next five, "
+        "but does not estimate them; only with `closed_loop` 2. The defaults are those of ordinary sensors.",
         [](Tuning& t, double v) { t.filter.accel_scale_factor_sigma = v * ppm; }},
     Row{Parameter::accel_misalignment_sigma_mrad, 0.5, 0, 100, real, stopped_only,
         "1-sigma of each misalignment of an accelerometer towards another axis.",

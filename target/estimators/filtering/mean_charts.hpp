@@ -20,25 +20,21 @@ namespace canhil::filtering {
 /// break. In a consistent filter with three components, 11 of 3,000 runs of 300 updates had an alarm.
 ///
 /// A filter that absorbs an error into its states has small innovations again while the error is still there.
-/// Therefore, at begins(), the user of this class must widen the covariance by mean(), or must keep its
-/// warning when the alarm ends.
+/// Therefore its user must widen the covariance by mean() when are_beyond() is true, and call restart(), or
+/// must keep its warning when the alarm ends.
 template <std::size_t components>
 class MeanCharts {
  public:
-  /// Forgets everything.
-  void reset() { *this = {}; }
-
   /// Forgets the means, but not the alarms; call it after the covariance was widened. An alarm begins anew if
   /// a mean is beyond its limit again.
   void restart() {
     for (auto& charts : charts_)
       for (Chart& chart : charts) chart = {.alarmed = chart.alarmed};
-    was_beyond_ = false;
   }
 
-  /// Adds the innovation of one measurement, each component divided by its sigma. A component counts as at
-  /// most 4 sigmas, NaN as 4.
-  void add(std::span<const double, components> normalised) {
+  /// Adds the innovation of one measurement, each component divided by its sigma, and returns whether a mean
+  /// is beyond its limit. A component counts as at most 4 sigmas, NaN as 4.
+  bool are_beyond(std::span<const double, components> normalised) {
     bool beyond = false;
     for (std::size_t i = 0; i < components; ++i) {
       const double z =
@@ -46,8 +42,7 @@ class MeanCharts {
       for (std::size_t w = 0; w < windows.size(); ++w)
         beyond = charts_[i][w].is_beyond(z, windows[w]) || beyond;
     }
-    begins_ = beyond && !was_beyond_;
-    was_beyond_ = beyond;
+    return beyond;
   }
 
   /// True while at least one chart has an alarm.
@@ -55,9 +50,6 @@ class MeanCharts {
     const auto any = [](const auto& charts) { return std::ranges::any_of(charts, &Chart::alarmed); };
     return std::ranges::any_of(charts_, any);
   }
-  /// True if the last innovation began an alarm, or renewed one.
-  [[nodiscard]] bool begins() const { return begins_; }
-
   /// A mean, and the memory of its chart in updates.
   struct Mean {
     double value = 0;
@@ -105,7 +97,6 @@ class MeanCharts {
   };
 
   std::array<std::array<Chart, windows.size()>, components> charts_{};
-  bool was_beyond_ = false, begins_ = false;
 };
 
 }  // namespace canhil::filtering

@@ -31,6 +31,13 @@ struct Layout {
   static constexpr int accel_bias = moving, gyro_bias = moving + 3, fix_bias = moving + 6;
 };
 
+/// The sigmas that a fix reports; 0: not reported. The filter uses the larger one of these and those of the
+/// settings.
+struct FixSigma {
+  double horizontal = 0;  // each of north and east [m]
+  double vertical = 0;    // [m]
+};
+
 /// Estimated errors x [N] and their covariance P [N x N], in the order of Layout.
 template <int N>
 struct Errors {

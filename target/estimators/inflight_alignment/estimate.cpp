@@ -90,19 +90,4 @@ Uncertainty uncertainty(const State& state) {
   });
 }
 
-bool is_off_circle(const State& state) {
-  return with_errors(state, []<int N>(const Errors<N>& errors) {
-    if constexpr (is_sin_cos<N>) {
-      constexpr double most_sigmas = 4, tolerance = 0.05;
-      constexpr int sine = Layout<N>::attitude + 2;
-      const Vector<2> point(errors.x(sine), 1 - errors.x(sine + 1));  // s, 1 - k
-      const Vector<2> outward = Vector<2>(point.x(), -point.y()) / point.norm();
-      const double variance = outward.dot(errors.P.template block<2, 2>(sine, sine) * outward);
-      return std::abs(point.norm() - 1) > most_sigmas * std::sqrt(variance) + tolerance;
-    } else {
-      return false;
-    }
-  });
-}
-
 }  // namespace canhil::inflight_alignment

@@ -59,7 +59,7 @@ Errors<N> initial_errors(const Settings& settings) {
   sigma.template segment<3>(At::gyro_bias).setConstant(settings.gyro_bias_sigma_0);
   if constexpr (!is_sin_cos<N>) sigma(At::attitude + 2) = heading;
   if constexpr (At::has_fix_bias)
-    sigma.template segment<3>(At::fix_bias) = fix_error_model(settings).state.cwiseSqrt();
+    sigma.template segment<3>(At::fix_bias) = fix_error_model(settings, {}).state.cwiseSqrt();
   Errors<N> errors;
   errors.P = sigma.cwiseAbs2().asDiagonal();
   errors.form = settings.sin_cos_form;
@@ -69,12 +69,11 @@ Errors<N> initial_errors(const Settings& settings) {
 
 // Predicts the errors over the interval. Returns how often P was repaired.
 template <int N>
-int predict_errors(Errors<N>& errors, const State& state, const Settings& settings) {
-  const Interval& interval = state.ins.interval;
+int predict_errors(Errors<N>& errors, FixErrors& fixes, const Interval& interval, const Settings& settings) {
   if (!(interval.duration > 0)) return 0;
   if constexpr (is_sin_cos<N>) {
     predict_sin_cos<N>(errors, interval, settings);
-    predict_fix_bias<N>(errors, state.fixes.seen, settings, interval.duration);
+    predict_fix_bias<N>(errors, fixes, settings, interval.duration);
   } else {
     if (settings.algorithm == Algorithm::ukf) return predict_ukf<N>(errors, interval, settings);
     predict_ekf<N>(errors, interval, settings);
@@ -117,7 +116,9 @@ void feed_back(State& state, Errors<N>& errors, const Matrix3d& C_pc, SensorBias
 template <int N>
 void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
   if constexpr (is_sin_cos<N>) {
-    state.handed_over = heading_is_resolved<N>(errors, settings);
+    state.off_circle = is_off_circle<N>(errors, state.off_circle);
+    state.handed_over = heading_is_resolved<N>(errors, settings) &&
+                        !(errors.form == SinCosForm::levelled && state.off_circle);
     if (state.handed_over) {
       feed_back<N>(state, errors, take_out_attitude<N>(errors), SensorBiases::fed_back);
     } else if (errors.form == SinCosForm::levelled) {
@@ -146,22 +147,23 @@ void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
 
 template <int N>
 UpdateResult update_errors(State& state, const Errors<N>& before, const GeodeticPosition& ins,
-                           const Vector3d& difference, const Settings& settings) {
+                           const Vector3d& difference, const FixSigma& reported, const Settings& settings) {
   UpdateResult result;
   Errors<N> errors = before;
   FixErrors fixes = state.fixes;
-  fixes.told = fix_error_model(settings).state;
+  result.repairs = predict_errors<N>(errors, fixes, state.ins.interval, settings);
+  const FixErrorModel fix_error = fix_error_model(settings, reported);
   if constexpr (Layout<N>::has_fix_bias)  // if fixes now report a larger sigma
     errors.P.diagonal().template segment<3>(Layout<N>::fix_bias) +=
-        (fixes.told - state.fixes.told).cwiseMax(0);
-  result.repairs = predict_errors<N>(errors, state, settings);
+        (fix_error.state - fixes.told).cwiseMax(0);
+  fixes.told = fixes.told.cwiseMax(fix_error.state);
   result.innovation = difference + state.fix_bias - errors.x.template segment<3>(Layout<N>::position);
   if constexpr (Layout<N>::has_fix_bias)
     result.innovation += errors.x.template segment<3>(Layout<N>::fix_bias);
 
   result.position = corrected(ins, errors.x.template segment<3>(Layout<N>::position));
 
-  auto c = correction<N>(errors, result.innovation, settings);
+  auto c = correction<N>(errors, result.innovation, fix_error.white);
   result.innovation_covariance = c.S;
   result.outcome = Outcome::non_finite;
   if (!c.S.allFinite() || !result.innovation.allFinite()) return result;
@@ -178,7 +180,7 @@ UpdateResult update_errors(State& state, const Errors<N>& before, const Geodetic
   if (models_fix_errors(settings)) {
     if (doubted) widen<N>(errors, fixes, result.innovation, 0);
     if (doubted || watch<N>(errors, fixes, result.innovation, c.S))
-      c = correction<N>(errors, result.innovation, settings);
+      c = correction<N>(errors, result.innovation, fix_error.white);
   }
   errors.x += c.dx;
   errors.P = c.P;
@@ -194,6 +196,8 @@ UpdateResult update_errors(State& state, const Errors<N>& before, const Geodetic
   if constexpr (!is_sin_cos<N>) errors.x(8) = std::remainder(errors.x(8), 2 * std::numbers::pi);
   if (is_sin_cos<N> || settings.closed_loop) close_loop<N>(state, errors, settings);
   errors.second_order = 0;
+  fixes.reported = reported;
+  fixes.age = 0;
   state.errors = errors;
   state.fixes = fixes;
   state.ins.interval = Interval{};
@@ -209,7 +213,7 @@ State initial(const strapdown::NavState& nav, const Settings& settings) {
   State state;
   state.ins.nav = nav;
   state.to_be_levelled = is_levelled_first(settings);
-  state.fixes.told = fix_error_model(settings).state;
+  state.fixes.told = fix_error_model(settings, {}).state;
   const bool ssbl = settings.aiding == Aiding::ssbl;
   if (settings.algorithm == Algorithm::sin_cos) {
     if (ssbl || models_fix_errors(settings)) {
@@ -232,7 +236,7 @@ void mechanise(State& state, const strapdown::ImuIncrement& imu) {
       ins.nav, strapdown::without_bias(imu, state.gyro_bias, state.accel_bias));
   ins.nav = step.nav;
   if (++ins.steps % orthonormalisation_period == 0) ins.nav.C_bn = strapdown::reorthonormalised(ins.nav.C_bn);
-  strapdown::extend(ins.interval, step, imu.dt);
+  strapdown::extend(ins.interval, step, imu);
 }
 
 bool prediction_is_due(const State& state, const Settings& settings) {
@@ -241,7 +245,10 @@ bool prediction_is_due(const State& state, const Settings& settings) {
 
 void predict(State& state, const Settings& settings) {
   const int repairs = std::visit(
-      [&]<int N>(Errors<N>& errors) { return predict_errors<N>(errors, state, settings); }, state.errors);
+      [&]<int N>(Errors<N>& errors) {
+        return predict_errors<N>(errors, state.fixes, state.ins.interval, settings);
+      },
+      state.errors);
   state.repairs += static_cast<std::uint32_t>(repairs);
   state.ins.interval = Interval{};
 }
@@ -251,20 +258,19 @@ void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings&
   if (prediction_is_due(state, settings)) predict(state, settings);
 }
 
-UpdateResult update(State& state, const GeodeticPosition& fix, const Settings& settings) {
+UpdateResult update(State& state, const Fix& fix, const Settings& settings) {
   return update(state, position_of(state.ins.nav), fix, settings);
 }
 
-UpdateResult update(State& state, const GeodeticPosition& ins, const GeodeticPosition& fix,
-                    const Settings& settings) {
+UpdateResult update(State& state, const GeodeticPosition& ins, const Fix& fix, const Settings& settings) {
   UpdateResult result;
   if (state.ins.steps == state.updated_at) return result;
   result.outcome = Outcome::non_finite;
-  const Vector3d difference = position_difference(ins, fix);
+  const Vector3d difference = position_difference(ins, fix.position);
   if (!difference.allFinite()) return result;
   return std::visit(
       [&]<int N>(const Errors<N>& errors) {
-        return update_errors<N>(state, errors, ins, difference, settings);
+        return update_errors<N>(state, errors, ins, difference, fix.reported, settings);
       },
       state.errors);
 }

@@ -26,10 +26,21 @@ struct GeodeticPosition {
   double height = 0;                   // above the ellipsoid [m]
 };
 
+/// A fix.
+struct Fix {
+  GeodeticPosition position;
+  FixSigma reported;
+
+  /// A fix that need not report sigmas.
+  Fix(const GeodeticPosition& at, const FixSigma& sigma = {}) : position(at), reported(sigma) {}
+};
+
 /// What the fixes so far tell of their errors; used by the recommended filter.
 struct FixErrors {
-  Eigen::Vector3d told = Eigen::Vector3d::Zero();  // variance of fix_bias by the last used fix, NED [m^2]
+  FixSigma reported;                               // with the last used fix
+  Eigen::Vector3d told = Eigen::Vector3d::Zero();  // variance of fix_bias that P contains for it, NED [m^2]
   Eigen::Vector3d seen = Eigen::Vector3d::Zero();  // further variance that innovations showed, NED [m^2]
+  double age = 0;                                  // time since the last used fix [s]
   filtering::MeanCharts<3> charts;                 // of the innovations, divided by their sigmas
 };
 
@@ -46,6 +57,7 @@ struct State {
   std::uint32_t repairs = 0;     // how often P lost its positive definiteness
   bool to_be_levelled = false;   // sin_cos: the first IMU sample levels the INS
   bool handed_over = false;      // sin_cos: tilt and heading were fed back at the last fix
+  bool off_circle = false;       // sin_cos: sine and cosine of the heading contradict each other
 };
 
 /// How a fix was processed.
@@ -89,11 +101,10 @@ void predict(State& state, const Settings& settings);
 
 /// Processes a fix valid at the last IMU epoch: prediction over the interval, measurement update, and in a
 /// closed loop the correction of the INS.
-UpdateResult update(State& state, const GeodeticPosition& fix, const Settings& settings);
+UpdateResult update(State& state, const Fix& fix, const Settings& settings);
 
 /// update() for a caller that has interpolated `ins`, the position of the INS at the fix's time of validity.
-UpdateResult update(State& state, const GeodeticPosition& ins, const GeodeticPosition& fix,
-                    const Settings& settings);
+UpdateResult update(State& state, const GeodeticPosition& ins, const Fix& fix, const Settings& settings);
 
 /// The best current estimate: the INS minus its estimated errors, which are first predicted to the last IMU
 /// epoch.
@@ -113,9 +124,5 @@ struct Uncertainty {
 };
 /// The uncertainty after the last update or prediction; that of the recommended filter includes a margin.
 Uncertainty uncertainty(const State& state);
-
-/// sin_cos: true if the estimates of sine and cosine of the heading error are too far from a circle of radius
-/// 1 for their covariance: on a straight path a wrong gyro bias moves them by its ratio to the earth's rate.
-bool is_off_circle(const State& state);
 
 }  // namespace canhil::inflight_alignment

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "target/estimators/inflight_alignment/fix_error.hpp"
 #include "target/estimators/strapdown/earth.hpp"
 
 namespace canhil::inflight_alignment {
@@ -12,8 +11,8 @@ using Eigen::Vector3d;
 
 template <int N>
 filtering::Correction<N, 3> correction(const Errors<N>& prior, const Vector3d& innovation,
-                                       const Settings& settings) {
-  const Matrix3d R = fix_error_model(settings).white.asDiagonal();
+                                       const Vector3d& noise) {
+  const Matrix3d R = noise.asDiagonal();
   if constexpr (Layout<N>::has_fix_bias) {
     return filtering::update_state_difference<Layout<N>::position, Layout<N>::fix_bias, N, 3>(prior.P, R,
                                                                                               innovation);
@@ -43,9 +42,9 @@ strapdown::NavState corrected(const strapdown::NavState& nav, const Vector3d& dR
           .height = position.height};
 }
 
-template filtering::Correction<15, 3> correction<15>(const Errors<15>&, const Vector3d&, const Settings&);
-template filtering::Correction<16, 3> correction<16>(const Errors<16>&, const Vector3d&, const Settings&);
-template filtering::Correction<18, 3> correction<18>(const Errors<18>&, const Vector3d&, const Settings&);
-template filtering::Correction<19, 3> correction<19>(const Errors<19>&, const Vector3d&, const Settings&);
+template filtering::Correction<15, 3> correction<15>(const Errors<15>&, const Vector3d&, const Vector3d&);
+template filtering::Correction<16, 3> correction<16>(const Errors<16>&, const Vector3d&, const Vector3d&);
+template filtering::Correction<18, 3> correction<18>(const Errors<18>&, const Vector3d&, const Vector3d&);
+template filtering::Correction<19, 3> correction<19>(const Errors<19>&, const Vector3d&, const Vector3d&);
 
 }  // namespace canhil::inflight_alignment

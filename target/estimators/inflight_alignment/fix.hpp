@@ -8,11 +8,12 @@ namespace canhil::inflight_alignment {
 template <int N>
 constexpr bool is_sin_cos = Layout<N>::attitude_count == 4;
 
-/// The update by a fix. The measurement is z = dR - rho + noise, where rho is the fix bias (Kang, Kim, Park
-/// 2006, eq. (10)); in a filter without fix bias it is z = dR + noise.
+/// The update by a fix whose white noise has the variances `noise` [m^2], NED. The measurement is z = dR -
+/// rho + noise, where rho is the fix bias (Kang, Kim, Park 2006, eq. (10)); in a filter without fix bias it
+/// is z = dR + noise.
 template <int N>
 filtering::Correction<N, 3> correction(const Errors<N>& prior, const Eigen::Vector3d& innovation,
-                                       const Settings& settings);
+                                       const Eigen::Vector3d& noise);
 
 /// The position of a navigation state.
 GeodeticPosition position_of(const strapdown::NavState& nav);

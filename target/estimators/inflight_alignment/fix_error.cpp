@@ -19,9 +19,9 @@ bool models_fix_errors(const Settings& settings) {
   return settings.algorithm == Algorithm::sin_cos && settings.sin_cos_form == SinCosForm::levelled;
 }
 
-FixErrorModel fix_error_model(const Settings& settings) {
-  const double horizontal = std::max(settings.fix_noise_horizontal, settings.fix_reported_horizontal);
-  const double vertical = std::max(settings.fix_noise_vertical, settings.fix_reported_vertical);
+FixErrorModel fix_error_model(const Settings& settings, const FixSigma& reported) {
+  const double horizontal = std::max(settings.fix_noise_horizontal, reported.horizontal);
+  const double vertical = std::max(settings.fix_noise_vertical, reported.vertical);
   const double h = horizontal * horizontal, v = vertical * vertical;
   const double constant =
       settings.aiding == Aiding::ssbl ? settings.fix_bias_sigma_0 * settings.fix_bias_sigma_0 : 0;

@@ -10,7 +10,7 @@ struct HistoryModel {
   using State = inflight_alignment::State;
   using Settings = inflight_alignment::Settings;
   using Increment = strapdown::ImuIncrement;
-  using Measurement = GeodeticPosition;
+  using Measurement = Fix;
   using UpdateResult = inflight_alignment::UpdateResult;
   using Outcome = inflight_alignment::Outcome;
 

@@ -55,9 +55,7 @@ struct Settings {
   double gyro_noise_density = 0.3 * rad_per_deg / 60;     // [rad/s/sqrt(Hz)]
   double fix_noise_horizontal = 2;                        // each of north and east, 1-sigma [m]
   double fix_noise_vertical = 2;                          // [m]
-  double fix_reported_horizontal = 0;  // reported with the last fix [m]; the filter uses the larger sigma
-  double fix_reported_vertical = 0;    // [m]
-  double fix_bias_noise_density = 0;   // random walk of the fix bias [m/sqrt(s)]
+  double fix_bias_noise_density = 0;                      // random walk of the fix bias [m/sqrt(s)]
   double fix_correlated_share = 0;  // levelled: share of a fix's variance that is correlated in time, 0 to 1
   double fix_correlation_time = 0;  // of this share [s]; 0: not known
   double handover_sigma = 2 * rad_per_deg;  // sin_cos: heading sigma below which attitude is fed back

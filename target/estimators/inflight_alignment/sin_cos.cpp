@@ -47,6 +47,19 @@ Matrix<4, 4> curvature(const Vector3d& S) {
   return H;
 }
 
+// Adds the errors of the increments that bridge lost samples.
+template <int N>
+void add_bridging_noise(Errors<N>& errors, const Interval& interval, double psi) {
+  using At = Layout<N>;
+  const Matrix3d Rz = strapdown::exp_rotation({0, 0, psi});
+  const Matrix3d velocity = Rz * root_in_n(interval, interval.delta_v_variance);
+  const Matrix3d angle = Rz * root_in_n(interval, interval.delta_theta_variance);
+  Matrix<4, 3> attitude;  // of the tilts, s and k
+  attitude << angle.topRows<2>(), std::cos(psi) * angle.row(2), std::sin(psi) * angle.row(2);
+  errors.P.template block<3, 3>(At::velocity, At::velocity) += velocity * velocity.transpose();
+  errors.P.template block<4, 4>(At::attitude, At::attitude) += attitude * attitude.transpose();
+}
+
 template <int N>
 Matrix<4, 4> attitude_covariance(const Errors<N>& errors) {
   return errors.P.template block<4, 4>(6, 6);
@@ -167,6 +180,7 @@ void predict_sin_cos(Errors<N>& errors, const Interval& interval, const Settings
   errors.P = propagated<N, 4>(errors.P, G);
   add_process_noise<N>(errors.P, settings, interval.duration, shape);
   errors.P(5, 5) += second_order;
+  if (errors.form == SinCosForm::levelled) add_bridging_noise<N>(errors, interval, psi);
 }
 
 template <int N>
@@ -175,6 +189,15 @@ bool heading_is_resolved(const Errors<N>& errors, const Settings& settings) {
   const double variance = J.dot(attitude_covariance<N>(errors) * J);
   const double off_circle = std::abs(std::hypot(errors.x(sine), 1 - errors.x(cosine)) - 1);
   return variance < settings.handover_sigma * settings.handover_sigma && off_circle < circle_tolerance;
+}
+
+template <int N>
+bool is_off_circle(const Errors<N>& errors, bool was) {
+  constexpr double begins = 4, ends = 2, tolerance = 0.05;
+  const Vector<2> point(errors.x(sine), 1 - errors.x(cosine));
+  const Vector<2> outward = Vector<2>(point.x(), -point.y()) / point.norm();
+  const double variance = outward.dot(errors.P.template block<2, 2>(sine, sine) * outward);
+  return std::abs(point.norm() - 1) > (was ? ends : begins) * std::sqrt(variance) + tolerance;
 }
 
 template <int N>
@@ -243,6 +266,7 @@ Matrix3d take_out_attitude(Errors<N>& errors) {
   template Transition<4> transition_sin_cos<N>(const Errors<N>&, const Interval&); \
   template void predict_sin_cos<N>(Errors<N>&, const Interval&, const Settings&);  \
   template bool heading_is_resolved<N>(const Errors<N>&, const Settings&);         \
+  template bool is_off_circle<N>(const Errors<N>&, bool);                          \
   template Matrix3d axes_of_biases<N>(const Errors<N>&);                           \
   template void turn_biases_back<N>(Errors<N>&);                                   \
   template Matrix3d take_out_tilt<N>(Errors<N>&);                                  \

@@ -49,6 +49,12 @@ void predict_sin_cos(Errors<N>& errors, const Interval& interval, const Settings
 template <int N>
 bool heading_is_resolved(const Errors<N>& errors, const Settings& settings);
 
+/// True if the estimates of sine and cosine of the heading error are too far from a circle of radius 1 for
+/// their covariance: on a straight path a wrong gyro bias moves them by its ratio to the earth's rate. Begins
+/// at 4 sigmas and, if it `was` so, ends at 2.
+template <int N>
+bool is_off_circle(const Errors<N>& errors, bool was);
+
 /// Rz', which turns biases b' into body axes; I in the published form.
 template <int N>
 Eigen::Matrix3d axes_of_biases(const Errors<N>& errors);

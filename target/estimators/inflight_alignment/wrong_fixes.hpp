@@ -37,15 +37,13 @@ void widen(Errors<N>& errors, FixErrors& fixes, const Eigen::Vector3d& offset, d
   fixes.charts.restart();
 }
 
-/// Adds an innovation with the covariance S to the charts. If they show a lasting mean, widens the covariance
-/// by twice the mean, because the filter has absorbed about as much; returns true then.
+/// Adds the innovation of a fix, with the covariance S, to the charts. If they show a lasting mean, widens
+/// the covariance by twice the mean, because the filter has absorbed about as much; returns true then.
 template <int N>
 bool watch(Errors<N>& errors, FixErrors& fixes, const Eigen::Vector3d& innovation, const Eigen::Matrix3d& S) {
-  constexpr double period = 1;  // between fixes, about [s]
   const Eigen::Vector3d sigma = S.diagonal().cwiseSqrt();
   const Eigen::Vector3d normalised = innovation.cwiseQuotient(sigma);
-  fixes.charts.add(std::span<const double, 3>(normalised.data(), 3));
-  if (!fixes.charts.begins()) return false;
+  if (!fixes.charts.are_beyond(std::span<const double, 3>(normalised.data(), 3))) return false;
   Eigen::Vector3d offset;
   int memory = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -53,7 +51,7 @@ bool watch(Errors<N>& errors, FixErrors& fixes, const Eigen::Vector3d& innovatio
     offset(axis) = 2 * mean.value * sigma(axis);
     memory = std::max(memory, mean.memory);
   }
-  widen<N>(errors, fixes, offset, period * memory);
+  widen<N>(errors, fixes, offset, fixes.age * memory);
   return true;
 }
 

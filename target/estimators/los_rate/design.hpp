@@ -98,4 +98,13 @@ ClosedGain closed_gain(const CombinedTable& table, Geometry at);
 /// The fixed gain; its sigmas include only measurement noise, with the variance R = sample_variance().
 ClosedGain closed_gain(const LowPass& filter, double R, double Ts);
 
+/// Evaluates function(plane) for pitch; evaluates it for yaw only if the noise of yaw differs from that of
+/// pitch. `plane` is a function that selects the member pitch or yaw of a pair.
+template <class Function>
+auto of_planes(const Design& design, Function function) {
+  auto pitch = function([](auto& pair) -> auto& { return pair.pitch; });
+  return Planes<decltype(pitch)>{
+      pitch, design.equal_noise ? pitch : function([](auto& pair) -> auto& { return pair.yaw; })};
+}
+
 }  // namespace canhil::los_rate

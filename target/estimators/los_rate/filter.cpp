@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "target/estimators/los_rate/lag.hpp"
+
 namespace canhil::los_rate {
 namespace {
-
-constexpr double lag_per_drift = 2;  // of the rate, in Om times the mean innovation
 
 Plane angle(const Planes<double>& planes) { return {planes.yaw, planes.pitch}; }
 Plane acceleration(const Planes<double>& planes) { return {planes.yaw, -planes.pitch}; }
@@ -19,15 +19,6 @@ bool finite(const State& state) {
   return finite(state.error) && finite(state.rate) && finite(state.acceleration) &&
          finite(state.motion.antenna_rate) &&
          (!state.covariance || (finite(state.P.pitch) && finite(state.P.yaw)));
-}
-
-// Evaluates function(plane) for pitch; evaluates it for yaw only if the noise of yaw differs from that of
-// pitch. `plane` is a function that selects the member pitch or yaw of a pair.
-template <class Function>
-auto of_planes(const Design& design, Function function) {
-  auto pitch = function([](auto& pair) -> auto& { return pair.pitch; });
-  return Planes<decltype(pitch)>{
-      pitch, design.equal_noise ? pitch : function([](auto& pair) -> auto& { return pair.yaw; })};
 }
 
 // A sample's inputs in the complex plane, and which of them are missing.
@@ -120,22 +111,6 @@ double normalised(Plane innovation, const Planes<double>& S) {
   return innovation.imag() * innovation.imag() / S.pitch + innovation.real() * innovation.real() / S.yaw;
 }
 
-// What the mean of the innovations says about the lag of the rate. After a sudden turn of the target, the
-// errors of a filter with third-order Butterworth poles of bandwidth Om satisfy e_w = e_e' + 2 Om e_e, and K1
-// is 2 Om Ts; so the innovations show a lag of the rate early, whatever its size. The part of the mean that
-// noise explains (1.5 sigma) does not count.
-void note_lag(State& state, Plane innovation, const Planes<double>& K1, const Design& design,
-              UpdateResult& result) {
-  const auto lag = [&](double drift, double S, double K) {
-    const double noise = std::sqrt(S * K / 2);  // of a mean with the gain K1
-    return lag_per_drift * K / design.settings.sample_period * std::max(std::abs(drift) - 1.5 * noise, 0.0);
-  };
-  const Plane change = innovation - state.drift;
-  state.drift += Plane(K1.yaw * change.real(), K1.pitch * change.imag());
-  result.lag = {.pitch = lag(state.drift.imag(), result.innovation_variance.pitch, K1.pitch),
-                .yaw = lag(state.drift.real(), result.innovation_variance.yaw, K1.yaw)};
-}
-
 void update_kalman(State& state, Plane innovation, const Design& design, UpdateResult& result) {
   const Planes<double> R = of_planes(
       design, [&](auto plane) { return sample_variance(plane(design.settings.noise), result.used.range); });
@@ -143,7 +118,7 @@ void update_kalman(State& state, Plane innovation, const Design& design, UpdateR
   result.innovation_variance = {state.P.pitch.ee + R.pitch, state.P.yaw.ee + R.yaw};
   result.nis = normalised(innovation, result.innovation_variance);
   correct(state, innovation, K);
-  note_lag(state, innovation, {K.pitch.e, K.yaw.e}, design, result);
+  note_lag(state, innovation, {K.pitch.e, K.yaw.e}, result.innovation_variance, design);
   state.P = of_planes(design, [&](auto plane) { return updated(plane(state.P), plane(K)); });
 }
 
@@ -167,7 +142,8 @@ void update_closed(State& state, Plane innovation, const Design& design, UpdateR
   result.innovation_variance = {closed.pitch.S, closed.yaw.S};
   result.nis = normalised(innovation, result.innovation_variance);
   correct(state, innovation, {closed.pitch.gain.K, closed.yaw.gain.K});
-  note_lag(state, innovation, {closed.pitch.gain.K.e, closed.yaw.gain.K.e}, design, result);
+  note_lag(state, innovation, {closed.pitch.gain.K.e, closed.yaw.gain.K.e}, result.innovation_variance,
+           design);
   state.covariance = false;
   result.sigma = {closed.pitch.gain.sigma, closed.yaw.gain.sigma};
 }
@@ -224,6 +200,7 @@ void predict(State& state, Geometry end, const Leg& leg, bool covariance, const 
   } else {
     predict(state, end, leg.dt, leg.antenna_increment, leg.missile_acceleration, leg.roll_increment);
   }
+  state.drift *= std::polar(1.0, leg.roll_increment);
   if (covariance) predict_covariance(state, end, leg.dt, leg.turn, leg.pull, design);
 }
 
@@ -319,26 +296,9 @@ UpdateResult step(State& state, const Measurement& m, const Design& design) {
   } else if (next.covariance) {
     result.sigma = of_planes(design, [&](auto plane) { return sigma_of(plane(next.P)); });
   }
+  result.lag = next.lag;
   state = next;
   return result;
-}
-
-Planes<Sigma> reported_sigma(const UpdateResult& result, const Design& design) {
-  Planes<Sigma> sigma = result.sigma;
-  const Settings& s = design.settings;
-  const bool tracks = result.outcome != Outcome::waiting && result.outcome != Outcome::started;
-  if (!tracks || s.algorithm != Algorithm::combined || !(result.used.range > 0)) return sigma;
-  const Planes<double> lag = of_planes(design, [&](auto plane) {
-    const double R_y = displacement_noise(plane(s.noise), result.used, s.sample_period).R_y;
-    const double bandwidth = std::pow(s.jerk_density / R_y, 1.0 / 6);
-    return 0.885 * s.acceleration_sigma_0 / (bandwidth * result.used.range);
-  });
-  const auto add = [&](double& rate, double usual_lag, double seen_lag) {
-    rate = std::hypot(std::hypot(rate, usual_lag / 2), std::hypot(seen_lag, s.antenna_rate_bias_sigma));
-  };
-  add(sigma.pitch.rate, lag.pitch, result.lag.pitch);
-  add(sigma.yaw.rate, lag.yaw, result.lag.yaw);
-  return sigma;
 }
 
 Estimate estimate(const State& state) {

@@ -27,6 +27,7 @@ struct Measurement {
 struct State {
   Plane error, rate, acceleration;  // of the LOS and the target
   Plane drift;                      // recent mean of the innovations [rad]
+  Planes<double> lag{};             // of the rate, as this mean shows it [rad/s]; combined only
   Motion motion;                    // the last measurement of each component
   bool motion_known = false;        // the last sample contained all components that the algorithm uses
   Planes<Covariance> P;             // valid if `covariance`; only pitch if the noises are equal
@@ -57,7 +58,7 @@ struct UpdateResult {
   Planes<double> innovation_variance{1, 1};  // [rad^2]
   double nis = 0;                            // of both planes (2 degrees of freedom); 0 without an update
   Planes<Sigma> sigma;                       // after the step
-  Planes<double> lag;                        // of the rate, as the innovations show it [rad/s]
+  Planes<double> lag{};                      // State::lag after the step
   Geometry used;                             // in gain and transition: range (clamped) and closing speed
 };
 

@@ -34,6 +34,13 @@ void add_matrix_errors(Covariance& P, Sensitivity& S, const Matrix3d& C, const V
   S.block<3, 9>(state, first) += B;
 }
 
+// The innovation's partial derivative with respect to q.
+Eigen::Matrix<double, 3, considered_count> innovation_by_q(const Sensitivity& S, const DifferenceOf& H) {
+  Eigen::Matrix<double, 3, considered_count> by_q = S.middleRows<3>(velocity_state);
+  by_q.rightCols<6>() += H;
+  return by_q;
+}
+
 }  // namespace
 
 bool considers(const Settings& settings) {
@@ -90,24 +97,13 @@ filtering::Correction<state_count, 3> update_considered(const Covariance& P, con
   return c;
 }
 
-namespace {
-
-// The innovation's partial derivative with respect to q.
-Eigen::Matrix<double, 3, considered_count> seen(const Sensitivity& S, const DifferenceOf& H) {
-  Eigen::Matrix<double, 3, considered_count> by_q = S.middleRows<3>(velocity_state);
-  by_q.rightCols<6>() += H;
-  return by_q;
-}
-
-}  // namespace
-
 Vector3d considered_share(const Sensitivity& S, const DifferenceOf& H, const Matrix3d& innovation) {
-  return seen(S, H).rowwise().squaredNorm().cwiseQuotient(innovation.diagonal());
+  return innovation_by_q(S, H).rowwise().squaredNorm().cwiseQuotient(innovation.diagonal());
 }
 
 void correct_considered(Sensitivity& S, const Eigen::Matrix<double, state_count, 3>& K,
                         const DifferenceOf& H) {
-  S.noalias() -= K.lazyProduct(seen(S, H));
+  S.noalias() -= K.lazyProduct(innovation_by_q(S, H));
 }
 
 }  // namespace canhil::transfer_alignment

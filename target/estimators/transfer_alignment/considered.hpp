@@ -26,9 +26,6 @@ bool considers(const Settings& settings);
 struct Measured {
   Eigen::Vector3d delta_v = Eigen::Vector3d::Zero();      // [m/s]
   Eigen::Vector3d delta_theta = Eigen::Vector3d::Zero();  // [rad]
-  // The variances of the errors of bridged samples.
-  Eigen::Vector3d delta_v_variance = Eigen::Vector3d::Zero();      // [(m/s)^2]
-  Eigen::Vector3d delta_theta_variance = Eigen::Vector3d::Zero();  // [rad^2]
 };
 
 /// Predicts over an interval whose transition is I + G: P already has (I + G) P (I + G)', and receives what S

@@ -12,7 +12,7 @@ namespace canhil::transfer_alignment {
 namespace {
 
 constexpr double longest_prediction = 0.25;  // [s]
-constexpr double longest_period = 1;         // of the master: a longer wait is an outage [s]
+constexpr double longest_period = 1.05;      // of the master, 1 s and jitter: a longer wait is an outage [s]
 
 struct Prediction {
   Covariance P;
@@ -31,18 +31,19 @@ bool beyond_the_start(const Covariance& P, const Settings& settings) {
 }
 
 // Lost samples of the IMU were bridged by estimates.
-void add_bridging_noise(Covariance& P, const Interval& interval, const Measured& measured) {
-  const Eigen::Matrix3d C = interval.C_bn_integral / interval.duration;
-  const Eigen::Matrix3d squares = C.cwiseAbs2();
-  P.diagonal().segment<3>(velocity_state) += squares * measured.delta_v_variance;
-  P.diagonal().segment<3>(attitude_state) += squares * measured.delta_theta_variance;
+void add_bridging_noise(Covariance& P, const Interval& interval) {
+  const Eigen::Matrix3d velocity = root_in_n(interval, interval.delta_v_variance);
+  const Eigen::Matrix3d attitude = root_in_n(interval, interval.delta_theta_variance);
+  P.block<3, 3>(velocity_state, velocity_state) += velocity.lazyProduct(velocity.transpose());
+  P.block<3, 3>(attitude_state, attitude_state) += attitude.lazyProduct(attitude.transpose());
 }
 
 // The master's period after a wait for a velocity. The settings state the noise as a density, which belongs
 // to this period. A wait that is longer than the period counts once it comes twice in a row: a single one is
 // a lost velocity.
 double period_after(const State& state) {
-  const double wait = std::min(state.ins.since_velocity, longest_period);
+  const double wait = state.ins.since_velocity;
+  if (wait > longest_period) return state.velocity_period;
   const bool again = std::abs(wait - state.velocity_wait) < 0.1 * wait;
   return again ? wait : std::min(wait, state.velocity_period);
 }
@@ -82,7 +83,7 @@ Prediction predicted(const State& state, const Settings& settings) {
   }
   next.P.diagonal() += process_noise(settings, interval.duration);
   if (settings.loop == Loop::invariant) {
-    add_bridging_noise(next.P, interval, state.ins.measured);
+    add_bridging_noise(next.P, interval);
     if (considers(settings))
       predict_considered(next.P, next.S, transition_increment(interval), interval, state.ins.measured,
                          settings);
@@ -123,12 +124,10 @@ void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings&
       strapdown::mechanize(settings.mechanization, ins.nav, ins.previous, clean);
   ins.nav = step.nav;
   ins.previous = clean;
-  extend(ins.interval, step, imu.dt);
+  extend(ins.interval, step, imu);
   ins.since_velocity += imu.dt;
   ins.measured.delta_v += clean.delta_v;
   ins.measured.delta_theta += clean.delta_theta;
-  ins.measured.delta_v_variance += imu.delta_v_variance;
-  ins.measured.delta_theta_variance += imu.delta_theta_variance;
 }
 
 bool prediction_is_due(const State& state, const Settings& settings) {
@@ -223,7 +222,7 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
 
 Covariance reported_covariance(const State& state) {
   Covariance P = state.P;
-  if (state.ins.interval.duration > 0) add_bridging_noise(P, state.ins.interval, state.ins.measured);
+  if (state.ins.interval.duration > 0) add_bridging_noise(P, state.ins.interval);
   return P;
 }
 

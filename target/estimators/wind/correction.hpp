@@ -12,7 +12,8 @@ struct Correction {
   // The whitened innovation: each component minus its prediction from the components processed before it.
   // This difference is divided by its sigma. Rates are processed first, then angles, then velocity.
   Observation normalised;
-  // The variance of each component's part that lasting errors cause, which is the same in every sample.
+  // The variance of each component's part that lasting errors cause, which is the same in every sample,
+  // divided by the variance that the noise causes.
   Observation lasting = Observation::Zero();
   double nis = 0;          // innovation' S^-1 innovation = |normalised|^2: chi-squared of 9 if consistent
   double determinant = 1;  // of S, in the units of the innovation

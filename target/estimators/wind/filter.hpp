@@ -77,7 +77,7 @@ struct UpdateResult {
   Flags flags;
   Observation innovation = Observation::Zero();  // ground velocity, rates, Euler angles
   Observation normalised = Observation::Zero();  // innovation, whitened (correction.hpp)
-  Observation lasting = Observation::Zero();     // its variance by lasting errors
+  Observation lasting = Observation::Zero();     // variance by lasting errors, per variance by noise
   double nis = 0;                                // 9 degrees of freedom; 0 without an update
   double surprise = 0;                           // nis + ln det S; 0 without an update
   double theta = 0;                              // H-infinity, as used

@@ -19,7 +19,7 @@ Observation innovation_of(const Observation& y, const StateVector& x, const Grou
 struct Answer {
   Observation innovation;
   Observation normalised;  // whitened (correction.hpp)
-  Observation lasting;     // its variance by lasting errors
+  Observation lasting;     // variance by lasting errors, per variance by noise
   double nis = 0;          // innovation' S^-1 innovation
   double surprise = 0;     // nis + ln det S: -2 ln of the innovation's likelihood, minus a constant
   double theta = 0;        // H-infinity, as used

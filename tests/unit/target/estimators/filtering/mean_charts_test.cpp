@@ -21,7 +21,7 @@ struct White {
 // The number of updates until the alarm is on or off; `most` if it never is.
 int updates_until(MeanCharts<3>& charts, bool alarmed, int most, White& white, double bias) {
   for (int i = 0; i < most; ++i) {
-    charts.add(white(bias));
+    charts.are_beyond(white(bias));
     if (charts.alarmed() == alarmed) return i + 1;
   }
   return most;
@@ -50,36 +50,33 @@ TEST(MeanCharts, TheAlarmEndsAfterTwiceTheMemoryWithoutTheCause) {
   MeanCharts<3> charts;
   const Innovation biased{4, 0, 0}, none{0, 0, 0};
   int until = 0;
-  while (!charts.begins() && until < 100) charts.add(biased), ++until;
+  while (++until < 100 && !charts.are_beyond(biased)) {
+  }
   EXPECT_EQ(until, 2) << "two innovations of 4 sigmas: a mean of 5.7";
   charts.restart();
   EXPECT_TRUE(charts.alarmed());
-  for (int i = 0; i < 16; ++i) charts.add(none);
+  for (int i = 0; i < 16; ++i) EXPECT_FALSE(charts.are_beyond(none));
   EXPECT_TRUE(charts.alarmed()) << "it judges from its second update on";
-  charts.add(none);
+  EXPECT_FALSE(charts.are_beyond(none));
   EXPECT_FALSE(charts.alarmed());
-  EXPECT_FALSE(charts.begins());
 }
 
-TEST(MeanCharts, BeginAnewAfterARestart) {
+TEST(MeanCharts, AreBeyondAnewAfterARestart) {
   MeanCharts<3> charts;
   const Innovation biased{0, -4, 0};
-  charts.add(biased);
-  charts.add(biased);
-  EXPECT_TRUE(charts.begins());
-  charts.add(biased);
-  EXPECT_FALSE(charts.begins()) << "it has begun";
+  charts.are_beyond(biased);
+  EXPECT_TRUE(charts.are_beyond(biased));
+  EXPECT_TRUE(charts.are_beyond(biased)) << "as long as the mean is";
   charts.restart();
-  charts.add(biased);
-  charts.add(biased);
-  EXPECT_TRUE(charts.begins());
+  EXPECT_FALSE(charts.are_beyond(biased));
+  EXPECT_TRUE(charts.are_beyond(biased));
 }
 
 TEST(MeanCharts, AValueCountsAtMostFourSigmas) {
   for (const double huge :
        {1e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     MeanCharts<3> charts;
-    charts.add(Innovation{huge, 0, -huge});
+    EXPECT_FALSE(charts.are_beyond(Innovation{huge, 0, -huge}));
     EXPECT_DOUBLE_EQ(std::abs(charts.mean(0).value), 4);
     EXPECT_FALSE(charts.alarmed());
   }

@@ -184,9 +184,10 @@ TEST(InflightFilter, RefusedFixesLeaveTheStateAlone) {
     EXPECT_EQ(update(state, shifted(state, 0), settings).outcome, Outcome::no_interval);
     state = after_some_fixes(settings);
     const State before = state;
-    EXPECT_EQ(update(state, {nan, 0, 0}, settings).outcome, Outcome::non_finite);
-    EXPECT_EQ(update(state, {0, 0, std::numeric_limits<double>::infinity()}, settings).outcome,
-              Outcome::non_finite);
+    EXPECT_EQ(update(state, GeodeticPosition{nan, 0, 0}, settings).outcome, Outcome::non_finite);
+    EXPECT_EQ(
+        update(state, GeodeticPosition{0, 0, std::numeric_limits<double>::infinity()}, settings).outcome,
+        Outcome::non_finite);
     EXPECT_TRUE(same_bits(state, before));
     EXPECT_EQ(update(state, shifted(state, 1), settings).outcome, Outcome::ok) << "and the next one serves";
     EXPECT_EQ(update(state, shifted(state, 1), settings).outcome, Outcome::no_interval) << "but once";

@@ -28,7 +28,7 @@ inline strapdown::NavState nav_of(const Csv& csv, std::size_t row) {
 struct RecordedRun {
   strapdown::NavState start;
   std::vector<strapdown::ImuIncrement> imu;
-  std::vector<GeodeticPosition> fixes;  // one after every 50 increments
+  std::vector<Fix> fixes;  // one after every 50 increments
 
   explicit RecordedRun(Aiding aiding) {
     const std::string aid = aiding == Aiding::ssbl ? "ssbl" : "gps";
@@ -39,7 +39,8 @@ struct RecordedRun {
                      Eigen::Map<const Eigen::Vector3d>(increments.from(i, "dvx")), 0.02});
     const Csv positions(recorded("fix_" + aid));
     for (std::size_t i = 0; i < positions.rows(); ++i)
-      fixes.push_back({positions.at(i, "lat"), positions.at(i, "lon"), positions.at(i, "h")});
+      fixes.emplace_back(
+          GeodeticPosition{positions.at(i, "lat"), positions.at(i, "lon"), positions.at(i, "h")});
   }
 };
 
