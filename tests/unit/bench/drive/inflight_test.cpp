@@ -127,8 +127,26 @@ TEST(InFlight, LostImuGroupsAreBridgedAndFlagged) {
 
 TEST(InFlight, LostFixesNeedNoAnswer) {
   const Flown flown = fly({set("ssbl.loss_percent", "20")});
-  EXPECT_EQ(flown.seen.of<estimators::InflightAnswers>().fixes.size(), flown.seen.stimuli.at("Ssbl").count);
-  EXPECT_LT(flown.seen.of<estimators::InflightAnswers>().fixes.size(), 29U);
+  const auto& fixes = flown.seen.of<estimators::InflightAnswers>().fixes;
+  const auto predicted = std::ranges::count(fixes, FixOutcome::predicted, &estimators::FixAnswer::outcome);
+  EXPECT_EQ(fixes.size() - static_cast<std::size_t>(predicted), flown.seen.stimuli.at("Ssbl").count);
+  EXPECT_LT(flown.seen.stimuli.at("Ssbl").count, 29U);
+  expect_aligned(flown);
+}
+
+// Without a fix for more than 2 s the target answers with predictions, whose sigmas grow.
+TEST(InFlight, AnOutageIsAnsweredWithPredictionsThatBecomeWorse) {
+  const Flown flown = fly({set("ssbl.silence_s", "[20.0, 28.0]")});
+  double before = 0;
+  int predicted = 0;
+  for (const estimators::FixAnswer& fix : flown.seen.of<estimators::InflightAnswers>().fixes) {
+    if (fix.outcome != FixOutcome::predicted) continue;
+    ++predicted;
+    EXPECT_EQ(fix.source, messages::FixSource::imu);
+    EXPECT_GE(fix.position_sigma.x(), before);
+    before = fix.position_sigma.x();
+  }
+  EXPECT_GT(predicted, 20) << "at the output's rate";
   expect_aligned(flown);
 }
 
