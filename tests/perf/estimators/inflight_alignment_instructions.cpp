@@ -16,6 +16,7 @@ MEASURED UpdateResult fix_ukf_15(WarmInflightFilter& f) { return update(f.state,
 MEASURED UpdateResult fix_ukf_18(WarmInflightFilter& f) { return update(f.state, f.fix, f.settings); }
 MEASURED UpdateResult fix_sin_cos_16(WarmInflightFilter& f) { return update(f.state, f.fix, f.settings); }
 MEASURED UpdateResult fix_sin_cos_19(WarmInflightFilter& f) { return update(f.state, f.fix, f.settings); }
+MEASURED UpdateResult fix_correlated(WarmInflightFilter& f) { return update(f.state, f.fix, f.settings); }
 
 int main() {
   WarmInflightFilter ins = warm_inflight_filter(Algorithm::ekf, Aiding::gps);
@@ -26,8 +27,10 @@ int main() {
   WarmInflightFilter ukf_18 = warm_inflight_filter(Algorithm::ukf, Aiding::ssbl);
   WarmInflightFilter sin_cos_16 = warm_inflight_filter(Algorithm::sin_cos, Aiding::gps);
   WarmInflightFilter sin_cos_19 = warm_inflight_filter(Algorithm::sin_cos, Aiding::ssbl);
+  WarmInflightFilter correlated = warm_inflight_filter(Algorithm::sin_cos, Aiding::ssbl, 1);
   const double nis = fix_ekf_15(ekf_15).nis + fix_ekf_18(ekf_18).nis + fix_ukf_15(ukf_15).nis +
-                     fix_ukf_18(ukf_18).nis + fix_sin_cos_16(sin_cos_16).nis + fix_sin_cos_19(sin_cos_19).nis;
+                     fix_ukf_18(ukf_18).nis + fix_sin_cos_16(sin_cos_16).nis +
+                     fix_sin_cos_19(sin_cos_19).nis + fix_correlated(correlated).nis;
   std::printf("NIS %g\n", nis);
   return 0;
 }

@@ -18,16 +18,21 @@ MEASURED UpdateResult update_robust_h2(WarmFilter& f) {
 MEASURED UpdateResult update_invariant(WarmFilter& f) {
   return update(f.state, f.master_velocity, f.settings);
 }
+MEASURED UpdateResult update_considering(WarmFilter& f) {
+  return update(f.state, f.master_velocity, f.settings);
+}
 
 int main() {
   WarmFilter reference = warm_filter(Algorithm::kalman, Mechanization::reference);
   WarmFilter kalman = warm_filter(Algorithm::kalman, Mechanization::two_sample);
   WarmFilter robust_h2 = warm_filter(Algorithm::robust_h2, Mechanization::two_sample);
   WarmFilter invariant = warm_filter(Algorithm::kalman, Mechanization::two_sample, Loop::invariant);
+  WarmFilter considered =
+      warm_filter(Algorithm::kalman, Mechanization::two_sample, Loop::invariant, with_ordinary_sensors());
   imu_step_reference(reference);
   imu_step_two_sample(kalman);
-  const double nis =
-      update_kalman(kalman).nis + update_robust_h2(robust_h2).nis + update_invariant(invariant).nis;
+  const double nis = update_kalman(kalman).nis + update_robust_h2(robust_h2).nis +
+                     update_invariant(invariant).nis + update_considering(considered).nis;
   std::printf("NIS %g\n", nis);
   return 0;
 }

@@ -12,9 +12,20 @@ struct WarmFilter {
   Eigen::Vector3d master_velocity;
 };
 
+/// The settings of a target that is told nothing: it considers the errors of ordinary sensors.
+inline Settings with_ordinary_sensors() {
+  Settings settings;
+  settings.accel_scale_factor_sigma = settings.gyro_scale_factor_sigma = 300e-6;
+  settings.accel_misalignment_sigma = settings.gyro_misalignment_sigma = 0.5e-3;
+  settings.lever_arm_sigma = 0.5;
+  settings.velocity_correlated_sigma = 0.05;
+  return settings;
+}
+
 inline WarmFilter warm_filter(Algorithm algorithm, strapdown::Mechanization mechanization,
-                              Loop loop = Loop::published) {
+                              Loop loop = Loop::published, const Settings& settings = {}) {
   WarmFilter filter;
+  filter.settings = settings;
   filter.settings.algorithm = algorithm;
   filter.settings.mechanization = mechanization;
   filter.settings.loop = loop;

@@ -15,10 +15,13 @@ struct WarmInflightFilter {
   GeodeticPosition fix;
 };
 
-inline WarmInflightFilter warm_inflight_filter(Algorithm algorithm, Aiding aiding) {
+/// `correlated_share`: of the variance of the fixes, as the device's default 1 tells it; see Settings.
+inline WarmInflightFilter warm_inflight_filter(Algorithm algorithm, Aiding aiding,
+                                               double correlated_share = 0) {
   WarmInflightFilter filter;
   filter.settings.algorithm = algorithm;
   filter.settings.aiding = aiding;
+  filter.settings.fix_correlated_share = correlated_share;
   strapdown::NavState start;
   start.latitude = 0.61;
   start.v_eb_n << 2.3, 1.8, 0;

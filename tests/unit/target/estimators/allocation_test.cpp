@@ -135,9 +135,8 @@ TEST(Allocation, InflightAlignmentAllocatesNothing) {
           history->propagate(state, imu, k * 10'000L, settings);
           if (k % 50 != 0) continue;
           const double north = start.v_eb_n.x() * (k * 0.01 - 0.455);
-          const UpdateResult result =
-              history->update(state, {start.latitude + north / 6.36e6, start.longitude, start.height},
-                              k * 10'000L - 455'000, settings);
+          const GeodeticPosition fix{start.latitude + north / 6.36e6, start.longitude, start.height};
+          const UpdateResult result = history->update(state, fix, k * 10'000L - 455'000, settings);
           if (result.outcome == Outcome::ok && std::isfinite(estimate(state).nav.height)) ++ok;
           if (uncertainty(state).position.allFinite()) continue;
           ok = 0;
