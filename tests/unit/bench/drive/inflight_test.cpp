@@ -147,7 +147,6 @@ TEST(InFlight, AnOutageIsAnsweredWithPredictionsThatBecomeWorse) {
     before = fix.position_sigma.x();
   }
   EXPECT_GT(predicted, 20) << "at the output's rate";
-  expect_aligned(flown);
 }
 
 TEST(InFlight, TwoSecondsOfLatencyDoNoHarmAtTheTimeOfValidity) {
