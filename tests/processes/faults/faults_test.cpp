@@ -296,7 +296,7 @@ TEST(Faults, WhatIsKnownToBeBelievedIsEachOfOneEstimator) {
     ++count;
   }
   EXPECT_EQ(believed.extract("no fault").mapped(), 0);
-  EXPECT_EQ(believed.size(), 12U);
+  EXPECT_EQ(believed.size(), 9U);
   for (const auto& [fault, count] : believed) EXPECT_EQ(count, 1) << fault;
 }
 
