@@ -93,7 +93,7 @@ TEST(Documentation, HandshakeIsThatOfARun) {
   for (int attempt = 0; attempt < 5; ++attempt) {
     hil_bench(
         fmt::format("run {} --lockstep --target '{}' --log {}", scenario("los_quick"), KIT_LOS_RATE, log));
-    annotated = shell(fmt::format("/usr/bin/python3 -B {}/tests/processes/conformance/annotate.py {} {} 45",
+    annotated = shell(fmt::format("/usr/bin/python3 -B {}/tests/processes/conformance/annotate.py {} {} 47",
                                   SOURCE_DIR, kit, log));
     if (own_target.find(annotated.out) != std::string::npos) break;
   }
