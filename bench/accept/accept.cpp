@@ -23,12 +23,6 @@ namespace fs = std::filesystem;
 using checks::Outcome;
 using drive::Ending;
 
-drive::Options in_process(std::string_view bus) {
-  drive::Options options;
-  options.bus = drive::BusName(std::string(bus));
-  return options;
-}
-
 /// Magnitude of a signal's mean over a flight; nullopt if no answer contains the signal.
 std::optional<double> mean_of(const Answers& answers, const Move& move) {
   const Series* series = answers.find(move.message);
@@ -89,7 +83,8 @@ class Run {
       const Requirement* requirement = suite_.find(id);
       return requirement != nullptr && wanted(requirement->family);
     };
-    return of(flight.requirement) || (flight.reference && of(*flight.reference)) ||
+    return of(flight.requirement) ||
+           (options_.same_as_hil_target && flight.reference && of(*flight.reference)) ||
            std::ranges::any_of(suite_.flights, [&](const Flight& other) {
              return (other.same_as && other.same_as->flight == flight.name && wanted(other)) ||
                     (other.moves && other.moves->flight == flight.name && wanted(other));
@@ -98,9 +93,9 @@ class Run {
   [[nodiscard]] bool done() const { return stop_ || (options_.first_failure && failed_); }
 
   // The requirements that a flight tests.
-  static std::vector<std::string> tested_by(const Flight& flight) {
+  [[nodiscard]] std::vector<std::string> tested_by(const Flight& flight) const {
     std::vector<std::string> ids{flight.requirement};
-    if (flight.reference) ids.push_back(*flight.reference);
+    if (options_.same_as_hil_target && flight.reference) ids.push_back(*flight.reference);
     if (flight.same_as) ids.push_back(flight.same_as->requirement);
     if (flight.moves) ids.push_back(flight.moves->requirement);
     for (const scenario::Check& check : flight.scenario.checks) ids.push_back(check.requirement);
@@ -150,8 +145,8 @@ class Run {
     const auto run = drive::run(flight.scenario, options, stop_, [&](std::int64_t) {});
     if (!run) return Items{item(flight.requirement, name, run.error().message, flown_to_its_end)};
     Items found = judged(flight, name, *run);
-    if (flight.reference) {
-      const auto reference = read_reference(suite_.reference_of(flight));
+    if (options_.same_as_hil_target && flight.reference && !stop_) {
+      const auto reference = reference_of(flight);
       if (!reference) return tl::unexpected(reference.error());
       found.push_back(item(*flight.reference, name + " as the reference",
                            departure(*reference, answers, options_.share), "answers as the reference's"));
@@ -164,6 +159,20 @@ class Run {
     }
     if (flight.moves) found.push_back(moved(*flight.moves, name, answers));
     return found;
+  }
+
+  // The answers of hil-target's code in this process: with frames as they are, and with unrounded ones.
+  Result<Reference> reference_of(const Flight& flight) const {
+    Answers rounded, unrounded;
+    for (const auto& [bus, answers] :
+         {std::pair(drive::in_process_bus, &rounded), std::pair(drive::unrounded_bus, &unrounded)}) {
+      drive::Options options;
+      options.bus = drive::BusName(std::string(bus));
+      options.onlookers = {answers};
+      const auto run = drive::run(flight.scenario, options, stop_, [](std::int64_t) {});
+      if (!run) return tl::unexpected(run.error());
+    }
+    return make_reference(rounded, unrounded, flight.rows);
   }
 
   /// Converts the results of the checks and the ending of the flight to items.
@@ -330,44 +339,16 @@ Result<Acceptance> accept(const Suite& suite, const Options& options, const std:
                                  suite.folder.string(), item.name, item.requirement));
     found->items.push_back(std::move(item));
   }
+  if (!options.same_as_hil_target) {  // what only the comparison tests was not asked
+    std::erase_if(acceptance.findings, [&](const Finding& finding) {
+      return finding.items.empty() && finding.reached &&
+             std::ranges::any_of(suite.flights, [&](const Flight& flight) {
+               return flight.reference == finding.requirement.id;
+             });
+    });
+  }
   acceptance.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return acceptance;
-}
-
-Result<void> record(const Suite& suite, const std::atomic<bool>& stop,
-                    const std::function<void(const std::string&)>& progress) {
-  std::error_code error;
-  fs::create_directories(suite.folder / "reference", error);
-  if (error)
-    return failure(
-        fmt::format("{}: cannot be a folder: {}", (suite.folder / "reference").string(), error.message()));
-  for (const Flight& flight : suite.flights) {
-    if (!flight.reference || stop) continue;
-    progress(fmt::format("{}: flight '{}'", suite.estimator, flight.name));
-    Answers rounded, unrounded;
-    for (const auto& [bus, answers] :
-         {std::pair(drive::in_process_bus, &rounded), std::pair(drive::unrounded_bus, &unrounded)}) {
-      drive::Options options = in_process(bus);
-      options.onlookers = {answers};
-      const auto run = drive::run(flight.scenario, options, stop, [](std::int64_t) {});
-      if (!run) return tl::unexpected(run.error());
-      const auto expected = flight.faults ? Ending::Kind::target_fault : Ending::Kind::completed;
-      if (run->ending.kind != expected && !stop)
-        return failure(fmt::format(
-            "flight '{}': {}", flight.name,
-            run->ending.detail.empty() ? "is flown to its end, expected a fault" : run->ending.detail));
-    }
-    if (stop) return {};
-    const std::string comment = fmt::format(
-        "What the reference target answers in flight '{}' (docs/accept.md); made by hil-bench accept "
-        "--record.\n",
-        flight.name);
-    if (auto written =
-            write(make_reference(rounded, unrounded, flight.rows), suite.reference_of(flight), comment);
-        !written)
-      return written;
-  }
-  return {};
 }
 
 }  // namespace canhil::accept

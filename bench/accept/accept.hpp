@@ -22,7 +22,8 @@ using Item = checks::CheckResult;
 struct Options {
   std::string target;                   ///< the target's command: program and arguments
   std::optional<std::uint64_t> seed{};  ///< replaces the seeds in the campaign files
-  double share = 1;                     ///< factor by which the tolerances of the references are multiplied
+  bool same_as_hil_target = false;      ///< also compare the answers with those of hil-target's code
+  double share = 1;                     ///< factor by which the tolerances of this comparison are multiplied
   bool first_failure = false;           ///< stop at the first failure
   std::vector<std::string> families{};  ///< test only requirements of these families; empty: all
   std::function<void(const std::string&)> progress = [](const std::string&) {};
@@ -50,10 +51,5 @@ struct Acceptance {
 /// Returns an Error if the suite cannot be flown because of wrong usage or configuration. A target that fails
 /// requirements does not cause an Error: the findings report the failures.
 Result<Acceptance> accept(const Suite& suite, const Options& options, const std::atomic<bool>& stop);
-
-/// Flies, in this process, those flights of the suite that need a reference. Flies each of them twice: with
-/// rounded frames and with unrounded frames. Writes the reference of each flight. An Error has one line.
-Result<void> record(const Suite& suite, const std::atomic<bool>& stop,
-                    const std::function<void(const std::string&)>& progress);
 
 }  // namespace canhil::accept

@@ -1,21 +1,15 @@
 #include "bench/accept/reference.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <sstream>
 
-#include "bench/report/file.hpp"
-#include "dbc/files/text_file.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::accept {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 22U;
 constexpr double at_an_instant = 2, in_the_mean = 0.25, of_rounding = 4;
 
 /// The value with the largest deviation. Each deviation is divided by its tolerance before it is compared.
@@ -32,12 +26,6 @@ struct Worst {
 };
 
 bool counts(const SignalInfo& signal) { return wire::lsb(signal) == 1; }
-
-std::vector<double> numbers(std::istringstream& line) {
-  std::vector<double> all;
-  for (double value = 0; line >> value;) all.push_back(value);
-  return all;
-}
 
 }  // namespace
 
@@ -65,83 +53,6 @@ Reference make_reference(const Answers& answers, const Answers& unrounded, std::
       message.rows.push_back(std::move(row));
     }
     reference.push_back(std::move(message));
-  }
-  return reference;
-}
-
-Result<void> write(const Reference& reference, const std::filesystem::path& file,
-                   const std::string& comment) {
-  std::string text;
-  std::istringstream lines(comment);
-  for (std::string line; std::getline(lines, line);) text += fmt::format("# {}\n", line);
-  for (const ReferenceMessage& message : reference) {
-    text += fmt::format("message {} {}\nsignals {}\nrounding {:.3g}\nmean {:.15g}\nmean_rounding {:.3g}\n",
-                        message.name, message.count, fmt::join(message.signals, " "),
-                        fmt::join(message.rounding, " "), fmt::join(message.mean, " "),
-                        fmt::join(message.mean_rounding, " "));
-    for (const auto& row : message.rows)
-      text += fmt::format("{} {:.6g} {:.12g}\n", row.index, row.t_s, fmt::join(row.values, " "));
-  }
-  return report::write_file(file.string(), text);
-}
-
-Result<Reference> read_reference(const std::filesystem::path& file) {
-  const auto text = read_text_file(file, "a reference", most_bytes);
-  if (!text) return tl::unexpected(text.error());
-  Reference reference;
-  std::istringstream lines{*text};
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    if (line.empty() || line.front() == '#') continue;
-    const auto wrong = [&](std::string_view expected) {
-      return failure(
-          fmt::format("{}:{}: '{}', expected {}", file.string(), number, line.substr(0, 40), expected));
-    };
-    std::istringstream words(line);
-    std::string first;
-    words >> first;
-    if (first == "message") {
-      ReferenceMessage message;
-      if (!(words >> message.name >> message.count))
-        return wrong("the name of a message and how often it came");
-      reference.push_back(std::move(message));
-      continue;
-    }
-    if (reference.empty()) return wrong("a line 'message'");
-    ReferenceMessage& message = reference.back();
-    if (first == "signals") {
-      for (std::string name; words >> name;) message.signals.push_back(name);
-      continue;
-    }
-    std::size_t index = 0;
-    double t_s = 0;
-    if (first != "rounding" && first != "mean" && first != "mean_rounding") {
-      const auto [end, bad] = std::from_chars(first.data(), first.data() + first.size(), index);
-      if (bad != std::errc() || end != first.data() + first.size())
-        return wrong("'message', 'signals', 'rounding', 'mean', 'mean_rounding' or the index of an answer");
-      if (index >= message.count || !(words >> t_s))
-        return wrong(fmt::format("the index of one of {} answers, and its time", message.count));
-    }
-    std::vector<double> values = numbers(words);
-    if (values.size() != message.signals.size())
-      return wrong(fmt::format("{} numbers, one per signal", message.signals.size()));
-    if (first == "rounding") {
-      message.rounding = std::move(values);
-    } else if (first == "mean") {
-      message.mean = std::move(values);
-    } else if (first == "mean_rounding") {
-      message.mean_rounding = std::move(values);
-    } else {
-      message.rows.push_back({.index = index, .t_s = t_s, .values = std::move(values)});
-    }
-  }
-  for (const ReferenceMessage& message : reference) {
-    for (const auto* numbers : {&message.rounding, &message.mean, &message.mean_rounding}) {
-      if (numbers->size() != message.signals.size())
-        return failure(fmt::format("{}: {} lacks a line, expected rounding, mean and mean_rounding",
-                                   file.string(), message.name));
-    }
   }
   return reference;
 }

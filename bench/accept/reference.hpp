@@ -1,8 +1,8 @@
-// The answers of the reference target in one flight, stored as text, with the allowed deviation of a target.
+// The answers of the reference target in one flight, with the allowed deviation of a target.
 //
 // Two correct targets differ by rounding: each signal is rounded to its step in the DBC, and the rounded
-// inputs of the filter change its estimates. When the reference is made, a second flight, with unrounded
-// frames, measures this effect. A target may deviate from the reference by at most these limits, each
+// inputs of the filter change its estimates. A second flight of the reference target, with unrounded frames,
+// measures this effect. A target may deviate from the reference by at most these limits, each
 // multiplied by `share`:
 //   at an instant:  2 steps + 4 times the largest effect of rounding over the flight
 //   in the mean:    1/4 step + 4 times the effect of rounding on the mean
@@ -10,12 +10,10 @@
 // state or count may differ by the contribution of one answer.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "bench/accept/profile.hpp"
-#include "dbc/wire/result.hpp"
 
 namespace canhil::accept {
 
@@ -37,11 +35,6 @@ using Reference = std::vector<ReferenceMessage>;
 /// `rows`: number of instants kept per message, evenly spaced over the answers of the message. `unrounded`:
 /// answers of the same flight with unrounded frames.
 Reference make_reference(const Answers& answers, const Answers& unrounded, std::size_t rows);
-
-/// `comment`: lines at the beginning of the file.
-Result<void> write(const Reference& reference, const std::filesystem::path& file, const std::string& comment);
-/// An Error is one line of text. If one line of the file is wrong, the text contains the number of that line.
-Result<Reference> read_reference(const std::filesystem::path& file);
 
 /// Describes where a target deviates too far from the reference: names the signal with the largest ratio of
 /// deviation to tolerance, and the first time of that deviation. Empty if no deviation is larger than its

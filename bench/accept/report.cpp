@@ -74,6 +74,13 @@ std::string section(const Acceptance& suite) {
   return report::section(suite.estimator, suite.title, out);
 }
 
+// The question that the report answers.
+std::string asked(const Report& report) {
+  return report.same_as.empty()
+             ? "asked: is it good (--same-as hil-target also compares the answers)"
+             : fmt::format("asked: is it good, and does it answer as {} does", report.same_as);
+}
+
 }  // namespace
 
 Outcome Report::outcome() const { return checks::outcome_of(suites, &Acceptance::outcome); }
@@ -97,7 +104,7 @@ std::string text(const Report& report) {
     out += fmt::format("\n{}: {}: {} ({:.0f} s)\n\n", suite.estimator, checks::name(suite.outcome()),
                        counts(suite), suite.wall_s);
   }
-  return out + fmt::format("{}: {}\n", report.target, checks::name(report.outcome()));
+  return out + fmt::format("{}\n{}: {}\n", asked(report), report.target, checks::name(report.outcome()));
 }
 
 std::string json(const Report& report) {
@@ -125,6 +132,7 @@ std::string json(const Report& report) {
   }
   const ordered_json all{{"schema", "canhil-acceptance-1"},
                          {"target", report.target},
+                         {"same_as", report.same_as},
                          {"started_s", report.started_s},
                          {"outcome", checks::name(report.outcome())},
                          {"suites", std::move(suites)}};
@@ -149,7 +157,8 @@ std::string junit(const Report& report) {
 
 std::string page(const Report& report) {
   const std::string_view verdict = checks::name(report.outcome());
-  std::string body = report::head("Acceptance", escaped(report.target)) + report::verdict(verdict, "");
+  std::string body =
+      report::head("Acceptance", escaped(report.target)) + report::verdict(verdict, asked(report));
   report::Rows rows;
   for (const Acceptance& suite : report.suites)
     rows.push_back(

@@ -11,7 +11,8 @@ namespace canhil::accept {
 
 /// The report of one `hil-bench accept`.
 struct Report {
-  std::string target;  ///< the target's command as given by the user
+  std::string target;     ///< the target's command as given by the user
+  std::string same_as{};  ///< with what the answers were compared; empty: with nothing
   std::int64_t started_s = 0;
   std::vector<Acceptance> suites;
   [[nodiscard]] checks::Outcome outcome() const;

@@ -173,13 +173,6 @@ const Requirement* Suite::find(std::string_view id) const {
   return found == requirements.end() ? nullptr : &*found;
 }
 
-fs::path Suite::reference_of(const Flight& flight) const {
-  std::string name = flight.name;
-  std::ranges::replace_if(
-      name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-  return folder / "reference" / (name + ".txt");
-}
-
 Result<Suite> read_suite(const fs::path& folder) {
   const auto text = read_text_file(folder / "suite.toml", "a suite", scenario::most_toml_bytes);
   if (!text) return tl::unexpected(text.error());

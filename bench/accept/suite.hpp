@@ -1,5 +1,5 @@
 // The requirements that a target must meet to be accepted as an estimator. A suite is a folder: it contains
-// suite.toml, the scenarios and campaigns that suite.toml names, and reference answers (docs/accept.md).
+// suite.toml, and the scenarios and campaigns that suite.toml names (docs/accept.md).
 #pragma once
 
 #include <filesystem>
@@ -46,8 +46,8 @@ struct Flight {
   scenario::Scenario scenario{};
   std::string requirement{};  ///< id: applies to checks that name no requirement of the suite
   std::optional<std::string>
-      reference{};       ///< id of the requirement that the answers match the reference; none: not compared
-  std::size_t rows = 0;  ///< number of instants kept in the reference
+      reference{};       ///< id of the requirement that the answers are hil-target's; none: not compared
+  std::size_t rows = 0;  ///< number of instants that are compared
   std::optional<SameAs> same_as{};
   std::optional<Move> moves{};
   bool real_time = false;
@@ -69,11 +69,9 @@ struct Suite {
   std::optional<scenario::Scenario> dialogue;  ///< scenario with the dialogue's estimator; none: no dialogue
 
   [[nodiscard]] const Requirement* find(std::string_view id) const;
-  [[nodiscard]] std::filesystem::path reference_of(const Flight& flight) const;
 };
 
-/// Reads folder/suite.toml and the scenarios that it names; references and campaigns are not read. An Error
-/// has one line.
+/// Reads folder/suite.toml and the scenarios that it names; campaigns are not read. An Error has one line.
 Result<Suite> read_suite(const std::filesystem::path& folder);
 
 /// The folders within `folder` that contain a suite, sorted by name. Returns an Error of one line if there is

@@ -35,7 +35,8 @@ struct Arguments {
   std::vector<std::string> estimators, families;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> share;
-  bool record = false, first = false, no_commands = false;
+  std::string same_as;
+  bool first = false, no_commands = false;
   std::string json, junit, html;
 };
 
@@ -57,6 +58,10 @@ Result<std::vector<accept::Suite>> read(const Arguments& arguments) {
       return failure(fmt::format("--family '{}': is unknown, expected one of: {}", name,
                                  fmt::join(accept::families, ", ")));
   }
+  if (!arguments.same_as.empty() && arguments.same_as != "hil-target")
+    return failure(fmt::format("--same-as '{}': is unknown, expected hil-target", arguments.same_as));
+  if (arguments.share && arguments.same_as.empty())
+    return failure("--tolerance: is for the comparison with hil-target, expected --same-as hil-target too");
   for (const std::string& name : arguments.estimators) {
     if (std::ranges::find(names, name) == names.end())
       return failure(fmt::format("--estimator '{}': has no suite in {}, expected one of: {}", name,
@@ -65,21 +70,16 @@ Result<std::vector<accept::Suite>> read(const Arguments& arguments) {
   return suites;
 }
 
-// The inputs are all files of the suites, and what their flights and campaigns read in addition. With
-// --record, the references of the flights are outputs.
+// The inputs are all files of the suites, and what their flights and campaigns read in addition.
 Result<void> check_files(const Arguments& arguments, const std::vector<accept::Suite>& suites) {
   CommandFiles files;
   files.reads(drive::inputs_of_target(arguments.target));
   std::error_code unknown;
   for (const auto& entry : fs::recursive_directory_iterator(arguments.suites, unknown)) {
-    if (!arguments.record && entry.is_regular_file(unknown)) files.reads("suite", entry.path().string());
+    if (entry.is_regular_file(unknown)) files.reads("suite", entry.path().string());
   }
   for (const accept::Suite& suite : suites) {
-    for (const accept::Flight& flight : suite.flights) {
-      files.reads(drive::inputs_of(flight.scenario));
-      if (arguments.record && flight.reference)
-        files.may_write("reference", suite.reference_of(flight).string());
-    }
+    for (const accept::Flight& flight : suite.flights) files.reads(drive::inputs_of(flight.scenario));
     if (suite.dialogue) files.reads(drive::inputs_of(*suite.dialogue));
     for (const std::string& name : suite.campaigns) {
       const auto campaign = campaign::read_campaign(suite.folder / name);
@@ -115,14 +115,13 @@ ExitCode execute(const Arguments& arguments) {
   catch_interrupts();
   const ProgressLine line;
   const auto progress = [&](const std::string& what) { line.show([&] { return what; }); };
-  accept::Report all{.target = arguments.target, .started_s = std::time(nullptr), .suites = {}};
+  accept::Report all{.target = arguments.target,
+                     .same_as = arguments.same_as,
+                     .started_s = std::time(nullptr),
+                     .suites = {}};
   for (const accept::Suite& suite : *suites) {
-    if (arguments.record) {
-      if (auto recorded = accept::record(suite, interrupted, progress); !recorded)
-        return end_with(recorded.error());
-      continue;
-    }
     accept::Options options{.target = arguments.target, .seed = arguments.seed};
+    options.same_as_hil_target = !arguments.same_as.empty();
     options.share = static_cast<double>(arguments.share.value_or(1));
     options.first_failure = arguments.first;
     options.families = arguments.families;
@@ -135,7 +134,6 @@ ExitCode execute(const Arguments& arguments) {
   }
   line.clear();
   if (interrupted) return end_interrupted();
-  if (arguments.record) return ExitCode::pass;
   if (auto written = write_reports(arguments, all); !written) return complain(written.error());
   return exit_code(all.outcome());
 }
@@ -152,8 +150,10 @@ void add_accept(command_line::Command app, int& code) {
       .one_word_each();
   command.add_option("--suites", arguments->suites, "folder of suites (default: those of the project)");
   command.add_number("--seed", arguments->seed, "of the campaigns, in place of their own");
+  command.add_option("--same-as", arguments->same_as,
+                     "hil-target: also ask whether the answers are those of hil-target's code");
   command.add_number("--tolerance", arguments->share,
-                     "multiplies by how much an answer may differ from the reference's (default: 1)", 1,
+                     "with --same-as: multiplies by how much an answer may differ (default: 1)", 1,
                      1'000'000);
   command.add_flag("--first-failure", arguments->first, "stop at the first requirement that is not met");
   command
@@ -163,8 +163,6 @@ void add_accept(command_line::Command app, int& code) {
       .one_word_each();
   command.add_flag("--no-commands", arguments->no_commands,
                    "refuse scenarios that execute something: commands, programs, FMUs");
-  command.add_flag("--record", arguments->record,
-                   "make the references anew, from the target's code in this program");
   command.add_option("--json", arguments->json,
                      "write the report as JSON to a file; -: to stdout, in place of the text");
   command.add_option("--junit", arguments->junit,

@@ -93,7 +93,7 @@ def accept(target, estimator, families, folder):
     report = Path(folder, "report.json")
     report.unlink(missing_ok=True)
     wanted = [word for family in families for word in ("--family", family)]
-    code, output = run([str(BENCH), "accept", "--first-failure", "--target", str(target), "--json", str(report), "--estimator", estimator,
+    code, output = run([str(BENCH), "accept", "--same-as", "hil-target", "--first-failure", "--target", str(target), "--json", str(report), "--estimator", estimator,
                         *wanted], LONGEST_S)
     if code is None:
         return "no end", f"not within {LONGEST_S} s"

@@ -233,6 +233,8 @@ const std::map<std::string_view, Lie>& lies() {
          change<LosRateSigma>(frame, [](LosRateSigma& message) { message.degraded = 1; });
          return true;
        }},
+      {"heading_off",
+       from_the<AlignAttitude>(0, [](AlignAttitude& message) { message.heading_deg += 0.03; })},
       {"one_answer_in_150", answers([](int number) { return number % 150 == 0 ? 1 : 0; })},
       {"silent_from_600", answers([](int number) { return number < 600 ? 1 : 0; })},
       {"silent_before_900", answers([](int number) { return number < 900 ? 0 : 1; })},

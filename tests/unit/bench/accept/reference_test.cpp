@@ -3,13 +3,9 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "bench/accept/profile.hpp"
 #include "bench/observe/values.hpp"
 #include "dbc/wire/transmit.hpp"
-#include "tests/own_folder.hpp"
 
 namespace canhil::accept {
 namespace {
@@ -18,7 +14,6 @@ using messages::AlignAttitude;
 using messages::TargetHeartbeat;
 using testing::HasSubstr;
 using testing::IsEmpty;
-namespace fs = std::filesystem;
 
 constexpr double heading_step_deg = 0.003;
 
@@ -115,31 +110,6 @@ TEST(Reference, AnglesGoTheShorterWayRound) {
   const Reference reference = make_reference(a.answers, b.answers, 3);
   EXPECT_LT(reference.front().rounding[2], 0.01);
   EXPECT_THAT(departure(reference, b.answers), IsEmpty());
-}
-
-TEST(Reference, IsTheSameAfterItWasWrittenAndRead) {
-  const fs::path file = fs::path(test::own_folder()) / "reference.txt";
-  ASSERT_TRUE(write(of(0.01), file, "a flight\nof a test"));
-  const auto read = read_reference(file);
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_THAT(departure_of(*read, 0), IsEmpty());
-  EXPECT_EQ(read->front().rows.size(), 5U);
-}
-
-TEST(Reference, DamagedIsOneLine) {
-  const fs::path file = fs::path(test::own_folder()) / "bad.txt";
-  const auto refused = [&](const std::string& text) {
-    std::ofstream(file) << text;
-    const auto read = read_reference(file);
-    return read ? std::string() : read.error().message;
-  };
-  EXPECT_THAT(refused("mean 1 2\n"), HasSubstr(":1: 'mean 1 2', expected a line 'message'"));
-  EXPECT_THAT(refused("message A\n"), HasSubstr("expected the name of a message and how often it came"));
-  EXPECT_THAT(refused("message A 3\nsignals a b\nmean 1\n"), HasSubstr(":3: 'mean 1', expected 2 numbers"));
-  EXPECT_THAT(refused("message A 3\nsignals a\nwhat 1\n"), HasSubstr(":3: 'what 1', expected"));
-  EXPECT_THAT(refused("message A 3\nsignals a\n7 0.1 2\n"),
-              HasSubstr(":3: '7 0.1 2', expected the index of one of 3 answers"));
-  EXPECT_THAT(refused("message A 3\nsignals a\nmean 1\n"), HasSubstr("A lacks a line"));
 }
 
 TEST(Difference, IsOfTwoFlightsThatAreToAgree) {
