@@ -114,7 +114,7 @@ class Judging(unittest.TestCase):
     def judged(self, code, page=None):
         with tempfile.TemporaryDirectory() as folder:
             bench = Path(folder, "bench")
-            write = f"cat > \"$6\" <<'END'\n{page}\nEND\n" if page else ""
+            write = f"while [ \"$1\" != --json ]; do shift; done\ncat > \"$2\" <<'END'\n{page}\nEND\n" if page else ""
             bench.write_text(f"#!/bin/sh\n{write}echo one; echo two; exit {code}\n")
             bench.chmod(0o755)
             with mock.patch.object(run, "BENCH", bench):
