@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "bench/campaign/divergence.hpp"
 #include "bench/campaign/seconds.hpp"
 #include "bench/checks/probability.hpp"
 
@@ -186,6 +187,13 @@ void answer(const Distribution& rule, const Runs& runs, const Runs& /*other*/, A
   bars.at_least(found.median, rule.median_at_least, in(unit), "median ");
   bars.at_most(found.p90, rule.p90_at_most, in(unit), "p90 ");
   const std::string below = rule.below ? fmt::format("below {} in ", with_unit(*rule.below, unit)) : "";
+  if (rule.sampling.probability) {
+    const auto ends =
+        checks::mean_of_squares_bounds(static_cast<double>(runs.size()), 1, rule.sampling.tail());
+    bars.at_least(found.rms, rule.expected_at_least.value_or(*rule.expected) * std::sqrt(ends.low), in(unit),
+                  "RMS ");
+    bars.at_most(found.rms, *rule.expected * std::sqrt(ends.high), in(unit), "RMS ");
+  }
   bars.at_least(found.below, rule.fraction_at_least, percent, below);
   bars.at_most(found.below, rule.fraction_at_most, percent, below);
 }
@@ -194,14 +202,19 @@ void answer(const WindowMoments& rule, const Runs& runs, const Runs& /*other*/, 
   const quantities::Unit& unit = rule.quantity->unit;
   const auto [mean, deviation, count, missing] =
       window_statistics(runs, *rule.quantity, rule.from_us, rule.to_us);
-  out.measured = fmt::format("mean {}, standard deviation {}{}", with_unit(mean, unit),
-                             with_unit(deviation, unit), missing_note(missing));
+  const auto n = static_cast<double>(count);
+  const double rms = std::sqrt(mean * mean + deviation * deviation * (n - 1) / n);
+  out.measured = fmt::format("mean {}, standard deviation {}, RMS {}{}", with_unit(mean, unit),
+                             with_unit(deviation, unit), with_unit(rms, unit), missing_note(missing));
   out.figures = {figure("mean", mean, unit),
                  figure("standard_deviation", deviation, unit),
+                 figure("rms", rms, unit),
                  {"values", static_cast<double>(count)}};
   Bars bars(out, missing == 0);
   bars.at_most(std::abs(mean), rule.mean_at_most, in(unit), "|mean| ");
   bars.at_most(deviation, rule.standard_deviation_at_most, in(unit), "standard deviation ");
+  bars.at_most(rms, rule.rms_at_most, in(unit), "RMS ");
+  bars.at_least(rms, rule.rms_at_least, in(unit), "RMS ");
 }
 
 void answer(const RunMean& rule, const Runs& runs, const Runs& other, Answer& out) {
@@ -217,6 +230,14 @@ void answer(const RunMean& rule, const Runs& runs, const Runs& other, Answer& ou
   Bars bars(out, found.missing == 0);
   bars.at_most(found.mean, rule.at_most, in(unit));
   bars.at_least(found.mean, rule.at_least, in(unit));
+  if (rule.sampling.probability) {
+    const auto n = static_cast<double>(runs.size());
+    const double away =
+        found.standard_deviation / std::sqrt(n) *
+        (n < 2 ? std::nan("") : checks::student_t_quantile_above(n - 1, rule.sampling.tail()));
+    bars.at_least(found.mean, *rule.expected - away, in(unit));
+    bars.at_most(found.mean, *rule.expected + away, in(unit));
+  }
   if (rule.other.empty()) return;
   const RunMeans others = run_means(other, *rule.quantity, rule.from_us, rule.to_us);
   const double ratio = found.mean / others.mean;
@@ -246,6 +267,7 @@ void answer(const ToGo& rule, const Runs& runs, const Runs& other, Answer& out) 
   out.measured += missing_note(missing);
   Bars bars(out, missing == 0);
   bars.at_most(found.rms, rule.rms_at_most, in(unit), "RMS ");
+  bars.at_least(found.rms, rule.rms_at_least, in(unit), "RMS ");
   bars.between(found.mean, rule.mean_between, unit);
   bars.at_most(ratio, rule.ratio_at_most, times);
   bars.at_least(ratio, rule.ratio_at_least, times);
@@ -289,12 +311,11 @@ void answer(const Consistency& rule, const Runs& runs, const Runs& /*other*/, An
   out.figures = {{"mean", found.mean}, {"low", found.low}, {"high", found.high}, {"inside", found.inside}};
   Bars bars(out, found.missing == 0);
   bars.between(found.mean, rule.mean_between, rule.quantity->unit);
-  if (rule.mean_probability) {
-    const double tail = (1 - *rule.mean_probability) / 2, n = static_cast<double>(runs.size());
-    const double degrees_of_freedom = rule.quantity->degrees_of_freedom * n;
-    bars.between(found.mean,
-                 std::pair(checks::chi_squared_quantile(degrees_of_freedom, tail) / n,
-                           checks::chi_squared_quantile_above(degrees_of_freedom, tail) / n),
+  if (rule.sampling.probability) {
+    const double k = rule.quantity->degrees_of_freedom;
+    const auto ends =
+        checks::mean_of_squares_bounds(static_cast<double>(runs.size()), k, rule.sampling.tail());
+    bars.between(found.mean, std::pair(rule.expected_at_least / k * ends.low, ends.high),
                  rule.quantity->unit);
   }
   bars.at_least(found.inside, rule.inside_at_least, percent, "inside in ");
@@ -305,13 +326,25 @@ void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answe
   const std::size_t astray = found.faulted + found.beyond;
   out.measured = fmt::format("{} of {} runs ({} ended early)", astray, found.runs, found.faulted);
   if (rule.from_us) out.measured += ", largest " + with_unit(found.largest, rule.quantity->unit);
-  out.figures = {{"diverged", static_cast<double>(astray)}, {"faulted", static_cast<double>(found.faulted)}};
+  if (rule.within_us) {
+    out.measured +=
+        fmt::format("; {} ever beyond, {} of them too late to be judged", found.ever_above, found.too_late);
+    out.figures = {{"ever_beyond", static_cast<double>(found.ever_above)},
+                   {"too_late", static_cast<double>(found.too_late)}};
+  }
+  out.figures.insert(out.figures.begin(), {{"diverged", static_cast<double>(astray)},
+                                           {"faulted", static_cast<double>(found.faulted)}});
   Bars bars(out, true);
   const auto bar = [](const std::optional<std::int64_t>& most) {
     return most ? std::optional(static_cast<double>(*most)) : std::nullopt;
   };
   bars.at_most(static_cast<double>(astray), bar(rule.at_most), in_runs);
   bars.at_least(static_cast<double>(astray), bar(rule.at_least), in_runs);
+  if (rule.at_most_share) {
+    constexpr double rounding = 1e-9;
+    const double share = *rule.at_most_share * static_cast<double>(found.runs);
+    bars.at_most(static_cast<double>(astray), std::floor(share + rounding), in_runs);
+  }
 }
 
 }  // namespace

@@ -130,10 +130,9 @@ void reject_unknown_checks(Section& root, const Campaign& campaign) {
 }
 
 std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given, std::int64_t duration_us) {
-  const std::vector<std::string> names = names_of(given);
   std::vector<Metric> metrics;
   for (Section& section : root.tables("metric")) {
-    Metric metric = read_metric(section, names, duration_us);
+    Metric metric = read_metric(section, given, duration_us);
     if (std::ranges::find(metrics, metric.name, &Metric::name) != metrics.end()) {
       section.reject("name", fmt::format("'{}' is already the name of another metric", metric.name),
                      "another name");
@@ -141,6 +140,15 @@ std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given,
     metrics.push_back(std::move(metric));
   }
   return metrics;
+}
+
+/// Divides the probability of the limits from sampling distributions among all such limits.
+void share_probability(Campaign& campaign) {
+  std::size_t sharing = 0;
+  for (Metric& metric : campaign.metrics)
+    if (sampling_limit_of(metric) != nullptr) sharing += variants_of(campaign, metric).size();
+  for (Metric& metric : campaign.metrics)
+    if (SamplingLimit* limit = sampling_limit_of(metric)) limit->sharing = sharing;
 }
 
 void reject_unreported(Section& root, const Campaign& campaign) {
@@ -210,6 +218,7 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
     shortest_us = std::min(shortest_us, variant.scenario.duration_us);
   }
   if (root.has("metric")) campaign.metrics = read_metrics(root, given, shortest_us);
+  share_probability(campaign);
   reject_unreported(root, campaign);
   reject_unknown_checks(root, campaign);
   root.optional("metric");

@@ -18,6 +18,15 @@ class Section;
 
 namespace canhil::campaign {
 
+/// A limit that the sampling distribution sets. All such limits of a campaign share the probability: if
+/// everything is as expected, all are met with `probability`.
+struct SamplingLimit {
+  std::optional<double> probability;  ///< none: no limit
+  std::size_t sharing = 1;            ///< such limits of the campaign: one for each metric and variant
+  /// The probability of either side, of one limit.
+  [[nodiscard]] double tail() const { return (1 - *probability) / 2 / static_cast<double>(sharing); }
+};
+
 /// RMS over runs as a function of time; only for reports, without a limit.
 struct RmsCurve {
   static constexpr std::string_view kind = "rms_curve";
@@ -73,17 +82,19 @@ struct Distribution {
   std::int64_t batch = 100;     ///< number of runs for the bootstrap range of the RMS
   std::optional<double> rms_at_most, rms_at_least, median_at_most, median_at_least, p90_at_most;  ///< [SI]
   std::optional<double> fraction_at_least, fraction_at_most;
+  SamplingLimit sampling;                             ///< of the RMS of normal values
+  std::optional<double> expected, expected_at_least;  ///< RMS, for `sampling` [SI]
 };
 
-/// Mean and standard deviation over all runs and updates in a time window.
+/// Mean, standard deviation and RMS over all runs and updates in a time window.
 struct WindowMoments {
   static constexpr std::string_view kind = "window";
   static constexpr std::string_view meaning =
-      "Mean and standard deviation over all runs and all updates in a time window.";
+      "Mean, standard deviation and RMS over all runs and all updates in a time window.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> mean_at_most;  ///< limit of |mean| [SI]
-  std::optional<double> standard_deviation_at_most;
+  std::optional<double> standard_deviation_at_most, rms_at_most, rms_at_least;
 };
 
 /// For each run, the mean of |quantity| over a time window. The results are the mean and the standard
@@ -98,6 +109,8 @@ struct RunMean {
   std::optional<double> at_most, at_least;              ///< limits of the mean over runs [SI]
   std::string other;                                    ///< empty: no comparison
   std::optional<double> ratio_at_most, ratio_at_least;  ///< limits of the mean divided by the mean of `other`
+  SamplingLimit sampling;                               ///< of the mean over runs
+  std::optional<double> expected;                       ///< mean, for `sampling` [SI]
 };
 
 /// RMS and mean over runs in a window of the time to go, and the RMS divided by the RMS of another variant.
@@ -105,10 +118,10 @@ struct ToGo {
   static constexpr std::string_view kind = "to_go";
   static constexpr std::string_view meaning =
       "RMS and mean over all runs and over a window of the time to go.";
-  const Quantity* quantity = nullptr;  ///< a quantity of an estimator with samples by time to go
-  double least = 0, most = 0;          ///< [s]
-  std::string other;                   ///< empty: no comparison
-  std::optional<double> rms_at_most;   ///< [SI]
+  const Quantity* quantity = nullptr;               ///< a quantity of an estimator with samples by time to go
+  double least = 0, most = 0;                       ///< [s]
+  std::string other;                                ///< empty: no comparison
+  std::optional<double> rms_at_most, rms_at_least;  ///< [SI]
   std::optional<std::pair<double, double>> mean_between;
   std::optional<double> ratio_at_most, ratio_at_least;  ///< limits of the RMS divided by the RMS of `other`
 };
@@ -148,8 +161,8 @@ struct Consistency {
   std::int64_t from_us = 0, to_us = 0;
   double probability = 0.95;
   std::optional<std::pair<double, double>> mean_between;
-  std::optional<double>
-      mean_probability;  ///< the mean lies in the interval of this probability for one value a run
+  SamplingLimit sampling;        ///< of the mean, with one independent value in each run
+  double expected_at_least = 0;  ///< smallest expected mean, for `sampling`
   std::optional<double>
       inside_at_least;  ///< required fraction of the updates whose mean lies within the bounds
 };
@@ -167,6 +180,7 @@ struct Diverged {
   /// limit.
   std::optional<std::int64_t> within_us;
   std::optional<std::int64_t> at_most, at_least;  ///< limits of the number of runs
+  std::optional<double> at_most_share;            ///< the same as a share of the runs
 };
 
 struct Metric {
@@ -179,6 +193,8 @@ struct Metric {
 };
 
 std::string_view kind(const Metric& metric);
+/// The metric's limit from the sampling distribution; nullptr: it has none.
+SamplingLimit* sampling_limit_of(Metric& metric);
 const Quantity& quantity_of(const Metric& metric);
 /// The name, in the campaign file, of the variant with which a metric compares; empty: the metric compares
 /// with no variant.
@@ -190,8 +206,8 @@ struct MetricKind {
 };
 std::vector<MetricKind> metric_kinds();
 
-/// `variants`: the names that the metric may use; `duration_us`: the shortest duration of these variants.
-Metric read_metric(scenario::Section& section, const std::vector<std::string>& variants,
-                   std::int64_t duration_us);
+struct Given;
+/// `given`: the variants that the metric may name; `duration_us`: the shortest duration of these variants.
+Metric read_metric(scenario::Section& section, const std::vector<Given>& given, std::int64_t duration_us);
 
 }  // namespace canhil::campaign

@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <tuple>
 
 #include "bench/campaign/seconds.hpp"
 #include "bench/campaign/updates.hpp"
@@ -215,19 +214,17 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
   ConsistencyStatistics statistics;
   if (runs.empty()) return {.mean = nan};
   // Central chi-square intervals of the mean, by number of runs.
-  std::map<std::size_t, std::pair<double, double>> intervals;
+  std::map<std::size_t, checks::MeanBounds> intervals;
   const auto interval_of = [&](std::size_t some) {
     const auto [place, is_new] = intervals.try_emplace(some);
-    if (is_new) {
-      const auto n = static_cast<double>(some);
-      const double degrees_of_freedom = quantity.degrees_of_freedom * n;
-      const double tail = (1 - probability) / 2;
-      place->second = {checks::chi_squared_quantile(degrees_of_freedom, tail) / n,
-                       checks::chi_squared_quantile_above(degrees_of_freedom, tail) / n};
-    }
+    if (is_new)
+      place->second = checks::mean_of_squares_bounds(static_cast<double>(some), quantity.degrees_of_freedom,
+                                                     (1 - probability) / 2);
     return place->second;
   };
-  std::tie(statistics.low, statistics.high) = interval_of(runs.size());
+  const auto of_all = interval_of(runs.size());
+  statistics.low = of_all.low;
+  statistics.high = of_all.high;
   double sum = 0;
   std::size_t count = 0, inside = 0;
   for (const std::int64_t t_us : update_times(runs, from_us, to_us)) {
@@ -257,71 +254,6 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
   statistics.inside =
       statistics.updates == 0 ? nan : static_cast<double>(inside) / static_cast<double>(statistics.updates);
   return statistics;
-}
-
-namespace {
-
-// The largest |quantity| of the samples from `from_us` on. NaN if a value is NaN or if there is no sample.
-double largest_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t from_us) {
-  const auto times = run.samples.times();
-  const auto from = static_cast<std::size_t>(std::ranges::lower_bound(times, from_us) - times.begin());
-  double largest = from == times.size() ? nan : 0;
-  for (std::size_t i = from; i < times.size(); ++i) {
-    const double magnitude = std::abs(run.samples.value(i, quantity));
-    if (!(magnitude <= largest)) largest = magnitude;
-    if (std::isnan(largest)) break;
-  }
-  return largest;
-}
-
-// The time of the first sample from `from_us` on with a |quantity| above the bound, plus `within_us`.
-std::int64_t allowed_until(const RunSeries& run, const Quantity& quantity, double bound, std::int64_t from_us,
-                           std::int64_t within_us) {
-  const auto times = run.samples.times();
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const bool above = !(std::abs(run.samples.value(i, quantity)) <= bound);
-    if (times[i] >= from_us && above) return times[i] + within_us + 1;
-  }
-  return from_us;
-}
-
-// Whether a NEES or NIS is infinite, from `from_us` on or else in the last sample: the sigmas of such an
-// answer are no numbers.
-bool has_infinite_statistic(const RunSeries& run, std::optional<std::int64_t> from_us) {
-  const auto times = run.samples.times();
-  const std::size_t last = times.empty() ? 0 : times.size() - 1;
-  const auto from =
-      from_us ? static_cast<std::size_t>(std::ranges::lower_bound(times, *from_us) - times.begin()) : last;
-  return std::ranges::any_of(run.samples.layout().kept, [&](const Quantity* one) {
-    if (one->degrees_of_freedom == 0) return false;
-    for (std::size_t i = from; i < times.size(); ++i)
-      if (std::isinf(run.samples.value(i, *one))) return true;
-    return false;
-  });
-}
-
-}  // namespace
-
-Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound,
-                      std::optional<std::int64_t> from_us, std::optional<std::int64_t> within_us) {
-  constexpr std::int64_t at_the_end = std::numeric_limits<std::int64_t>::max();
-  Divergence result{.runs = runs.size()};
-  for (const RunSeries& run : runs) {
-    if (run.ending.kind != drive::Ending::Kind::completed) {
-      ++result.faulted;
-      continue;
-    }
-    const double magnitude =
-        from_us ? largest_magnitude(run, quantity, *from_us) : last_magnitude(run, quantity, at_the_end);
-    if (within_us) {
-      const std::int64_t late_us = allowed_until(run, quantity, bound, *from_us, *within_us);
-      const bool any_later = !run.samples.times().empty() && run.samples.times().back() >= late_us;
-      if (any_later && !(largest_magnitude(run, quantity, late_us) <= bound)) ++result.beyond;
-    } else if (!(magnitude <= bound) || has_infinite_statistic(run, from_us))
-      ++result.beyond;
-    if (!std::isnan(result.largest) && !(magnitude <= result.largest)) result.largest = magnitude;
-  }
-  return result;
 }
 
 }  // namespace canhil::campaign

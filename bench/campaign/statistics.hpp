@@ -107,19 +107,4 @@ struct ConsistencyStatistics {
 ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantity& quantity,
                                   std::int64_t from_us, std::int64_t to_us, double probability);
 
-/// Counts runs that ended early, and runs whose |quantity| is above a bound (SI) or not finite, or that have
-/// no finite NEES or NIS there.
-struct Divergence {
-  std::size_t faulted = 0;
-  std::size_t beyond = 0;  ///< completed runs with such a value
-  std::size_t runs = 0;
-  double largest = 0;  ///< the largest |quantity| of the completed runs
-};
-/// With `from_us`, all samples from this time on are judged; without `from_us`, only the last update is
-/// judged. With `within_us`, a sample above the bound counts only later than this after the first one of the
-/// run.
-Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound,
-                      std::optional<std::int64_t> from_us = std::nullopt,
-                      std::optional<std::int64_t> within_us = std::nullopt);
-
 }  // namespace canhil::campaign

@@ -13,17 +13,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// The latest time at which a run can contain an answer.
-std::int64_t end_of(const RunSeries& run) {
-  if (run.samples.empty()) return run.freshness.end_us;
-  const std::size_t last = run.samples.size() - 1;
-  // If the final event (such as the passage) is missing, the end is unknown, and the time of the last sample
-  // is used in its place.
-  const Quantity* known_by = run.samples.layout().end_known_by;
-  const bool open = known_by != nullptr && std::isnan(run.samples.value(last, *known_by));
-  return open ? run.samples.times()[last] : run.freshness.end_us;
-}
-
 bool had_ended(const RunSeries& run, std::int64_t t_us) {
   return run.ending.kind != drive::Ending::Kind::completed && run.ending.t_us < t_us;
 }
@@ -72,6 +61,23 @@ bool stale(const RunSeries& run, const Quantity& quantity, std::int64_t updated_
 }
 
 }  // namespace
+
+std::int64_t end_of(const RunSeries& run) {
+  if (run.samples.empty()) return run.freshness.end_us;
+  const std::size_t last = run.samples.size() - 1;
+  // If the final event (such as the passage) is missing, the end is unknown, and the time of the last sample
+  // is used in its place.
+  const Quantity* known_by = run.samples.layout().end_known_by;
+  const bool open = known_by != nullptr && std::isnan(run.samples.value(last, *known_by));
+  return open ? run.samples.times()[last] : run.freshness.end_us;
+}
+
+bool silent_at_end(const RunSeries& run) {
+  const std::int64_t end_us = end_of(run);
+  if (run.samples.empty()) return true;
+  const std::int64_t last_us = run.samples.times().back();
+  return end_us > last_us && end_us - last_us > run.freshness.age_limit_us;
+}
 
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, const Quantity& quantity) {
   std::vector<std::int64_t> times = all_times(runs);

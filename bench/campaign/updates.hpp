@@ -10,6 +10,11 @@
 
 namespace canhil::campaign {
 
+/// The latest time [us] at which a run can contain an answer.
+std::int64_t end_of(const RunSeries& run);
+/// Whether a run's last update is stale at the end of the run, or there is none.
+bool silent_at_end(const RunSeries& run);
+
 /// The times [us] at which at least one run has an update, ascending. In a gap so long that the last updates
 /// of all runs become stale, the result also contains the times at which this happens.
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, const Quantity& quantity);

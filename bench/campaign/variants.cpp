@@ -22,15 +22,31 @@ void refuse_seed(Section& section, const std::vector<Setting>& settings) {
   section.reject("seed", "is the same for all variants", "seed at the top of the campaign");
 }
 
-Given read_one(Section& section) {
-  Given given{.name = section.text({"name", "Unique name."}),
-              .scenario = section.text({"scenario", "Scenario file, relative to the campaign file."}),
-              .settings = {},
-              .line = section.line()};
-  if (auto set = section.optional_table(
-          {"set", "Keys of the scenario, with values that replace the values in the scenario file."})) {
-    given.settings = set->settings();
-    refuse_seed(*set, given.settings);
+std::vector<Setting> read_set(Section& section, std::string_view meaning) {
+  auto set = section.optional_table({"set", meaning});
+  if (!set) return {};
+  std::vector<Setting> settings = set->settings();
+  refuse_seed(*set, settings);
+  return settings;
+}
+
+Given read_one(Section& section, const std::string& of_campaign, const std::vector<Setting>& of_all) {
+  Given given{
+      .name = section.text({"name", "Unique name."}),
+      .scenario = section.text({"scenario",
+                                "Scenario file, relative to the campaign file. Not required if the campaign "
+                                "has the key `scenario`."},
+                               of_campaign.empty() ? std::nullopt : std::optional(of_campaign)),
+      .groups = section.texts({"groups",
+                               "Names that stand for this variant and others in `variants` of metrics "
+                               "and checks."}),
+      .settings = read_set(section,
+                           "Keys of the scenario, with values that replace the values in the scenario "
+                           "file."),
+      .line = section.line()};
+  for (const Setting& one : of_all) {
+    if (std::ranges::find(given.settings, one.key, &Setting::key) == given.settings.end())
+      given.settings.push_back(one);
   }
   section.finish();
   return given;
@@ -122,15 +138,39 @@ std::vector<std::string> names_of(const std::vector<Given>& given) {
   return names;
 }
 
+std::vector<std::string> read_variants(Section& section, std::string_view meaning,
+                                       const std::vector<Given>& given) {
+  std::vector<std::string> known = names_of(given);
+  for (const Given& one : given) known.insert(known.end(), one.groups.begin(), one.groups.end());
+  const auto asked = section.some_of({"variants", meaning}, known);
+  std::vector<std::string> names;
+  for (const Given& one : given) {
+    const auto stands_for = [&](const std::string& name) {
+      return name == one.name || std::ranges::find(one.groups, name) != one.groups.end();
+    };
+    if (std::ranges::any_of(asked, stands_for)) names.push_back(one.name);
+  }
+  return names;
+}
+
 std::vector<Given> read_given(Section& root) {
+  const std::string scenario = root.text({"scenario", "Scenario file of the variants that name none."}, "");
+  const std::vector<Setting> of_all =
+      read_set(root, "Keys of the scenarios, with values for all variants that do not set them themselves.");
   std::vector<Given> given;
   for (Section& section : root.tables("variant")) {
-    Given one = read_one(section);
+    Given one = read_one(section, scenario, of_all);
     if (std::ranges::find(given, one.name, &Given::name) != given.end()) {
       section.reject("name", fmt::format("'{}' is already the name of another variant", one.name),
                      "another name");
     }
     given.push_back(std::move(one));
+  }
+  for (const Given& one : given) {
+    for (const std::string& group : one.groups)
+      if (std::ranges::find(given, group, &Given::name) != given.end())
+        root.reject("variant", fmt::format("has a group '{}', which is the name of a variant", group),
+                    "another name");
   }
   return given;
 }
@@ -173,7 +213,7 @@ std::vector<GivenCheck> read_checks(Section& root, const std::vector<Given>& giv
   for (Section& section : root.tables("check")) {
     GivenCheck& check = checks.emplace_back();
     check.variants =
-        section.some_of({"variants", "Names of the variants to judge. Default: all."}, names_of(given));
+        read_variants(section, "Names of the variants, or of groups of them, to judge. Default: all.", given);
     const auto share = section.optional_number(
         {"runs_at_least",
          "Limit: the fraction of the runs that pass the check is at least this value. Needs `name`. Default: "

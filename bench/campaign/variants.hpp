@@ -15,12 +15,16 @@ namespace canhil::campaign {
 /// A variant as written in the file.
 struct Given {
   std::string name;
-  std::string scenario;
-  std::vector<scenario::Setting> settings;
+  std::string scenario{};
+  std::vector<std::string> groups{};
+  std::vector<scenario::Setting> settings{};  ///< of all variants, and its own, which replace them
   int line = 0;
 };
 std::vector<Given> read_given(scenario::Section& root);
 std::vector<std::string> names_of(const std::vector<Given>& given);
+/// Reads the key `variants`, which names variants or groups. Returns the names of the variants.
+std::vector<std::string> read_variants(scenario::Section& section, std::string_view meaning,
+                                       const std::vector<Given>& given);
 
 /// A point of the sweep: one value for each key.
 struct Point {

@@ -24,10 +24,19 @@ double chi_squared_quantile_above(double degrees_of_freedom, double p) {
   return quantile(complement(boost::math::chi_squared(degrees_of_freedom), p));
 }
 
+MeanBounds mean_of_squares_bounds(double runs, double degrees_of_freedom, double tail) {
+  return {chi_squared_quantile(degrees_of_freedom * runs, tail) / runs,
+          chi_squared_quantile_above(degrees_of_freedom * runs, tail) / runs};
+}
+
 double normal_above(double z) { return cdf(complement(boost::math::normal(), z)); }
 
 double student_t_above(double degrees_of_freedom, double t) {
   return cdf(complement(boost::math::students_t(degrees_of_freedom), t));
+}
+
+double student_t_quantile_above(double degrees_of_freedom, double p) {
+  return quantile(complement(boost::math::students_t(degrees_of_freedom), p));
 }
 
 SuccessBounds success_bounds(double trials, double successes, double tail) {

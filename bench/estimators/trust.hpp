@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/quantities/list.hpp"
+#include "bench/quantities/samples.hpp"
 #include "bench/world/attitude.hpp"
 
 namespace canhil::estimators {
@@ -21,5 +23,13 @@ inline double over_sigma(const world::Vector3& error, const world::Vector3& sigm
   return std::max(
       {over_sigma(error.x(), sigma.x()), over_sigma(error.y(), sigma.y()), over_sigma(error.z(), sigma.z())});
 }
+
+/// trusted.over_sigma of a sample that is one answer.
+inline double over_sigma_if_trusted(const quantities::Samples& samples, std::size_t index) {
+  const bool trusted = samples.value(index, quantities::degraded) == 0;
+  return trusted ? samples.value(index, quantities::error_over_sigma) : 0;
+}
+inline constexpr quantities::Derived derived_trust{.quantity = &quantities::trusted_over_sigma,
+                                                   .of = over_sigma_if_trusted};
 
 }  // namespace canhil::estimators

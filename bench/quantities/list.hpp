@@ -68,6 +68,11 @@ inline constexpr Quantity innovation_nis{
 inline constexpr Quantity velocity_norm{
     .name = "velocity.norm", .meaning = "magnitude of the error of the velocity", .unit = mps};
 
+/// Of every answer, also of one that reports `degraded` or `blind`.
+inline constexpr Quantity error_over_sigma{
+    .name = "error.over_sigma",
+    .meaning = "largest ratio of error to sigma among the judged quantities (honesty.md)",
+    .unit = plain};
 /// With this quantity, a check finds a target that has large errors but reports small sigmas and reports
 /// neither `degraded` nor `blind`.
 inline constexpr Quantity trusted_over_sigma{
@@ -75,7 +80,8 @@ inline constexpr Quantity trusted_over_sigma{
     .meaning =
         "largest ratio of error to sigma among the judged quantities (honesty.md); 0 where the answer is "
         "degraded or blind",
-    .unit = plain};
+    .unit = plain,
+    .of_every_answer = &error_over_sigma};
 
 /// Shows how often a target reports `degraded`. So a check can find a target that reports `degraded` with
 /// every answer.

@@ -35,6 +35,8 @@ struct Quantity {
   /// The components of the quantity; each component has its own track. Empty: the quantity has no components,
   /// and has one track.
   std::span<const Quantity* const> parts{};
+  /// For a quantity that is 0 where an answer says that it is not to be trusted: the same of every answer.
+  const Quantity* of_every_answer = nullptr;
 };
 
 }  // namespace canhil::quantities

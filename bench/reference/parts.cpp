@@ -7,6 +7,7 @@
 
 #include "bench/campaign/campaign.hpp"
 #include "bench/campaign/metric.hpp"
+#include "bench/campaign/variants.hpp"
 #include "bench/drive/contract.hpp"
 #include "bench/drive/target_parameters.hpp"
 #include "bench/nodes/registry.hpp"
@@ -212,7 +213,7 @@ Part campaign_part() {
         },
         given, Depth::as_it_is);
   };
-  const std::vector<std::string> variants{"NAME", "OTHER"};
+  const std::vector<campaign::Given> variants{{.name = "NAME"}, {.name = "OTHER"}};
   const auto read_metric = [&](Section& section) {
     campaign::read_metric(section, variants, longest_run_us);
   };

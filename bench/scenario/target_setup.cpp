@@ -114,6 +114,13 @@ TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
   if (auto parameters = section.optional_table("parameters")) {
     target.parameters = read_parameters(*std::move(parameters), contract, target.estimator);
   }
+  static const std::vector<std::string> handling{"sent", "withheld"};
+  target.data_sheets_withheld =
+      section.one_of(
+          {"data_sheets",
+           "Whether the target is sent the parameters that the data sheets of the simulated sensors "
+           "state. With `withheld` it has its defaults."},
+          handling, handling.front()) == handling.back();
   if (facts.start != Start::navigation) {
     const auto own =
         std::ranges::find_if(contract.plants, [&](const PlantTable* one) { return one->has(facts.truth); });
@@ -132,6 +139,7 @@ TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
 void add_stated(std::vector<TargetSetup>& targets, std::span<const NodeSettings> nodes,
                 const DbcVocabulary& contract) {
   for (TargetSetup& target : targets) {
+    if (target.data_sheets_withheld) continue;
     const auto known = facts_of(contract, target.estimator).parameters;
     for (const NodeSettings& node : nodes) {
       if (node.is_recorded() || node.table().data_sheet == nullptr) continue;

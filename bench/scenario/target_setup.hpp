@@ -45,7 +45,8 @@ struct TargetSetup {
   InitialSigma initial_sigma;
   std::optional<world::InitialErrorModel> initial_error{};  ///< replaces the scenario's initial_error
   std::vector<Parameter> parameters;                        ///< in the DBC's order
-  std::optional<OwnStart> own_start{};                      ///< none: the handshake configures the target
+  bool data_sheets_withheld = false;    ///< the target is not sent what the sensors' data sheets state
+  std::optional<OwnStart> own_start{};  ///< none: the handshake configures the target
 };
 
 class NodeSettings;

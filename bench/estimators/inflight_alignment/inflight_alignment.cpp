@@ -26,11 +26,11 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 19> kept{
-    &misalignment_north,  &misalignment_east,  &misalignment_down,  &attitude_roll, &attitude_pitch,
-    &attitude_heading,    &velocity_north,     &velocity_east,      &velocity_down, &innovation_nis,
-    &position_north,      &position_east,      &position_down,      &heading_sigma, &covariance_repairs,
-    &velocity_down_sigma, &trusted_over_sigma, &overdue_over_sigma, &degraded};
+constexpr std::array<const Quantity*, 18> kept{
+    &misalignment_north,  &misalignment_east, &misalignment_down, &attitude_roll, &attitude_pitch,
+    &attitude_heading,    &velocity_north,    &velocity_east,     &velocity_down, &innovation_nis,
+    &position_north,      &position_east,     &position_down,     &heading_sigma, &covariance_repairs,
+    &velocity_down_sigma, &error_over_sigma,  &degraded};
 
 constexpr auto of_runs = and_alignment_reported(
     std::array<const Quantity*, 10>{&position_north, &position_east, &position_down, &position_horizontal,
@@ -42,16 +42,14 @@ double velocity_down_over_its_sigma(const Samples& samples, std::size_t index) {
 }
 
 constexpr std::array derived{
-    alignment_derived[0], Derived{.quantity = &velocity_down_over_sigma, .of = velocity_down_over_its_sigma}};
+    alignment_derived[0], Derived{.quantity = &velocity_down_over_sigma, .of = velocity_down_over_its_sigma},
+    derived_trust};
 
 constexpr Layout layout{.kept = kept, .derived = derived, .answers_may_omit = true};
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   const InflightAnswers& answers = seen.of<InflightAnswers>();
-  constexpr double beyond = 5;
-  constexpr std::int64_t to_warn_us = 10'000'000;
-  std::optional<std::int64_t> first_beyond_us;
   for (const FixAnswer& update : answers.fixes) {
     if (!has_time_and_truth(update, truth.flight)) continue;
     const auto after = answers.navigation.first_after(update.cause_us, update.navigation_us, truth.flight);
@@ -60,13 +58,9 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     const world::Vector3 p = position_error(update, truth.flight);
     const double nis =
         used(update.outcome) ? infinite_if_nan(update.nis) : std::numeric_limits<double>::quiet_NaN();
-    const double trusted =
-        update.degraded
-            ? 0
-            : std::max({over_sigma(phi, update.attitude_sigma), over_sigma(v, update.velocity_sigma),
-                        over_sigma(p, update.position_sigma)});
-    if (trusted > beyond && !first_beyond_us) first_beyond_us = update.cause_us;
-    const bool overdue = first_beyond_us && update.cause_us - *first_beyond_us > to_warn_us;
+    const double largest =
+        std::max({over_sigma(phi, update.attitude_sigma), over_sigma(v, update.velocity_sigma),
+                  over_sigma(p, update.position_sigma)});
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
                                                  phi.z(),
@@ -83,8 +77,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  update.attitude_sigma.z(),
                                                  static_cast<double>(update.repairs),
                                                  update.velocity_sigma.z(),
-                                                 trusted,
-                                                 overdue ? trusted : 0.0,
+                                                 largest,
                                                  update.degraded ? 1.0 : 0.0};
     samples.add(update.cause_us, values);
   }

@@ -31,12 +31,6 @@ inline constexpr Quantity covariance_repairs{.name = "covariance.repairs",
                                              .meaning = "number of repairs of the covariance since the start",
                                              .unit = plain};
 
-/// For targets that were told wrong sigmas: they need some fixes before they can warn.
-inline constexpr Quantity overdue_over_sigma{
-    .name = "overdue.over_sigma",
-    .meaning = "`trusted.over_sigma`, but 0 until 10 s after its first value above 5",
-    .unit = plain};
-
 inline constexpr Quantity position_horizontal{.name = "position.horizontal",
                                               .meaning = "magnitude of the horizontal error of the position",
                                               .unit = metres};

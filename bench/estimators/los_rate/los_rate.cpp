@@ -27,9 +27,9 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 9> kept{&los_rate_pitch,      &los_rate_yaw,       &los_mean_nis,
-                                              &miss_pitch,          &miss_yaw,           &los_rate_sigma,
-                                              &los_rate_over_sigma, &trusted_over_sigma, &degraded};
+constexpr std::array<const Quantity*, 10> kept{
+    &los_rate_pitch, &los_rate_yaw,        &los_mean_nis,     &miss_pitch,         &miss_yaw,
+    &los_rate_sigma, &los_rate_over_sigma, &error_over_sigma, &trusted_over_sigma, &degraded};
 
 double both_planes(const Samples& samples, std::size_t index) {
   const double pitch = samples.value(index, los_rate_pitch), yaw = samples.value(index, los_rate_yaw);
@@ -50,7 +50,7 @@ constexpr Layout layout{
 /// Sums over one stretch of the time to go.
 struct Stretch {
   double pitch_squares = 0, yaw_squares = 0, nis_sum = 0;
-  double variances = 0, over_variances = 0, trusted = 0;
+  double variances = 0, over_variances = 0, over_sigma = 0, trusted = 0;
   int rates = 0, updates = 0, untrusted = 0;
 };
 
@@ -72,9 +72,11 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     stretch.variances += error.sigma.pitch * error.sigma.pitch + error.sigma.yaw * error.sigma.yaw;
     stretch.over_variances += pitch * pitch + yaw * yaw;
     ++stretch.rates;
+    const double larger = std::max(over_sigma(error.rate.pitch, error.sigma.pitch),
+                                   over_sigma(error.rate.yaw, error.sigma.yaw));
+    stretch.over_sigma = std::max(stretch.over_sigma, larger);
     if (error.trusted)
-      stretch.trusted = std::max({stretch.trusted, over_sigma(error.rate.pitch, error.sigma.pitch),
-                                  over_sigma(error.rate.yaw, error.sigma.yaw)});
+      stretch.trusted = std::max(stretch.trusted, larger);
     else
       ++stretch.untrusted;
   }
@@ -97,6 +99,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
         miss_n.y(),
         std::sqrt(stretch.variances / (2 * stretch.rates)),
         std::sqrt(stretch.over_variances / (2 * stretch.rates)),
+        stretch.over_sigma,
         stretch.trusted,
         static_cast<double>(stretch.untrusted) / stretch.rates};
     samples.add((index - 1) * stretch_us, values);

@@ -18,15 +18,17 @@ namespace {
 using namespace quantities;
 
 constexpr std::array<const Quantity*, 14> kept{
-    &misalignment_north, &misalignment_east, &misalignment_down,  &attitude_roll, &attitude_pitch,
-    &attitude_heading,   &velocity_north,    &velocity_east,      &velocity_down, &attitude_nees,
-    &innovation_nis,     &heading_sigma,     &trusted_over_sigma, &degraded};
+    &misalignment_north, &misalignment_east, &misalignment_down, &attitude_roll, &attitude_pitch,
+    &attitude_heading,   &velocity_north,    &velocity_east,     &velocity_down, &attitude_nees,
+    &innovation_nis,     &heading_sigma,     &error_over_sigma,  &degraded};
 
 constexpr auto of_runs = and_alignment_reported(std::array<const Quantity*, 6>{
     &velocity_innovation_north, &velocity_innovation_east, &velocity_innovation_down, &innovation_nis,
     &attitude_nees, &heading_nees});
 
-constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_may_omit = true};
+constexpr std::array derived{alignment_derived[0], derived_trust};
+
+constexpr Layout layout{.kept = kept, .derived = derived, .answers_may_omit = true};
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
@@ -39,9 +41,6 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     // Only the attitude is compared with its reported sigma. The reported velocity sigma is valid only at the
     // time of the cause: during an acceleration of 1 g, a heading error causes a velocity error that exceeds
     // this sigma before the next answer.
-    // The sigma cannot know of IMU samples that were lost between the update and that answer.
-    const bool bridged_since = answers.navigation[answer].coasting;
-    const double trusted = update.degraded || bridged_since ? 0 : over_sigma(phi, update.attitude_sigma);
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
                                                  phi.z(),
@@ -54,7 +53,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  infinite_if_nan(normalised),
                                                  infinite_if_nan(update.nis),
                                                  update.attitude_sigma.z(),
-                                                 trusted,
+                                                 over_sigma(phi, update.attitude_sigma),
                                                  update.degraded ? 1.0 : 0.0};
     samples.add(update.cause_us, values);
   }

@@ -36,5 +36,9 @@ inline constexpr Quantity wind_along_sigma{
     .name = "wind.along.sigma",
     .meaning = "sigma of the wind along the horizontal air velocity, as the target reports it",
     .unit = mps};
+inline constexpr Quantity wind_along_over_sigma{
+    .name = "wind.along.over_sigma",
+    .meaning = "ratio of the error of the wind along the horizontal air velocity to its sigma",
+    .unit = plain};
 
 }  // namespace canhil::quantities

@@ -25,14 +25,19 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 8> kept{&wind_along, &wind_cross,       &wind_down,          &wind_nis,
-                                              &wind_nees,  &wind_along_sigma, &trusted_over_sigma, &degraded};
+constexpr std::array<const Quantity*, 8> kept{&wind_along, &wind_cross,       &wind_down,        &wind_nis,
+                                              &wind_nees,  &wind_along_sigma, &error_over_sigma, &degraded};
 
 double of_all_three(const Samples& samples, std::size_t index) {
   return std::hypot(samples.value(index, wind_along), samples.value(index, wind_cross),
                     samples.value(index, wind_down));
 }
-constexpr std::array derived{Derived{.quantity = &wind_norm, .of = of_all_three}};
+double along_over_its_sigma(const Samples& samples, std::size_t index) {
+  return samples.value(index, wind_along) / samples.value(index, wind_along_sigma);
+}
+constexpr std::array derived{Derived{.quantity = &wind_norm, .of = of_all_three},
+                             Derived{.quantity = &wind_along_over_sigma, .of = along_over_its_sigma},
+                             derived_trust};
 
 constexpr std::array<const Quantity*, 8> of_runs{&wind_north, &wind_east, &wind_down, &wind_along,
                                                  &wind_cross, &wind_norm, &wind_nis,  &wind_nees};
@@ -48,7 +53,6 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const WindAnswer& answer = seen.of<WindAnswers>()[errors[i].answer];
     const bool updated = answer.outcome == messages::WindOutcome::updated;
-    const double trusted = answer.degraded ? 0 : over_sigma(errors[i].error_n, answer.sigma);
     const std::array<double, kept.size()> values{
         errors[i].along_track,
         errors[i].cross_track,
@@ -56,7 +60,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
         updated ? infinite_if_nan(answer.nis) : std::numeric_limits<double>::quiet_NaN(),
         infinite_if_nan(normalised[i].value),
         answer.along_track_sigma,
-        trusted,
+        over_sigma(errors[i].error_n, answer.sigma),
         answer.degraded ? 1.0 : 0.0};
     samples.add(errors[i].t_us, values);
   }

@@ -1,32 +1,31 @@
 // Tests that the errors of the recommended filters match the sigmas that these filters report. (The papers do
 // not have these filters.) The tests fly the campaigns of bench/monte_carlo/honesty. A full campaign has 200
-// runs; here it has only as many as the time limit of CTest permits.
+// runs; here it has only as many as the time limit of CTest permits. Limits of shares and of means scale with
+// the number of runs: of fewer than 100 runs, a share of 1 % permits none to err and be sure, and a mean of
+// few runs may be further from its expectation. So these runs find sigmas that are wrong by a third; a full
+// campaign finds 15 %.
 #include "tests/papers/bars.hpp"
 
 namespace canhil::papers {
 namespace {
 
 TEST(Honesty, OfTheTransferAlignment) {
-  expect_bars_met("bench/monte_carlo/honesty/transfer_alignment.toml", 71, 100);
+  expect_bars_met("bench/monte_carlo/honesty/transfer_alignment.toml", 71, 60);
+}
+TEST(Honesty, OfTheTransferAlignmentWithOrdinarySensors) {
+  expect_bars_met("bench/monte_carlo/honesty/ordinary_sensors.toml", 44, 16);
 }
 TEST(Honesty, OfTheInflightAlignment) {
-  expect_bars_met("bench/monte_carlo/honesty/inflight_alignment.toml", 119, 40);
+  expect_bars_met("bench/monte_carlo/honesty/inflight_alignment.toml", 93, 12);
 }
 TEST(Honesty, OfTheInflightAlignmentInOtherRegimes) {
-  expect_bars_met("bench/monte_carlo/honesty/inflight_regimes.toml", 50, 16);
+  expect_bars_met("bench/monte_carlo/honesty/inflight_regimes.toml", 50, 8);
 }
-TEST(Honesty, OfTheLosRate) { expect_bars_met("bench/monte_carlo/honesty/los_rate.toml", 44, 60); }
-TEST(Honesty, OfTheWind) { expect_bars_met("bench/monte_carlo/honesty/wind.toml", 25, 24); }
-// With the errors of ordinary sensors, told truthfully and wrongly. The full campaigns have 200 runs.
-TEST(Honesty, OfTheTransferAlignmentWithOrdinarySensors) {
-  expect_bars_met("bench/monte_carlo/honesty/ordinary_sensors.toml", 38, 12);
-}
-TEST(Honesty, OfTheWindWithOrdinarySensors) {
-  expect_bars_met("bench/monte_carlo/honesty/ordinary_glide.toml", 15, 4);
-}
+TEST(Honesty, OfTheLosRate) { expect_bars_met("bench/monte_carlo/honesty/los_rate.toml", 44, 40); }
 TEST(Honesty, OfTheLosRateWithAnOrdinarySeeker) {
-  expect_bars_met("bench/monte_carlo/honesty/ordinary_seeker.toml", 6, 30);
+  expect_bars_met("bench/monte_carlo/honesty/ordinary_seeker.toml", 13, 40);
 }
+TEST(Honesty, OfTheWind) { expect_bars_met("bench/monte_carlo/honesty/wind.toml", 62, 6); }
 
 }  // namespace
 }  // namespace canhil::papers

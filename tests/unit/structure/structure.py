@@ -49,7 +49,7 @@ KNOW_PLANTS = ("bench/plant/",)
 KNOW_WHOSE_DBC = ("bench/bindings/", "bench/mapping/", "bench/nodes/", "bench/estimators/", "bench/protocol/", "bench/conformance/", "bench/accept/",
                   "bench/campaign/matrix/drawn.", "bench/drive/contract.", "bench/drive/contract_dialect.", "bench/drive/mapped_dialect.",
                   "bench/commands/dbc.", "bench/commands/new.",  # commands about a mapping
-                  "bench/campaign/metric.", "bench/campaign/row.",  # stored columns: quantities of a mapping
+                  "bench/campaign/metric_rule.", "bench/campaign/row.",  # stored columns: quantities of a mapping
                   "bench/checks/observations.", "bench/checks/timing_record.", "bench/checks/judge.hpp",  # where a test names no messages
                   "bench/drive/buses.")  # a condition on the build
 WHOSE_DBC = re.compile(r"\ball_messages\b|\bbindings::canhil\b|\bmapping::\w+")

@@ -39,6 +39,77 @@ TEST(Campaign, TablesInSettingsAreKeysWithDots) {
   EXPECT_EQ(campaign->variants[1].scenario.node("master_ins")->period_us(), 50'000);
 }
 
+TEST(Campaign, WhatIsOfAllVariantsStandsOnce) {
+  const auto campaign = parse(R"(title = "T"
+runs = 1
+seed = 3
+scenario = "quick.toml"
+set = { target.initial_sigma.heading_deg = 1.0, duration_s = 5.0 }
+[[variant]]
+name = "A"
+[[variant]]
+name = "B"
+set = { target.initial_sigma.heading_deg = 2.0 }
+)");
+  ASSERT_TRUE(campaign) << campaign.error().message;
+  const auto heading = [&](std::size_t i) {
+    return campaign->variants.at(i).scenario.targets.front().initial_sigma.heading / world::units::deg;
+  };
+  EXPECT_DOUBLE_EQ(heading(0), 1);
+  EXPECT_DOUBLE_EQ(heading(1), 2) << "its own replaces it";
+  EXPECT_EQ(campaign->variants[1].scenario.duration_us, 5'000'000);
+}
+
+TEST(Campaign, AGroupStandsForItsVariants) {
+  const std::string text = R"(title = "T"
+runs = 1
+seed = 3
+scenario = "quick.toml"
+[[variant]]
+name = "A"
+groups = ["good"]
+[[variant]]
+name = "B"
+groups = ["good", "late"]
+[[variant]]
+name = "C"
+[[metric]]
+kind = "rms_curve"
+quantity = "attitude.heading"
+variants = )";
+  const auto chosen = [&](const std::string& variants) {
+    const auto campaign = parse(text + variants);
+    EXPECT_TRUE(campaign) << campaign.error().message;
+    return campaign->metrics.at(0).variants;
+  };
+  EXPECT_EQ(chosen("['good']"), (std::vector<std::string>{"A", "B"}));
+  EXPECT_EQ(chosen("['C', 'late']"), (std::vector<std::string>{"B", "C"}));
+  EXPECT_EQ(chosen("['B', 'good']"), (std::vector<std::string>{"A", "B"})) << "each once";
+  EXPECT_FALSE(parse(text + "['bad']"));
+  EXPECT_FALSE(parse(text + "['C']\n[[variant]]\nname = 'D'\ngroups = ['C']")) << "the name of a variant";
+}
+
+TEST(Campaign, DataSheetsCanBeWithheld) {
+  const auto campaign = parse(R"(title = "T"
+runs = 1
+seed = 3
+scenario = "quick.toml"
+set = { slave_imu.lever_arm_m = [0.5, 0.0, 0.0] }
+[[variant]]
+name = "sent"
+[[variant]]
+name = "withheld"
+set = { target.data_sheets = "withheld" }
+)");
+  ASSERT_TRUE(campaign) << campaign.error().message;
+  const auto lever_arm = [&](std::size_t i) {
+    const auto& all = campaign->variants.at(i).scenario.targets.front().parameters;
+    return std::ranges::find(all, "lever_arm_sigma_m", &scenario::Parameter::name) != all.end();
+  };
+  EXPECT_TRUE(lever_arm(0));
+  EXPECT_FALSE(lever_arm(1));
+}
+
 TEST(Campaign, SweepIsTheCartesianProductWithEveryVariant) {
   const auto campaign = parse(two_variants + R"([sweep]
 "master_ins.period_ms" = [50, 100]

@@ -83,6 +83,68 @@ TEST(Bars, OfConsistencyAndWarnings) {
   EXPECT_EQ(passed(warning + "within_s = 1\nat_most = 3\n", 1), true);
 }
 
+std::string limits_of(const std::string& metrics, std::size_t answer) {
+  const auto campaign = parse(two_variants + metrics);
+  if (!campaign) return campaign.error().message;
+  return evaluate(*campaign, runs_of)->answers.at(answer).expected;
+}
+
+// The quantiles are those of tables: chi2(12) at 0.05 % and 99.95 % is 1.9344 and 34.821; t(3) at 99.95 %
+// is 12.924.
+TEST(Bars, OfSamplingDistributionsScaleWithTheRuns) {
+  const std::string nis = "[[metric]]\nkind = 'consistency'\nquantity = 'innovation.nis'\nvariants = ['A']\n";
+  EXPECT_EQ(limits_of(nis + "mean_probability = 0.999\n", 0), "mean from 0.483594 to 8.70532");
+  EXPECT_EQ(limits_of(nis + "mean_probability = 0.999\nexpected_at_least = 1.5\n", 0),
+            "mean from 0.241797 to 8.70532");
+  const std::string heading =
+      "[[metric]]\nvariants = ['B']\nunit = 'deg'\nkind = 'distribution'\nquantity = "
+      "'attitude.heading'\nat_s = 0.3\n";
+  EXPECT_EQ(limits_of(heading + "rms_probability = 0.9\nexpected_deg = 2\nexpected_at_least_deg = 1\n", 0),
+            "RMS at least 0.4215 deg, RMS at most 3.08 deg");  // chi2(4) at 5 and 95 %: 0.7107, 9.4877
+  const std::string mean = "[[metric]]\nvariants = ['B']\nkind = 'run_mean'\nquantity = 'attitude.heading'\n";
+  // The four means are 8.033 (three times) and 0.567 mrad, so their standard deviation is 3.733.
+  EXPECT_EQ(limits_of(mean + "from_s = 0.1\nmean_probability = 0.999\nexpected_mrad = 6\n", 0),
+            "at least -18.12 mrad, at most 30.12 mrad");
+}
+
+TEST(Bars, OfSamplingDistributionsShareTheirProbability) {
+  const std::string nis = "[[metric]]\nkind = 'consistency'\nquantity = 'innovation.nis'\n";
+  const std::string alone = limits_of(nis + "variants = ['A']\nmean_probability = 0.9995\n", 0);
+  EXPECT_EQ(limits_of(nis + "mean_probability = 0.999\n", 1), alone) << "two variants";
+  EXPECT_EQ(limits_of(nis + "name = 'a'\nvariants = ['A']\nmean_probability = 0.999\n" + nis +
+                          "name = 'b'\nvariants = ['B']\nmean_probability = 0.999\n" + nis,
+                      1),
+            alone)
+      << "two metrics, and one without this limit";
+}
+
+TEST(Bars, OfSamplingDistributionsNeedAnExpectation) {
+  const std::string heading =
+      "[[metric]]\nkind = 'distribution'\nquantity = 'attitude.heading'\nat_s = 0.3\n";
+  EXPECT_THAT(limits_of(heading + "rms_probability = 0.9\n", 0), HasSubstr("expected"));
+  EXPECT_THAT(limits_of(heading + "expected_mrad = 2\n", 0), HasSubstr("rms_probability"));
+  EXPECT_THAT(limits_of(heading + "rms_probability = 1\nexpected_mrad = 2\n", 0), HasSubstr("0.999999"));
+}
+
+TEST(Bars, OfSharesOfTheRunsAreRoundedDown) {
+  const std::string beyond =
+      "[[metric]]\nquantity = 'attitude.heading'\nkind = 'divergence'\nfrom_s = 0\nbeyond_mrad = "
+      "1\n";  // all
+              // runs
+              // of
+              // B
+  EXPECT_EQ(limits_of(beyond + "at_most_share = 0.49\n", 1), "at most 1");
+  EXPECT_EQ(limits_of(beyond + "at_most_share = 0.5\n", 1), "at most 2");
+  EXPECT_EQ(limits_of(beyond + "at_most_share = 0.01\n", 1), "at most 0");
+  EXPECT_THAT(limits_of(beyond + "at_most_share = 0.01\nat_most = 1\n", 1), HasSubstr("one of the two"));
+}
+
+TEST(Bars, OfTheRmsOverAWindow) {
+  EXPECT_EQ(passed("kind = 'window'\nfrom_s = 0.2\nto_s = 0.3\nrms_at_most_mrad = 1.5811\n"), false);
+  EXPECT_EQ(passed("kind = 'window'\nfrom_s = 0.2\nto_s = 0.3\nrms_at_most_mrad = 1.5812\n"), true);
+  EXPECT_EQ(passed("kind = 'window'\nfrom_s = 0.2\nto_s = 0.3\nrms_at_least_mrad = 1.5812\n"), false);
+}
+
 TEST(Bars, OfDistributions) {
   const auto of_b = [](const std::string& bar) {  // the four runs of B have 8, 8, 8 and 0 mrad
     return passed("kind = 'distribution'\nat_s = 0.3\n" + bar, 1);

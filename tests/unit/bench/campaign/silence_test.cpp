@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "bench/campaign/divergence.hpp"
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/statistics.hpp"
 #include "bench/drive/contract.hpp"

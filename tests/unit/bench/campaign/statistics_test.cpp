@@ -212,44 +212,5 @@ TEST(ToGo, TakesTheSamplesThatLieWithinTheWindow) {
   EXPECT_EQ(to_go_statistics(runs, quantities::los_rate_pitch, 0.2, 0.5).missing, 2U);
 }
 
-TEST(Divergence, CountsFaultsAndWhatIsBeyondAtTheEnd) {
-  std::vector runs{run_with(0, {9, 1}), run_with(1, {1, -9}), run_with(2, {1, nan}), run_with(3, {1}),
-                   run_with(4, {})};
-  runs[3].ending.kind = drive::Ending::Kind::target_fault;
-  const auto found = divergence(runs, heading, 2);
-  EXPECT_EQ(found.faulted, 1U);
-  EXPECT_EQ(found.beyond, 3U);
-  EXPECT_EQ(found.runs, 5U);
-}
-
-// A filter whose covariance is no longer a number has diverged, wherever its heading is.
-TEST(Divergence, CountsRunsWithoutAFiniteNees) {
-  std::vector runs{run_with(0, {1, 1}), run_with(1, {1, 1}), run_with(2, {1, 1})};
-  runs[1].samples = Samples(runs[0].samples.layout());
-  add(runs[1].samples, 100'000, {{&heading, 1}, {&quantities::attitude_nees, inf}});
-  add(runs[1].samples, 200'000, {{&heading, 1}, {&quantities::attitude_nees, 3}});
-  runs[2].samples = Samples(runs[0].samples.layout());
-  add(runs[2].samples, 100'000, {{&heading, 1}, {&quantities::attitude_nees, 3}});
-  add(runs[2].samples, 200'000, {{&heading, 1}, {&quantities::attitude_nees, inf}});
-  EXPECT_EQ(divergence(runs, heading, 2).beyond, 1U) << "at the end";
-  EXPECT_EQ(divergence(runs, heading, 2, 0).beyond, 2U) << "at any time";
-}
-
-// A warning must come in time and last: `trusted.over_sigma` is 0 while the target warns.
-TEST(Divergence, AllowsForTheTimeUntilAWarning) {
-  const Quantity& trusted = quantities::trusted_over_sigma;
-  const std::vector runs{run_with(0, {1, 2, 3, 4, 5}, trusted),  // never beyond
-                         run_with(1, {1, 6, 6, 0, 0}, trusted),  // warned after 0.2 s
-                         run_with(2, {1, 6, 0, 0, 7}, trusted),  // the warning ended too early
-                         run_with(3, {6, 6, 6, 6, 6}, trusted),  // never warned
-                         ended_with(4, {1, 1}, trusted)};
-  EXPECT_EQ(divergence(runs, trusted, 5, 0).beyond, 3U);
-  const auto found = divergence(runs, trusted, 5, 0, 200'000);
-  EXPECT_EQ(found.beyond, 2U) << "too early, and never";
-  EXPECT_EQ(found.faulted, 1U);
-  EXPECT_EQ(divergence(runs, trusted, 5, 0, 400'000).beyond, 0U);
-  EXPECT_EQ(divergence(runs, trusted, 5, 300'000, 200'000).beyond, 0U) << "from 0.3 s on";
-}
-
 }  // namespace
 }  // namespace canhil::campaign

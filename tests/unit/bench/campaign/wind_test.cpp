@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/campaign/divergence.hpp"
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/statistics.hpp"
 #include "bench/drive/contract.hpp"
