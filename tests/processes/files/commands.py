@@ -20,7 +20,7 @@ TABLE = {
     "hil-bench report": {"FILE.json": "F"},
     "hil-bench compare": {"A.json": "R", "B.json": "R", "--before": "R", "--after": "R", "--history": "R", "--html": "W"},
     "hil-bench bus": {"BUS": "N"},
-    "hil-bench accept": {"--target": "R", "--estimator": "N", "--suites": "R", "--family": "N", "--json": "W", "--junit": "W",
+    "hil-bench accept": {"--target": "R", "--estimator": "N", "--suites": "R", "--family": "N", "--same-as": "N", "--json": "W", "--junit": "W",
                          "--html": "W"},
     "hil-bench campaign": {"FILE": "R", "--out": "F", "--shard": "N", "--target": "R", "--json": "W", "--junit": "W", "--html": "W", "--csv": "W", "--live-address": "N",
                            "--paper": "N", "--exact": "R"},
