@@ -171,6 +171,11 @@ class Run {
       options.onlookers = {answers};
       const auto run = drive::run(flight.scenario, options, stop_, [](std::int64_t) {});
       if (!run) return tl::unexpected(run.error());
+      const auto expected = flight.faults ? Ending::Kind::target_fault : Ending::Kind::completed;
+      if (run->ending.kind != expected && !stop_)
+        return failure(fmt::format(
+            "flight '{}' of the reference: {}", flight.name,
+            run->ending.detail.empty() ? "is flown to its end, expected a fault" : run->ending.detail));
     }
     return make_reference(rounded, unrounded, flight.rows);
   }
