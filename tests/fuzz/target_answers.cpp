@@ -114,13 +114,11 @@ void fly(const Prepared& prepared, std::uint8_t how, std::span<const std::uint8_
                                .timing_unfit = timing_unfit});
   fuzz::expect(verdict.checks.size() >= scenario.checks.size());
   if ((how & samples) != 0) {
-    drive::Collected whole{.ending = ending, .seen = seen, .per_run_truth = std::move(flight->per_run_truth)};
     for (const estimators::Estimator* one : estimators::all()) {
-      const auto series = campaign::series_of(0, whole, truth, *one);
-      const auto again = quantities::decode(quantities::encode(series.samples), one->layout);
-      fuzz::expect(again && again->size() == series.samples.size());
+      const auto series = campaign::samples_of(seen, flight->per_run_truth, truth, *one);
+      const auto again = quantities::decode(quantities::encode(series), one->layout);
+      fuzz::expect(again && again->size() == series.size());
     }
-    flight->per_run_truth = std::move(whole.per_run_truth);
   }
   if ((how & reports) == reports) {
     report_all(scenario, {.verdict = verdict,
