@@ -72,7 +72,7 @@ struct Canhil final : scenario::Binding {
                                   const world::FlightRecord& flight) const override {
     for (const nodes::Kind* kind : nodes::all()) {
       const NodeSettings* node = scenario.node(kind->table.key);
-      if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
+      if (node == nullptr || !node->is_modelled() || kind->fits == nullptr) continue;
       if (auto fits = kind->fits(*node, scenario, flight); !fits) return fits;
     }
     return {};

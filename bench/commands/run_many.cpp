@@ -79,7 +79,8 @@ Result<void> check(const RunArguments& arguments) {
   for (const auto& [option, value] : {std::pair("--json", arguments.reports.json),
                                       {"--html", arguments.reports.html},
                                       {"--csv", arguments.reports.csv},
-                                      {"--log", arguments.log}}) {
+                                      {"--log", arguments.log},
+                                      {"--control", arguments.control}}) {
     if (!value.empty())
       return failure(
           fmt::format("{}: is one file, and there are several scenarios, expected --out FOLDER", option));

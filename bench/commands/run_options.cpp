@@ -14,6 +14,7 @@
 
 #include "bench/commands/program.hpp"
 #include "bench/doctor/interface.hpp"
+#include "bench/drive/adapter.hpp"
 #include "bench/drive/contract.hpp"
 #include "bench/drive/inputs.hpp"
 #include "bench/drive/session.hpp"
@@ -107,6 +108,8 @@ drive::Options options_of(const RunArguments& arguments, drive::BusName bus, dri
                           : arguments.targets;
   if (arguments.bus_of.empty()) options.controller = controller_of(options.bus.text);
   options.lockstep = arguments.lockstep;
+  options.control = arguments.control;
+  options.awaits_control = arguments.awaits_control;
   if (!arguments.log.empty()) options.log_path = arguments.log;
   options.realtime = arguments.realtime.request();
   if (options.realtime) {
@@ -215,7 +218,11 @@ Result<void> check_operator(const std::string& name) {
 
 }  // namespace
 
-Result<PlannedRun> plan_run(const RunArguments& arguments, const std::string& file, int number) {
+Result<PlannedRun> plan_run(const RunArguments& given, const std::string& file, int number) {
+  auto interface = drive::bus_of_adapter(given.bus);
+  if (!interface) return tl::unexpected(interface.error());
+  RunArguments arguments = given;
+  arguments.bus = *std::move(interface);
   if (auto fine = check_operator(arguments.operator_name); !fine) return tl::unexpected(fine.error());
   const drive::BusName bus(arguments.bus);
   if (auto fine = check_bus(arguments, bus); !fine) return tl::unexpected(fine.error());
@@ -246,7 +253,8 @@ void add_options(command_line::Command command, RunArguments& arguments) {
       .required();
   command.add_option(
       "--bus", arguments.bus,
-      "can0, vcan0: SocketCAN; local:NAME: embedded bus; local: a private one (default); in-process: virtual "
+      "can0, vcan0: SocketCAN; serial:NUMBER: the USB adapter with this serial number; local:NAME: embedded "
+      "bus; local: a private one (default); in-process: virtual "
       "time. local: and in-process take a simulated wire: '?bitrate=500000', then &data-bitrate=2000000, "
       "&queue=fifo|priority, &bit-error-rate=1e-6, &seed=3. 'in-process?unrounded': frames that round "
       "nothing");
@@ -283,6 +291,14 @@ void add_options(command_line::Command command, RunArguments& arguments) {
       .add_number("--spin-us", arguments.spin_us,
                   "poll for so long before each deadline instead of sleeping up to it", 0, 10'000)
       .excludes(lockstep);
+  const auto control =
+      command.add_option("--control", arguments.control,
+                         "path of a local socket through which a program of yours takes part in the run "
+                         "(docs/programs.md)");
+  command
+      .add_flag("--await-control", arguments.awaits_control,
+                "begin the run when a program has connected to the socket of --control")
+      .needs(control);
   command.add_number("--seed", arguments.seed, "another seed than the scenario's");
   add_reports(command, arguments.reports);
   command.add_option("--operator", arguments.operator_name,

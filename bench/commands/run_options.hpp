@@ -28,6 +28,8 @@ struct RunArguments {
   std::string dbc;                     ///< empty: the DBC of the scenario
   std::string faults;                  ///< file of additional faults; empty: none
   bool lockstep = false;
+  std::string control{};
+  bool awaits_control = false;
   bool no_commands = false;
   std::optional<std::uint64_t> seed;
   realtime::Options realtime;

@@ -1,6 +1,8 @@
 #include "bench/drive/adapter.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include <fstream>
@@ -71,6 +73,29 @@ Adapter adapter_of(const std::string& bus, const fs::path& sys) {
     adapter.product_id = without_prefix(attribute(device, "device"));
   }
   return adapter;
+}
+
+Result<std::string> bus_of_adapter(const std::string& name, const fs::path& sys) {
+  constexpr std::string_view prefix = "serial:";
+  if (!name.starts_with(prefix)) return name;
+  const std::string serial = name.substr(prefix.size());
+  std::vector<std::string> found, others;
+  std::error_code unknown;
+  for (const fs::directory_entry& one : fs::directory_iterator(sys / "class/net", unknown)) {
+    const Adapter adapter = adapter_of(one.path().filename().string(), sys);
+    if (adapter.serial.empty()) continue;
+    (adapter.serial == serial ? found : others)
+        .push_back(adapter.serial == serial ? adapter.bus : adapter.serial);
+  }
+  if (found.size() == 1) return found.front();
+  std::ranges::sort(found);
+  std::ranges::sort(others);
+  return failure(found.empty()
+                     ? fmt::format("--bus '{}': no adapter has this serial number, expected {}", name,
+                                   others.empty() ? "one that is plugged in"
+                                                  : fmt::format("{}", fmt::join(others, ", ")))
+                     : fmt::format("--bus '{}': the adapter has several interfaces, expected one of {}", name,
+                                   fmt::join(found, ", ")));
 }
 
 std::string to_text(const Adapter& adapter) {

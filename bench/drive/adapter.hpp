@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "dbc/wire/result.hpp"
+
 namespace canhil::drive {
 
 struct Options;
@@ -23,6 +25,11 @@ struct Adapter {
 
 /// The adapter of a kernel interface; a bus without an interface is "virtual". `sys`: where sysfs is mounted.
 Adapter adapter_of(const std::string& bus, const std::filesystem::path& sys = "/sys");
+
+/// The bus of a name on the command line: of "serial:NUMBER", the interface of the USB adapter with this
+/// serial number; every other name is one. Error, one line: there is no such adapter, or it has several
+/// interfaces.
+Result<std::string> bus_of_adapter(const std::string& name, const std::filesystem::path& sys = "/sys");
 
 /// One line, for example "can0: usb, gs_usb at 1-4:1.0, 1d50:606f 'candleLight', serial 0042".
 std::string to_text(const Adapter& adapter);

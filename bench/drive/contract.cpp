@@ -12,6 +12,7 @@
 #include "bench/plant/registry.hpp"
 #include "bench/plant/setup.hpp"
 #include "bench/scenario/binding.hpp"
+#include "bench/sensors/program.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/files/text_file.hpp"
 #include "messages/canhil.hpp"
@@ -34,6 +35,7 @@ scenario::DbcVocabulary make_contract() {
                                    .nodes = nodes::tables(),
                                    .fault_kinds = faults::kinds(),
                                    .read_recorded = nodes::read_recorded,
+                                   .read_program = sensors::read_program,
                                    .plants = plant::tables(),
                                    .read_plant = plant::read_setup,
                                    .named = nodes::named};

@@ -166,7 +166,10 @@ std::vector<plant::Simulation*> PerRunTruth::plants() const {
   return all;
 }
 
-std::optional<std::string> PerRunTruth::why_failed() const { return plant::why_failed(plants()); }
+std::optional<std::string> PerRunTruth::why_failed() const {
+  if (!stopped->empty()) return *stopped;
+  return plant::why_failed(plants());
+}
 
 const world::FlightRecord& flight_of(const world::FlightRecord& of_all_runs, const PerRunTruth& own) {
   return own.plant && own.plant->flight() != nullptr ? *own.plant->flight() : of_all_runs;
@@ -264,7 +267,12 @@ sensors::Run run_of(const scenario::Scenario& scenario, const world::FlightRecor
                    .index = run_index,
                    .flight = flight_of(truth, per_run_truth),
                    .plants = plants_of(per_run_truth),
-                   .faults = faults};
+                   .faults = faults,
+                   .fail =
+                       [stopped = per_run_truth.stopped](std::string why) {
+                         if (stopped->empty()) *stopped = std::move(why);
+                       },
+                   .overrides = per_run_truth.overrides.get()};
   for (const PerRunTruth::OfTable& one : per_run_truth.of_tables) {
     if (one.is_guided)
       run.guide = [plant = one.plant.get()](std::int64_t from_us, std::span<const double> inputs) {

@@ -11,6 +11,7 @@
 #include "bench/drive/schedule.hpp"
 #include "bench/plant/simulation.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "bench/sensors/overrides.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/truth_values.hpp"
 #include "dbc/wire/result.hpp"
@@ -31,9 +32,12 @@ struct PerRunTruth {
     bool is_sampled = true;  ///< false: its nodes send a recording of what another plant did
   };
   std::vector<OfTable> of_tables{};  ///< as Scenario::of_tables
+  /// Why the run cannot go on: a sensor cannot measure, or a partner ended it. Empty: it can.
+  std::shared_ptr<std::string> stopped = std::make_shared<std::string>();
+  std::shared_ptr<sensors::Overrides> overrides{};  ///< by partners; null: the run has none
 
   [[nodiscard]] std::vector<plant::Simulation*> plants() const;
-  /// Why a plant does not advance; none: each does.
+  /// Why the run cannot go on: a plant, a sensor, a partner. None: it can.
   [[nodiscard]] std::optional<std::string> why_failed() const;
 };
 

@@ -143,6 +143,7 @@ class Recording {
                                                        .handshake = scenario_.binding->handshake,
                                                        .fd = format_of(scenario_) != BusFormat::classic},
                                          &hands_));
+    schedule_->set_truth(truths_of(truth_, flight_.per_run_truth));
     watcher_ = dialect_->watcher(true);
     target_ = dialect_->target_watch(true);
     observers_ = {watcher_.get(), target_.get(), &load_};

@@ -15,6 +15,7 @@
 #include "bench/faults/in_run.hpp"
 #include "bench/nodes/node.hpp"
 #include "bench/plant/simulation.hpp"
+#include "bench/world/truth_values.hpp"
 
 namespace canhil::drive {
 
@@ -31,12 +32,13 @@ class Schedule final : public observe::Observer {
            std::vector<plant::Simulation*> plants = {})
       : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)), plants_(std::move(plants)) {
     nodes_.push_back(std::move(keeper));
-    for (const auto& node : nodes_) {
-      if (node->listens()) listeners_.push_back(due_us_.size());
-      due_us_.push_back(node->due_us());
-    }
     if (faults_) injectors_ = faults_->injectors();
-    find_next();
+    look_at_nodes();
+  }
+  /// Adds a node that transmits after the sensors and before the keeper.
+  void add(std::unique_ptr<nodes::Node> node) {
+    nodes_.insert(nodes_.end() - 1, std::move(node));
+    look_at_nodes();
   }
 
   /// The time of the next transmission; nodes::never_us after the last one.
@@ -48,6 +50,10 @@ class Schedule final : public observe::Observer {
   std::span<const Frame> take() {
     const std::int64_t t_us = taken_us_ = due_us();
     for (plant::Simulation* plant : plants_) plant->advance(t_us);
+    if (truths_ && faults_->begin_in_run()) {
+      faults_->look(*truths_, t_us);
+      find_next();
+    }
     std::size_t injected = 0;  // index of the first injector whose apply() is called below
     if (injected_us_ == t_us) {
       frames_.clear();
@@ -58,16 +64,20 @@ class Schedule final : public observe::Observer {
       nodes_[next_]->transmit(out_);
       due_us_[next_] = nodes_[next_]->due_us();
       find_next();
-      if (injectors_.empty()) return out_.frames();
+      if (injectors_.empty()) return overheard(out_.frames(), t_us);
       frames_.assign(out_.frames().begin(), out_.frames().end());
     }
     for (; injected < injectors_.size(); ++injected) injectors_[injected]->apply(frames_, t_us);
     find_next();
-    return frames_;
+    return overheard(frames_, t_us);
   }
 
-  /// Why a plant does not advance any more; none: each does.
-  [[nodiscard]] std::optional<std::string> why_failed() const { return plant::why_failed(plants_); }
+  /// The truth that the conditions of faults use; without it, none holds. It must outlive the schedule.
+  void set_truth(const world::Truths& truths) { truths_.emplace(truths); }
+  /// `why`: why the run cannot go on; none: it can.
+  void set_failure(std::function<std::optional<std::string>()> why) { failure_ = std::move(why); }
+  /// Why the run cannot go on; none: it can.
+  [[nodiscard]] std::optional<std::string> why_failed() const { return failure_ ? failure_() : std::nullopt; }
 
   /// The time until which a fault explains the target's silence.
   [[nodiscard]] std::int64_t silent_until_us() const {
@@ -108,12 +118,29 @@ class Schedule final : public observe::Observer {
     for (const auto& injector : injectors_) injector->end();
   }
   /// Null: no faults.
-  [[nodiscard]] const faults::Faults* faults() const { return faults_.get(); }
+  [[nodiscard]] faults::Faults* faults() const { return faults_.get(); }
 
   /// The outbox, which keeps the counters of the bench's own messages.
   nodes::Transmission& outbox() { return out_; }
 
  private:
+  void look_at_nodes() {
+    due_us_.clear();
+    listeners_.clear();
+    overhearers_.clear();
+    for (const auto& node : nodes_) {
+      if (node->listens()) listeners_.push_back(due_us_.size());
+      if (node->overhears()) overhearers_.push_back(node.get());
+      due_us_.push_back(node->due_us());
+    }
+    find_next();
+  }
+  std::span<const Frame> overheard(std::span<const Frame> frames, std::int64_t t_us) {
+    for (nodes::Node* node : overhearers_) {
+      for (const Frame& frame : frames) node->hear(frame, t_us);
+    }
+    return frames;
+  }
   [[nodiscard]] std::span<const std::unique_ptr<faults::Injector>>::iterator first_injector() const {
     return std::ranges::min_element(injectors_, {}, [](const auto& one) { return one->due_us(); });
   }
@@ -126,7 +153,10 @@ class Schedule final : public observe::Observer {
   std::vector<std::unique_ptr<nodes::Node>> nodes_;
   std::vector<std::int64_t> due_us_;    // for each node
   std::vector<std::size_t> listeners_;  // indices of nodes
+  std::vector<nodes::Node*> overhearers_;
   std::function<std::int64_t()> clock_;
+  std::function<std::optional<std::string>()> failure_;
+  std::optional<world::Truths> truths_;
   std::int64_t taken_us_ = 0;
   std::size_t next_ = 0;
   nodes::Transmission out_;

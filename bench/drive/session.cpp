@@ -14,6 +14,7 @@
 #include "bench/drive/lockstep.hpp"
 #include "bench/drive/rig_commands.hpp"
 #include "bench/drive/rig_control.hpp"
+#include "bench/drive/run_partners.hpp"
 #include "bench/drive/stimuli.hpp"
 #include "bench/drive/target_process.hpp"
 #include "bench/estimators/of_scenario.hpp"
@@ -69,7 +70,10 @@ class Session {
         link_(*port_),
         bus_watch_(*port_),
         load_(options.format, load_by(bus_, clock_, scenario.binding->time_base)),
-        commands_(rig_commands_of(scenario)) {}
+        commands_(rig_commands_of(scenario)) {
+    if (!scenario.programs.empty() || !options.control.empty())
+      flight_.per_run_truth.overrides = std::make_shared<sensors::Overrides>();
+  }
 
   // Creates the dialect. After this call the session is complete.
   Result<void> speak() {
@@ -90,6 +94,13 @@ class Session {
     if (auto work = faults::check(scenario_.faults, where); !work) return work;
     schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(
         scenario_, options_.run_index, scenario_.binding->messages, where, &hands_));
+    schedule_->set_truth(truths_of(truth_, flight_.per_run_truth));
+    schedule_->set_failure([this] { return flight_.per_run_truth.why_failed(); });
+    if (flight_.per_run_truth.overrides) {
+      auto joined = partners_.emplace(scenario_, truth_, flight_.per_run_truth, *schedule_)
+                        .join(options_, clock_ != ClockKind::real_time);
+      if (!joined) return joined;
+    }
     // A campaign against a program judges the causes of its answers, which needs their stimuli.
     watcher_ = dialect_->watcher(options_.for_verdict || !options_.targets.empty());
     if (!options_.for_verdict) return {};
@@ -279,6 +290,7 @@ class Session {
     seen.bus.late_in_queue = link_.late_in_queue();
     seen.bus.foreign = port_->counters().foreign;
     seen.bus.notes = *notes_;
+    if (partners_) partners_->add_notes(seen.bus.notes);
     if (link_.flood()) seen.bus.notes.push_back(to_text(*link_.flood()));
     seen.receive_overflows = static_cast<std::uint32_t>(port_->counters().overflowed);
   }
@@ -295,6 +307,8 @@ class Session {
   RunRigControl hands_;
   Link link_;
   std::unique_ptr<Dialect> dialect_;
+  std::optional<RunPartners>
+      partners_;  // before the schedule, whose nodes refer to it; none: the run has none
   std::unique_ptr<Schedule> schedule_;
   std::unique_ptr<observe::Watcher> watcher_;
   observe::BusWatch bus_watch_;

@@ -46,6 +46,8 @@ struct Options {
   std::int64_t spin_ns = 0;     ///< time before each deadline in which the bench polls instead of sleeping
   std::uint64_t run_index = 0;  ///< in a campaign: together with the seed, selects the random numbers
   std::vector<Onlooker*> onlookers{};  ///< each also receives every frame of the flight
+  std::string control{};               ///< path of the control socket; empty: the run has none
+  bool awaits_control = false;         ///< the run begins when a client has connected
   bool for_verdict = true;  ///< false: observes only the target's frames, not times, load, bus and host
 };
 

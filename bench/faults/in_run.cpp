@@ -21,7 +21,9 @@ Faults::Faults(const scenario::Scenario& scenario, std::uint64_t run_index,
       messages_(messages),
       place_(std::move(place)),
       rig_(hands),
-      tallies_(scenario.faults.size()) {
+      tallies_(scenario.faults.size()),
+      triggers_(scenario.faults.size()),
+      begin_in_run_(std::ranges::any_of(scenario.faults, &scenario::Fault::begins_in_run)) {
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
     if (!scenario.faults[i].rule->cannot(place_).empty()) continue;  // check() rejects such a run
     if (auto injector = scenario.faults[i].rule->injector(in_run(i)))
@@ -37,7 +39,33 @@ InRun Faults::in_run(std::size_t index) {
           .messages = messages_,
           .place = place_,
           .hands = rig_,
-          .tally = tallies_[index]};
+          .tally = tallies_[index],
+          .trigger = scenario_.faults[index].begins_in_run ? &triggers_[index] : nullptr};
+}
+
+void Faults::look(const world::Truths& truths, std::int64_t t_us) {
+  for (std::size_t i = 0; i < triggers_.size(); ++i) {
+    const When& when = scenario_.faults[i].rule->when();
+    if (!when.condition || triggers_[i].from_us != Trigger::never_us) continue;
+    if (when.condition->at(truths, t_us).value_or(0) == 0) continue;
+    triggers_[i].from_us = t_us;
+    if (when.lasts_us != Trigger::never_us) triggers_[i].to_us = t_us + when.lasts_us;
+  }
+}
+
+Result<bool> Faults::command(std::string_view name, bool begins, std::int64_t t_us) {
+  const auto found = std::ranges::find(scenario_.faults, name, &scenario::Fault::name);
+  if (found == scenario_.faults.end() || !found->rule->when().on_command)
+    return failure(fmt::format("there is no fault '{}' with when = \"command\"", name));
+  Trigger& trigger = triggers_[static_cast<std::size_t>(found - scenario_.faults.begin())];
+  const std::int64_t lasts_us = found->rule->when().lasts_us;
+  const bool is_active = t_us >= trigger.from_us && t_us < trigger.to_us;
+  if (is_active == begins) return false;
+  if (begins)
+    trigger = {.from_us = t_us, .to_us = lasts_us == Trigger::never_us ? lasts_us : t_us + lasts_us};
+  else
+    trigger.to_us = t_us;
+  return true;
 }
 
 bool Faults::act_on(const scenario::NodeSettings& node) const {
@@ -58,11 +86,13 @@ std::vector<FaultReport> Faults::reports() const {
   std::vector<FaultReport> all;
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
     const scenario::Fault& fault = scenario_.faults[i];
+    const auto [from_us, to_us] =
+        fault.begins_in_run ? triggers_[i] : Trigger{.from_us = fault.from_us, .to_us = fault.to_us};
     all.push_back({.name = fault.name,
                    .kind = fault.kind,
                    .stage = fault.rule->stage(),
-                   .from_us = fault.from_us,
-                   .to_us = std::min(fault.to_us, scenario_.duration_us),
+                   .from_us = fault.begins_in_run ? std::min(from_us, scenario_.duration_us) : from_us,
+                   .to_us = std::min(to_us, scenario_.duration_us),
                    .count = tallies_[i].count});
   }
   return all;

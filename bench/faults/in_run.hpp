@@ -10,6 +10,7 @@
 
 #include "bench/faults/rule.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "bench/world/truth_values.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::faults {
@@ -32,6 +33,14 @@ class Faults final : public sensors::SensorFaults {
   Faults(const scenario::Scenario& scenario, std::uint64_t run_index, std::span<const MessageInfo> messages,
          Place place = {}, RigControl* hands = nullptr);
 
+  /// Whether a condition or a command may begin a fault.
+  [[nodiscard]] bool begin_in_run() const { return begin_in_run_; }
+  /// Begins the faults whose conditions hold at `t_us`, a time of the run. To be called in the order of time.
+  void look(const world::Truths& truths, std::int64_t t_us);
+  /// Begins or ends a fault that waits for commands. Returns whether it was not so before. Error, one phrase:
+  /// there is no such fault.
+  Result<bool> command(std::string_view name, bool begins, std::int64_t t_us);
+
   [[nodiscard]] bool act_on(const scenario::NodeSettings& node) const override;
   std::unique_ptr<sensors::Sensor> with_faults(std::unique_ptr<sensors::Sensor> sensor,
                                                const scenario::NodeSettings& node) override;
@@ -51,7 +60,9 @@ class Faults final : public sensors::SensorFaults {
   std::span<const MessageInfo> messages_;
   Place place_;
   RigControl* rig_;
-  std::vector<Tally> tallies_;  // one for each fault
+  std::vector<Tally> tallies_;     // one for each fault
+  std::vector<Trigger> triggers_;  // one for each fault
+  bool begin_in_run_ = false;
   std::vector<std::unique_ptr<Injector>> injectors_;
 };
 

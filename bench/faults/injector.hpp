@@ -58,7 +58,14 @@ struct InRun {
   const Place& place;
   RigControl* hands = nullptr;  ///< null: not available
   Tally& tally;
+  const Trigger* trigger = nullptr;  ///< of a fault that begins in the run; null: of another
 
+  /// The active time of the fault in this run.
+  [[nodiscard]] When in(const When& when) const {
+    When own = when;
+    own.trigger = trigger;
+    return own;
+  }
   /// Random numbers of this fault; each `part` of a fault has its own stream.
   [[nodiscard]] world::Stream stream(std::string_view part = "") const;
 };
@@ -90,7 +97,7 @@ class Injector {
 class Switched : public Injector {
  public:
   Switched(const When& when, const InRun& run);
-  [[nodiscard]] std::int64_t due_us() const final { return due_us_; }
+  [[nodiscard]] std::int64_t due_us() const final;
   void transmit(std::vector<Frame>& out) final;
   void end() final {
     if (on_) off();
@@ -111,6 +118,7 @@ class Switched : public Injector {
   Tally& tally_;
   bool on_ = false;
   std::int64_t due_us_;
+  std::int64_t begun_us_ = -1;  // when a fault that begins in the run began
   std::int64_t ended_us_ = std::numeric_limits<std::int64_t>::min();  // end of the latest stretch
 };
 
@@ -118,7 +126,7 @@ class Switched : public Injector {
 class Repeated : public Injector {
  public:
   Repeated(const When& when, std::int64_t period_us, const InRun& run);
-  [[nodiscard]] std::int64_t due_us() const final { return due_us_; }
+  [[nodiscard]] std::int64_t due_us() const final;
   void transmit(std::vector<Frame>& out) final;
 
  protected:

@@ -21,7 +21,7 @@ class ChangedFrames final : public OfFrames {
 
 OfFrames::OfFrames(const OfMessages& of, const When& when, const InRun& run) : tally_(run.tally) {
   for (const MessageInfo* message : of.all)
-    own_.push_back({.message = message, .occasions = Occasions(when, run.stream(message->name))});
+    own_.push_back({.message = message, .occasions = Occasions(run.in(when), run.stream(message->name))});
 }
 
 void OfFrames::apply(std::vector<Frame>& frames, std::int64_t t_us) {

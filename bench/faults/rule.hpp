@@ -43,6 +43,7 @@ class Rule {
   virtual ~Rule() = default;
 
   [[nodiscard]] virtual Stage stage() const = 0;
+  [[nodiscard]] virtual const When& when() const = 0;
   [[nodiscard]] virtual std::string cannot(const Place& place) const = 0;
   /// The injector of the fault; null if the fault acts on samples.
   [[nodiscard]] virtual std::unique_ptr<Injector> injector(const InRun& run) const = 0;
@@ -59,6 +60,7 @@ class RuleOf final : public Rule {
  public:
   explicit RuleOf(Kind kind) : kind_(std::move(kind)) {}
   [[nodiscard]] Stage stage() const override { return Kind::stage; }
+  [[nodiscard]] const When& when() const override { return kind_.when; }
   [[nodiscard]] std::string cannot(const Place& place) const override {
     if constexpr (requires { kind_.cannot(place); }) return kind_.cannot(place);
     return {};
@@ -91,7 +93,8 @@ scenario::FaultRead read_rule(scenario::Section& section, const scenario::FaultC
   if constexpr (requires { rule.subject(); }) subject = rule.subject();
   return {.rule = std::make_shared<RuleOf<Kind>>(std::move(rule)),
           .from_us = when.from_us,
-          .to_us = when.to_us,
+          .to_us = when.begins_in_run() ? Trigger::never_us : when.to_us,
+          .begins_in_run = when.begins_in_run(),
           .subject = std::move(subject)};
 }
 

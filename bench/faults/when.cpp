@@ -11,6 +11,26 @@ using scenario::Limits;
 constexpr double longest_s = 86'400;
 constexpr std::int64_t longest_us = 86'400'000'000;
 
+// The key `when`: a fault that begins in the run.
+void read_trigger(scenario::Section& section, When& when) {
+  constexpr std::string_view meaning =
+      "The fault begins when this expression over the truth is not 0 for the first time (\"plant.range < "
+      "1000\"), or by a command (`when = \"command\"`). In place of `from_s` and `to_s`; with `for_s`, it "
+      "ends "
+      "after this time.";
+  const std::string text = section.text({"when", meaning}, "");
+  if (text.empty()) return;
+  when.from_us = Trigger::never_us;
+  for (const std::string_view key : {"from_s", "to_s", "each_s"})
+    section.refuse(key, "has no effect beside 'when'", "one of the two");
+  if (text == "command")
+    when.on_command = true;
+  else
+    when.condition = scenario::read_expression(section, "when", meaning);
+  when.lasts_us = section.optional_time_us({"for_s", "Duration of the fault."}, Limits::above(0))
+                      .value_or(Trigger::never_us);
+}
+
 void read_periods(scenario::Section& section, When& when) {
   const auto for_us = section.optional_time_us(
       {"for_s", "Duration of the fault, in place of `to_s`. With `each_s`: duration of each repetition."},
@@ -32,10 +52,7 @@ void read_periods(scenario::Section& section, When& when) {
   when.to_us = when.from_us + *for_us;
 }
 
-}  // namespace
-
-When read_when(scenario::Section& section, const scenario::FaultContext& context, Repeats repeats) {
-  When when;
+void read_times(scenario::Section& section, const scenario::FaultContext& context, When& when) {
   when.from_us = section.time_us({"from_s", "Time of transmission at which the fault begins."},
                                  Limits::between(0, longest_s), 0);
   when.to_us =
@@ -47,6 +64,14 @@ When read_when(scenario::Section& section, const scenario::FaultContext& context
   scenario::expect_within_run(section, "from_s", when.from_us, context.duration_us);
   if (when.to_us < when.from_us) section.reject("to_s", "is before from_s", "a later time");
   read_periods(section, when);
+}
+
+}  // namespace
+
+When read_when(scenario::Section& section, const scenario::FaultContext& context, Repeats repeats) {
+  When when;
+  read_trigger(section, when);
+  if (!section.has("when")) read_times(section, context, when);
   if (repeats == Repeats::stretch) return when;
   when.every = section
                    .optional_integer(
@@ -69,6 +94,7 @@ When read_stretches(scenario::Section& section, const scenario::FaultContext& co
     section.missing("for_s", "how long it lasts");
     return when;
   }
+  if (when.begins_in_run()) return when;
   const std::int64_t end_us = when.each_us == 0 ? when.to_us : when.from_us + when.for_us;
   if (end_us >= context.duration_us)
     section.reject("for_s", "lasts to the end of the run or longer", "an end before that of the run");

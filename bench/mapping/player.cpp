@@ -11,6 +11,7 @@
 #include "bench/mapping/range.hpp"
 #include "bench/mapping/reading.hpp"
 #include "bench/nodes/registry.hpp"
+#include "bench/sensors/program.hpp"
 #include "bench/sensors/registry.hpp"
 #include "dbc/parser/codec.hpp"
 
@@ -60,7 +61,7 @@ Result<void> Player::check(const Mapping& mapping, const scenario::Scenario& sce
       if (node->table().sensor != kind)
         return failure(fmt::format("key 'sensor': '{}' has another kind than in {}, expected '{}'", kind->key,
                                    to_text(mapping.files), kind->of->key));
-      if (const std::string why = kind->why_no_truth ? kind->why_no_truth(*node, scenario) : ""; !why.empty())
+      if (const std::string why = sensors::why_no_truth(*node, scenario); !why.empty())
         return failure(fmt::format("key '{}': {}", kind->key, why));
       if (play.sensor == kind && play.period_us % node->period_us() != 0)
         return failure(

@@ -56,6 +56,8 @@ class Node {
 
   /// Whether the node wants to receive frames of other nodes.
   [[nodiscard]] virtual bool listens() const { return false; }
+  /// Whether it also wants to receive the frames that the bench sends.
+  [[nodiscard]] virtual bool overhears() const { return false; }
   /// A frame from another node, valid or not. Returns whether due_us() may have changed.
   virtual bool hear(const Frame& /*frame*/, std::int64_t /*now_us*/) { return false; }
 

@@ -12,6 +12,8 @@
 #include "bench/nodes/bound_sensor.hpp"
 #include "bench/nodes/fits.hpp"
 #include "bench/scenario/binding.hpp"
+#include "bench/sensors/overrides.hpp"
+#include "bench/sensors/program.hpp"
 #include "bench/sensors/registry.hpp"
 #include "messages/canhil.hpp"
 
@@ -124,8 +126,12 @@ std::unique_ptr<sensors::Sensor> make_sensor(const NodeSettings& node, const Run
   const sensors::Kind& kind = *node.table().sensor;
   Run own = run;
   if (kind.of != nullptr) own.sensor = kind.key;
-  auto sensor = node.is_recorded() ? make_recorded(node, own) : kind.make(node, own);
-  return run.faults == nullptr ? std::move(sensor) : run.faults->with_faults(std::move(sensor), node);
+  auto sensor = node.is_recorded()  ? make_recorded(node, own)
+                : node.is_program() ? sensors::make_program(node, own)
+                                    : kind.make(node, own);
+  if (run.faults != nullptr) sensor = run.faults->with_faults(std::move(sensor), node);
+  return run.overrides == nullptr ? std::move(sensor)
+                                  : sensors::with_overrides(std::move(sensor), kind, *run.overrides);
 }
 
 std::unique_ptr<Node> make(const NodeSettings& node, const Run& run) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/processes/variable.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::scenario {
@@ -18,15 +19,7 @@ class Section;
 
 namespace canhil::plant {
 
-/// An input or an output. All values are in SI.
-struct Variable {
-  std::string name;    ///< "rudder"
-  std::string si{};    ///< SI unit; empty: a plain number
-  bool turns = false;  ///< an angle: values that differ by a full turn are equal
-  bool steps =
-      false;         ///< changes only in steps: an integer, a switch. No value lies between two of its values
-  double start = 0;  ///< of an input: its value before the first command
-};
+using processes::Variable;
 
 /// A plant in a run. It is deterministic: its outputs depend on Draw, the steps and the inputs alone.
 class Plant {

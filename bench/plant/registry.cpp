@@ -7,7 +7,7 @@
 #include "bench/plant/fmu/fmu.hpp"
 #include "bench/plant/glide/read.hpp"
 #include "bench/plant/hover.hpp"
-#include "bench/plant/program/program.hpp"
+#include "bench/plant/program.hpp"
 #include "bench/plant/steered_heading.hpp"
 
 namespace canhil::plant {

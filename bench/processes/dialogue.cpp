@@ -58,6 +58,13 @@ Result<Dialogue> Dialogue::start(const std::string& program, std::vector<std::st
   return Dialogue(std::move(*process), std::move(in->write_end), std::move(out->read_end));
 }
 
+Result<Dialogue> Dialogue::over(Descriptor connection) {
+  std::signal(SIGPIPE, SIG_IGN);
+  Descriptor other(fcntl(connection.get(), F_DUPFD_CLOEXEC, 0));
+  if (other.get() < 0 || !never_waits(connection)) return failure(strerror(errno));
+  return Dialogue(std::nullopt, std::move(other), std::move(connection));
+}
+
 Dialogue::Outcome Dialogue::send(std::string_view bytes, Time deadline) {
   while (!bytes.empty()) {
     const ssize_t sent = write(to_program_.get(), bytes.data(), bytes.size());

@@ -1,8 +1,10 @@
-// A program that the bench starts and exchanges bytes with, over the program's standard input and output.
+// A program that the bench exchanges bytes with, over the program's standard input and output or over a
+// connection.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,8 +16,8 @@
 
 namespace canhil::processes {
 
-/// A child process whose standard input and output are pipes to the bench. No call waits longer than its
-/// deadline. What the program writes to its standard error goes to that of the bench.
+/// A child process whose standard input and output are pipes to the bench, or a connection. No call waits
+/// longer than its deadline. What the program writes to its standard error goes to that of the bench.
 class Dialogue {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -30,6 +32,9 @@ class Dialogue {
   static Result<Dialogue> start(const std::string& program, std::vector<std::string> words,
                                 StartOptions options = {});
 
+  /// A connection to a program that the bench did not start. Error: the reason of the kernel.
+  static Result<Dialogue> over(Descriptor connection);
+
   /// Sends all bytes.
   Outcome send(std::string_view bytes, Time deadline);
   /// Waits for bytes of the program and appends them to `received`, at most `most` of them.
@@ -37,15 +42,16 @@ class Dialogue {
   /// The program reads the end of its standard input.
   void close_input() { to_program_ = Descriptor(); }
 
-  [[nodiscard]] ChildProcess& process() { return process_; }
+  /// Null: the bench did not start the program.
+  [[nodiscard]] ChildProcess* process() { return process_ ? &*process_ : nullptr; }
 
  private:
-  Dialogue(ChildProcess process, Descriptor to_program, Descriptor from_program)
+  Dialogue(std::optional<ChildProcess> process, Descriptor to_program, Descriptor from_program)
       : process_(std::move(process)),
         to_program_(std::move(to_program)),
         from_program_(std::move(from_program)) {}
 
-  ChildProcess process_;
+  std::optional<ChildProcess> process_;
   // Closed before the process is ended, so that it can end by itself.
   Descriptor to_program_, from_program_;
 };

@@ -104,12 +104,26 @@ Part nodes_part(const scenario::DbcVocabulary& contract) {
            },
            "recorded = \"samples.csv\"\n")});
   part.tables.push_back(
+      {.name = "Any sensor that a program computes",
+       .about = "A sensor that a program of the user computes has these keys in place of its usual keys "
+                "(programs.md).",
+       .keys = keys_of([&](Section& section) {
+         std::ignore = contract.read_program(*contract.nodes.front(), section);
+       })});
+  part.tables.push_back(
       {.name = "[[sensor]]",
        .about =
            "Any number of further sensors, for a target with a mapping that plays them (mapping.md). The "
            "other keys are those of the table of its kind.",
        .keys = keys_of(
            [&](Section& section) { std::ignore = scenario::read_sensor_name(section, contract, {}); })});
+  part.tables.push_back(
+      {.name = "[[node]]",
+       .about = "A program of the user that is a node of the bus (programs.md).",
+       .keys =
+           in_table(keys_of([&](Section& section) { std::ignore = scenario::read_node_programs(section); },
+                            "[[node]]\nname = \"NAME\"\n"),
+                    "node[1]")});
   // Any sensor that a mapping could declare.
   const auto all = keys(nodes::bound(sensors::declared("sensor", {{.name = "VALUE", .si = "rad"}})).table);
   part.tables.push_back({.name = "[[sensor]] of kind `generic`",

@@ -53,7 +53,7 @@ Result<std::string> output_of(const Program& program, std::vector<std::string> w
       if (output.size() > most_bytes) return failure("wrote more than 16 MiB");
       continue;
     }
-    if (const auto end = dialogue->process().ended()) {
+    if (const auto end = dialogue->process()->ended()) {
       if (end->exited_with_0()) return output;
       return failure(processes::to_text(*end));
     }

@@ -43,6 +43,8 @@ struct DbcVocabulary {
   std::shared_ptr<const Binding> binding{};
   /// Reads the table of any node if the table has the key `recorded`; null: recordings are not allowed.
   NodeSettings (*read_recorded)(const NodeTable& table, Section& section, std::int64_t duration_us) = nullptr;
+  /// Reads the table of any sensor if it has the key `command`.
+  NodeSettings (*read_program)(const NodeTable& table, Section& section) = nullptr;
   /// The plants with tables of their own, in the order in which they are read.
   std::span<const PlantTable* const> plants{};
   /// Reads the table [plant]; null: a scenario has none.

@@ -31,6 +31,7 @@ Fault read_fault(Section& section, const FaultContext& context, const std::vecto
   fault.rule = std::move(read.rule);
   fault.from_us = read.from_us;
   fault.to_us = read.to_us;
+  fault.begins_in_run = read.begins_in_run;
   fault.name =
       section.text({"name", "Unique name; by default the kind and what the fault affects."},
                    name_by_default(fault.kind + (read.subject.empty() ? "" : " " + read.subject), before));

@@ -24,7 +24,8 @@ struct Fault {
   std::string name{};  ///< unique in the scenario; by default kind and subject
   std::string kind{};
   std::int64_t from_us = 0, to_us = std::numeric_limits<std::int64_t>::max();  ///< times of transmission
-  std::string where{};  ///< for messages: "file:line: key 'fault[1]'"
+  bool begins_in_run = false;  ///< by a condition or a command: its times are known only after the run
+  std::string where{};         ///< for messages: "file:line: key 'fault[1]'"
   std::shared_ptr<const faults::Rule> rule{};
 };
 
@@ -39,6 +40,7 @@ struct FaultContext {
 struct FaultRead {
   std::shared_ptr<const faults::Rule> rule;
   std::int64_t from_us = 0, to_us = std::numeric_limits<std::int64_t>::max();
+  bool begins_in_run = false;
   std::string subject{};
 };
 

@@ -58,10 +58,12 @@ struct NodeTable {
 class NodeSettings {
  public:
   /// `own`: the settings, in the node's own type. This type has a member `schedule` and, for a recording, a
-  /// member `recorded_from`.
+  /// member `recorded_from`; for a program of the user, a member `program`.
   template <class Own>
   NodeSettings(const NodeTable& table, Own own)
-      : table_(&table), is_recorded_(requires { own.recorded_from; }) {
+      : table_(&table),
+        is_recorded_(requires { own.recorded_from; }),
+        is_program_(requires { own.program; }) {
     auto shared = std::make_shared<const Own>(std::move(own));
     schedule_ = &shared->schedule;
     own_ = std::move(shared);
@@ -71,6 +73,10 @@ class NodeSettings {
   /// Whether the node sends a recording. Its settings then have another type (own()) than for an emulated
   /// node.
   [[nodiscard]] bool is_recorded() const { return is_recorded_; }
+  /// Whether a program of the user computes its samples. Its settings then have another type, too.
+  [[nodiscard]] bool is_program() const { return is_program_; }
+  /// Whether the bench's own model of its kind measures its samples, with the settings of this kind.
+  [[nodiscard]] bool is_modelled() const { return !is_recorded_ && !is_program_; }
   /// The longest latency.
   [[nodiscard]] std::int64_t latency_us() const {
     return schedule_->latency_us + schedule_->latency_spread_us;
@@ -86,7 +92,7 @@ class NodeSettings {
 
  private:
   const NodeTable* table_;
-  bool is_recorded_;
+  bool is_recorded_, is_program_;
   const Schedule* schedule_;  // points into the following member
   std::any own_;              // std::shared_ptr<const Own>
 };

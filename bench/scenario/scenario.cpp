@@ -48,10 +48,14 @@ bool any_runs(const Scenario& scenario, const DbcVocabulary& contract, Holds hol
 /// Reads the table of a node. Returns false if the node measures a truth that the scenario does not know.
 bool read_node(Section& section, const NodeTable& node, Scenario& scenario, const DbcVocabulary& contract) {
   const bool recorded = contract.read_recorded != nullptr && section.has("recorded");
-  scenario.nodes.push_back(recorded ? contract.read_recorded(node, section, scenario.duration_us)
-                                    : node.read(node, section));
-  // Error models and faults apply to simulated measurements, not to recorded ones.
-  section.finish(recorded ? "has no effect beside 'recorded'" : "is unknown");
+  const bool program = !recorded && contract.read_program != nullptr && section.has("command");
+  scenario.nodes.push_back(recorded  ? contract.read_recorded(node, section, scenario.duration_us)
+                           : program ? contract.read_program(node, section)
+                                     : node.read(node, section));
+  // The error models of the bench's sensors apply neither to recorded measurements nor to those of a program.
+  section.finish(recorded  ? "has no effect beside 'recorded'"
+                 : program ? "has no effect beside 'command'"
+                           : "is unknown");
   const PlantFacts* plant = scenario.plant_with(node.samples);
   if (!recorded && plant != nullptr && plant->table != nullptr &&
       scenario.nodes.back().period_us() % plant->table->sampled_every_us != 0)
@@ -350,6 +354,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
   if (!contract.binding->any_sensor) expect_aid(root, scenario, contract);
   read_nodes_of_plants(root, scenario, contract, true);
   read_sensors(root, scenario, contract);
+  scenario.programs = read_node_programs(root);
   if (contract.binding->handshake) add_stated(scenario.targets, scenario.nodes, contract);
   if (!scenario.truth_is_known()) refuse_errors_of_start(root, scenario);
   scenario.events = read_events(root, *contract.binding, scenario.duration_us);

@@ -22,6 +22,7 @@
 #include "bench/scenario/events.hpp"
 #include "bench/scenario/faults.hpp"
 #include "bench/scenario/node.hpp"
+#include "bench/scenario/node_program.hpp"
 #include "bench/scenario/plant_facts.hpp"
 #include "bench/scenario/setting.hpp"
 #include "bench/scenario/target_setup.hpp"
@@ -60,6 +61,7 @@ struct Scenario {
   PlantFacts plant;   ///< the table [plant]
   std::vector<PlantFacts> of_tables;  ///< plants with tables of their own, in addition to `truth`
   std::vector<NodeSettings> nodes;    ///< the nodes on the bus
+  std::vector<NodeProgram> programs;  ///< of the user, which are nodes of the bus
   std::vector<Event> events;
   std::vector<Fault> faults;
   std::vector<Check> checks;

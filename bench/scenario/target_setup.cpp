@@ -142,7 +142,7 @@ void add_stated(std::vector<TargetSetup>& targets, std::span<const NodeSettings>
     if (target.data_sheets_withheld) continue;
     const auto known = facts_of(contract, target.estimator).parameters;
     for (const NodeSettings& node : nodes) {
-      if (node.is_recorded() || node.table().data_sheet == nullptr) continue;
+      if (!node.is_modelled() || node.table().data_sheet == nullptr) continue;
       for (const Stated& stated : node.table().data_sheet(node)) {
         const std::string name(stated.name);
         const bool set =

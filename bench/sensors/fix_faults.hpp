@@ -28,7 +28,7 @@ FixFaults read_fix_faults(scenario::Section& section);
 /// member `faults`.
 template <class Own>
 double lost_fixes(const scenario::NodeSettings& node) {
-  if (node.is_recorded()) return 0;  // losses in a recording are unknown: expect answers to all
+  if (!node.is_modelled()) return 0;  // the losses are unknown: expect answers to all
   const FixFaults& faults = node.own<Own>()->faults;
   return 1 - (1 - faults.loss_probability) * (1 - faults.invalid_probability);
 }

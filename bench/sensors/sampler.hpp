@@ -36,6 +36,7 @@ class Sampler : public Sensor {
     if (!take(taken_us_, sample)) sample.fate = Sample::Fate::lost;
     valid_us_ += period_us_;
     schedule_next();
+    if (due_us() != never_us) next_is(taken_us_);
     return sample;
   }
 
@@ -46,6 +47,8 @@ class Sampler : public Sensor {
  private:
   /// Fills in the sample that is taken at `taken_us`. Returns false if the sample is lost.
   virtual bool take(std::int64_t taken_us, Sample& sample) = 0;
+  /// Called when it is known when the next sample is taken.
+  virtual void next_is(std::int64_t /*taken_us*/) {}
 
   void schedule_next() {
     const scenario::Schedule& schedule = config_.schedule;

@@ -14,12 +14,13 @@ The package starts the programs of the bench and reads what they write. It judge
 ('rad/s', True)
 """
 
-from canhil import golden
+from canhil import golden, partner
 from canhil.acceptance import Acceptance, Requirement, accept
 from canhil.campaigns import Answer, Campaign, campaign
 from canhil.comparison import Comparison, Difference, compare
 from canhil.errors import Error
 from canhil.flights import Run, run
+from canhil.live import Flight, live
 from canhil.program import bench_program
 from canhil.report import Answers, Flag, Judgement, Latency, Verdict
 from canhil.table import Series
@@ -32,6 +33,7 @@ __all__ = [
     "Comparison",
     "Difference",
     "Error",
+    "Flight",
     "Flag",
     "Judgement",
     "Latency",
@@ -44,5 +46,7 @@ __all__ = [
     "campaign",
     "compare",
     "golden",
+    "live",
+    "partner",
     "run",
 ]

@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Union
+from typing import Any, NamedTuple, Union
 
 from canhil import program
 from canhil.errors import Error
@@ -187,6 +187,42 @@ def run(
     (<Verdict.FAIL: 'fail'>, 'los.rate')
     """
     __tracebackhide__ = True  # pytest then shows the line of the test
+    command = command_of_run(
+        scenario, bus=bus, target=target, set=set, faults=faults, lockstep=lockstep, realtime=realtime, seed=seed,
+        folder=folder, options=options,
+    )
+    program.call(*command.words)
+    return command.run()
+
+
+class Command(NamedTuple):
+    """The command line of a run, and the folder of its files."""
+
+    words: list[program.StrPath]
+    folder: Path
+    owner: tempfile.TemporaryDirectory[str] | None
+
+    def run(self) -> Run:
+        """The run, after the command has ended."""
+        if not (self.folder / "report.json").exists():
+            raise Error("the run was interrupted before it began")
+        return Run(self.folder, self.owner)
+
+
+def command_of_run(
+    scenario: program.StrPath,
+    *,
+    bus: str | None = None,
+    target: program.Target | None = None,
+    set: Mapping[str, Value] | None = None,
+    faults: Faults = (),
+    lockstep: bool = False,
+    realtime: bool = False,
+    seed: int | None = None,
+    folder: program.StrPath | None = None,
+    options: Sequence[str] = (),
+) -> Command:
+    """The command line of run()."""
     owner = None
     if folder is None:
         owner = tempfile.TemporaryDirectory(prefix="canhil-")
@@ -214,7 +250,4 @@ def run(
     words += ["--lockstep"] * lockstep + ["--realtime"] * realtime
     if seed is not None:
         words += ["--seed", str(seed)]
-    program.call(*words, *options)
-    if not (place / "report.json").exists():
-        raise Error("the run was interrupted before it began")
-    return Run(place, owner)
+    return Command([*words, *options], place, owner)

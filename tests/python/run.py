@@ -14,6 +14,7 @@ HERE = Path(__file__).resolve().parent
 PACKAGE = SOURCE / "python"
 LEAST_COVERED_PERCENT = 95
 LARGEST_OVERHEAD_S = 0.05
+LARGEST_STEP_S = 100e-6
 ENVIRONMENT = os.environ | {
     "PATH": f"{BUILD}:/usr/bin:/bin",
     "PYTHONPATH": str(PACKAGE),
@@ -89,6 +90,44 @@ def overhead(scratch: Path) -> None:
     more_s = statistics.median(by_package) - statistics.median(by_command)
     print(f"{1e3 * statistics.median(by_command):.1f} ms by the command, {1e3 * more_s:.1f} ms more by the package")
     assert more_s < LARGEST_OVERHEAD_S, f"{more_s:.3f} s, expected less than {LARGEST_OVERHEAD_S} s"
+    step_s, echo_s = step_of_node(scratch, scenario), step_of_echo(scratch)
+    print(f"a step of a node in Python {1e6 * step_s:.1f} us, an echo in Python {1e6 * echo_s:.1f} us")
+    assert step_s < echo_s + LARGEST_STEP_S, f"{step_s - echo_s:.6f} s more than an echo, expected less than {LARGEST_STEP_S} s"
+
+
+def step_of_node(scratch: Path, scenario: Path) -> float:
+    """What a step of a node costs in virtual time: the same run with the node asked often and seldom."""
+    path = scratch / "node.py"
+    path.write_text(f"import sys\nsys.path.append({str(PACKAGE / 'canhil')!r})\nimport partner\n\n"
+                    "class Node:\n    def __init__(self, period): self.period = period\n    def step(self, bench): pass\n\npartner.serve(Node)\n")
+    medians = []
+    for period_s in (0.001, 1):
+        file = scratch / f"every_{period_s}.toml"
+        file.write_text(scenario.read_text() + f'\n[[node]]\nname = "node"\ncommand = "{sys.executable} {path}"\nparameters = {{period = {period_s}}}\n')
+        taken = []
+        for _ in range(7):
+            start = time.perf_counter()
+            subprocess.run(["hil-bench", "run", str(file), "--bus", "in-process"], capture_output=True, check=False)
+            taken.append(time.perf_counter() - start)
+        medians.append(statistics.median(taken))
+    return (medians[0] - medians[1]) / 6000
+
+
+def step_of_echo(scratch: Path) -> float:
+    """A line to a Python program, and one back."""
+    path = scratch / "echo.py"
+    path.write_text("import sys\nfor line in sys.stdin:\n    sys.stdout.write('done\\n')\n    sys.stdout.flush()\n")
+    with subprocess.Popen([sys.executable, path], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as echo:
+        assert echo.stdin and echo.stdout
+        taken = []
+        for _ in range(6000):
+            start = time.perf_counter()
+            echo.stdin.write(b"step 0 1000\n")
+            echo.stdin.flush()
+            echo.stdout.readline()
+            taken.append(time.perf_counter() - start)
+        echo.stdin.close()
+    return statistics.median(taken)
 
 
 def page(scratch: Path) -> None:

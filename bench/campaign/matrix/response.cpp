@@ -168,9 +168,9 @@ Response response_of(const scenario::Scenario& scenario, const drive::Run& run, 
     return {};
   }
   std::int64_t onset_us = std::numeric_limits<std::int64_t>::max(), end_us = 0;
-  for (const scenario::Fault& fault : scenario.faults) {
+  for (const faults::FaultReport& fault : run.faults) {
     onset_us = std::min(onset_us, fault.from_us);
-    end_us = std::max(end_us, std::min(fault.to_us, scenario.duration_us));
+    end_us = std::max(end_us, fault.to_us);
   }
   if (ended)
     return {.kind = Response::Kind::ended,

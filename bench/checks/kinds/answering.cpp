@@ -47,11 +47,6 @@ Answering Answering::read(scenario::Section& /*section*/, const scenario::CheckC
     const std::vector<Subject> reported = always_reported(*one);
     rule.judged.insert(rule.judged.end(), reported.begin(), reported.end());
   }
-  // A sample that was measured before a fault may be transmitted during the fault.
-  for (const scenario::FaultWindow& fault : context.faults)
-    rule.excused.push_back(
-        {.name = fault.name,
-         .window = {.from_us = fault.window.from_us - context.latency_us, .to_us = fault.window.to_us}});
   return rule;
 }
 
@@ -69,8 +64,10 @@ Finding Answering::judge(const Evidence& evidence) const {
   }
   if (values == 0) return failed("no answers");
   std::vector<scenario::Window> struck;  // a fault that did not strike excuses nothing
-  for (const scenario::FaultWindow& fault : excused) {
-    if (did_not_strike(evidence, fault.name).empty()) struck.push_back(fault.window);
+  // A sample that was measured before a fault may be transmitted during the fault.
+  for (const auto& fault : seen.faults) {
+    if (did_not_strike(evidence, fault.name).empty())
+      struck.push_back({.from_us = fault.valid_from_us, .to_us = fault.window.to_us});
   }
   const scenario::Window whole{.from_us = 0, .to_us = evidence.truth.duration_us};
   for (const scenario::Window& stretch : without(whole, struck)) {

@@ -13,9 +13,6 @@ struct Answering {
       "gap. "
       "All estimates and sigmas are numbers. No frame of the target is damaged.";
   std::vector<Subject> judged;  ///< quantities that are reported with every answer
-  /// The windows of the scenario's faults. In these windows answers may be missing, because the target may
-  /// receive no input.
-  std::vector<scenario::FaultWindow> excused;
 
   static Answering read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::vector<Subject> subjects() const { return judged; }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
@@ -32,7 +33,10 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
                          names);
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
-  if (found->window.from_us >= context.duration_us)
+  if (found->window.from_us == std::numeric_limits<std::int64_t>::max())
+    section.reject("fault", fmt::format("'{}' begins in the run (its key 'when')", name),
+                   "a fault with from_s, or a check with 'while'");
+  else if (found->window.from_us >= context.duration_us)
     section.reject("fault", fmt::format("'{}' begins after the end of the run", name),
                    "one that begins before it");
   return Disturbance{.fault = name,

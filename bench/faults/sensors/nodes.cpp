@@ -29,7 +29,7 @@ Kind read_of_node(Section& section, const FaultContext& context, Repeats repeats
 class SilentSensor final : public FaultySensor {
  public:
   SilentSensor(std::unique_ptr<Sensor> sensor, const InRun& run, const When& when, bool restarts)
-      : FaultySensor(std::move(sensor), run), when_(when), restarts_(restarts) {}
+      : FaultySensor(std::move(sensor), run), when_(run.in(when)), restarts_(restarts) {}
 
   Sample measure() override {
     const std::int64_t t_us = sensor().due_us();
@@ -38,7 +38,7 @@ class SilentSensor final : public FaultySensor {
     if (when_.holds(t_us)) {
       if (!restarts_) ++tally().count;
       sample.fate = Sample::Fate::none;
-    } else if (restarts_ && t_us > when_.to_us) {
+    } else if (restarts_ && t_us > when_.ends_us()) {
       // The counters restart even if the fault was too short to suppress a sample.
       restarts_ = false;
       sample.restarted = true;
@@ -55,7 +55,9 @@ class SilentSensor final : public FaultySensor {
 class LateSensor final : public FaultySensor {
  public:
   LateSensor(std::unique_ptr<Sensor> sensor, const InRun& run, const Late& kind)
-      : FaultySensor(std::move(sensor), run), by_us_(kind.by_us), occasions_(kind.when, run.stream()) {}
+      : FaultySensor(std::move(sensor), run),
+        by_us_(kind.by_us),
+        occasions_(run.in(kind.when), run.stream()) {}
 
   [[nodiscard]] std::int64_t due_us() const override {
     return waiting_.empty() ? sensor().due_us() : std::min(sensor().due_us(), waiting_.front().first);
@@ -84,7 +86,7 @@ class SlowSensor final : public FaultySensor {
  public:
   SlowSensor(std::unique_ptr<Sensor> sensor, const NodeSettings& settings, const InRun& run, const Slow& kind)
       : FaultySensor(std::move(sensor), run),
-        when_(kind.when),
+        when_(run.in(kind.when)),
         period_us_(static_cast<double>(settings.period_us()) * kind.longer),
         outputs_(sensor_of(settings.table()).outputs.values) {}
 
@@ -127,13 +129,13 @@ class WrongClock final : public FaultySensor {
   /// The node reports the time t + by + rate * (t - from).
   WrongClock(std::unique_ptr<Sensor> sensor, const InRun& run, const When& when, std::int64_t by_us,
              double rate)
-      : FaultySensor(std::move(sensor), run), when_(when), by_us_(by_us), rate_(rate) {}
+      : FaultySensor(std::move(sensor), run), when_(run.in(when)), by_us_(by_us), rate_(rate) {}
 
  private:
   void change(Sample& sample, std::int64_t t_us) override {
     if (!when_.holds(t_us)) return;
     sample.stamp_us +=
-        std::llround(static_cast<double>(by_us_) + rate_ * static_cast<double>(t_us - when_.from_us));
+        std::llround(static_cast<double>(by_us_) + rate_ * static_cast<double>(t_us - when_.begins_us()));
     sample.interval_us *= 1 + rate_;
     ++tally().count;
     ++tally().changed;

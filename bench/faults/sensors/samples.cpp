@@ -14,7 +14,7 @@ class WithSwapped final : public FaultySensor {
       : FaultySensor(std::move(sensor), run),
         kind_(kind),
         period_us_(settings.period_us()),
-        occasions_(kind.when, run.stream()) {}
+        occasions_(run.in(kind.when), run.stream()) {}
 
  private:
   void change(sensors::Sample& sample, std::int64_t t_us) override {
@@ -33,7 +33,9 @@ class WithSwapped final : public FaultySensor {
 class WithInvalid final : public FaultySensor {
  public:
   WithInvalid(std::unique_ptr<sensors::Sensor> sensor, const InRun& run, const Invalid& kind)
-      : FaultySensor(std::move(sensor), run), flags_(kind.flags), occasions_(kind.when, run.stream()) {}
+      : FaultySensor(std::move(sensor), run),
+        flags_(kind.flags),
+        occasions_(run.in(kind.when), run.stream()) {}
 
  private:
   void change(sensors::Sample& sample, std::int64_t t_us) override {

@@ -15,13 +15,13 @@ class WithValues final : public FaultySensor {
   WithValues(std::unique_ptr<sensors::Sensor> sensor, const scenario::NodeSettings& settings,
              const InRun& run, const OfValues& of, const When& when, Becomes becomes)
       : FaultySensor(std::move(sensor), run),
-        when_(when),
+        when_(run.in(when)),
         becomes_(std::move(becomes)),
         period_us_(settings.period_us()) {
     for (const Measured& one : of.all) {
       if (one.sensor->key == settings.table().key)
         own_.push_back({.value = one,
-                        .occasions = Occasions(when, run.stream(one.name)),
+                        .occasions = Occasions(when_, run.stream(one.name)),
                         .noise = run.stream(one.name + ".noise")});
     }
   }
@@ -40,7 +40,7 @@ class WithValues final : public FaultySensor {
       if (!own.occasions.next(t_us)) continue;
       own.value.put(sample, period_us_,
                     becomes_(own.value.get(sample, period_us_),
-                             {.since_us = t_us - when_.from_us, .held = own.held, .noise = own.noise}));
+                             {.since_us = t_us - when_.begins_us(), .held = own.held, .noise = own.noise}));
       ++tally().count;
       ++tally().changed;
       if (own.value.is_time()) ++tally().changed_times;

@@ -7,8 +7,8 @@ import math
 import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "kit"))
-import plant  # noqa: E402  (found in the kit)
+sys.path.append(str(Path(__file__).resolve().parents[3] / "python/canhil"))
+import partner  # noqa: E402  (a single file of the package)
 
 LONGEST = 0.001  # of a step of the integration, in s
 
@@ -63,4 +63,4 @@ class Ship:
         self.x = [value + dt / 6 * (a + 2 * b + 2 * c + d) for value, a, b, c, d in zip(x, k1, k2, k3, k4)]
 
 
-plant.serve(Ship)
+partner.serve(Ship)

@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 # The test compares this table with the --help of the programs.
 TABLE = {
     "hil-bench": {},
-    "hil-bench run": {"SCENARIO": "R", "--bus": "N", "--bus-of": "N", "--target": "R", "--dbc": "R", "--set": "N", "--faults": "R", "--json": "W",
+    "hil-bench run": {"SCENARIO": "R", "--bus": "N", "--control": "N", "--bus-of": "N", "--target": "R", "--dbc": "R", "--set": "N", "--faults": "R", "--json": "W",
                       "--junit": "W", "--html": "W", "--csv": "W", "--operator": "N", "--log": "W", "--select": "N", "--out": "F",
                       "--live-address": "N"},
     "hil-bench new": {},

@@ -189,14 +189,14 @@ TEST(ClosedLoop, TheLogOfARealTimeRunIsRefused) {
 TEST(ClosedLoop, ASlowPlantIsNotMeasuredInRealTime) {
   const std::string slow = scratch("slow.py");
   std::ofstream(slow) << "import sys, time\nsys.path.append('" SOURCE_DIR
-                         "/docs/examples/kit')\nimport plant\n"
+                         "/python/canhil')\nimport partner\n"
                          "class Slow:\n"
                          "  inputs = {'rudder': 'rad'}\n"
                          "  outputs = {'attitude.heading': 'rad turns', 'rudder': 'rad'}\n"
                          "  def __init__(self): self.heading = 0.349\n"
                          "  def values(self): return [self.heading, 0.0]\n"
                          "  def step(self, t, dt, inputs): time.sleep(0.03)\n"
-                         "plant.serve(Slow)\n";
+                         "partner.serve(Slow)\n";
   std::string text = read(autopilot + "autopilot.toml");
   const std::size_t from = text.find("kind = \"steered_heading\""), to = text.find("[plant.commands.rudder]");
   text.replace(from, to - from, fmt::format("kind = \"program\"\ncommand = \"/usr/bin/python3 {}\"\n", slow));

@@ -23,7 +23,7 @@ MAY_INCLUDE = {
     "bench/": ("dbc/", "bench/"),
     "bench/drive/": ("dbc/", "bench/", DEVICE),
     "bench/checks/": ("dbc/", "bench/"),
-    "bench/sensors/": ("bench/world/", "bench/scenario/", "bench/sensors/"),  # a sensor knows neither messages nor frames
+    "bench/sensors/": ("bench/world/", "bench/scenario/", "bench/processes/", "bench/sensors/"),  # a sensor knows neither messages nor frames
     # Neither does a fault of a sensor.
     "bench/faults/sensors/": ("bench/world/", "bench/scenario/", "bench/sensors/", "bench/faults/"),
 }

@@ -70,6 +70,23 @@ TEST_F(Adapters, ThatAreNone) {
   EXPECT_EQ(to_text(adapter_of("nocan7", sys_)), "nocan7: unknown");
 }
 
+TEST_F(Adapters, AreFoundByTheirSerialNumber) {
+  const fs::path first = "devices/usb1/1-4", second = "devices/usb1/1-5";
+  plug_in("can1", first / "1-4:1.0", "usb", "gs_usb");
+  plug_in("can0", second / "1-5:1.0", "usb", "peak_usb");
+  plug_in("can2", second / "1-5:1.1", "usb", "peak_usb");
+  write(first / "idVendor", "1d50");
+  write(first / "serial", "004200");
+  write(second / "idVendor", "0c72");
+  write(second / "serial", "77");
+  EXPECT_EQ(bus_of_adapter("serial:004200", sys_), "can1");
+  EXPECT_EQ(bus_of_adapter("can0", sys_), "can0") << "no serial number";
+  EXPECT_EQ(bus_of_adapter("serial:77", sys_).error().message,
+            "--bus 'serial:77': the adapter has several interfaces, expected one of can0, can2");
+  EXPECT_EQ(bus_of_adapter("serial:1", sys_).error().message,
+            "--bus 'serial:1': no adapter has this serial number, expected 004200, 77, 77");
+}
+
 TEST(FileIdentity, IsWhatSha256sumPrints) {
   const test::OwnFolder own;
   const std::string path = (own.path / "abc").string();

@@ -89,8 +89,8 @@ class PythonModule : public testing::Test {
   // Reads a plant of a class Plant, whose body this is.
   static PlanRead read(const std::string& body, const std::string& parameters = "") {
     std::ofstream(test::own_folder() + "/own.py") << "import random, sys\nsys.path.append('" SOURCE_DIR
-                                                     "/docs/examples/kit')\nimport plant\n\nclass Plant:\n"
-                                                  << body << "\nplant.serve(Plant)\n";
+                                                     "/python/canhil')\nimport partner\n\nclass Plant:\n"
+                                                  << body << "\npartner.serve(Plant)\n";
     return read_plan("program", "command = 'python3 own.py'\n[plant.parameters]\n" + parameters);
   }
   static inline const std::string tank =

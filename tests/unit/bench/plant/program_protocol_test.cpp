@@ -1,10 +1,10 @@
-#include "bench/plant/program/protocol.hpp"
+#include "bench/processes/program_protocol.hpp"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 
-namespace canhil::plant::program_protocol {
+namespace canhil::processes::program_protocol {
 namespace {
 
 using testing::ElementsAre;
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 TEST(ProgramProtocol, OpeningHasVersionDrawAndParameters) {
   const std::vector<Parameter> parameters{{"mass", 0.1}, {"table", "my data.csv"}, {"count", 3.0}};
   EXPECT_EQ(
-      opening(parameters, {.seed = 7, .run_index = 2}),
+      opening(parameters, {.role = "plant", .seed = 7, .run_index = 2}),
       "canhil-plant 1\nseed 7\nrun 2\nnumber mass 0.1\ntext table my data.csv\nnumber count 3\nstart\n");
 }
 
@@ -106,4 +106,4 @@ TEST(ProgramProtocol, ErrorsHaveText) {
 }
 
 }  // namespace
-}  // namespace canhil::plant::program_protocol
+}  // namespace canhil::processes::program_protocol

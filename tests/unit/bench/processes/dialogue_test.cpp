@@ -61,9 +61,10 @@ TEST(Dialogue, WithAProgramThatHasEndedEndsNotTheBench) {
   std::signal(SIGPIPE, SIG_DFL);
   Dialogue ended = shell("exit 3");
   EXPECT_EQ(until_closed(ended), "");
-  while (!ended.process().ended()) std::this_thread::sleep_for(1ms);  // its streams close one after the other
+  while (!ended.process()->ended())
+    std::this_thread::sleep_for(1ms);  // its streams close one after the other
   EXPECT_EQ(ended.send("x", steady_clock::now() + 10s), Outcome::closed);
-  EXPECT_EQ(to_text(ended.process().end(1000ms)), "exited with 3");
+  EXPECT_EQ(to_text(ended.process()->end(1000ms)), "exited with 3");
 }
 
 TEST(Dialogue, RunsInTheFolderThatIsAskedFor) {
@@ -100,7 +101,7 @@ TEST(Dialogue, EndsTheProgramIfTheBenchIsKilled) {
   if (bench == 0) {
     close(report[0]);
     Dialogue deaf = shell("trap '' TERM HUP; exec sleep 100", {.signal_at_death = SIGKILL});
-    const pid_t id = deaf.process().id();
+    const pid_t id = deaf.process()->id();
     static_cast<void>(!write(report[1], &id, sizeof id));
     pause();
   }

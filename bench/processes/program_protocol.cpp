@@ -1,4 +1,4 @@
-#include "bench/plant/program/protocol.hpp"
+#include "bench/processes/program_protocol.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +13,7 @@
 
 #include "dbc/text/escape.hpp"
 
-namespace canhil::plant::program_protocol {
+namespace canhil::processes::program_protocol {
 namespace {
 
 // "1" is a plain number.
@@ -29,21 +29,6 @@ std::string_view next_word(std::string_view& text) {
   const std::string_view word = text.substr(0, text.find_first_of(blanks));
   text.remove_prefix(word.size());
   return word;
-}
-
-std::vector<std::string_view> words_of_line(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (auto word = next_word(line); !word.empty(); word = next_word(line)) words.push_back(word);
-  return words;
-}
-
-// A number as C, Python and most other languages write it; also nan and inf.
-std::optional<double> number_of(std::string_view word) {
-  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
-  double value = 0;
-  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (code != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
 }
 
 // A name that expressions can use: rudder, attitude.heading.
@@ -74,8 +59,25 @@ bool take_option(std::string_view option, bool is_input, Variable& variable) {
 
 }  // namespace
 
-std::string opening(std::span<const Parameter> parameters, const Draw& draw) {
-  std::string lines = fmt::format("canhil-plant 1\nseed {}\nrun {}\n", draw.seed, draw.run_index);
+std::vector<std::string_view> words_of_line(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (auto word = next_word(line); !word.empty(); word = next_word(line)) words.push_back(word);
+  return words;
+}
+
+std::optional<double> number_of(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  double value = 0;
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (code != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+std::string opening(std::span<const Parameter> parameters, const Opening& opening) {
+  std::string lines =
+      fmt::format("canhil-{} 1\nseed {}\nrun {}\n", opening.role, opening.seed, opening.run_index);
+  if (!opening.name.empty()) lines += fmt::format("name {}\n", opening.name);
+  lines += opening.further;
   for (const auto& [name, value] : parameters) {
     if (const auto* text = std::get_if<std::string>(&value))
       lines += fmt::format("text {} {}\n", name, *text);
@@ -158,4 +160,4 @@ std::string shown(std::string_view line) {
   return fmt::format("'{}...'", one_line(line.substr(0, end)));
 }
 
-}  // namespace canhil::plant::program_protocol
+}  // namespace canhil::processes::program_protocol

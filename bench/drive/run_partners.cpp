@@ -1,0 +1,53 @@
+#include "bench/drive/run_partners.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "bench/drive/session.hpp"
+#include "bench/partners/partner.hpp"
+
+namespace canhil::drive {
+
+RunPartners::RunPartners(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                         PerRunTruth& own, Schedule& schedule)
+    : scenario_(scenario),
+      truth_(truth),
+      own_(own),
+      schedule_(schedule),
+      interventions_(
+          [&schedule](std::string_view name, bool begins, std::int64_t t_us) {
+            return schedule.faults()->command(name, begins, t_us);
+          },
+          *own.overrides, scenario,
+          [stopped = own.stopped](std::string why) {
+            if (stopped->empty()) *stopped = std::move(why);
+          }) {}
+
+Result<void> RunPartners::join(const Options& options, bool virtual_time) {
+  const partners::Stage stage{.scenario = scenario_,
+                              .run_index = options.run_index,
+                              .truths = truths_of(truth_, own_),
+                              .end_us = truth_.end_us(),
+                              .virtual_time = virtual_time,
+                              .interventions = interventions_};
+  for (const scenario::NodeProgram& one : scenario_.programs) {
+    auto partner = partners::Partner::start(one.name, one.program, stage);
+    if (!partner) return failure(fmt::format("{}: {}", scenario_.file, partner.error().message));
+    schedule_.add(*std::move(partner));
+  }
+  if (options.control.empty()) return {};
+  auto socket = partners::ControlSocket::listen(options.control);
+  if (!socket) return tl::unexpected(socket.error());
+  control_ = *std::move(socket);
+  auto client = partners::Partner::client(*control_, stage, options.awaits_control);
+  if (!client) return tl::unexpected(client.error());
+  schedule_.add(*std::move(client));
+  return {};
+}
+
+void RunPartners::add_notes(std::vector<std::string>& notes) const {
+  for (std::string& note : interventions_.notes()) notes.push_back(std::move(note));
+}
+
+}  // namespace canhil::drive
