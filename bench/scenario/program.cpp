@@ -61,8 +61,8 @@ std::optional<processes::ProgramSettings> read_program(Section& section) {
   processes::ProgramSettings own;
   own.command = section.text({"command",
                               "The program and its arguments, as in a shell without variables and patterns. "
-                              "It runs in the folder of the scenario file. It is also started when the "
-                              "scenario is read, to ask for its inputs and outputs."});
+                              "It runs in the folder of the scenario file. A plant or a sensor is also "
+                              "started when the scenario is read, to ask for its inputs and outputs."});
   own.folder = section.beside("");
   own.starts_within = read_patience(
       section, {"starts_within_s", "Wall time in which the program must report its inputs and outputs."}, 30);

@@ -167,7 +167,8 @@ TEST_F(Disturbed, HonestUnlessSureAndWrong) {
 }
 
 TEST_F(Disturbed, AnsweringWithNumbersAndWithoutAGap) {
-  const Answering rule{.judged = always_reported(transfer_alignment), .excused = {{"it", faulty}}};
+  const Answering rule{.judged = always_reported(transfer_alignment)};
+  seen_.faults.push_back({.name = "it", .window = faulty, .valid_from_us = faulty.from_us, .count = 1});
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
   const Observations sound = seen_;
   std::erase_if(*test::Edited(answers().navigation),
