@@ -206,6 +206,9 @@ address_sanitizer() {
     '[.]Bits[./]' 'ClassicAndFdAgree.*all_four' ScenarioFiles Defective 'Killed[.]' 'Divided.*/[(]([17]|3, 1)' 'Acceptance[.]' 'Slurm[.]' 'Suites[.]'
     'Faults[.](WhatIsKnown|Shards|AViolation)' 'IsJudgedAsItWasFlown/.(all_four|inflight)' 'OfScenario[.].*/.?inflight_(gps|ssbl_180)'
     'LogFlownAgain.*all_four' 'RoundTrip[.]'
+    # The bench runs the same code here as in the quick flights: devices in Python with one defect each, and waits in real time.
+    'DeviceDefects[.]' 'Partners[.](TheExample|AMagnetometer)' 'ClosedLoop[.](ALateDevice|ASlowPlant)' 'Pair[.](AreJudged|OneThatIs)'
+    'ATargetThatStartsSlowly' reports_by_schema
     'kit_in_Python|/Python$' # the target of these tests is a Python program, so it is not instrumented
     'interruptions[.]' # these send a signal a fixed time after the start, when a program with the sanitizer has not yet begun to fly
     # These test which files are written, how a program ends, and what a busy host does. Other tests read and write the same files.

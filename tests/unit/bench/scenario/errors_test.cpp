@@ -34,7 +34,7 @@ std::string keys_of_a_file() {
   };
   return "title, duration_s, dbc, seed, target, engagement, " + nodes_of("plant.range") +
          "glide, wind, airframe, " + nodes_of("plant.height") + "plant, truth, initial_error, " +
-         nodes_of("") + "event, fault, check";
+         nodes_of("") + "node, event, fault, check";
 }
 
 const std::string sigma =
