@@ -89,7 +89,7 @@ struct Observations {
   Complaints complaints;              ///< errors that the target reported in addition to its answers
   TargetReports reports;              ///< what the target reported about its own state
   std::vector<Exchange> exchanges{};  ///< requests of events, in the order in which they were sent
-  std::vector<FaultRecord> faults{};  ///< the faults of the scenario
+  std::vector<FaultRecord> faults{};  ///< of the scenario; one for each time that a fault was active
   std::optional<std::int64_t> longest_input_gap_us{};  ///< see protocol::ReceiverModel::longest_gap_us; none:
                                                        ///< no model observed the run
   ExpectedCounts expected_counts{};                    ///< limits for `counters`

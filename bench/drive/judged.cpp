@@ -15,12 +15,14 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
   std::int64_t latency_us = 0;
   for (const scenario::NodeSettings& node : scenario.nodes)
     latency_us = std::max(latency_us, node.latency_us());
-  for (const faults::FaultReport& fault : faults.reports())
-    seen.faults.push_back({.name = fault.name,
-                           .window = {fault.from_us, fault.to_us},
-                           .valid_from_us = std::max<std::int64_t>(fault.from_us - latency_us, 0),
-                           .of_target = fault.stage == faults::Stage::target,
-                           .count = fault.count});
+  for (const faults::FaultReport& fault : faults.reports()) {
+    for (const auto& [from_us, to_us] : fault.windows)
+      seen.faults.push_back({.name = fault.name,
+                             .window = {from_us, to_us},
+                             .valid_from_us = std::max<std::int64_t>(from_us - latency_us, 0),
+                             .of_target = fault.stage == faults::Stage::target,
+                             .count = fault.count});
+  }
   // An estimator may reject a group because of a changed value. A changed order may make a group late. If a
   // fault moves a time of validity into the future, all groups up to that time are late.
   const faults::Tally tally = faults.tally();

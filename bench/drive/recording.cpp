@@ -284,6 +284,12 @@ class Recording {
 
 Result<Run> judge_recording(const scenario::Scenario& scenario, const std::string& log,
                             observe::Observer* also) {
+  if (!scenario.programs.empty())
+    return failure(
+        fmt::format("{}: has [[node]], and a log does not say what its programs changed, expected a "
+                    "scenario without",
+                    scenario.file));
+  if (auto begins = faults::check_begins(scenario, false); !begins) return tl::unexpected(begins.error());
   auto truth = make_truth(scenario);
   if (!truth) return failure(fmt::format("{}: {}", scenario.file, truth.error().message));
   auto flight = make_flight(scenario, *truth, 0);

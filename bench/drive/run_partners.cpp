@@ -24,12 +24,13 @@ RunPartners::RunPartners(const scenario::Scenario& scenario, const world::Flight
             if (stopped->empty()) *stopped = std::move(why);
           }) {}
 
-Result<void> RunPartners::join(const Options& options, bool virtual_time) {
+Result<void> RunPartners::join(const Options& options, bool virtual_time, bool fd) {
   const partners::Stage stage{.scenario = scenario_,
                               .run_index = options.run_index,
                               .truths = truths_of(truth_, own_),
                               .end_us = truth_.end_us(),
                               .virtual_time = virtual_time,
+                              .fd = fd,
                               .interventions = interventions_};
   for (const scenario::NodeProgram& one : scenario_.programs) {
     auto partner = partners::Partner::start(one.name, one.program, stage);

@@ -23,7 +23,7 @@ class RunPartners {
 
   /// Starts the programs of [[node]], opens the control socket, and adds them to the schedule. Error, one
   /// line: a program cannot be started, or no client came.
-  Result<void> join(const Options& options, bool virtual_time);
+  Result<void> join(const Options& options, bool virtual_time, bool fd);
   /// What the partners did in the run, one line each.
   void add_notes(std::vector<std::string>& notes) const;
 

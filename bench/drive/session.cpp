@@ -92,13 +92,16 @@ class Session {
     dialect_ = std::move(*dialect);
     const faults::Place where = place();
     if (auto work = faults::check(scenario_.faults, where); !work) return work;
+    const bool has_partners = flight_.per_run_truth.overrides != nullptr;
+    if (auto begins = faults::check_begins(scenario_, has_partners); !begins) return begins;
     schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(
         scenario_, options_.run_index, scenario_.binding->messages, where, &hands_));
     schedule_->set_truth(truths_of(truth_, flight_.per_run_truth));
     schedule_->set_failure([this] { return flight_.per_run_truth.why_failed(); });
     if (flight_.per_run_truth.overrides) {
-      auto joined = partners_.emplace(scenario_, truth_, flight_.per_run_truth, *schedule_)
-                        .join(options_, clock_ != ClockKind::real_time);
+      auto joined =
+          partners_.emplace(scenario_, truth_, flight_.per_run_truth, *schedule_)
+              .join(options_, clock_ != ClockKind::real_time, options_.format != BusFormat::classic);
       if (!joined) return joined;
     }
     // A campaign against a program judges the causes of its answers, which needs their stimuli.
@@ -158,6 +161,9 @@ class Session {
     for (Onlooker* one : options_.onlookers) one->landed();
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
+    // The estimator may refuse samples with values that a partner put into them.
+    if (const auto& overrides = flight_.per_run_truth.overrides)
+      seen.expected_counts.most.bad_group += overrides->samples * scenario_.targets.size();
     seen.clipped = schedule_->outbox().clipped().to_text();
     seen.exchanges = dialect_->exchanges();
     if (options_.for_verdict) add_watched(seen);

@@ -14,6 +14,19 @@ Result<void> check(std::span<const scenario::Fault> faults, const Place& place) 
   return {};
 }
 
+Result<void> check_begins(const scenario::Scenario& scenario, bool has_partners) {
+  for (const scenario::Fault& fault : scenario.faults) {
+    const When& when = fault.rule->when();
+    if (when.on_command && !has_partners)
+      return failure(fmt::format("{}: '{}' waits for a command, expected a [[node]], or --control",
+                                 fault.where, fault.name));
+    if (!when.condition) continue;
+    if (const std::string why = scenario::why_no_truth(scenario, *when.condition); !why.empty())
+      return failure(fmt::format("{}: the condition of '{}' has {}", fault.where, fault.name, why));
+  }
+  return {};
+}
+
 Faults::Faults(const scenario::Scenario& scenario, std::uint64_t run_index,
                std::span<const MessageInfo> messages, Place place, RigControl* hands)
     : scenario_(scenario),
@@ -23,6 +36,7 @@ Faults::Faults(const scenario::Scenario& scenario, std::uint64_t run_index,
       rig_(hands),
       tallies_(scenario.faults.size()),
       triggers_(scenario.faults.size()),
+      ended_(scenario.faults.size()),
       begin_in_run_(std::ranges::any_of(scenario.faults, &scenario::Fault::begins_in_run)) {
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
     if (!scenario.faults[i].rule->cannot(place_).empty()) continue;  // check() rejects such a run
@@ -60,7 +74,9 @@ Result<bool> Faults::command(std::string_view name, bool begins, std::int64_t t_
   Trigger& trigger = triggers_[static_cast<std::size_t>(found - scenario_.faults.begin())];
   const std::int64_t lasts_us = found->rule->when().lasts_us;
   const bool is_active = t_us >= trigger.from_us && t_us < trigger.to_us;
-  if (is_active == begins) return false;
+  if (is_active == begins || (begins && t_us == trigger.to_us)) return false;
+  if (begins && trigger.from_us != Trigger::never_us)
+    ended_[static_cast<std::size_t>(found - scenario_.faults.begin())].push_back(trigger);
   if (begins)
     trigger = {.from_us = t_us, .to_us = lasts_us == Trigger::never_us ? lasts_us : t_us + lasts_us};
   else
@@ -86,14 +102,20 @@ std::vector<FaultReport> Faults::reports() const {
   std::vector<FaultReport> all;
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
     const scenario::Fault& fault = scenario_.faults[i];
-    const auto [from_us, to_us] =
-        fault.begins_in_run ? triggers_[i] : Trigger{.from_us = fault.from_us, .to_us = fault.to_us};
+    std::vector<Trigger> windows = ended_[i];
+    windows.push_back(fault.begins_in_run ? triggers_[i]
+                                          : Trigger{.from_us = fault.from_us, .to_us = fault.to_us});
+    for (Trigger& window : windows) {
+      if (fault.begins_in_run) window.from_us = std::min(window.from_us, scenario_.duration_us);
+      window.to_us = std::min(window.to_us, scenario_.duration_us);
+    }
     all.push_back({.name = fault.name,
                    .kind = fault.kind,
                    .stage = fault.rule->stage(),
-                   .from_us = fault.begins_in_run ? std::min(from_us, scenario_.duration_us) : from_us,
-                   .to_us = std::min(to_us, scenario_.duration_us),
-                   .count = tallies_[i].count});
+                   .from_us = windows.front().from_us,
+                   .to_us = windows.back().to_us,
+                   .count = tallies_[i].count,
+                   .windows = windows});
   }
   return all;
 }

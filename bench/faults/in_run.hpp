@@ -19,13 +19,18 @@ namespace canhil::faults {
 struct FaultReport {
   std::string name, kind;
   Stage stage = Stage::bus;
-  std::int64_t from_us = 0, to_us = 0;
-  std::uint64_t count = 0;  ///< see Tally::count
+  std::int64_t from_us = 0, to_us = 0;  ///< of a fault that began several times: from the first to the last
+  std::uint64_t count = 0;              ///< see Tally::count
+  std::vector<Trigger> windows{};       ///< each time that it was active
 };
 
 /// Checks that each fault works with the bus and the target of `place`. Returns an Error of one line if a
 /// fault does not work with them.
 Result<void> check(std::span<const scenario::Fault> faults, const Place& place);
+
+/// Checks that the faults that begin in the run can begin. Returns an Error of one line if the scenario has
+/// no truth of a condition, or if no partner can command a fault.
+Result<void> check_begins(const scenario::Scenario& scenario, bool has_partners);
 
 class Faults final : public sensors::SensorFaults {
  public:
@@ -37,7 +42,8 @@ class Faults final : public sensors::SensorFaults {
   [[nodiscard]] bool begin_in_run() const { return begin_in_run_; }
   /// Begins the faults whose conditions hold at `t_us`, a time of the run. To be called in the order of time.
   void look(const world::Truths& truths, std::int64_t t_us);
-  /// Begins or ends a fault that waits for commands. Returns whether it was not so before. Error, one phrase:
+  /// Begins or ends a fault that waits for commands. Returns whether it was not so before; a fault does not
+  /// begin anew at the time at which it ended. Error, one phrase:
   /// there is no such fault.
   Result<bool> command(std::string_view name, bool begins, std::int64_t t_us);
 
@@ -60,8 +66,9 @@ class Faults final : public sensors::SensorFaults {
   std::span<const MessageInfo> messages_;
   Place place_;
   RigControl* rig_;
-  std::vector<Tally> tallies_;     // one for each fault
-  std::vector<Trigger> triggers_;  // one for each fault
+  std::vector<Tally> tallies_;               // one for each fault
+  std::vector<Trigger> triggers_;            // one for each fault: the last
+  std::vector<std::vector<Trigger>> ended_;  // one for each fault: those before
   bool begin_in_run_ = false;
   std::vector<std::unique_ptr<Injector>> injectors_;
 };

@@ -23,7 +23,10 @@ void Switched::transmit(std::vector<Frame>& /*out*/) {
   const std::int64_t now_us = due_us();
   on_ = !on_;
   if (when_.trigger != nullptr) {
-    if (!on_) return off();
+    if (!on_) {
+      ended_us_ = now_us;
+      return off();
+    }
     ++tally_.count;
     begun_us_ = when_.begins_us();
     ended_us_ = when_.ends_us();

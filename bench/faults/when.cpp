@@ -15,9 +15,8 @@ constexpr std::int64_t longest_us = 86'400'000'000;
 void read_trigger(scenario::Section& section, When& when) {
   constexpr std::string_view meaning =
       "The fault begins when this expression over the truth is not 0 for the first time (\"plant.range < "
-      "1000\"), or by a command (`when = \"command\"`). In place of `from_s` and `to_s`; with `for_s`, it "
-      "ends "
-      "after this time.";
+      "1000\"), or by a command (`when = \"command\"`). In place of `from_s` and `to_s`; `for_s` is then its "
+      "duration.";
   const std::string text = section.text({"when", meaning}, "");
   if (text.empty()) return;
   when.from_us = Trigger::never_us;

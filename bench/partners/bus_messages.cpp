@@ -16,10 +16,7 @@ BusMessages::BusMessages(const scenario::Binding& binding) {
       Own own{.message = &message};
       const auto info = std::ranges::find_if(
           binding.messages, [&](const MessageInfo& one) { return one.name == message.name; });
-      if (info != binding.messages.end()) {
-        own.info = &*info;
-        own.protection = binding.protection_of(*info);
-      }
+      if (info != binding.messages.end()) own.protection = binding.protection_of(*info);
       by_name_.emplace(message.name, std::move(own));
       by_id_.emplace(std::pair(message.id, message.extended), &message);
     }
@@ -65,7 +62,7 @@ Result<Frame> BusMessages::frame(std::string_view name,
   Frame frame{.id = message.id,
               .size = static_cast<std::uint8_t>(bytes->size()),
               .extended = message.extended,
-              .fd = own.info != nullptr && own.info->fd};
+              .fd = message.fd};
   std::ranges::copy(*bytes, frame.data.begin());
   return frame;
 }

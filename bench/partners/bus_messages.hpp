@@ -38,7 +38,6 @@ class BusMessages {
  private:
   struct Own {
     const dbc::Message* message = nullptr;
-    const MessageInfo* info = nullptr;
     std::shared_ptr<const protection::Protection> protection{};
     std::map<std::string, double, std::less<>> values{};  // as last sent
     protection::Sender counter{};

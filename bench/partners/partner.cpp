@@ -22,6 +22,7 @@ namespace protocol = processes::program_protocol;
 
 constexpr std::string_view client_name = "control";
 constexpr std::int64_t look_period_us = 50'000;         // how often a client is looked for
+constexpr std::size_t most_lines = 100'000;             // of the answer to a step
 constexpr std::size_t most_bytes_heard = 4U << 20;      // a partner that is late loses older messages
 constexpr std::chrono::milliseconds between_looks{50};  // at a stop of the run
 constexpr std::chrono::seconds awaits_client{60}, client_declares_within{10};
@@ -50,10 +51,10 @@ Result<std::unique_ptr<Partner>> Partner::start(const std::string& name,
         fmt::format("node '{}': program '{}' at its start: {}", name, one_line(program.command), why));
   };
   std::unique_ptr<Partner> made(new Partner(name, stage, nullptr));
-  made->patience_ = program.answers_within;
   made->command_ = program.command;
-  auto dialogue = Dialogue::start(processes::program_path(program.words.front(), program.folder),
-                                  program.words, {.folder = program.folder, .signal_at_death = SIGKILL});
+  auto dialogue =
+      Dialogue::start(processes::program_path(program.words.front(), program.folder), program.words,
+                      {.folder = program.folder, .ordinary = true, .signal_at_death = SIGKILL});
   if (!dialogue) return wrong(fmt::format("{}, expected an executable file", dialogue.error().message));
   auto opened =
       made->open(std::make_unique<Lines>(*std::move(dialogue)), program.parameters, program.starts_within);
@@ -75,6 +76,7 @@ Result<std::unique_ptr<Partner>> Partner::client(ControlSocket& socket, const St
         return failure(fmt::format("--control '{}': the client {}", socket.path(), opened.error().message));
     }
   }
+  if (world::Stoppable::stopped()) return failure("interrupted");
   if (made->lines_ == nullptr)
     return failure(
         fmt::format("--control '{}': no client connected within {} s", socket.path(), awaits_client.count()));
@@ -86,6 +88,10 @@ Result<void> Partner::open(std::unique_ptr<Lines> lines,
                            std::chrono::microseconds patience) {
   lines_ = std::move(lines);
   is_ready_ = is_asked_ = false;
+  since_ = steady_clock::now();
+  period_us_ = usual_period_us;
+  asked_us_ = now_us_;
+  messages_ = BusMessages(*stage_.scenario.binding);
   inputs_.clear();
   hears_.clear();
   hears_all_ = false;
@@ -103,9 +109,9 @@ Result<void> Partner::open(std::unique_ptr<Lines> lines,
 
 // Reads what the partner declares; `waits`: until it is ready.
 Result<void> Partner::declarations(bool waits) {
-  const auto deadline = steady_clock::now() + patience_;
+  const auto deadline = since_ + patience_;
   while (!is_ready_) {
-    if (!waits && !lines_->has_next()) return {};
+    if (!waits && !lines_->has_next() && steady_clock::now() < deadline) return {};
     const auto line = lines_->next(deadline, patience_);
     if (!line) return tl::unexpected(line.error());
     if (auto declared = declare(*line); !declared) return declared;
@@ -148,7 +154,8 @@ Result<void> Partner::declare(std::string_view line) {
 
 bool Partner::hear(const Frame& frame, std::int64_t now_us) {
   if (!is_ready_ || frame.error) return false;
-  if (heard_.size() > most_bytes_heard) heard_.erase(0, heard_.find('\n', most_bytes_heard / 2) + 1);
+  if (!stage_.virtual_time && heard_.size() > most_bytes_heard)
+    heard_.erase(0, heard_.find('\n', most_bytes_heard / 2) + 1);
   if (hears_all_) heard_ += fmt::format("frame {} {}\n", now_us, to_text(frame));
   if (hears_.empty()) return false;
   const dbc::Message* message = messages_.of(frame);
@@ -165,7 +172,7 @@ void Partner::transmit(nodes::Transmission& out) {
     if (lines_ != nullptr) {
       auto done = is_ready_ ? answers(false) : declarations(stage_.virtual_time);
       if (done && is_ready_) {
-        if (is_asked_)
+        if (is_asked_ || !lines_->flush())
           stage_.interventions.missed(name_);
         else
           done = ask();
@@ -194,28 +201,33 @@ Result<void> Partner::ask() {
   for (const world::TruthValue* one : inputs_)
     values.push_back(one->at(stage_.truths, now_us_).value_or(std::numeric_limits<double>::quiet_NaN()));
   is_asked_ = true;
+  since_ = steady_clock::now();
   const std::string lines =
       std::exchange(heard_, {}) + protocol::step_line(std::exchange(asked_us_, now_us_), now_us_, values);
-  return lines_->send(lines, stage_.virtual_time ? patience_ : std::chrono::microseconds(0));
+  if (stage_.virtual_time) return lines_->send(lines, patience_);
+  lines_->post(lines);
+  return {};
 }
 
 // Takes the lines that have come; `waits`: until the answer to the last step is complete.
 Result<void> Partner::answers(bool waits) {
-  const auto deadline = steady_clock::now() + patience_;
-  while (true) {
-    if (!lines_->has_next()) {
-      if (!waits || !is_asked_ || world::Stoppable::stopped()) return {};
-      // A person may be at the other end of a socket.
-      const bool is_late = socket_ == nullptr && steady_clock::now() >= deadline;
-      if (!is_late && !lines_->wait_next(steady_clock::now() + between_looks)) continue;
+  for (std::size_t lines = 0; !world::Stoppable::stopped(); ++lines) {
+    // A person may be at the other end of a socket.
+    const bool is_late = socket_ == nullptr && is_asked_ && steady_clock::now() >= since_ + patience_;
+    if (!lines_->has_next() && !is_late) {
+      if (!waits || !is_asked_) return {};
+      lines_->wait_next(steady_clock::now() + between_looks);
+      continue;
     }
     const auto line = lines_->next(Lines::Time::min(), patience_);
     if (!line) return tl::unexpected(line.error());
+    if (lines == most_lines) return failure(fmt::format("wrote more than {} lines for a step", most_lines));
     const auto done = answer(*line);
     if (!done) return tl::unexpected(done.error());
     if (*done) is_asked_ = false;
     if (*done && waits) return {};
   }
+  return {};
 }
 
 // Does what a line says; returns whether it ends the answer to a step.
@@ -246,6 +258,8 @@ Result<bool> Partner::answer(std::string_view line) {
     done = frame ? Result<void>{} : tl::unexpected(frame.error());
   } else if (what == "frame") {
     auto frame = frame_of(words[1]);
+    if (frame && frame->fd && !stage_.fd)
+      frame = failure(fmt::format("'{}' is of CAN FD, and the bus is not", one_line(words[1])));
     if (frame) queued_.push_back(*frame);
     done = frame ? Result<void>{} : tl::unexpected(frame.error());
   } else if (what == "begin" || what == "end") {
@@ -270,8 +284,13 @@ void Partner::over(const std::string& why) {
   if (socket_ == nullptr) {
     lines_->kill();
     stage_.interventions.stop(name_, fmt::format("program '{}': {}", one_line(command_), why), now_us_);
+  } else if (!lines_->is_closed()) {
+    lines_->post(fmt::format("error {}\n", one_line(why)));
+    lines_->kill();  // it is not waited for
+    // What it wanted was not done, so the run is not the one that was meant.
+    stage_.interventions.stop(name_, why, now_us_);
   } else {
-    static_cast<void>(lines_->send(fmt::format("error {}\n", one_line(why)), std::chrono::microseconds(0)));
+    lines_->kill();
   }
   lines_.reset();
   is_ready_ = is_asked_ = false;

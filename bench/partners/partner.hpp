@@ -2,10 +2,12 @@
 // sends messages, and may change the run (docs/programs.md). It is asked once in each of its periods.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,6 +31,7 @@ struct Stage {
   std::int64_t end_us = 0;
   /// Time waits for the partner's answer to each step. In real time, a partner that is late misses steps.
   bool virtual_time = false;
+  bool fd = false;  ///< the bus carries frames of CAN FD
   Interventions& interventions;
 };
 
@@ -75,6 +78,7 @@ class Partner final : public nodes::Node {
   std::string command_{};
   bool is_ready_ = false;  // it has declared everything
   bool is_asked_ = false;  // its answer to the last step is not complete
+  Lines::Time since_{};    // since when it is to declare, or to answer
   std::int64_t period_us_ = usual_period_us, due_us_ = 0, asked_us_ = 0, now_us_ = 0;
   std::vector<const world::TruthValue*> inputs_{};
   std::vector<const dbc::Message*> hears_{};

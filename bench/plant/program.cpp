@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "bench/processes/conversation.hpp"
@@ -33,13 +31,6 @@ class ProgramPlant final : public Plant {
   std::unique_ptr<Conversation> conversation_;
 };
 
-bool same(const std::vector<Variable>& a, const std::vector<Variable>& b) {
-  const auto facts = [](const Variable& one) {
-    return std::tie(one.name, one.si, one.turns, one.steps, one.start);
-  };
-  return std::ranges::equal(a, b, {}, facts, facts);
-}
-
 class ProgramPlan final : public Plan {
  public:
   ProgramPlan(const ProgramSettings& settings, const Declared& declared) : settings_(settings) {
@@ -51,7 +42,7 @@ class ProgramPlan final : public Plan {
         Conversation::start(settings_, {.role = role, .seed = draw.seed, .run_index = draw.run_index});
     if (!started) return tl::unexpected(started.error());
     const Declared& now = (*started)->declared();
-    if (!same(now.inputs, inputs) || !same(now.outputs, outputs))
+    if (now.inputs != inputs || now.outputs != outputs)
       return failure(
           fmt::format("program '{}' at its start: declares other inputs or outputs than when the "
                       "scenario was read, expected the same",

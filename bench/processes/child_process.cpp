@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -36,6 +37,14 @@ void connect_streams(const StartOptions& options) {
   const int output = copied(options.output < 0 ? STDERR_FILENO : options.output);
   if (input >= 0) dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
+}
+
+void be_ordinary() {
+  const sched_param none{};
+  sched_setscheduler(0, SCHED_OTHER, &none);
+  cpu_set_t all;
+  std::memset(&all, 0xFF, sizeof all);
+  sched_setaffinity(0, sizeof all, &all);
 }
 
 }  // namespace
@@ -73,6 +82,7 @@ Result<ChildProcess> ChildProcess::start(const std::string& program, std::vector
     std::signal(SIGPIPE, SIG_DFL);  // the program must not inherit the bench's signal settings
     setsid();
     if (!options.cpus.empty()) realtime::pin(options.cpus);
+    if (options.ordinary) be_ordinary();
     connect_streams(options);
     if (options.folder.empty() || chdir(options.folder.c_str()) == 0)
       execv(program.c_str(), arguments.data());

@@ -25,11 +25,13 @@ std::string to_text(const ProcessEnd& end);
 
 /// How a program is started, in addition to its command line.
 struct StartOptions {
-  std::vector<int> cpus{};        ///< CPUs on which it runs; empty: those of the bench
-  std::string folder{};           ///< its working folder; empty: that of the bench
-  int input = -1;                 ///< descriptor that becomes its standard input; -1: that of the bench
-  int output = -1;                ///< descriptor that becomes its standard output; -1: the bench's standard
-                                  ///< error, because the bench may write a report to its standard output
+  std::vector<int> cpus{};  ///< CPUs on which it runs; empty: those of the bench
+  std::string folder{};     ///< its working folder; empty: that of the bench
+  int input = -1;           ///< descriptor that becomes its standard input; -1: that of the bench
+  int output = -1;          ///< descriptor that becomes its standard output; -1: the bench's standard
+                            ///< error, because the bench may write a report to its standard output
+  /// Whether it runs on any CPU and without real-time priority, whatever the bench has.
+  bool ordinary = false;
   int signal_at_death = SIGTERM;  ///< sent by the kernel if the thread that started the program ends
 };
 

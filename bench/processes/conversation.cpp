@@ -22,7 +22,7 @@ Result<std::unique_ptr<Conversation>> Conversation::start(const ProgramSettings&
   };
   // A program that ignores SIGTERM must not outlive a bench that was killed.
   auto dialogue = Dialogue::start(program_path(settings.words.front(), settings.folder), settings.words,
-                                  {.folder = settings.folder, .signal_at_death = SIGKILL});
+                                  {.folder = settings.folder, .ordinary = true, .signal_at_death = SIGKILL});
   if (!dialogue)
     return wrong(fmt::format("{}, expected an executable file{}", dialogue.error().message,
                              settings.folder.empty() ? "" : " (from " + one_line(settings.folder) + ")"));

@@ -65,7 +65,7 @@ Result<Dialogue> Dialogue::over(Descriptor connection) {
   return Dialogue(std::nullopt, std::move(other), std::move(connection));
 }
 
-Dialogue::Outcome Dialogue::send(std::string_view bytes, Time deadline) {
+Dialogue::Outcome Dialogue::send_some(std::string_view& bytes, Time deadline) {
   while (!bytes.empty()) {
     const ssize_t sent = write(to_program_.get(), bytes.data(), bytes.size());
     if (sent >= 0) {

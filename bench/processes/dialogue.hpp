@@ -36,7 +36,9 @@ class Dialogue {
   static Result<Dialogue> over(Descriptor connection);
 
   /// Sends all bytes.
-  Outcome send(std::string_view bytes, Time deadline);
+  Outcome send(std::string_view bytes, Time deadline) { return send_some(bytes, deadline); }
+  /// Sends bytes, and leaves in `bytes` those that were not sent before the deadline.
+  Outcome send_some(std::string_view& bytes, Time deadline);
   /// Waits for bytes of the program and appends them to `received`, at most `most` of them.
   Outcome receive(std::string& received, Time deadline, std::size_t most = 4096);
   /// The program reads the end of its standard input.

@@ -44,10 +44,23 @@ void ProgramLines::kill() {
   dialogue_.process()->end(ChildProcess::short_patience);
 }
 
+void ProgramLines::post(std::string_view text) {
+  unsent_ += text;
+  flush();
+}
+
+bool ProgramLines::flush() {
+  std::string_view left = unsent_;
+  if (dialogue_.send_some(left, Time::min()) == Dialogue::Outcome::closed) left = {};
+  unsent_.erase(0, unsent_.size() - left.size());
+  return unsent_.empty();
+}
+
 bool ProgramLines::has_next() { return wait_next(Time::min()); }
 
 bool ProgramLines::wait_next(Time deadline) {
   while (received_.find('\n') == std::string::npos && !closed_) {
+    if (received_.size() > most_bytes_of_line) return true;  // next() reports it
     const auto outcome = dialogue_.receive(received_, deadline);
     if (outcome == Dialogue::Outcome::late) return false;
     closed_ = outcome == Dialogue::Outcome::closed;
@@ -69,7 +82,10 @@ Result<std::string> ProgramLines::next(Time deadline, std::chrono::microseconds 
     const std::size_t searched = received_.size();
     const auto outcome = dialogue_.receive(received_, deadline);
     if (outcome == Dialogue::Outcome::late) return late(patience);
-    if (outcome == Dialogue::Outcome::closed) return closed();
+    if (outcome == Dialogue::Outcome::closed) {
+      closed_ = true;
+      return closed();
+    }
     end = received_.find('\n', searched);
   }
   std::string line = received_.substr(0, end);

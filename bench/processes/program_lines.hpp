@@ -23,6 +23,10 @@ class ProgramLines {
 
   /// Sends text; a program that has closed its standard input is reported by the next line that is read.
   Result<void> send(std::string_view text, std::chrono::microseconds patience);
+  /// Sends text as far as the program takes it now; the rest is sent by flush().
+  void post(std::string_view text);
+  /// Whether nothing is left to be sent, now that the program may take more.
+  bool flush();
   /// The next line of the program. Error: none comes in time, it is too long, or the program reports an
   /// error.
   Result<std::string> next(Time deadline, std::chrono::microseconds patience);
@@ -31,6 +35,8 @@ class ProgramLines {
   /// Waits until next() would not wait; false: the deadline has passed.
   bool wait_next(Time deadline);
   void kill();
+  /// Whether the program has closed its side.
+  [[nodiscard]] bool is_closed() const { return closed_; }
 
  private:
   tl::unexpected<Error> late(std::chrono::microseconds patience) const;
@@ -39,6 +45,7 @@ class ProgramLines {
   [[nodiscard]] std::string after_last_line() const;
 
   Dialogue dialogue_;
+  std::string unsent_{};
   std::string received_{};   // after the last line that was read
   std::string last_line_{};  // for messages
   bool closed_ = false, over_ = false;

@@ -38,6 +38,7 @@ inline constexpr std::string_view end_line = "end\n";
 /// The inputs and outputs of a program, in the order of its lines.
 struct Declared {
   std::vector<Variable> inputs{}, outputs{};
+  friend bool operator==(const Declared&, const Declared&) = default;
 };
 
 /// The words of a line.

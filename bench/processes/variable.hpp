@@ -13,6 +13,7 @@ struct Variable {
   bool steps =
       false;         ///< changes only in steps: an integer, a switch. No value lies between two of its values
   double start = 0;  ///< of an input: its value before the first command
+  friend bool operator==(const Variable&, const Variable&) = default;
 };
 
 }  // namespace canhil::processes

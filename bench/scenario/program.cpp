@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -16,8 +17,8 @@
 namespace canhil::scenario {
 namespace {
 
-std::vector<processes::program_protocol::Parameter> read_parameters(Section& section) {
-  std::vector<processes::program_protocol::Parameter> parameters;
+std::vector<processes::ProgramSettings::Parameter> read_parameters(Section& section) {
+  std::vector<processes::ProgramSettings::Parameter> parameters;
   auto table = section.optional_table(
       {"parameters",
        "Parameters of the program, NAME = number or text; it reads them before its first step."});
@@ -90,6 +91,8 @@ std::vector<NodeProgram> read_node_programs(Section& root) {
   for (Section& section : root.tables("node")) {
     NodeProgram node;
     node.name = section.text({"name", "Name of the node, for reports."});
+    if (node.name == "control")
+      section.reject("name", "is that of a program at the socket of --control", "another name");
     if (std::ranges::find(programs, node.name, &NodeProgram::name) != programs.end())
       section.reject("name", fmt::format("'{}' is the name of another node", node.name), "a name of its own");
     if (auto program = read_program(section)) node.program = *std::move(program);

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "bench/processes/conversation.hpp"
+#include "bench/processes/program_settings.hpp"
 
 namespace canhil::scenario {
 

@@ -41,7 +41,7 @@ struct Run {
   std::function<void(std::int64_t from_us, std::span<const double> inputs)> guide{};
   /// Ends the run, because a sensor cannot measure any more. `why`: one phrase.
   std::function<void(std::string why)> fail{};
-  const struct Overrides* overrides = nullptr;  ///< by partners of the run; null: there are none
+  struct Overrides* overrides = nullptr;  ///< by partners of the run; null: there are none
 
   /// A stream of random numbers. The name must never change: the results depend on it.
   [[nodiscard]] world::Stream stream(std::string_view name) const {

@@ -7,14 +7,16 @@ namespace {
 
 class Overridden final : public Sensor {
  public:
-  Overridden(std::unique_ptr<Sensor> sensor, const Kind& kind, const Overrides& overrides)
+  Overridden(std::unique_ptr<Sensor> sensor, const Kind& kind, Overrides& overrides)
       : sensor_(std::move(sensor)), kind_(kind), overrides_(overrides) {}
 
   [[nodiscard]] std::int64_t due_us() const override { return sensor_->due_us(); }
   Sample measure() override {
     Sample sample = sensor_->measure();
+    bool is_changed = false;
     for (const auto& [place, value] : overrides_.values) {
       if (place.sensor != &kind_) continue;
+      is_changed = true;
       const std::uint32_t flag = 1U << place.index;
       if (place.role == Role::value)
         sample.values[place.index] = value;
@@ -23,6 +25,7 @@ class Overridden final : public Sensor {
       else
         sample.invalid &= ~flag;
     }
+    if (is_changed) ++overrides_.samples;
     return sample;
   }
   [[nodiscard]] bool is_guided() const override { return sensor_->is_guided(); }
@@ -31,13 +34,13 @@ class Overridden final : public Sensor {
  private:
   std::unique_ptr<Sensor> sensor_;
   const Kind& kind_;
-  const Overrides& overrides_;
+  Overrides& overrides_;
 };
 
 }  // namespace
 
 std::unique_ptr<Sensor> with_overrides(std::unique_ptr<Sensor> sensor, const Kind& kind,
-                                       const Overrides& overrides) {
+                                       Overrides& overrides) {
   return std::make_unique<Overridden>(std::move(sensor), kind, overrides);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -21,10 +22,11 @@ struct Overrides {
     }
   };
   std::map<Place, double> values{};  ///< in SI; of a flag: 0 is invalid
+  std::uint64_t samples = 0;         ///< number of samples that were changed
 };
 
-/// A sensor whose samples have the values of `overrides`, which must outlive it.
+/// A sensor whose samples have the values of `overrides`, which must outlive it and counts them.
 std::unique_ptr<Sensor> with_overrides(std::unique_ptr<Sensor> sensor, const Kind& kind,
-                                       const Overrides& overrides);
+                                       Overrides& overrides);
 
 }  // namespace canhil::sensors

@@ -102,8 +102,7 @@ class ProgramSensor final : public LossySampler<ProgramSettings> {
       return;
     }
     conversation_ = *std::move(started);
-    if (conversation_->declared().inputs.size() != config_.inputs.size() ||
-        conversation_->declared().outputs.size() != config_.outputs.size())
+    if (!(conversation_->declared() == config_.declared))
       fail(
           fmt::format("program '{}' at its start: declares other inputs or outputs than when the scenario "
                       "was read, expected the same",
@@ -179,6 +178,7 @@ NodeSettings read_program(const NodeTable& table, Section& section) {
   const auto wrong = [&](const std::string& what) {
     section.reject("command", Error{fmt::format("program '{}': {}", node.program.command, what)});
   };
+  node.declared = (*started)->declared();
   auto inputs = inputs_of((*started)->declared().inputs);
   auto outputs = outputs_of(table.sensor->outputs, (*started)->declared().outputs);
   if (!inputs)

@@ -17,6 +17,7 @@ struct ProgramSettings {
   scenario::Schedule schedule{};
   SampleLoss loss{};
   processes::ProgramSettings program{};
+  processes::program_protocol::Declared declared{};
   std::vector<const world::TruthValue*> inputs{};  ///< in the order of the program's inputs
   /// What an output of the program is: the index of a value of the sample, or of a validity flag.
   struct Destination {

@@ -30,6 +30,14 @@ FILES = {"--json": "report.json", "--junit": "report.xml", "--csv": "values.csv"
 TAR = "in=$(mktemp -d) && out=$(mktemp -d) && trap 'rm -rf \"$in\" \"$out\"' EXIT && tar -xC \"$in\" && cd \"$in\""
 
 
+UNREACHABLE = 255
+"""The exit code of ssh, and of labgrid-client ssh, that did not reach the machine."""
+
+
+class Unreachable(Exception):
+    """A machine that does not answer."""
+
+
 @dataclass(frozen=True)
 class Bench:
     """A machine with hil-bench. A table [[bench]] of a lab's file has these keys."""
@@ -123,7 +131,8 @@ def benches(path: program.StrPath) -> list[Bench]:
     for table in tables["bench"]:
         for key, value in table.items():
             expected: type = list if key == "options" else str
-            if key not in known or not isinstance(value, expected):
+            texts = value if isinstance(value, list) else [value]
+            if key not in known or not isinstance(value, expected) or not all(isinstance(one, str) for one in texts):
                 raise Error(f"{file}: key 'bench.{key}': expected one of {', '.join(known)}, a text (options: a list)", file=file, key=key)
         if not table.get("name") or (table.get("ssh") and table.get("labgrid")):
             raise Error(f"{file}: key 'bench': expected a name, and at most one of ssh and labgrid", file=file, key="bench")
@@ -144,10 +153,13 @@ def _fly(bench: Bench, scenario: Path, tree: Path, packed: bytes, folder: Path) 
     words = [bench.program, "run", os.fspath(scenario.relative_to(tree)), *bench.options]
     words += ["--bus", bench.bus] if bench.bus else []
     words += ["--target", bench.target] if bench.target else []
-    line = shlex.join(words) + "".join(f' {option} "$out/{name}"' for option, name in FILES.items())
+    files = {option: name for option, name in FILES.items() if option != "--log" or "unrounded" not in bench.bus}
+    line = shlex.join(words) + "".join(f' {option} "$out/{name}"' for option, name in files.items())
     # The files come back on standard output, whatever the verdict is.
     shell = f'{TAR} && {{ {line} >/dev/null; code=$?; tar -cC "$out" .; exit $code; }}'
     ended = subprocess.run(bench.command(shell), input=packed, capture_output=True, check=False)
+    if ended.returncode == UNREACHABLE and (bench.ssh or bench.labgrid):
+        raise Unreachable(f"{bench.name}: {ended.stderr.decode(errors='replace').strip()}")
     if ended.returncode not in (program.PASS, program.FAIL, program.NOT_MEASURED):
         raise error_of(ended.stderr.decode(errors="replace"))
     folder.mkdir(parents=True)
@@ -164,7 +176,7 @@ def _fly(bench: Bench, scenario: Path, tree: Path, packed: bytes, folder: Path) 
 def _labgrid(bench: Bench, what: str) -> None:
     ended = subprocess.run(["labgrid-client", "-p", bench.labgrid, what], capture_output=True, text=True, check=False)
     if ended.returncode != 0:
-        raise Error(f"labgrid: place '{bench.labgrid}': {what}: {(ended.stderr or ended.stdout).strip().splitlines()[-1:]}")
+        raise Error(f"labgrid: place '{bench.labgrid}': {what}: {(ended.stderr or ended.stdout).strip()}")
 
 
 def run(
@@ -208,13 +220,21 @@ def run(
                 flown = results[index] = Flown(paths[index], bench)
                 try:
                     flown.run = _fly(bench, paths[index], root, packed, place / f"{index + 1}-{paths[index].stem}")
+                except Unreachable as wrong:
+                    print(wrong, file=sys.stderr)  # the other benches fly what is left
+                    results[index] = None
+                    waiting.put(index)
+                    return
                 except (Error, OSError, tarfile.TarError) as wrong:
                     flown.error = wrong if isinstance(wrong, Error) else Error(f"{bench.name}: {wrong}")
         except queue.Empty:
             return
         finally:
             if bench.labgrid:
-                _labgrid(bench, "release")
+                try:
+                    _labgrid(bench, "release")
+                except (Error, OSError) as wrong:
+                    print(f"{bench.name}: {wrong}", file=sys.stderr)
 
     threads = [threading.Thread(target=serve, args=(bench,)) for bench in lab]
     for thread in threads:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import socket
 import subprocess
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 
@@ -39,7 +40,12 @@ class Flight:
         self._socket = self._connect(path)
         source = self._socket.makefile("r", encoding="utf-8", newline="\n")
         self._lines = partner.Lines(source, self._socket.makefile("w", encoding="utf-8", newline="\n"))
-        partner.opening(self._lines)
+        try:
+            partner.opening(self._lines)
+        except EOFError:
+            self._kill()
+            raise self._error() from None
+        self._steps: Generator[partner.Bench, None, None] = partner.steps(self._lines, *self._asks)
 
     def _connect(self, path: Path) -> socket.socket:
         own = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
@@ -63,26 +69,47 @@ class Flight:
         return self
 
     def __iter__(self) -> Iterator[partner.Bench]:
+        return self
+
+    def __next__(self) -> partner.Bench:
         try:
-            yield from partner.steps(self._lines, *self._asks)
+            return next(self._steps)
         except RuntimeError as refused:
             raise Error(str(refused)) from None
         except (BrokenPipeError, ConnectionResetError):  # the run ended while the script was busy
-            return
+            raise StopIteration from None
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._socket.shutdown(socket.SHUT_RDWR)
-        self._socket.close()
         if kind is not None:
-            return self._kill()
+            self._kill()
+            self._errors.close()
+            return
+        refused = self._leave()
         ended = self._bench.wait()
         if ended not in (program.PASS, program.FAIL, program.NOT_MEASURED):
             raise self._error()
         self._errors.close()
         self.run = self._command.run()
-        return None
+        if refused:
+            raise Error(refused)
+
+    def _leave(self) -> str:
+        """Sends what the last step did, and returns why the bench refuses it."""
+        refused = ""
+        try:
+            self._steps.close()
+            self._socket.shutdown(socket.SHUT_WR)
+            for line in self._lines.source:
+                if line.startswith("error "):
+                    refused = line.partition(" ")[2].rstrip("\n")
+        except OSError:  # the run ended while the script was busy
+            pass
+        for stream in (self._lines.sink, self._lines.source, self._socket):
+            with contextlib.suppress(OSError):  # what was not sent has nobody to read it
+                stream.close()
+        return refused
 
     def _kill(self) -> None:
         self._bench.terminate()

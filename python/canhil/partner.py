@@ -46,7 +46,7 @@ import os
 import random
 import sys
 import traceback
-from typing import Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, TextIO, Tuple
+from typing import Any, Callable, Dict, Generator, List, Mapping, NamedTuple, Optional, Sequence, TextIO, Tuple
 
 VERSION = "1"
 
@@ -100,7 +100,7 @@ def opening(lines: Lines) -> Tuple[str, Dict[str, Any]]:
     parameters: Dict[str, Any] = {}
     while (line := lines.read()) != "start":
         if line == "end":
-            sys.exit(0)
+            raise EOFError("the bench ended before the run began")
         word, _, rest = line.partition(" ")
         name, _, value = rest.partition(" ")
         if word == "number":
@@ -124,9 +124,9 @@ def state(values: Sequence[Any]) -> str:
     return " ".join(["state", *(repr(float(value)) for value in values)])
 
 
-def serve_values(one: Any, lines: Lines) -> None:
+def serve_values(one: Any, lines: Lines, is_sensor: bool) -> None:
     """A plant or a sensor."""
-    measure: Optional[Callable[..., Sequence[Any]]] = getattr(one, "measure", None)
+    measure: Optional[Callable[..., Sequence[Any]]] = one.measure if is_sensor else None
     for name, unit in one.inputs.items():
         lines.write(f"input {name} {unit}")
     for name, unit in one.outputs.items():
@@ -217,15 +217,19 @@ def next_step(lines: Lines, truth: Sequence[str]) -> Optional[Bench]:
             return None
 
 
-def steps(lines: Lines, period: float, truth: Sequence[str], hears: Sequence[str]) -> Iterator[Bench]:
-    """Declares a node, and gives its steps; each is answered when the next is asked for."""
-    declared = [f"period {period!r}", *(f"input {name}" for name in truth), *(f"hear {name}" for name in hears)]
-    lines.write(*declared, "ready")
+def steps(lines: Lines, period: float, truth: Sequence[str], hears: Sequence[str]) -> Generator[Bench, None, None]:
+    """Declares a node, and gives its steps; each is answered when the next is asked for, and the last by close()."""
+    declare(lines, period, truth, hears)
     while (bench := next_step(lines, truth)) is not None:
         try:
             yield bench
-        finally:  # also when nobody asks for a further step
+        finally:
             lines.write(*bench.lines, "done")
+
+
+def declare(lines: Lines, period: float, truth: Sequence[str], hears: Sequence[str]) -> None:
+    declared = [f"period {period!r}", *(f"input {name}" for name in truth), *(f"hear {name}" for name in hears)]
+    lines.write(*declared, "ready")
 
 
 def converse(make: Callable[..., Any], lines: Lines) -> None:
@@ -233,9 +237,12 @@ def converse(make: Callable[..., Any], lines: Lines) -> None:
     random.seed(f"{run.seed} {run.index}" + (f" {run.name}" if run.name else ""))
     one = make(**parameters)
     if role != "node":
-        return serve_values(one, lines)
-    for bench in steps(lines, getattr(one, "period", 0.01), getattr(one, "truth", []), getattr(one, "hears", [])):
-        one.step(bench)
+        return serve_values(one, lines, role == "sensor")
+    truth = getattr(one, "truth", [])
+    declare(lines, getattr(one, "period", 0.01), truth, getattr(one, "hears", []))
+    while (bench := next_step(lines, truth)) is not None:
+        one.step(bench)  # what it did before an exception is not sent
+        lines.write(*bench.lines, "done")
     return None
 
 
@@ -244,6 +251,8 @@ def serve(make: Callable[..., Any]) -> None:
     lines = standard_lines()
     try:
         converse(make, lines)
+    except EOFError:
+        sys.exit(0)
     except BrokenPipeError:  # the bench has ended
         os._exit(1)
     except Exception as error:  # of the program: the bench reports it

@@ -80,11 +80,14 @@ def test_a_scenario_that_is_refused_is_an_error_of_its_own(scenarios: list[Path]
     assert "title" in error.get("message", "")
 
 
-def test_a_machine_that_does_not_answer_is_named(scenarios: list[Path], machines: Path, tmp_path: Path) -> None:
+def test_a_machine_that_does_not_answer_is_named(
+    scenarios: list[Path], machines: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     Path(os.environ["PATH"].split(":")[0], "ssh").write_text("#!/bin/sh\necho 'ssh: no route to host' >&2\nexit 255\n")
     Path(os.environ["PATH"].split(":")[0], "labgrid-client").write_text("#!/bin/sh\necho 'place is not free' >&2\nexit 1\n")
     result = lab.run(scenarios[:1], [lab.Bench("far", ssh="far")], folder=tmp_path / "a")
-    assert "no route to host" in str(result.flown[0].error)
+    assert "no bench" in str(result.flown[0].error)
+    assert "no route to host" in capsys.readouterr().err
     result = lab.run(scenarios[:1], [lab.Bench("taken", labgrid="taken")], folder=tmp_path / "b")
     assert "no bench" in str(result.flown[0].error)
 
@@ -97,6 +100,7 @@ def test_a_machine_that_does_not_answer_is_named(scenarios: list[Path], machines
         '[[bench]]\nbus = "can0"\n',
         '[[bench]]\nname = "a"\nbuss = "can0"\n',
         '[[bench]]\nname = "a"\nbus = 3\n',
+        '[[bench]]\nname = "a"\noptions = [3]\n',
         '[[bench]]\nname = "a"\nssh = "x"\nlabgrid = "y"\n',
         '[[bench]]\nname = "a"\n[[bench]]\nname = "a"\n',
     ],

@@ -83,6 +83,35 @@ def test_what_the_bench_refuses_is_an_error(scenario: Path, arguments: dict, say
             pass
 
 
+def test_the_last_step_before_a_script_leaves_counts(scenario: Path) -> None:
+    with canhil.live(scenario, bus="in-process", faults=[SPIKE]) as flight:
+        for now in flight:
+            break
+        now.begin("spike")  # after the loop
+        assert next(iter(flight)).t == 0.01, "a second loop goes on"
+    assert flight.run.document["faults"][0]["from_s"] == 0
+    with pytest.raises(canhil.Error, match="no fault 'spikee'"), canhil.live(scenario, bus="in-process", faults=[SPIKE]) as flight:
+        for now in flight:
+            now.begin("spikee")
+            break
+    assert flight.run.verdict is Verdict.NOT_MEASURED
+
+
+def test_a_fault_is_told_for_each_time_that_it_was_active(scenario: Path, tmp_path: Path) -> None:
+    silent = {"name": "silent", "kind": "silent", "node": "seeker", "when": "command"}
+    check = {"kind": "answering", "name": "answers"}
+    text = scenario.read_text() + "".join(["\n[[check]]\n", *(f'{key} = "{value}"\n' for key, value in check.items())])
+    file = tmp_path / "twice.toml"
+    file.write_text(text)
+    with canhil.live(file, bus="in-process", faults=[silent], period=0.1) as flight:
+        for now in flight:
+            if round(now.t, 1) in (1.0, 3.0):
+                now.begin("silent")
+            if round(now.t, 1) in (1.5, 3.5):
+                now.end("silent")
+    assert flight.run.judgement("answers").outcome is Verdict.PASS, "it owes no answers while the seeker is silent"
+
+
 def test_what_a_script_does_wrongly_is_an_error_and_ends_the_run(scenario: Path) -> None:
     with pytest.raises(canhil.Error, match="no fault 'nothing'"), canhil.live(scenario, bus="in-process") as flight:
         for now in flight:
@@ -174,7 +203,7 @@ def test_a_node() -> None:
 def test_another_protocol_is_refused() -> None:
     with pytest.raises(RuntimeError, match="version 1"):
         said(Valve, "canhil-plant 2\nstart\n")
-    with pytest.raises(SystemExit):
+    with pytest.raises(EOFError):
         said(Valve, "canhil-plant 1\nend\n")
 
 
