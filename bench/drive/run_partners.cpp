@@ -24,13 +24,13 @@ RunPartners::RunPartners(const scenario::Scenario& scenario, const world::Flight
             if (stopped->empty()) *stopped = std::move(why);
           }) {}
 
-Result<void> RunPartners::join(const Options& options, bool virtual_time, bool fd) {
+Result<void> RunPartners::join(const Options& options, bool virtual_time) {
   const partners::Stage stage{.scenario = scenario_,
                               .run_index = options.run_index,
                               .truths = truths_of(truth_, own_),
                               .end_us = truth_.end_us(),
                               .virtual_time = virtual_time,
-                              .fd = fd,
+                              .fd = options.format != BusFormat::classic,
                               .interventions = interventions_};
   for (const scenario::NodeProgram& one : scenario_.programs) {
     auto partner = partners::Partner::start(one.name, one.program, stage);
@@ -47,8 +47,15 @@ Result<void> RunPartners::join(const Options& options, bool virtual_time, bool f
   return {};
 }
 
-void RunPartners::add_notes(std::vector<std::string>& notes) const {
-  for (std::string& note : interventions_.notes()) notes.push_back(std::move(note));
+void RunPartners::prepare(const scenario::Scenario& scenario, const Options& options, PerRunTruth& own) {
+  if (!scenario.programs.empty() || !options.control.empty())
+    own.overrides = std::make_shared<sensors::Overrides>();
+}
+
+// The estimator may refuse samples with values that a partner put into them.
+void RunPartners::add_to(checks::Observations& seen) const {
+  for (std::string& note : interventions_.notes()) seen.bus.notes.push_back(std::move(note));
+  seen.expected_counts.most.bad_group += own_.overrides->samples * scenario_.targets.size();
 }
 
 }  // namespace canhil::drive

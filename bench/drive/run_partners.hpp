@@ -2,9 +2,8 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
 
+#include "bench/checks/observations.hpp"
 #include "bench/drive/flight.hpp"
 #include "bench/partners/control_socket.hpp"
 #include "bench/partners/interventions.hpp"
@@ -17,15 +16,17 @@ struct Options;
 
 class RunPartners {
  public:
-  /// All arguments must outlive this object. The truth of the run must have overrides.
+  /// Prepares the truth of a run for partners, if it has some.
+  static void prepare(const scenario::Scenario& scenario, const Options& options, PerRunTruth& own);
+  /// All arguments must outlive this object. The truth of the run must be prepared.
   RunPartners(const scenario::Scenario& scenario, const world::FlightRecord& truth, PerRunTruth& own,
               Schedule& schedule);
 
   /// Starts the programs of [[node]], opens the control socket, and adds them to the schedule. Error, one
   /// line: a program cannot be started, or no client came.
-  Result<void> join(const Options& options, bool virtual_time, bool fd);
-  /// What the partners did in the run, one line each.
-  void add_notes(std::vector<std::string>& notes) const;
+  Result<void> join(const Options& options, bool virtual_time);
+  /// Adds what the partners did in the run, one line each, and what the target may do because of it.
+  void add_to(checks::Observations& seen) const;
 
  private:
   const scenario::Scenario& scenario_;

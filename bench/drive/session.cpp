@@ -71,8 +71,7 @@ class Session {
         bus_watch_(*port_),
         load_(options.format, load_by(bus_, clock_, scenario.binding->time_base)),
         commands_(rig_commands_of(scenario)) {
-    if (!scenario.programs.empty() || !options.control.empty())
-      flight_.per_run_truth.overrides = std::make_shared<sensors::Overrides>();
+    RunPartners::prepare(scenario, options, flight_.per_run_truth);
   }
 
   // Creates the dialect. After this call the session is complete.
@@ -92,17 +91,15 @@ class Session {
     dialect_ = std::move(*dialect);
     const faults::Place where = place();
     if (auto work = faults::check(scenario_.faults, where); !work) return work;
-    const bool has_partners = flight_.per_run_truth.overrides != nullptr;
-    if (auto begins = faults::check_begins(scenario_, has_partners); !begins) return begins;
+    auto begins = faults::check_begins(scenario_, flight_.per_run_truth.overrides != nullptr);
+    if (!begins) return begins;
     schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(
         scenario_, options_.run_index, scenario_.binding->messages, where, &hands_));
     schedule_->set_truth(truths_of(truth_, flight_.per_run_truth));
     schedule_->set_failure([this] { return flight_.per_run_truth.why_failed(); });
     if (flight_.per_run_truth.overrides) {
-      auto joined =
-          partners_.emplace(scenario_, truth_, flight_.per_run_truth, *schedule_)
-              .join(options_, clock_ != ClockKind::real_time, options_.format != BusFormat::classic);
-      if (!joined) return joined;
+      partners_.emplace(scenario_, truth_, flight_.per_run_truth, *schedule_);
+      if (auto joined = partners_->join(options_, clock_ != ClockKind::real_time); !joined) return joined;
     }
     // A campaign against a program judges the causes of its answers, which needs their stimuli.
     watcher_ = dialect_->watcher(options_.for_verdict || !options_.targets.empty());
@@ -161,12 +158,10 @@ class Session {
     for (Onlooker* one : options_.onlookers) one->landed();
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
-    // The estimator may refuse samples with values that a partner put into them.
-    if (const auto& overrides = flight_.per_run_truth.overrides)
-      seen.expected_counts.most.bad_group += overrides->samples * scenario_.targets.size();
     seen.clipped = schedule_->outbox().clipped().to_text();
     seen.exchanges = dialect_->exchanges();
     if (options_.for_verdict) add_watched(seen);
+    if (partners_) partners_->add_to(seen);
     end_target(ended_before, seen.bus.notes);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),
@@ -296,7 +291,6 @@ class Session {
     seen.bus.late_in_queue = link_.late_in_queue();
     seen.bus.foreign = port_->counters().foreign;
     seen.bus.notes = *notes_;
-    if (partners_) partners_->add_notes(seen.bus.notes);
     if (link_.flood()) seen.bus.notes.push_back(to_text(*link_.flood()));
     seen.receive_overflows = static_cast<std::uint32_t>(port_->counters().overflowed);
   }
