@@ -106,9 +106,9 @@ class Flight:
                     refused = line.partition(" ")[2].rstrip("\n")
         except OSError:  # the run ended while the script was busy
             pass
-        for stream in (self._lines.sink, self._lines.source, self._socket):
+        for close in (self._lines.sink.close, self._lines.source.close, self._socket.close):
             with contextlib.suppress(OSError):  # what was not sent has nobody to read it
-                stream.close()
+                close()
         return refused
 
     def _kill(self) -> None:

@@ -68,7 +68,9 @@ def expect_scenario(file: Path, scenario) -> None:
     expect(file, scenario.get("glide", {}).get("initial_error", {}), "Truth and initial errors", "[glide.initial_error]")
     for name, table in scenario.items():
         if isinstance(table, dict) and ("Nodes", f"[{name}]") in keys:
-            expect(file, table, "Nodes", f"[{name}]")
+            expect(file, table, "Nodes", "Any sensor that a program computes" if "command" in table else f"[{name}]")
+    for node in tables_of(scenario, "node"):
+        expect(file, node, "Nodes", "[[node]]")
     for fault in tables_of(scenario, "fault"):
         expect(file, fault, "Faults", "[[fault]]", fault["kind"])
     for check in tables_of(scenario, "check"):

@@ -22,7 +22,7 @@ std::string failing_ship() {
   const auto change = [&](const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
   };
-  change("Path(__file__).resolve().parents[1] / \"kit\"", "'" SOURCE_DIR "/docs/examples/kit'");
+  change("Path(__file__).resolve().parents[3] / \"python/canhil\"", "'" SOURCE_DIR "/python/canhil'");
   const std::string step = "    def step(self, t, dt, inputs):\n";
   change(step, step + "        if t > 3: raise ValueError('aground')\n");
   std::ofstream(own_folder() + "/failing.py") << text;
