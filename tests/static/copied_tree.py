@@ -5,7 +5,7 @@ Files of the copy that have not changed are not written again, so that the copy 
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PARTS = ("CMakeLists.txt", "CMakePresets.json", "README.md", "bench", "cmake", "dbc", "docs", "target", "tests")
+PARTS = ("CMakeLists.txt", "CMakePresets.json", "README.md", "bench", "cmake", "dbc", "docs", "python", "target", "tests")
 
 
 def write(file, content):

@@ -3,8 +3,11 @@ import struct
 import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parents[3] / "python/canhil"))
-import partner  # noqa: E402  (a single file of the package)
+try:
+    from canhil import partner  # the package, if it is installed
+except ImportError:
+    sys.path.append(str(Path(__file__).resolve().parents[3] / "python/canhil"))  # its file in a clone
+    import partner
 
 
 class Gateway:
