@@ -30,7 +30,7 @@ struct StartOptions {
   int input = -1;           ///< descriptor that becomes its standard input; -1: that of the bench
   int output = -1;          ///< descriptor that becomes its standard output; -1: the bench's standard
                             ///< error, because the bench may write a report to its standard output
-  /// Whether it runs on any CPU and without real-time priority, whatever the bench has.
+  /// Whether it runs without real-time priority, and then on any CPU, if the bench has a real-time priority.
   bool ordinary = false;
   int signal_at_death = SIGTERM;  ///< sent by the kernel if the thread that started the program ends
 };
