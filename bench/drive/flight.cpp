@@ -166,6 +166,12 @@ std::vector<plant::Simulation*> PerRunTruth::plants() const {
   return all;
 }
 
+std::function<void(std::string)> PerRunTruth::stopper() const {
+  return [stopped = stopped](std::string why) {
+    if (stopped->empty()) *stopped = std::move(why);
+  };
+}
+
 std::optional<std::string> PerRunTruth::why_failed() const {
   if (!stopped->empty()) return *stopped;
   return plant::why_failed(plants());
@@ -268,10 +274,7 @@ sensors::Run run_of(const scenario::Scenario& scenario, const world::FlightRecor
                    .flight = flight_of(truth, per_run_truth),
                    .plants = plants_of(per_run_truth),
                    .faults = faults,
-                   .fail =
-                       [stopped = per_run_truth.stopped](std::string why) {
-                         if (stopped->empty()) *stopped = std::move(why);
-                       },
+                   .fail = per_run_truth.stopper(),
                    .overrides = per_run_truth.overrides.get()};
   for (const PerRunTruth::OfTable& one : per_run_truth.of_tables) {
     if (one.is_guided)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct PerRunTruth {
   std::shared_ptr<sensors::Overrides> overrides{};  ///< by partners; null: the run has none
 
   [[nodiscard]] std::vector<plant::Simulation*> plants() const;
+  /// Ends the run; of several reasons, the first counts.
+  [[nodiscard]] std::function<void(std::string why)> stopper() const;
   /// Why the run cannot go on: a plant, a sensor, a partner. None: it can.
   [[nodiscard]] std::optional<std::string> why_failed() const;
 };

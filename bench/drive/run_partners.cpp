@@ -19,10 +19,7 @@ RunPartners::RunPartners(const scenario::Scenario& scenario, const world::Flight
           [&schedule](std::string_view name, bool begins, std::int64_t t_us) {
             return schedule.faults()->command(name, begins, t_us);
           },
-          *own.overrides, scenario,
-          [stopped = own.stopped](std::string why) {
-            if (stopped->empty()) *stopped = std::move(why);
-          }) {}
+          *own.overrides, scenario, own.stopper()) {}
 
 Result<void> RunPartners::join(const Options& options, bool virtual_time) {
   const partners::Stage stage{.scenario = scenario_,

@@ -74,10 +74,13 @@ class Schedule final : public observe::Observer {
 
   /// The truth that the conditions of faults use; without it, none holds. It must outlive the schedule.
   void set_truth(const world::Truths& truths) { truths_.emplace(truths); }
-  /// `why`: why the run cannot go on; none: it can.
-  void set_failure(std::function<std::optional<std::string>()> why) { failure_ = std::move(why); }
+  /// `why`: why a sensor or a partner ended the run; empty: none did.
+  void set_stopped(std::shared_ptr<const std::string> why) { stopped_ = std::move(why); }
   /// Why the run cannot go on; none: it can.
-  [[nodiscard]] std::optional<std::string> why_failed() const { return failure_ ? failure_() : std::nullopt; }
+  [[nodiscard]] std::optional<std::string> why_failed() const {
+    if (stopped_ && !stopped_->empty()) return *stopped_;
+    return plant::why_failed(plants_);
+  }
 
   /// The time until which a fault explains the target's silence.
   [[nodiscard]] std::int64_t silent_until_us() const {
@@ -155,7 +158,7 @@ class Schedule final : public observe::Observer {
   std::vector<std::size_t> listeners_;  // indices of nodes
   std::vector<nodes::Node*> overhearers_;
   std::function<std::int64_t()> clock_;
-  std::function<std::optional<std::string>()> failure_;
+  std::shared_ptr<const std::string> stopped_;
   std::optional<world::Truths> truths_;
   std::int64_t taken_us_ = 0;
   std::size_t next_ = 0;

@@ -96,7 +96,7 @@ class Session {
     schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(
         scenario_, options_.run_index, scenario_.binding->messages, where, &hands_));
     schedule_->set_truth(truths_of(truth_, flight_.per_run_truth));
-    schedule_->set_failure([this] { return flight_.per_run_truth.why_failed(); });
+    schedule_->set_stopped(flight_.per_run_truth.stopped);
     if (flight_.per_run_truth.overrides) {
       partners_.emplace(scenario_, truth_, flight_.per_run_truth, *schedule_);
       if (auto joined = partners_->join(options_, clock_ != ClockKind::real_time); !joined) return joined;

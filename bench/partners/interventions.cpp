@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace canhil::partners {
@@ -30,27 +29,17 @@ Result<void> Interventions::fault(std::string_view by, std::string_view name, bo
   return {};
 }
 
-Result<sensors::Overrides::Place> Interventions::place(std::string_view value) const {
-  constexpr std::string_view valid = "valid.";
+Result<std::pair<const sensors::Kind*, sensors::Place>> Interventions::place(std::string_view value) const {
   const std::size_t point = value.find('.');
   const std::string_view sensor = value.substr(0, point);
   const scenario::NodeSettings* node = scenario_.node(sensor);
   if (node == nullptr || point == std::string_view::npos)
     return failure(fmt::format("'{}' is no value of a sensor of the run, expected SENSOR.VALUE", value));
   const sensors::Kind& kind = *node->table().sensor;
-  std::string_view name = value.substr(point + 1);
-  const bool is_flag = name.starts_with(valid);
-  if (is_flag) name.remove_prefix(valid.size());
-  const auto& flags = kind.outputs.flags;
-  const auto& values = kind.outputs.values;
-  const auto flag = std::ranges::find(flags, name);
-  const auto found = std::ranges::find(values, name, &sensors::Output::name);
-  if (is_flag ? flag == flags.end() : found == values.end())
-    return failure(fmt::format("sensor '{}' has no {} '{}'", sensor, is_flag ? "flag" : "value", name));
-  return sensors::Overrides::Place{
-      .sensor = &kind,
-      .role = is_flag ? sensors::Role::validity : sensors::Role::value,
-      .index = static_cast<std::size_t>(is_flag ? flag - flags.begin() : found - values.begin())};
+  const std::string_view name = value.substr(point + 1);
+  const auto found = sensors::place_of(kind.outputs, name);
+  if (!found) return failure(fmt::format("sensor '{}' has no value '{}'", sensor, name));
+  return std::pair(&kind, *found);
 }
 
 Result<void> Interventions::set(std::string_view by, std::string_view value, double to, std::int64_t t_us) {

@@ -39,7 +39,7 @@ class Interventions {
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
-  Result<sensors::Overrides::Place> place(std::string_view value) const;
+  Result<std::pair<const sensors::Kind*, sensors::Place>> place(std::string_view value) const;
   void note(std::string_view by, std::int64_t t_us, std::string what);
 
   FaultCommand fault_;

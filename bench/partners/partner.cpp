@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <limits>
 
-#include "bench/processes/command.hpp"
 #include "bench/processes/program_protocol.hpp"
 #include "bench/world/stoppable.hpp"
 #include "dbc/logs/candump.hpp"
@@ -16,7 +14,6 @@
 namespace canhil::partners {
 namespace {
 
-using processes::Dialogue;
 using std::chrono::steady_clock;
 namespace protocol = processes::program_protocol;
 
@@ -52,12 +49,9 @@ Result<std::unique_ptr<Partner>> Partner::start(const std::string& name,
   };
   std::unique_ptr<Partner> made(new Partner(name, stage, nullptr));
   made->command_ = program.command;
-  auto dialogue =
-      Dialogue::start(processes::program_path(program.words.front(), program.folder), program.words,
-                      {.folder = program.folder, .ordinary = true, .signal_at_death = SIGKILL});
-  if (!dialogue) return wrong(fmt::format("{}, expected an executable file", dialogue.error().message));
-  auto opened =
-      made->open(std::make_unique<Lines>(*std::move(dialogue)), program.parameters, program.starts_within);
+  auto lines = Lines::start(program);
+  if (!lines) return wrong(lines.error().message);
+  auto opened = made->open(*std::move(lines), program.parameters, program.starts_within);
   if (opened) opened = made->declarations(true);
   if (!opened) return wrong(opened.error().message);
   made->patience_ = program.answers_within;
@@ -129,7 +123,8 @@ Result<void> Partner::declare(std::string_view line) {
     is_ready_ = true;
     return {};
   }
-  if (words.size() < 2) return wrong("'period SECONDS', 'input NAME', 'hear MESSAGE' or 'ready'");
+  constexpr std::string_view known = "'period SECONDS', 'input NAME', 'hear MESSAGE' or 'ready'";
+  if (words.size() < 2) return wrong(known);
   if (what == "period") {
     const auto period_s = protocol::number_of(words[1]);
     if (!period_s || !(*period_s >= 1e-4 && *period_s <= 3600)) return wrong("a period of 0.0001 to 3600 s");
@@ -147,7 +142,7 @@ Result<void> Partner::declare(std::string_view line) {
     if (message == nullptr) return wrong("a message of the DBC, or *");
     hears_.push_back(message);
   } else {
-    return wrong("'period SECONDS', 'input NAME', 'hear MESSAGE' or 'ready'");
+    return wrong(known);
   }
   return {};
 }
@@ -238,12 +233,17 @@ Result<bool> Partner::answer(std::string_view line) {
   const auto wrong = [&](std::string_view expected) {
     return failure(fmt::format("wrote {}, expected {}", protocol::shown(line), expected));
   };
-  if (words.size() < 2)
-    return wrong("'send', 'frame', 'begin', 'end', 'set', 'release', 'stop' with their values, or 'done'");
+  constexpr std::string_view known =
+      "'send', 'frame', 'begin', 'end', 'set', 'release', 'stop' with their values, or 'done'";
+  if (words.size() < 2) return wrong(known);
   // A name of a fault, or a reason, may have blanks.
   const std::string_view rest = line.substr(static_cast<std::size_t>(words[1].data() - line.data()));
   Interventions& change = stage_.interventions;
   Result<void> done{};
+  const auto put = [&](const Result<Frame>& frame) {
+    if (frame) queued_.push_back(*frame);
+    done = frame ? Result<void>{} : tl::unexpected(frame.error());
+  };
   if (what == "send") {
     std::vector<std::pair<std::string_view, double>> values;
     for (std::size_t i = 2; i < words.size(); ++i) {
@@ -253,15 +253,12 @@ Result<bool> Partner::answer(std::string_view line) {
       if (!value || std::isnan(*value)) return wrong("SIGNAL=NUMBER for each value");
       values.emplace_back(words[i].substr(0, equals), *value);
     }
-    auto frame = messages_.frame(words[1], values);
-    if (frame) queued_.push_back(*frame);
-    done = frame ? Result<void>{} : tl::unexpected(frame.error());
+    put(messages_.frame(words[1], values));
   } else if (what == "frame") {
     auto frame = frame_of(words[1]);
     if (frame && frame->fd && !stage_.fd)
       frame = failure(fmt::format("'{}' is of CAN FD, and the bus is not", one_line(words[1])));
-    if (frame) queued_.push_back(*frame);
-    done = frame ? Result<void>{} : tl::unexpected(frame.error());
+    put(frame);
   } else if (what == "begin" || what == "end") {
     done = change.fault(name_, rest, what == "begin", now_us_);
   } else if (what == "set") {
@@ -273,7 +270,7 @@ Result<bool> Partner::answer(std::string_view line) {
   } else if (what == "stop") {
     change.stop(name_, rest, now_us_);
   } else {
-    return wrong("'send', 'frame', 'begin', 'end', 'set', 'release', 'stop' or 'done'");
+    return wrong(known);
   }
   if (!done) return tl::unexpected(done.error());
   return false;
@@ -282,16 +279,13 @@ Result<bool> Partner::answer(std::string_view line) {
 // A program of the scenario that fails ends the run; a client may come again.
 void Partner::over(const std::string& why) {
   if (socket_ == nullptr) {
-    lines_->kill();
     stage_.interventions.stop(name_, fmt::format("program '{}': {}", one_line(command_), why), now_us_);
   } else if (!lines_->is_closed()) {
     lines_->post(fmt::format("error {}\n", one_line(why)));
-    lines_->kill();  // it is not waited for
     // What it wanted was not done, so the run is not the one that was meant.
     stage_.interventions.stop(name_, why, now_us_);
-  } else {
-    lines_->kill();
   }
+  lines_->kill();  // it is not waited for
   lines_.reset();
   is_ready_ = is_asked_ = false;
   heard_.clear();

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
-
-#include "bench/processes/command.hpp"
 #include "dbc/text/escape.hpp"
 
 namespace canhil::processes {
@@ -20,15 +17,11 @@ Result<std::unique_ptr<Conversation>> Conversation::start(const ProgramSettings&
   const auto wrong = [&](const std::string& reason) {
     return failure(fmt::format("program '{}' at its start: {}", one_line(settings.command), reason));
   };
-  // A program that ignores SIGTERM must not outlive a bench that was killed.
-  auto dialogue = Dialogue::start(program_path(settings.words.front(), settings.folder), settings.words,
-                                  {.folder = settings.folder, .ordinary = true, .signal_at_death = SIGKILL});
-  if (!dialogue)
-    return wrong(fmt::format("{}, expected an executable file{}", dialogue.error().message,
-                             settings.folder.empty() ? "" : " (from " + one_line(settings.folder) + ")"));
-  std::unique_ptr<Conversation> made(new Conversation(settings, std::move(*dialogue)));
+  auto lines = ProgramLines::start(settings);
+  if (!lines) return wrong(lines.error().message);
+  std::unique_ptr<Conversation> made(new Conversation(settings, *std::move(lines)));
   if (auto opened = made->open(opening); !opened) {
-    made->lines_.kill();
+    made->lines_->kill();
     return wrong(opened.error().message);
   }
   return made;
@@ -37,9 +30,10 @@ Result<std::unique_ptr<Conversation>> Conversation::start(const ProgramSettings&
 Result<void> Conversation::open(const program_protocol::Opening& opening) {
   const auto patience = settings_.starts_within;
   const auto deadline = steady_clock::now() + patience;
-  if (auto sent = lines_.send(protocol::opening(settings_.parameters, opening), patience); !sent) return sent;
+  if (auto sent = lines_->send(protocol::opening(settings_.parameters, opening), patience); !sent)
+    return sent;
   while (true) {
-    const auto line = lines_.next(deadline, patience);
+    const auto line = lines_->next(deadline, patience);
     if (!line) return tl::unexpected(line.error());
     if (protocol::is_state(*line)) {
       if (declared_.outputs.empty()) return failure("declares no output, expected at least one");
@@ -64,19 +58,19 @@ void Conversation::ask(std::int64_t from_us, std::int64_t to_us, std::span<const
 Result<void> Conversation::asked(std::span<const double> inputs) {
   if (auto silent = expect_silence(); !silent) return silent;
   deadline_ = steady_clock::now() + settings_.answers_within;
-  return lines_.send(protocol::step_line(from_us_, to_us_, inputs), settings_.answers_within);
+  return lines_->send(protocol::step_line(from_us_, to_us_, inputs), settings_.answers_within);
 }
 
 Result<void> Conversation::answer() {
   auto done = asked_ ? answered() : asked_;
   if (done) return done;
-  lines_.kill();
+  lines_->kill();
   return failure(fmt::format("program '{}' at {} s: {}", one_line(settings_.command),
                              static_cast<double>(to_us_) / 1e6, done.error().message));
 }
 
 Result<void> Conversation::answered() {
-  const auto line = lines_.next(deadline_, settings_.answers_within);
+  const auto line = lines_->next(deadline_, settings_.answers_within);
   if (!line) return tl::unexpected(line.error());
   return protocol::read_state(*line, declared_.outputs, outputs_);
 }
@@ -84,8 +78,8 @@ Result<void> Conversation::answered() {
 // A program that writes more lines than it is asked for would answer each step with the state of an earlier
 // one.
 Result<void> Conversation::expect_silence() {
-  if (!lines_.has_next()) return {};
-  const auto line = lines_.next(ProgramLines::Time::min(), std::chrono::microseconds(0));
+  if (!lines_->has_next()) return {};
+  const auto line = lines_->next(ProgramLines::Time::min(), std::chrono::microseconds(0));
   if (!line) return tl::unexpected(line.error());
   return failure(
       fmt::format("wrote {} without being asked, expected one line for each step", protocol::shown(*line)));

@@ -34,15 +34,15 @@ class Conversation {
   Result<void> answer();
 
  private:
-  Conversation(const ProgramSettings& settings, Dialogue dialogue)
-      : settings_(settings), lines_(std::move(dialogue)) {}
+  Conversation(const ProgramSettings& settings, std::unique_ptr<ProgramLines> lines)
+      : settings_(settings), lines_(std::move(lines)) {}
   Result<void> open(const program_protocol::Opening& opening);
   Result<void> asked(std::span<const double> inputs);
   Result<void> answered();
   Result<void> expect_silence();
 
   const ProgramSettings& settings_;
-  ProgramLines lines_;
+  std::unique_ptr<ProgramLines> lines_;
   program_protocol::Declared declared_{};
   std::vector<double> outputs_{};
   std::int64_t from_us_ = 0, to_us_ = 0;  // of the step that was asked for

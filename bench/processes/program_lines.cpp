@@ -5,7 +5,9 @@
 #include <csignal>
 #include <thread>
 
+#include "bench/processes/command.hpp"
 #include "bench/processes/program_protocol.hpp"
+#include "dbc/text/escape.hpp"
 
 namespace canhil::processes {
 namespace {
@@ -19,6 +21,16 @@ constexpr std::size_t most_bytes_of_line = 65'536;
 double in_seconds(std::chrono::microseconds time) { return static_cast<double>(time.count()) / 1e6; }
 
 }  // namespace
+
+Result<std::unique_ptr<ProgramLines>> ProgramLines::start(const ProgramSettings& settings) {
+  // A program that ignores SIGTERM must not outlive a bench that was killed.
+  auto dialogue = Dialogue::start(program_path(settings.words.front(), settings.folder), settings.words,
+                                  {.folder = settings.folder, .ordinary = true, .signal_at_death = SIGKILL});
+  if (!dialogue)
+    return failure(fmt::format("{}, expected an executable file{}", dialogue.error().message,
+                               settings.folder.empty() ? "" : " (from " + one_line(settings.folder) + ")"));
+  return std::make_unique<ProgramLines>(*std::move(dialogue));
+}
 
 ProgramLines::~ProgramLines() {
   if (over_) return;

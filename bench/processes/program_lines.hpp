@@ -2,10 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "bench/processes/dialogue.hpp"
+#include "bench/processes/program_settings.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::processes {
@@ -16,6 +18,8 @@ class ProgramLines {
  public:
   using Time = Dialogue::Time;
 
+  /// Starts a program of the user. Error, one phrase: the reason of the kernel.
+  static Result<std::unique_ptr<ProgramLines>> start(const ProgramSettings& settings);
   explicit ProgramLines(Dialogue dialogue) : dialogue_(std::move(dialogue)) {}
   ProgramLines(const ProgramLines&) = delete;
   ProgramLines& operator=(const ProgramLines&) = delete;

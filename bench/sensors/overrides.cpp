@@ -14,8 +14,9 @@ class Overridden final : public Sensor {
   Sample measure() override {
     Sample sample = sensor_->measure();
     bool is_changed = false;
-    for (const auto& [place, value] : overrides_.values) {
-      if (place.sensor != &kind_) continue;
+    for (const auto& [of, value] : overrides_.values) {
+      const auto& [kind, place] = of;
+      if (kind != &kind_) continue;
       is_changed = true;
       const std::uint32_t flag = 1U << place.index;
       if (place.role == Role::value)

@@ -16,8 +16,6 @@ namespace {
 using processes::Conversation;
 using processes::Variable;
 
-constexpr std::string_view valid = "valid.";  // valid.NAME is the validity flag NAME
-
 processes::program_protocol::Opening opening(const NodeTable& table, std::uint64_t seed = 0,
                                              std::uint64_t run_index = 0) {
   return {.role = "sensor", .name = table.key, .seed = seed, .run_index = run_index};
@@ -47,34 +45,21 @@ Result<std::vector<const world::TruthValue*>> inputs_of(const std::vector<Variab
   return inputs;
 }
 
-std::optional<ProgramSettings::Destination> destination_of(const Outputs& outputs, std::string_view name) {
-  if (name.starts_with(valid)) {
-    const auto flag = std::ranges::find(outputs.flags, name.substr(valid.size()));
-    if (flag == outputs.flags.end()) return std::nullopt;
-    return ProgramSettings::Destination{.role = Role::validity,
-                                        .index = static_cast<std::size_t>(flag - outputs.flags.begin())};
-  }
-  const auto value = std::ranges::find(outputs.values, name, &Output::name);
-  if (value == outputs.values.end()) return std::nullopt;
-  return ProgramSettings::Destination{.index = static_cast<std::size_t>(value - outputs.values.begin())};
-}
-
 // Error, one phrase: the outputs are not the values of the sensor.
-Result<std::vector<ProgramSettings::Destination>> outputs_of(const Outputs& sensor,
-                                                             const std::vector<Variable>& declared) {
-  std::vector<ProgramSettings::Destination> outputs;
+Result<std::vector<Place>> outputs_of(const Outputs& sensor, const std::vector<Variable>& declared) {
+  std::vector<Place> outputs;
   for (const Variable& one : declared) {
-    const auto destination = destination_of(sensor, one.name);
-    if (!destination) {
+    const auto place = place_of(sensor, one.name);
+    if (!place) {
       std::vector<std::string_view> names;
       for (const Output& value : sensor.values) names.push_back(value.name);
       return failure(fmt::format("output '{}' is no value of the sensor, expected {}", one.name,
                                  fmt::join(names, ", ")));
     }
     const std::string_view si =
-        destination->role == Role::value ? sensor.values[destination->index].si : std::string_view{};
+        place->role == Role::value ? sensor.values[place->index].si : std::string_view{};
     if (declared_unit(si) != one.si) return failure("output " + other_unit(one, si));
-    outputs.push_back(*destination);
+    outputs.push_back(*place);
   }
   for (const Output& value : sensor.values) {
     if (!value.assumed && std::ranges::find(declared, value.name, &Variable::name) == declared.end())

@@ -19,12 +19,7 @@ struct ProgramSettings {
   processes::ProgramSettings program{};
   processes::program_protocol::Declared declared{};
   std::vector<const world::TruthValue*> inputs{};  ///< in the order of the program's inputs
-  /// What an output of the program is: the index of a value of the sample, or of a validity flag.
-  struct Destination {
-    Role role = Role::value;
-    std::size_t index = 0;
-  };
-  std::vector<Destination> outputs{};  ///< in the order of the program's outputs
+  std::vector<Place> outputs{};                    ///< in the order of the program's outputs
 };
 
 /// Reads the table of a sensor of any kind that a program computes. Errors are reported to the section: those

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -36,6 +37,15 @@ struct Outputs {
 
 /// What a number of a sample is.
 enum class Role : std::uint8_t { time_of_validity, interval, validity, value };
+
+/// A value or a validity flag of a sensor's samples.
+struct Place {
+  Role role = Role::value;
+  std::size_t index = 0;
+  friend auto operator<=>(const Place&, const Place&) = default;
+};
+/// The place of a name: that of a value, or "valid.FLAG". None: the sensor has none of this name.
+std::optional<Place> place_of(const Outputs& outputs, std::string_view name);
 
 /// A measurement: its values, in SI and radians, and its times.
 struct Sample {
