@@ -4,6 +4,7 @@
 
 #include "bench/drive/in_process_port.hpp"
 #include "bench/drive/in_process_wire.hpp"
+#include "dbc/ports/can_interface.hpp"
 #include "dbc/ports/several.hpp"
 #include "dbc/wire/message_places.hpp"
 #include "messages/canhil.hpp"
@@ -23,14 +24,27 @@ Result<std::unique_ptr<Port>> open_in_process(const BusName& bus, BusFormat form
   return port;
 }
 
+// The ports of the bench are open: a receiver that comes later belongs to another program.
+Others others_on(const BusName& bus, const std::shared_ptr<const std::optional<std::size_t>>& hosted) {
+  if (bus.in_process) return {};
+  if (*hosted) return {.count = [hosted] { return *hosted; }, .complete = true};
+  const auto own = receivers_on(bus.text);
+  if (!own) return {};
+  return {.count = [interface = bus.text, own]() -> std::optional<std::size_t> {
+    const auto all = receivers_on(interface);
+    if (!all) return std::nullopt;
+    return *all - std::min(*all, *own);
+  }};
+}
+
 }  // namespace
 
 Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format,
                              const scenario::Binding* binding) {
   const auto notes = std::make_shared<std::vector<std::string>>();
-  const auto others = std::make_shared<std::optional<std::size_t>>();
+  const auto nodes = std::make_shared<std::optional<std::size_t>>();  // of a local bus that the bench hosts
   const auto with_notes = [&](std::unique_ptr<Port> port) {
-    return OpenBuses{notes, std::move(port), others};
+    return OpenBuses{notes, std::move(port), others_on(bus, nodes)};
   };
   if (bus.in_process) return open_in_process(bus, format).map(with_notes);
   std::vector<std::string> names{bus.text};  // no duplicates
@@ -42,7 +56,7 @@ Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat 
   options.foreign = true;
   options.node_name = "hil-bench";
   HubRules rules;
-  rules.on_nodes = [others](std::size_t nodes) { *others = nodes; };
+  rules.on_nodes = [nodes](std::size_t count) { *nodes = count; };
   rules.on_turned_away = [notes](const std::string& line) { notes->push_back(line); };
   const MessagePlaces places(bus_of.empty() || binding == nullptr ? std::span<const MessageInfo>()
                                                                   : binding->messages);

@@ -1,7 +1,9 @@
 // Opens all buses that the command line names, and combines them in one port.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,12 +38,18 @@ struct BusName {
 /// Pairs (node, bus) for the nodes of the DBC that are not on the bus given to --bus.
 using BusOf = std::vector<std::pair<std::string, std::string>>;
 
+/// How many programs have joined the first bus beside the bench, as far as this machine knows.
+struct Others {
+  /// none: unknown. On a CAN interface, one program counts once for each of its filters.
+  std::function<std::optional<std::size_t>()> count = [] { return std::nullopt; };
+  bool complete = false;  ///< every node is counted, because the bench hosts the bus
+};
+
 struct OpenBuses {
   std::shared_ptr<std::vector<std::string>>
       notes;                   ///< one line for each program that the bench, as host of a local bus, rejected
   std::unique_ptr<Port> port;  ///< combines all buses
-  /// The number of other nodes on the local bus that the bench hosts; none: the bench hosts no bus.
-  std::shared_ptr<const std::optional<std::size_t>> others;
+  Others others;
 };
 
 /// Opens the buses. The port sends each frame on the bus of the frame's sender, as the binding tells it. The

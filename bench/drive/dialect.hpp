@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/drive/buses.hpp"
 #include "bench/drive/flight.hpp"
 #include "bench/drive/link.hpp"
 #include "bench/drive/schedule.hpp"
@@ -36,8 +37,7 @@ struct Setting {
   WireFacts wire{};
   bool of_log = false;       ///< a log says what the target answers: nobody talks to it
   std::size_t programs = 0;  ///< number of targets that the bench starts
-  /// The number of other nodes on the bus; none: the bench does not host the bus.
-  std::shared_ptr<const std::optional<std::size_t>> others{};
+  Others others{};           ///< the programs on the bus
 };
 
 class Dialect {

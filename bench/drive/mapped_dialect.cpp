@@ -1,9 +1,9 @@
 // A mapped target has no handshake and runs independently of the bench. Before the run, the bench waits until
 // the settling time of the target is over and until a message of the target shows that the target is present.
 // A target that sends only answers is silent before the run; for such a target, the bench waits only for the
-// settling time. If the bench hosts the bus, it also waits until the process that it started has joined the
-// bus. A process that has joined and is silent nevertheless may wait for its first sample: the run then
-// begins.
+// settling time, and until the process that it started has joined the bus. A process that has joined and is
+// silent nevertheless may wait for its first sample: the run then begins. On a CAN interface, a target may be
+// on another machine, where nobody sees it join.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -183,16 +183,18 @@ class MappedDialect final : public Dialect {
       if (!hear.answers) speakers.insert(hear.target);
     }
     const auto is_there = [&] { return std::ranges::includes(watch.heard_from(), speakers); };
+    const auto has_spoken = [&] { return !speakers.empty() && is_there(); };
     if (!following_) following_.emplace(link, dialogue_);
     const std::int64_t settled_ns = link.now_ns() + start_.settle_us * 1000;
     if (auto talked = talk_before(link, settled_ns, gone); !talked) return talked;
     const std::int64_t limit_ns = std::max(settled_ns, link.now_ns() + find_limit_ns);
-    while (link.now_ns() < settled_ns || !is_there() || absent()) {
+    while (link.now_ns() < settled_ns || !is_there() ||
+           (absent() && (of_.others.complete || !has_spoken()))) {
       if (link.drain() == LinkState::down)
         return failure(fmt::format("bus '{}': gone before the run", link.port().name()));
       if (const auto why = gone()) return failure(fmt::format("{} before the run", *why));
       const std::int64_t now_ns = link.now_ns();
-      if (now_ns >= limit_ns && joined()) break;
+      if (now_ns >= limit_ns && (joined() || (is_there() && !of_.others.complete))) break;
       if (now_ns >= limit_ns) return failure(complaint(link, watch, strangers));
       link.wait_until(std::min(now_ns + poll_ns, limit_ns));
     }
@@ -255,11 +257,11 @@ class MappedDialect final : public Dialect {
     return {};
   }
 
-  [[nodiscard]] bool absent() const { return *of_.others && **of_.others < of_.programs; }
-  [[nodiscard]] bool joined() const { return of_.programs > 0 && *of_.others && !absent(); }
+  [[nodiscard]] bool absent() const { return of_.others.count().value_or(of_.programs) < of_.programs; }
+  [[nodiscard]] bool joined() const { return of_.programs > 0 && of_.others.count() && !absent(); }
   [[nodiscard]] std::string complaint(const Link& link, const MappedWatch& watch,
                                       const Strangers& strangers) const {
-    if (absent())
+    if (absent() && of_.others.complete)
       return fmt::format("target on '{}': its process has not joined the bus within 5 s", link.port().name());
     std::vector<std::string> names;
     for (const mapping::Hear& hear : conversation_.mapping.hears) {

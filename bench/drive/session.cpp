@@ -299,7 +299,7 @@ class Session {
   const Options& options_;
   Flight flight_;
   std::shared_ptr<std::vector<std::string>> notes_;
-  std::shared_ptr<const std::optional<std::size_t>> others_;  // see OpenBuses
+  Others others_;
   std::unique_ptr<Port> port_;
   Capabilities bus_;
   ClockKind clock_;

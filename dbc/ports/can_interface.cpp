@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <vector>
 
 namespace canhil {
@@ -35,6 +37,17 @@ std::string can_interfaces(int socket) {
   return fmt::format("it has: {}", fmt::join(names, ", "));
 }
 
+// After a title come lines "  vcan0   123  000007ff  ...  raw"; 'any' stands for a socket of all interfaces.
+std::size_t entries_of(std::istream& receive_list, std::string_view interface) {
+  std::size_t count = 0;
+  for (std::string line; std::getline(receive_list, line);) {
+    std::string device;
+    std::istringstream(line) >> device;
+    if (device == interface || device == "any") ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 int interface_index(const std::string& interface) {
@@ -59,6 +72,15 @@ std::optional<std::string> objection(int socket, std::string_view interface, boo
         interface, request.ifr_mtu);
   }
   return std::nullopt;
+}
+
+std::optional<std::size_t> receivers_on(std::string_view interface) {
+  std::optional<std::size_t> count;
+  for (const char* list : {"all", "fil", "inv", "sff", "eff", "err"}) {
+    std::ifstream file(fmt::format("/proc/net/can/rcvlist_{}", list));
+    if (file) count = count.value_or(0) + entries_of(file, interface);
+  }
+  return count;
 }
 
 }  // namespace canhil

@@ -1,6 +1,7 @@
 // Queries the kernel about a CAN interface.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,5 +14,10 @@ int interface_index(const std::string& interface);
 /// Returns one line with the reason why the interface cannot be used: it is missing, not a CAN interface,
 /// down, or classic although `fd` is true. nullopt: the interface can be used. `socket` may be any socket.
 std::optional<std::string> objection(int socket, std::string_view interface, bool fd);
+
+/// The entries of the kernel's receive lists (/proc/net/can/rcvlist_*) that receive from the interface, one
+/// for each filter of each socket: more than before means that a program has bound a socket. none: the kernel
+/// does not tell.
+std::optional<std::size_t> receivers_on(std::string_view interface);
 
 }  // namespace canhil

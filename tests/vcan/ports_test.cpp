@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "dbc/logs/log.hpp"
+#include "dbc/ports/can_interface.hpp"
 #include "dbc/ports/socketcan.hpp"
 #include "tests/log_writer.hpp"
 #include "tests/vcan/interface.hpp"
@@ -47,6 +48,18 @@ TEST(SocketCan, CarriesClassicFrames) {
   EXPECT_EQ(next_frame(*a)->frame, frame_of(0x10, {9}));
   EXPECT_EQ(a->counters().sent, 3U);
   EXPECT_EQ(b->counters().received, 3U);
+}
+
+TEST(SocketCan, TheKernelTellsWhetherAProgramHasJoined) {
+  const auto before = receivers_on("vcan0");
+  ASSERT_TRUE(before);
+  const auto other = receivers_on("vcan1");
+  {
+    const auto port = open("vcan0");
+    EXPECT_GT(*receivers_on("vcan0"), *before);
+    EXPECT_EQ(receivers_on("vcan1"), other);
+  }
+  EXPECT_EQ(receivers_on("vcan0"), before);
 }
 
 // The system call in which the port waits has a much shorter time-out, so the port must call it again.

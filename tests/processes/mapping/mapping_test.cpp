@@ -572,7 +572,7 @@ TEST_F(Altered, ATargetThatStartsSlowlyIsAwaited) {
                     next = own.find("[[check]]\nkind = \"protection\"");
   const Edit checks_of_answers{"own_ecu.toml", own.substr(of_status, next - of_status), ""};
   const Ended ended = run_edited({short_wait, answers_only, checks_of_answers}, "--target " + slow,
-                                 "--lockstep --json " + report);
+                                 fmt::format("--lockstep --bus {} --json {}", bus(), report));
   EXPECT_EQ(ended.code, 3) << ended.err << ended.out;
   EXPECT_THAT(checks(read_json(report), "fail"), testing::IsEmpty()) << ended.out;
   // The status of this ECU comes only after the first sample: so it is silent until the run begins.
