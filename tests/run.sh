@@ -120,32 +120,32 @@ build() { # build PRESET [TARGET...]
   fi
 }
 
-run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
-  local preset=$1 junit=$results/$1.xml log=$results/$1.ctest.log code=0 counts p f
-  shift
+run_ctest() { # run_ctest NAME PRESET [CTEST OPTIONS...]: the files of results have this name
+  local name=$1 preset=$2 junit=$results/$1.xml log=$results/$1.ctest.log code=0 counts p f
+  shift 2
   # One job more than cores: many tests run in real time or wait for a guest system, and leave their core idle.
   local way=()
   if [[ $preset != default ]]; then way=("${personality[@]}"); fi
-  logged "testing $preset" "$log" "${way[@]}" ctest --test-dir "build/$preset" -j $((jobs + 1)) --timeout 300 \
+  logged "testing $name" "$log" "${way[@]}" ctest --test-dir "build/$preset" -j $((jobs + 1)) --timeout 300 \
     --output-on-failure --no-tests=ignore ${only:+-R "$only"} --output-junit "$junit" "$@" || code=$?
   progress_rest "$log"
-  if ! counts=$(python3 tests/static/junit_counts.py "$junit"); then failure "no results of ctest for $preset"; return; fi
+  if ! counts=$(python3 tests/static/junit_counts.py "$junit"); then failure "no results of ctest for $name"; return; fi
   read -r p f <<<"$counts"
   passed=$((passed + p)) failed=$((failed + f))
-  if ((code && !f)); then failure "ctest for $preset ended with $code"; fi
-  if ((!p && !f)) && [[ -z "$only" ]]; then failure "no tests found for $preset"; fi
+  if ((code && !f)); then failure "ctest for $name ended with $code"; fi
+  if ((!p && !f)) && [[ -z "$only" ]]; then failure "no tests found for $name"; fi
 }
 personality=()
 
 # Prints a regular expression for ctest -L. A plus sign joins labels (tests/CMakeLists.txt): unit matches "unit+threads"; vcan does not match "vcan-full".
 labelled() { echo "(^|[+])($1)([+]|$)"; }
 
-optimised() { build default tests_unit tests_processes tests_vcan && run_ctest default -L "$(labelled 'static|unit|processes|vcan')"; }
+optimised() { build default tests_unit tests_processes tests_vcan && run_ctest default default -L "$(labelled 'static|unit|processes|vcan')"; }
 optimised_all() {
   local code=0
   build default || code=$?
   if make_fifth; then build_ahead "$fifth" asan "${asan_targets[@]}"; fi
-  if ((!code)); then run_ctest default; fi
+  if ((!code)); then run_ctest default default; fi
 }
 
 # Checks whether the sanitizers work on this machine: some need fixed addresses (setarch -R), the leak checker needs ptrace.
@@ -198,29 +198,28 @@ address_sanitizer() {
   echo "built with a fifth estimator in it (tests/fifth_estimator), in build/with_fifth"
   if [[ -z "$ahead" ]]; then return; fi # the copy of the project could not be made; this is already counted as a failure
   cd "$fifth" || return
-  # Tests that are not run with this sanitizer, and why:
-  local left_out=(
-    '[.]Documentation[.]' # these compare the documentation with the DBC, and the DBC of this copy has one more estimator
-    ThePapersFlight 'Ecu[.]PassesInRealTime' 'Devices[.]PassInRealTime' 'Device(Buses|Log)[.]' # these long flights in real time run the same code as the quick flights
-    # These run code many times that other tests run once, so they find no further memory errors.
-    '[.]Bits[./]' 'ClassicAndFdAgree.*all_four' ScenarioFiles Defective 'Killed[.]' 'Divided.*/[(]([17]|3, 1)' 'Acceptance[.]' 'Slurm[.]' 'Suites[.]'
-    'Faults[.](WhatIsKnown|Shards|AViolation)' 'IsJudgedAsItWasFlown/.(all_four|inflight)' 'OfScenario[.].*/.?inflight_(gps|ssbl_180)'
-    'LogFlownAgain.*all_four' 'RoundTrip[.]'
-    # The bench runs the same code here as in the quick flights: devices in Python with one defect each, and waits in real time.
-    'DeviceDefects[.]' 'Partners[.](TheExample|AMagnetometer)' 'ClosedLoop[.](ALateDevice|ASlowPlant)' 'Pair[.](AreJudged|OneThatIs)'
-    'ATargetThatStartsSlowly' reports_by_schema
-    'kit_in_Python|/Python$' # the target of these tests is a Python program, so it is not instrumented
-    'interruptions[.]' # these send a signal a fixed time after the start, when a program with the sanitizer has not yet begun to fly
-    # These test which files are written, how a program ends, and what a busy host does. Other tests read and write the same files.
-    'files[.]' 'TargetProcess[.]' 'realtime_programs[.]' 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' 'ARecordedDriveIsDrivenAgain'
-    'AWireThatIsTooSlowIsNamed' # this needs an embedded bus that carries its bit rate; with the sanitizer, the bus is slower
-    'live[.](Refusals|Run|Terminal)' # these wait for the live view, which has the lowest priority and is too slow with the sanitizer
+  # With this sanitizer, a flight takes ten times as long. So of the process tests, those run that lead both programs through each kind of input,
+  # command and flight once. The others fly the same code again, in real time, with other defects of the target, or with programs of others.
+  local chosen=(
+    'hil_programs[.](Set|RunMany|BadInput|BadFiles|BadBuses|Reports|Schedulability|Recording|Outputs?|Unrounded)[.]'
+    'OutputsPassInLockstep/.*(los_closed_loop|wind_ekf|inflight_ssbl)"' 'hil_programs[.]Fd[.](TheWire|AScenario)' 'Bits[.]AReplayed'
+    'program_checks[.].*(JudgesTheReport|IsRefused)' 'recorded_data[.]RecordedData' 'two_targets[.]'
+    'Lies[.](TheCountsOfAnHonest|Garbage|OfAGroup)' 'Evidence[.](ErrorsAfter|CompareNotices)'
+    'fault_programs[.]Faults[.](Of|WhatIsWrong)' 'faults_program[.]Faults[.](MatrixHas|TextAnd|BadInput)'
+    'campaign_programs[.](Report|Export|Checks|Replay|Interrupted)[.]' 'CampaignBadInput[.](IsOneLine|WhatIsRead)' 'Divided.*/[(]3, 2'
+    'Accept[.](StopsAt|BadInput)' 'Conformance[.]BadInput' 'KeepsEveryRule/(hil_target|los_rate|wind)'
+    'Altered[.](AMapping|What|AStimulus|FaultsSpoil|ASample|AMessage|FaultsAffect|ADelay)' 'PassInLockstep/(auv|marine|odometer|hover)'
+    'ClosedLoop[.](AnActuator|ADelayOf|LockstepHas|APlantThat|TheReport)' 'FmuLoop[.]AnFmu' 'ProgramLoop[.]AProgram' 'Pair[.](EachAnswers|WhatCannot)'
+    'dbc_programs[.]' 'new_files[.]' 'partners[.]' 'live[.](Page|Batch)' 'other_tools_program[.]'
+    'recordings_program[.](Check[.](With|ABar|Another)|Convert|Recorded|Decode|LogCompare)' 'IsJudgedAsItWasFlown/.*los'
   )
+  local left_out='Partners[.](TheExample|AMagnetometer)|InRealTime'
   await_ahead asan
   # Builds what build_ahead has not built, and reports the errors.
   if build asan "${asan_targets[@]}"; then
     (cd "$root" && configure tsan "$results/tsan.ahead.log") && build_ahead "$root" tsan tests_threads
-    run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E "$(IFS='|' && echo "${left_out[*]}")"
+    run_ctest asan asan -L "$(labelled 'input|fuzz|fifth_estimator')"
+    if [[ -z "$only" ]]; then run_ctest asan_processes asan -L "$(labelled processes)" -R "$(IFS='|' && echo "${chosen[*]}")" -E "$left_out"; fi
   fi
   cd "$root" || exit 2
 }
@@ -228,7 +227,7 @@ address_sanitizer() {
 thread_sanitizer() {
   echo "thread sanitizer on: code with threads (hil-target and hil-bench run have one thread each, with --live a second, whose queue is tested here)"
   if [[ -n "$ahead" ]]; then await_ahead tsan; fi
-  build tsan tests_threads && run_ctest tsan -L "$(labelled threads)"
+  build tsan tests_threads && run_ctest tsan tsan -L "$(labelled threads)"
 }
 
 coverage() {
@@ -237,7 +236,7 @@ coverage() {
   # -E leaves out two tests that prevent the program from writing files: the process could not write gcov's counts either.
   # The time-out is longer, because long tests take twice as long with instrumentation and less optimisation.
   build coverage tests_unit tests_processes tests_pages &&
-    run_ctest coverage --timeout 600 -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&
+    run_ctest coverage coverage --timeout 600 -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&
     python3 tests/static/coverage.py build/coverage | tee "$results/coverage.txt" || failure "no figures of coverage"
 }
 

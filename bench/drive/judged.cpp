@@ -15,7 +15,10 @@ checks::Observations expecting(checks::Observations seen, const faults::Faults& 
   std::int64_t latency_us = 0;
   for (const scenario::NodeSettings& node : scenario.nodes)
     latency_us = std::max(latency_us, node.latency_us());
-  for (const faults::FaultReport& fault : faults.reports()) {
+  for (faults::FaultReport& fault : faults.reports()) {
+    // Checks that name a fault which never began find it, and that it did not strike.
+    if (fault.windows.empty())
+      fault.windows = {{.from_us = scenario.duration_us, .to_us = scenario.duration_us}};
     for (const auto& [from_us, to_us] : fault.windows)
       seen.faults.push_back({.name = fault.name,
                              .window = {from_us, to_us},

@@ -103,19 +103,16 @@ std::vector<FaultReport> Faults::reports() const {
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
     const scenario::Fault& fault = scenario_.faults[i];
     std::vector<Trigger> windows = ended_[i];
-    windows.push_back(fault.begins_in_run ? triggers_[i]
-                                          : Trigger{.from_us = fault.from_us, .to_us = fault.to_us});
-    for (Trigger& window : windows) {
-      if (fault.begins_in_run) window.from_us = std::min(window.from_us, scenario_.duration_us);
-      window.to_us = std::min(window.to_us, scenario_.duration_us);
-    }
+    if (!fault.begins_in_run)
+      windows.push_back({.from_us = fault.from_us, .to_us = fault.to_us});
+    else if (triggers_[i].from_us != Trigger::never_us)
+      windows.push_back(triggers_[i]);
+    for (Trigger& window : windows) window.to_us = std::min(window.to_us, scenario_.duration_us);
     all.push_back({.name = fault.name,
                    .kind = fault.kind,
                    .stage = fault.rule->stage(),
-                   .from_us = windows.front().from_us,
-                   .to_us = windows.back().to_us,
                    .count = tallies_[i].count,
-                   .windows = windows});
+                   .windows = std::move(windows)});
   }
   return all;
 }

@@ -19,9 +19,8 @@ namespace canhil::faults {
 struct FaultReport {
   std::string name, kind;
   Stage stage = Stage::bus;
-  std::int64_t from_us = 0, to_us = 0;  ///< of a fault that began several times: from the first to the last
-  std::uint64_t count = 0;              ///< see Tally::count
-  std::vector<Trigger> windows{};       ///< each time that it was active
+  std::uint64_t count = 0;         ///< see Tally::count
+  std::vector<Trigger> windows{};  ///< each time that it was active; empty: it never began
 };
 
 /// Checks that each fault works with the bus and the target of `place`. Returns an Error of one line if a

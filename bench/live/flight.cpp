@@ -43,7 +43,8 @@ std::vector<FaultLine> faults_of(const scenario::Scenario& scenario) {
                      .kind = fault.kind,
                      .stage = std::string(faults::name(fault.rule->stage())),
                      .from_s = seconds(fault.from_us),
-                     .to_s = seconds(std::min(fault.to_us, scenario.duration_us))});
+                     .to_s = seconds(std::min(fault.to_us, scenario.duration_us)),
+                     .begins_in_run = fault.begins_in_run});
   return lines;
 }
 

@@ -106,7 +106,8 @@ Json object(const Flight& flight, FromOf from_of) {
                               {"kind", fault.kind},
                               {"stage", fault.stage},
                               {"from_s", fault.from_s},
-                              {"to_s", fault.to_s}});
+                              {"to_s", fault.to_s},
+                              {"begins_in_run", fault.begins_in_run}});
   return json;
 }
 

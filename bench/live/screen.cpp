@@ -94,7 +94,8 @@ void add(Screen& screen, const Flight& flight) {
     }
   }
   for (const FaultLine& fault : flight.faults) {
-    if (!flight.outcome && flight.t_s >= fault.from_s && flight.t_s <= fault.to_s)
+    const bool at_work = !fault.begins_in_run && flight.t_s >= fault.from_s && flight.t_s <= fault.to_s;
+    if (!flight.outcome && at_work)
       screen.add(fmt::format("fault at work: {} ({})", fault.name, fault.stage), Look::open);
   }
   add_checks(screen, flight);

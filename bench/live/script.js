@@ -182,7 +182,7 @@ function show_flight(message) {
   const failed = count("fail"), open = checks.filter(check => check.outcome === null).length;
   const closing = flight.timing.filter(line => line.slowest_us);
   const worst = (closing.length ? closing : flight.timing).reduce((a, b) => !a || b.p99_us > a.p99_us ? b : a, null);
-  const faults_now = flight.faults.filter(fault => flight.t_s >= fault.from_s && flight.t_s <= fault.to_s).length;
+  const faults_now = flight.faults.filter(fault => !fault.begins_in_run && flight.t_s >= fault.from_s && flight.t_s <= fault.to_s).length;
   const tiles = [
     ["Time", flight.t_s.toFixed(1) + " s", "of " + flight.duration_s + " s"],
     ["Checks", failed ? failed + " failed" : count("pass") + " passed", open ? open + " open" : "of " + checks.length, failed ? "no" : ""],
@@ -217,6 +217,8 @@ function show_flight(message) {
   by_id("faults-section").hidden = flight.faults.length === 0;
   fill(by_id("faults"), flight.faults.map(fault => {
     const over = flight.outcome !== null || flight.t_s > fault.to_s, yet = flight.t_s < fault.from_s;
+    if (fault.begins_in_run) return [[fault.name], [fault.stage], ["when it is told to, or by its condition"],
+      flight.outcome === null ? ["the report says", "mark soft"] : ["over", "mark soft"]];
     return [[fault.name], [fault.stage], [fault.from_s + ", " + fault.to_s],
       over ? ["over", "mark soft"] : yet ? ["to come", "mark soft"] : ["at work", "mark unknown"]];
   }));

@@ -35,6 +35,7 @@ struct TimingLine {
 struct FaultLine {
   std::string name, kind, stage;
   double from_s = 0, to_s = 0;
+  bool begins_in_run = false;  ///< by a condition or a command: its times are known only after the run
 };
 
 /// The state of a flight so far.

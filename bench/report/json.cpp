@@ -234,12 +234,15 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
                     {"t_s", static_cast<double>(run.ending.t_us) / 1e6},
                     {"detail", run.ending.detail}};
   for (const faults::FaultReport& fault : run.faults) {
-    page["faults"].push_back({{"name", fault.name},
-                              {"kind", fault.kind},
-                              {"stage", faults::name(fault.stage)},
-                              {"from_s", static_cast<double>(fault.from_us) / 1e6},
-                              {"to_s", static_cast<double>(fault.to_us) / 1e6},
-                              {"count", fault.count}});
+    Json one{{"name", fault.name},
+             {"kind", fault.kind},
+             {"stage", faults::name(fault.stage)},
+             {"count", fault.count},
+             {"windows", Json::array()}};
+    for (const faults::Trigger& window : fault.windows)
+      one["windows"].push_back({{"from_s", static_cast<double>(window.from_us) / 1e6},
+                                {"to_s", static_cast<double>(window.to_us) / 1e6}});
+    page["faults"].push_back(std::move(one));
   }
   page["checks"] = Json::array();
   for (const checks::CheckResult& check : run.verdict.checks) page["checks"].push_back(json_of(check));

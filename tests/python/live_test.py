@@ -23,8 +23,9 @@ def test_a_fault_begins_and_ends_by_command(scenario: Path) -> None:
                 now.begin("spike")
     (fault,) = flight.run.document["faults"]
     by_condition = canhil.run(scenario, bus="in-process", faults=[SPIKE | {"when": "plant.range < 1000"}])
-    assert fault["from_s"] == by_condition.document["faults"][0]["from_s"] == 4.45
-    assert 0 < fault["to_s"] - fault["from_s"] < 0.2
+    [window] = fault["windows"]
+    assert window["from_s"] == by_condition.document["faults"][0]["windows"][0]["from_s"] == 4.45
+    assert 0 < window["to_s"] - window["from_s"] < 0.2
     assert flight.run.verdict is Verdict.FAIL
 
 
@@ -89,7 +90,7 @@ def test_the_last_step_before_a_script_leaves_counts(scenario: Path) -> None:
             break
         now.begin("spike")  # after the loop
         assert next(iter(flight)).t == 0.01, "a second loop goes on"
-    assert flight.run.document["faults"][0]["from_s"] == 0
+    assert flight.run.document["faults"][0]["windows"][0]["from_s"] == 0
     with pytest.raises(canhil.Error, match="no fault 'spikee'"), canhil.live(scenario, bus="in-process", faults=[SPIKE]) as flight:
         for now in flight:
             now.begin("spikee")

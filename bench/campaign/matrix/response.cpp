@@ -169,8 +169,10 @@ Response response_of(const scenario::Scenario& scenario, const drive::Run& run, 
   }
   std::int64_t onset_us = std::numeric_limits<std::int64_t>::max(), end_us = 0;
   for (const faults::FaultReport& fault : run.faults) {
-    onset_us = std::min(onset_us, fault.from_us);
-    end_us = std::max(end_us, fault.to_us);
+    for (const faults::Trigger& window : fault.windows) {
+      onset_us = std::min(onset_us, window.from_us);
+      end_us = std::max(end_us, window.to_us);
+    }
   }
   if (ended)
     return {.kind = Response::Kind::ended,

@@ -136,7 +136,7 @@ TEST(Faults, ABiasOfTheGyroFailsWhereTheFlightWithoutPasses) {
   const auto& reported = flown.report["faults"][0];
   EXPECT_EQ(reported["name"], "gyro");
   EXPECT_EQ(reported["stage"], "sensor");
-  EXPECT_EQ(reported["from_s"], 1.0);
+  EXPECT_EQ(reported["windows"][0]["from_s"], 1.0);
 }
 
 TEST(Faults, ATargetIsRestartedInVirtualTimeAndGoesOn) {

@@ -198,8 +198,8 @@ TEST(FaultsInTheRun, BeginWhenAConditionHolds) {
   const Ended ended = hil_bench(fmt::format("run {} --bus in-process --json {}", file, report));
   EXPECT_EQ(ended.code, 1) << ended.err;
   const nlohmann::json fault = read_json(report)["faults"][0];
-  EXPECT_DOUBLE_EQ(fault["from_s"], 4.45);
-  EXPECT_DOUBLE_EQ(fault["to_s"], 4.7);
+  EXPECT_DOUBLE_EQ(fault["windows"][0]["from_s"], 4.45);
+  EXPECT_DOUBLE_EQ(fault["windows"][0]["to_s"], 4.7);
   EXPECT_EQ(fault["count"], 51) << "one for each 5 ms, ends included";
 }
 
@@ -207,7 +207,9 @@ TEST(FaultsInTheRun, DoNotStrikeIfTheirConditionNeverHolds) {
   const std::string report = scratch("never.json");
   const std::string file = quick("never", "", spike + "when = \"plant.range < -1\"\n");
   hil_bench(fmt::format("run {} --bus in-process --json {}", file, report));
-  EXPECT_EQ(read_json(report)["faults"][0]["count"], 0);
+  const nlohmann::json fault = read_json(report)["faults"][0];
+  EXPECT_EQ(fault["count"], 0);
+  EXPECT_EQ(fault["windows"].size(), 0U);
 }
 
 TEST(FaultsInTheRun, HaveNoTimesInTheScenario) {
