@@ -85,6 +85,12 @@ class Reader {
   int depth_ = 0;
 };
 
+// A scenario without duration_s is refused by its reader. It is not left out here, because a misspelt key
+// must not make it disappear from the runs of a folder.
+bool is_scenario(const scenario::Section& root) {
+  return root.has("duration_s") || ((root.has("truth") || root.has("target")) && !root.has("variant"));
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> scenario_files(const std::vector<std::string>& scenarios) {
@@ -106,7 +112,7 @@ Result<std::vector<std::string>> scenario_files(const std::vector<std::string>& 
       if (!text) return tl::unexpected(text.error());
       const auto root = scenario::Section::parse(*text, path.string());
       if (const auto wrong = root.error()) return tl::unexpected(*wrong);
-      if (root.has("duration_s")) files.push_back(path.string());
+      if (is_scenario(root)) files.push_back(path.string());
     }
     if (error) return failure(fmt::format("{}: cannot be read: {}", given, error.message()));
     if (files.size() == before)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bench/scenario/nearest.hpp"
 #include "dbc/parser/codec.hpp"
 
 namespace canhil::partners {
@@ -28,6 +29,13 @@ const dbc::Message* BusMessages::find(std::string_view name) const {
   return found == by_name_.end() ? nullptr : found->second.message;
 }
 
+std::string BusMessages::instead_of(std::string_view name) const {
+  std::vector<std::string> names;
+  for (const auto& [known, own] : by_name_) names.emplace_back(known);
+  const std::string meant = scenario::nearest(name, names);
+  return meant.empty() ? "a message of the DBC" : fmt::format("'{}'", meant);
+}
+
 const dbc::Message* BusMessages::of(const Frame& frame) const {
   const auto found = by_id_.find(std::pair(frame.id, frame.extended));
   return found == by_id_.end() || frame.error ? nullptr : found->second;
@@ -46,7 +54,7 @@ Result<Frame> BusMessages::frame(std::string_view name,
                                  std::span<const std::pair<std::string_view, double>> values) {
   const auto found = by_name_.find(name);
   if (found == by_name_.end())
-    return failure(fmt::format("message '{}' is unknown, expected one of the DBC", name));
+    return failure(fmt::format("message '{}' is unknown, expected {}", name, instead_of(name)));
   Own& own = found->second;
   const dbc::Message& message = *own.message;
   for (const auto& [signal, value] : values) {

@@ -26,6 +26,8 @@ class BusMessages {
 
   /// The message of a name; null: there is none.
   [[nodiscard]] const dbc::Message* find(std::string_view name) const;
+  /// What was expected instead of a name that is unknown: the name that was probably meant.
+  [[nodiscard]] std::string instead_of(std::string_view name) const;
   /// The message of a frame; null: it is in no DBC.
   [[nodiscard]] const dbc::Message* of(const Frame& frame) const;
   /// "NAME SIGNAL=VALUE ...", the signals that the frame has, in their units. None: the frame has not the

@@ -139,7 +139,7 @@ Result<void> Partner::declare(std::string_view line) {
     hears_all_ = true;
   } else if (what == "hear") {
     const dbc::Message* message = messages_.find(words[1]);
-    if (message == nullptr) return wrong("a message of the DBC, or *");
+    if (message == nullptr) return wrong(messages_.instead_of(words[1]) + ", or *");
     hears_.push_back(message);
   } else {
     return wrong(known);

@@ -49,6 +49,12 @@ std::string as_limit() {
 }
 std::string as_truth() { return curve("ink", "stroke-width=\"2\" stroke-dasharray=\".1 5\""); }
 std::string as_bar() { return stroke("ink", "vector-effect=\"non-scaling-stroke\" stroke-width=\"2.6\""); }
+std::string as_band() {
+  return fmt::format(
+      "fill=\"{0}\" fill-opacity=\".16\" stroke=\"{0}\" vector-effect=\"non-scaling-stroke\" "
+      "stroke-width=\"1\" stroke-dasharray=\"2 3\"",
+      paint("unknown"));
+}
 std::string as_line(std::size_t number) {
   struct Look {
     std::string_view colour, dashes;
@@ -65,15 +71,16 @@ class Curves {
  public:
   Curves(const LinePlot& plot, double base) : plot_(plot), base_(base) {}
 
-  // A curve or several, which the legend shows as one. `kind` says to page.js what the values are; empty:
-  // none that it shows.
+  // A curve or several, which the legend shows as one. `kind` says to page.js what the values are; empty or
+  // "band": none that it shows.
   void add(std::string_view name, const std::string& attributes, std::string_view kind,
            const std::string& path) {
     if (path.empty()) return;
     const std::size_t number = count_++;
     curves_ += fmt::format("<path data-curve=\"{}\"{} {} d=\"{}\"/>", number,
-                           kind.empty() ? "" : fmt::format(" data-kind=\"{}\"", kind), attributes, path);
-    const bool is_filled = kind == "area" || kind == "top";
+                           kind.empty() || kind == "band" ? "" : fmt::format(" data-kind=\"{}\"", kind),
+                           attributes, path);
+    const bool is_filled = kind == "area" || kind == "top" || kind == "band";
     add_to_legend(number, name,
                   fmt::format("<path {} d=\"{}\"/>", attributes, is_filled ? "M2 3H26V9H2Z" : "M2 6H26"));
   }
@@ -127,6 +134,15 @@ class Curves {
         "r=\"5\"/>",
         number, plot_.t_s[index], value - base_, look, x(plot_.t_s[index]), y(value));
     add_to_legend(number, ring.name, fmt::format("<circle {} cx=\"14\" cy=\"6\" r=\"5\"/>", look));
+  }
+  void add_band(const LinePlot::Band& band, const Axis& x, const Axis& y) {
+    std::string path;
+    for (const auto& [from_s, to_s] : band.times_s) {
+      const double from = std::max(from_s, x.from), to = std::min(to_s, x.to);
+      if (to < from) continue;
+      path += fmt::format("M{}V{}H{:.7g}V{}Z", place(from, y.from), of(y.to), to, of(y.from));
+    }
+    add(band.name, as_band(), "band", path);
   }
   void add_levels(const Axis& x) {
     std::string path;
@@ -215,6 +231,7 @@ std::string drawn(const LinePlot& plot) {
   constexpr double small = 1e-3;  // of the values: their differences need more digits than a browser has
   const double base = extent.size() < small * std::abs(extent.low) ? rounded(extent.low) : 0;
   Curves curves(plot, base);
+  for (const LinePlot::Band& band : plot.bands) curves.add_band(band, x, y);
   if (!plot.low.empty()) curves.add_area();
   curves.add_values(plot.limit_name, as_limit(), "both", plot.limit);
   curves.add_values(plot.truth_name, as_truth(), "line", plot.truth);

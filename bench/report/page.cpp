@@ -31,7 +31,10 @@ std::string page_of(const Json& report) {
       "{} &middot; bus {} &middot; {} &middot; {:g} s &middot; {}", text_in(provenance.at("scenario")),
       text_in(provenance.at("bus")), text_in(provenance.at("clock")), report.at("duration_s").get<double>(),
       text_in(provenance.at("date")));
-  std::vector<std::pair<std::string, std::string>> sections{{"checks", "checks"}};
+  const std::string changes = changes_section(report);
+  std::vector<std::pair<std::string, std::string>> sections;
+  if (!changes.empty()) sections.emplace_back("changes", "faults and changes");
+  sections.emplace_back("checks", "checks");
   if (report.contains("results")) sections.emplace_back("results", "results");
   sections.emplace_back("timing", "latency and jitter");
   if (!report.at("series").empty()) sections.emplace_back("estimates", "estimates");
@@ -39,7 +42,7 @@ std::string page_of(const Json& report) {
   sections.emplace_back("provenance", "provenance");
   return whole_page(escaped(fmt::format("{}: {}", outcome, title)), styles,
                     head(title, about) + verdict(outcome, report.at("reason").get<std::string>()) +
-                        links(sections) + checks_section(report) + results_section(report) +
+                        links(sections) + changes + checks_section(report) + results_section(report) +
                         timing_section(report) + estimates_section(report) + bus_section(report) +
                         provenance_section(report),
                     scripts);

@@ -136,6 +136,21 @@ void add_bars(const Json& series, const Json& checks, LinePlot& plot) {
   }
 }
 
+// Shades the times of faults, if these are not the whole run.
+void add_faults(const Json& report, LinePlot& plot) {
+  if (!report.contains("faults")) return;
+  const double end_s = report.at("duration_s").get<double>();
+  for (const Json& fault : report.at("faults")) {
+    LinePlot::Band band{.times_s = {},
+                        .name = fmt::format("fault '{}'", fault.at("name").get<std::string>())};
+    for (const Json& window : fault.at("windows")) {
+      const double from_s = window.at("from_s").get<double>(), to_s = window.at("to_s").get<double>();
+      if (from_s > 0 || to_s < end_s) band.times_s.emplace_back(from_s, to_s);
+    }
+    if (!band.times_s.empty()) plot.bands.push_back(std::move(band));
+  }
+}
+
 // Which limits of checks the picture does not show.
 std::string beyond_words(const LinePlot& plot) {
   std::string words;
@@ -251,7 +266,7 @@ std::string flags(const Json& all, const std::string& estimator, double end_s) {
   return out;
 }
 
-std::string estimate(const Json& series, const Json& checks, std::string_view id) {
+std::string estimate(const Json& series, const Json& report, std::string_view id) {
   const std::string kind = series.at("kind").get<std::string>();
   const std::string title = series.at("quantity").get<std::string>();
   const std::size_t size = series.at("t_s").size();
@@ -264,7 +279,8 @@ std::string estimate(const Json& series, const Json& checks, std::string_view id
                 .around_zero = kind == "error" || kind == "innovation"};
   LinePlot& plot = course.plot;
   const std::string note = add_lines(series, plot);
-  add_bars(series, checks, plot);
+  add_bars(series, report.at("checks"), plot);
+  add_faults(report, plot);
   std::string out = figure(title, drawn(plot), joined(note, beyond_words(plot)), id);
   if (kind == "statistic") return out;
   auto part = late_course(course);

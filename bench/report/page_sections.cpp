@@ -69,16 +69,14 @@ std::string signals_of(const Json& frame) {
   return signals;
 }
 
-// The frames around the worst value of a check, folded; a sentence where the report has none.
+// The frames around the worst value of a check, folded; empty: the report has none.
 std::string frames_of(const Json& check, const Json& report) {
   if (!check.contains("worst_at_s")) return "";
   const Json none = Json::array();
   const Json& all = report.contains("frames") ? report.at("frames") : none;
   const auto found =
       std::ranges::find_if(all, [&](const Json& one) { return one.at("check") == check.at("name"); });
-  if (found == all.end() || found->at("frames").empty())
-    return "<small>The frames around its worst value are not kept: a run keeps frames only with "
-           "--html.</small>";
+  if (found == all.end() || found->at("frames").empty()) return "";
   const double worst_s = check.at("worst_at_s").get<double>();
   Rows rows;
   bool before = true;
@@ -103,6 +101,36 @@ std::string frames_of(const Json& check, const Json& report) {
 
 std::string series_id(std::size_t number) { return fmt::format("series-{}", number); }
 
+std::string changes_section(const Json& report) {
+  std::string out;
+  if (report.contains("faults")) {
+    Rows rows;
+    for (const Json& fault : report.at("faults")) {
+      std::string when;
+      for (const Json& window : fault.at("windows"))
+        when += fmt::format("{}{:g} to {:g}", when.empty() ? "" : "; ", window.at("from_s").get<double>(),
+                            window.at("to_s").get<double>());
+      const auto count = fault.at("count").get<std::uint64_t>();
+      rows.push_back({text_in(fault.at("name")), text_in(fault.at("kind")), text_in(fault.at("stage")),
+                      when.empty() ? "it never began" : when,
+                      count == 0 ? "it did not strike" : fmt::format("{}", count)});
+    }
+    out += table({"fault", "kind", "where", "active, from to s", "struck, times"}, rows);
+  }
+  if (const Json& provenance = report.at("provenance"); provenance.contains("settings")) {
+    Rows rows;
+    for (const auto& [key, value] : provenance.at("settings").items())
+      rows.push_back({escaped(key), text_in(value)});
+    out += table({"key of the scenario", "set to"}, rows, "pairs");
+  }
+  if (const Json& bus = report.at("bus"); bus.contains("notes")) {
+    std::string items;
+    for (const Json& note : bus.at("notes")) items += fmt::format("<li>{}</li>\n", text_in(note));
+    out += fmt::format("<ul>\n{}</ul>\n", items);
+  }
+  return out.empty() ? "" : section("changes", "Faults and changes", out);
+}
+
 std::string checks_section(const Json& report) {
   std::vector<Judged> all;
   for (const Json& check : report.at("checks")) {
@@ -115,7 +143,12 @@ std::string checks_section(const Json& report) {
                    .link = plot_of(check, report.at("series")),
                    .more = frames_of(check, report)});
   }
-  return section("checks", "Checks", judgements(all));
+  std::string out = judgements(all);
+  const bool has_worst = std::ranges::any_of(report.at("checks"),
+                                             [](const Json& check) { return check.contains("worst_at_s"); });
+  if (has_worst && std::ranges::all_of(all, [](const Judged& one) { return one.more.empty(); }))
+    out += not_known("The frames around the worst values are not kept: a run keeps frames only with --html.");
+  return section("checks", "Checks", out);
 }
 
 std::string results_section(const Json& report) {
@@ -150,7 +183,7 @@ std::string estimates_section(const Json& report) {
     const std::string own = series.at("estimator").get<std::string>();
     if (own != estimator) end_group();
     estimator = own;
-    figures += estimate(series, report.at("checks"), series_id(number++));
+    figures += estimate(series, report, series_id(number++));
   }
   end_group();
   return section("estimates", "Estimates against the truth", out);

@@ -54,6 +54,11 @@ struct LinePlot {
     double t_s = 0;
     std::string name{};  ///< in the legend
   };
+  /// Times that are shaded over the whole height.
+  struct Band {
+    std::vector<std::pair<double, double>> times_s;
+    std::string name{};  ///< in the legend
+  };
   /// A further curve, with one value for each time; not finite: a gap.
   struct Line {
     std::string name;
@@ -68,6 +73,7 @@ struct LinePlot {
   std::vector<double> levels{};   ///< dashed horizontal lines
   std::vector<Bar> bars{};        ///< heavy lines with dots at both ends
   std::vector<Ring> worst{};
+  std::vector<Band> bands{};
   std::vector<Line> lines{};     ///< each with its own dashes and colour
   bool from_zero = false;        ///< the axis begins at 0: for a quantity without sign
   bool begins_at_first = false;  ///< the time axis begins at the first time instead of 0

@@ -34,7 +34,7 @@ std::string from_zero(const std::string& title, const std::string& unit, double 
 
 /// A quantity over the run. If the scale of this picture hides the later course or the limits of checks, a
 /// second picture shows that part of the run.
-std::string estimate(const Json& series, const Json& checks, std::string_view id);
+std::string estimate(const Json& series, const Json& report, std::string_view id);
 /// The id of the plot of a series, by its number in the report.
 std::string series_id(std::size_t number);
 
@@ -43,6 +43,9 @@ std::string flags(const Json& all, const std::string& estimator, double end_s);
 
 // The sections.
 
+/// What differs from the scenario's files and from an undisturbed run: faults, set values, notes; empty:
+/// nothing.
+std::string changes_section(const Json& report);
 std::string checks_section(const Json& report);
 /// The results of the run for each estimator.
 std::string results_section(const Json& report);

@@ -25,6 +25,13 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+// Whether another word follows `word`: _deg, .pitch, Update.
+bool begins_with_words(std::string_view name, std::string_view word) {
+  if (word.empty() || name.size() <= word.size() || !name.starts_with(word)) return false;
+  const char next = name[word.size()];
+  return next == '_' || next == '.' || (next >= 'A' && next <= 'Z');
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, std::span<const std::string> names) {
@@ -33,7 +40,7 @@ std::string nearest(std::string_view word, std::span<const std::string> names) {
   std::string best;
   std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& name : names) {
-    if (!word.empty() && name.starts_with(std::string(word) + "_")) return name;
+    if (begins_with_words(name, word)) return name;
     const std::size_t distance = edits(word, name);
     if (distance >= fewest) continue;
     fewest = distance;

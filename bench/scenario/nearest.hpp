@@ -8,9 +8,9 @@
 namespace canhil::scenario {
 
 /// Finds the name that the user probably meant by `word`. This is the name that equals `word` except for a
-/// unit or another suffix (tilt for tilt_deg). If there is none, it is the name that needs the fewest edits
-/// (insert, delete or replace a letter), if the number of edits is at most two or at most a third of the
-/// number of letters of `word`. Otherwise the result is empty.
+/// unit or another word at its end (tilt for tilt_deg, Wind for WindUpdate). If there is none, it is the name
+/// that needs the fewest edits (insert, delete or replace a letter), if the number of edits is at most two or
+/// at most a third of the number of letters of `word`. Otherwise the result is empty.
 std::string nearest(std::string_view word, std::span<const std::string> names);
 
 /// What was expected instead of `word`: the nearest name, or all names.

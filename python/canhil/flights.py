@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
 import shutil
@@ -17,7 +18,15 @@ from canhil.report import Answers, Flag, Json, Judgement, Latency, Verdict, flag
 from canhil.table import Series, Table
 from canhil.toml_text import Value, toml_tables, toml_value
 
-Faults = Union[program.StrPath, Sequence[Mapping[str, Value]]]
+Faults = Union[program.StrPath, Mapping[str, Value], Sequence[Mapping[str, Value]]]
+PAGE = "report.html"
+FAULTS = "faults.toml"
+"""The file of the argument `faults` in the folder of a run."""
+
+
+def _unknown(what: str, name: str, known: Sequence[str], all_of_them: str) -> str:
+    near = [one for one in known if one.startswith(name + ".")] or difflib.get_close_matches(name, known, 5, 0.5)
+    return f"no {what} '{name}', expected one of {f'{near}; {all_of_them} has all' if near else all_of_them}"
 
 
 class Run:
@@ -68,7 +77,7 @@ class Run:
         named = [one for one in self.judgements if one.name == name]
         found = named or [one for one in self.judgements if one.kind == name]
         if len(found) != 1:
-            raise KeyError(f"no single check '{name}', expected one of {[one.name for one in self.judgements]}")
+            raise KeyError(_unknown("single check", name, [one.name for one in self.judgements], "run.judgements"))
         return found[0]
 
     @property
@@ -87,7 +96,7 @@ class Run:
             if quantity == name and estimator in (None, owner)
         ]
         if not found:
-            raise KeyError(f"no quantity '{name}', expected one of {self.quantities}")
+            raise KeyError(_unknown("quantity", name, self.quantities, "run.quantities"))
         if len(found) > 1:
             found = [one for one in found if one.estimator != "plant"]
         if len(found) > 1:
@@ -136,8 +145,7 @@ class Run:
         to = Path(path)
         files = {".json": "report.json", ".xml": "report.xml", ".csv": "values.csv", ".log": "frames.log"}
         if to.suffix == ".html":
-            program.call("report", self.folder / "report.json")
-            shutil.copyfile(self.folder / "report.html", to)
+            shutil.copyfile(self._page(), to)
         elif to.suffix in files:
             shutil.copyfile(self.folder / files[to.suffix], to)
         else:
@@ -147,13 +155,21 @@ class Run:
     def keep(self, folder: program.StrPath) -> Path:
         """Copies all files of the run, and the page, to a folder, which may exist."""
         to = Path(folder)
-        program.call("report", self.folder / "report.json")
+        self._page()
         shutil.copytree(self.folder, to, dirs_exist_ok=True)
         return to
+
+    def _page(self) -> Path:
+        page = self.folder / PAGE
+        if not page.exists():
+            program.call("report", self.folder / "report.json")
+        return page
 
 
 def settings_of(settings: Mapping[str, Value]) -> list[str]:
     """The words of a command line that set keys of a scenario."""
+    if not isinstance(settings, Mapping):
+        raise TypeError(f"set={settings!r}: expected a dict of keys and values")
     return [word for key, value in settings.items() for word in ("--set", f"{key}={toml_value(value)}")]
 
 
@@ -167,6 +183,7 @@ def run(
     lockstep: bool = False,
     realtime: bool = False,
     seed: int | None = None,
+    page: bool = False,
     folder: program.StrPath | None = None,
     options: Sequence[str] = (),
 ) -> Run:
@@ -174,8 +191,9 @@ def run(
 
     `bus`, `target`, `lockstep`, `realtime`, `seed`: the options of `hil-bench run` with these names.
     `set`: keys of the scenario with other values, such as ``{"slave_imu.period_ms": 5}``; a dict of dicts works
-    too. `faults`: tables [[fault]] in addition to those of the scenario, or a file of them. `folder`: where the
-    files of the run stay; it must not hold those of another run. `options`: further words of the command line.
+    too. `faults`: tables [[fault]] in addition to those of the scenario, one or several; or a file of them. `page`: writes
+    the page at once, which then has the frames around the worst values. `folder`: where the files of the run
+    stay; it must not hold those of another run. `options`: further words of the command line.
 
     Raises Error if the bench refuses something or cannot fly. A run that fails is no error: see Run.verdict.
 
@@ -189,9 +207,12 @@ def run(
     __tracebackhide__ = True  # pytest then shows the line of the test
     command = command_of_run(
         scenario, bus=bus, target=target, set=set, faults=faults, lockstep=lockstep, realtime=realtime, seed=seed,
-        folder=folder, options=options,
+        page=page, folder=folder, options=options,
     )
-    program.call(*command.words)
+    try:
+        program.call(*command.words)
+    except Error as error:
+        raise command.explained(error) from None
     return command.run()
 
 
@@ -201,6 +222,12 @@ class Command(NamedTuple):
     words: list[program.StrPath]
     folder: Path
     owner: tempfile.TemporaryDirectory[str] | None
+
+    def explained(self, error: Error) -> Error:
+        """An error in the argument `faults`: it names no file, because the caller wrote none."""
+        if error.file != self.folder / FAULTS:
+            return error
+        return Error(f"faults: {str(error).split(': ', 1)[1]}", key=error.key)
 
     def run(self) -> Run:
         """The run, after the command has ended."""
@@ -219,10 +246,13 @@ def command_of_run(
     lockstep: bool = False,
     realtime: bool = False,
     seed: int | None = None,
+    page: bool = False,
     folder: program.StrPath | None = None,
     options: Sequence[str] = (),
 ) -> Command:
     """The command line of run()."""
+    if Path(scenario).is_dir():
+        raise Error(f"{scenario}: is a folder, expected the file of one scenario", file=Path(scenario))
     owner = None
     if folder is None:
         owner = tempfile.TemporaryDirectory(prefix="canhil-")
@@ -244,10 +274,14 @@ def command_of_run(
     if isinstance(faults, (str, os.PathLike)):
         words += ["--faults", faults]
     elif faults:
-        tables: Any = faults
-        (place / "faults.toml").write_text(toml_tables("fault", tables), encoding="utf-8")
-        words += ["--faults", place / "faults.toml"]
+        tables: Any = [faults] if isinstance(faults, Mapping) else faults
+        if not all(isinstance(one, Mapping) for one in tables):
+            raise TypeError(f"faults={faults!r}: expected a list of dicts, or a file")
+        (place / FAULTS).write_text(toml_tables("fault", tables), encoding="utf-8")
+        words += ["--faults", place / FAULTS]
     words += ["--lockstep"] * lockstep + ["--realtime"] * realtime
     if seed is not None:
         words += ["--seed", str(seed)]
+    if page:
+        words += ["--html", place / PAGE]
     return Command([*words, *options], place, owner)

@@ -63,7 +63,7 @@ class Flight:
 
     def _error(self) -> Error:
         self._errors.seek(0)
-        return error_of(self._errors.read())
+        return self._command.explained(error_of(self._errors.read()))
 
     def __enter__(self) -> Flight:
         return self
@@ -129,6 +129,7 @@ def live(
     lockstep: bool = False,
     realtime: bool = False,
     seed: int | None = None,
+    page: bool = False,
     folder: program.StrPath | None = None,
     options: Sequence[str] = (),
 ) -> Flight:
@@ -152,7 +153,7 @@ def live(
     return Flight(
         command_of_run(
             scenario, bus=bus, target=target, set=set, faults=faults, lockstep=lockstep, realtime=realtime, seed=seed,
-            folder=folder, options=options,
+            page=page, folder=folder, options=options,
         ),
         period, truth, hears,
     )

@@ -24,7 +24,7 @@ def bench_program() -> Path:
     """The program hil-bench: the value of the environment variable CANHIL_BENCH, or the one in PATH."""
     named = os.environ.get("CANHIL_BENCH")
     if named:
-        if not os.access(named, os.X_OK):
+        if not (os.path.isfile(named) and os.access(named, os.X_OK)):
             raise Error(f"CANHIL_BENCH: '{named}' is not a program, expected hil-bench")
         return Path(named)
     found = shutil.which("hil-bench")

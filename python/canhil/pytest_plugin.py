@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import tomllib
 from collections.abc import Generator, Iterable, Sequence
 from pathlib import Path
@@ -15,6 +16,8 @@ from canhil.flights import Run, run
 from canhil.report import Judgement, Verdict
 
 _RUNS: pytest.StashKey[list[Run]] = pytest.StashKey[list[Run]]()
+_NOT_MEASURED: pytest.StashKey[str] = pytest.StashKey[str]()
+_SCENARIO_KEYS = ("duration_s", "truth", "target")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -72,19 +75,23 @@ class Bench:
 
     def run(self, scenario: str | Path, **options: Any) -> Run:
         """Flies a scenario. Its files are kept if the test fails. Relative paths are relative to the test's folder."""
+        __tracebackhide__ = True  # pytest then shows the line of the test
         for name in ("bus", "target"):
             options.setdefault(name, _option(self._item.config, name))
+        options.setdefault("page", True)  # for the frames around the worst values, if the test fails
         flown = run(self._item.path.parent / scenario, **options)
         self._runs.append(flown)
         return flown
 
     def check(self, flown: Run) -> None:
-        """Fails or skips the test if the run did not pass."""
-        ids = dict.fromkeys(one.requirement for one in flown.judgements if one.requirement)
-        self._item.user_properties += [("requirement", one) for one in ids]
+        """Fails the test if the run failed. After a run that was not measured, a test that passes counts as skipped."""
+        __tracebackhide__ = True
+        if not isinstance(flown, Run):
+            raise TypeError(f"bench.check({flown!r}): expected what bench.run returned")
+        _add_requirements(self._item, (one.requirement for one in flown.judgements if one.requirement))
         if flown.verdict is Verdict.NOT_MEASURED and not self._fails:
-            pytest.skip(flown.reason)
-        if flown.verdict is not Verdict.PASS:
+            self._item.stash[_NOT_MEASURED] = flown.reason
+        elif flown.verdict is not Verdict.PASS:
             pytest.fail(explain(flown), pytrace=False)
 
 
@@ -92,8 +99,13 @@ class ScenarioFile(pytest.File):
     """A TOML file that is a scenario."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """One test: the scenario flies."""
-        yield ScenarioItem.from_parent(self, name="scenario")
+        """One test: the scenario flies. The ids of the requirements of its checks are its markers."""
+        item = ScenarioItem.from_parent(self, name="scenario")
+        checks = (_tables(self.path) or {}).get("check")
+        for one in checks if isinstance(checks, list) else []:
+            if isinstance(one, dict) and isinstance(one.get("requirement"), str):
+                item.add_marker(pytest.mark.requirement(one["requirement"]))
+        yield item
 
 
 class ScenarioItem(pytest.Item):
@@ -115,26 +127,44 @@ class ScenarioItem(pytest.Item):
         return self.path, None, self.path.stem
 
 
+def _tables(path: Path) -> dict[str, Any] | None:
+    """The content of a TOML file; None: it is none."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
+        return None
+
+
 def is_scenario(path: Path) -> bool:
-    """Whether `hil-bench run FOLDER` would fly this file of the folder: a TOML file with the key duration_s."""
+    """Whether a file is meant as a scenario. One that is wrong counts too: its test says so, and does not disappear."""
     if path.suffix != ".toml":
         return False
+    tables = _tables(path)
+    if tables is not None:
+        return "duration_s" in tables or ("variant" not in tables and any(key in tables for key in _SCENARIO_KEYS))
     try:
-        return "duration_s" in tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
+        text = path.read_text(encoding="utf-8", errors="replace")
+    except OSError:
         return False
+    return re.search(rf"^\s*\[?({'|'.join(_SCENARIO_KEYS)})\b", text, re.MULTILINE) is not None
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> ScenarioFile | None:
-    """Scenarios among the collected files."""
-    return ScenarioFile.from_parent(parent, path=file_path) if is_scenario(file_path) else None
+    """Scenarios among the collected files, and every TOML file that the command line names."""
+    named = file_path.suffix == ".toml" and parent.session.isinitpath(file_path)
+    return ScenarioFile.from_parent(parent, path=file_path) if named or is_scenario(file_path) else None
+
+
+def _add_requirements(item: pytest.Item, ids: Iterable[str]) -> None:
+    for one in dict.fromkeys(ids):
+        if ("requirement", one) not in item.user_properties:
+            item.user_properties.append(("requirement", one))
 
 
 def pytest_collection_modifyitems(items: Sequence[pytest.Item]) -> None:
     """The ids of the marker `requirement` become properties of the test in JUnit."""
     for item in items:
-        for marker in item.iter_markers("requirement"):
-            item.user_properties += [("requirement", one) for one in marker.args]
+        _add_requirements(item, (one for marker in item.iter_markers("requirement") for one in marker.args))
 
 
 @pytest.fixture
@@ -163,10 +193,14 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
     if report.when != "call":
         return
     runs = _runs_of(item)
+    folder = item.config.rootpath / (_option(item.config, "artefacts") or "") / re.sub(r"[^\w.-]+", "-", item.nodeid).strip("-")
+    if runs and folder.is_dir():
+        shutil.rmtree(folder)  # of an earlier failure of this test
     if report.failed:
-        root = item.config.rootpath / (_option(item.config, "artefacts") or "")
-        name = re.sub(r"[^\w.-]+", "-", item.nodeid).strip("-")
-        for number, flown in enumerate(runs):
-            folder = root / (name if len(runs) == 1 else f"{name}-{number + 1}")
-            report.sections.append(("hil-bench", f"{flown.title}: {flown.keep(folder) / 'report.html'}"))
+        for number, flown in enumerate(runs, 1):
+            page = flown.keep(folder if len(runs) == 1 else folder / str(number)) / "report.html"
+            report.sections.append(("hil-bench", f"{flown.title}: {flown.reason}\n{page}"))
+    elif report.passed and _NOT_MEASURED in item.stash:
+        report.outcome = "skipped"
+        report.longrepr = (str(item.path), (item.location[1] or 0) + 1, f"Skipped: {item.stash[_NOT_MEASURED]}")
     runs.clear()  # removes the files of the runs

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which defects does `hil-bench accept` detect? Seeds one defect after the other into the target and flies the acceptance suites against each.
 
-  python3 tests/mutants/run.py [--only REGEX] [--dozen SEED] [--list] [--json FILE] [--jobs N] [--target-passes]
+  python3 tests/mutants/run.py [--only REGEX] [--draw N] [--seed SEED] [--list] [--json FILE] [--jobs N] [--target-passes]
 
 The defects are in tests/mutants/*.toml, one file per family; seeded.py describes their format. The sources of the project are not changed.
 build/default must be built; it defines how the target is compiled and linked. overlaid.py compiles the changed file from a copy and links it with
@@ -11,7 +11,7 @@ Before all mutants, the unchanged target must pass all suites.
 A mutant is caught if a requirement is not met. It survives if all requirements are met or not measured.
 
 --only          mutants whose FAMILY.NAME contains a match of the regular expression
---dozen         twelve mutants, at least one of each family; the same SEED selects the same mutants (SEED `today`: the current date)
+--draw          N mutants of as many families as possible; the same --seed selects the same mutants (`today`, the default: the current date)
 --target-passes skips the flights of the unchanged target, for callers that have flown them
 --list          lists the mutants and flies nothing
 --jobs          the number of parallel flights (1: timing can be measured too)
@@ -165,11 +165,11 @@ def print_table(table):
         print(f"{family:<18} {counts['mutants']:>8} {counts[CAUGHT]:>8} {counts[SURVIVED]:>9} {counts[NO_BUILD]:>15}")
 
 
-def chosen(mutants, only, seed):
-    """The mutants that --only selects. With a seed, twelve of these are drawn: one of each family, then any. Mutants that only timing
+def chosen(mutants, only, count=None, seed=0):
+    """The mutants that --only selects. With a count, so many of these are drawn: one of each family, then any. Mutants that only timing
     can reveal are not drawn, because other tests that run at the same time disturb timing."""
     left = [mutant for mutant in mutants if only.search(mutant.full_name)]
-    if seed is None:
+    if count is None:
         return left
     left = [mutant for mutant in left if not mutant.real_time]
     dice = random.Random(seed)
@@ -177,8 +177,10 @@ def chosen(mutants, only, seed):
     for mutant in left:
         families.setdefault(mutant.family, []).append(mutant)
     ones = [dice.choice(those) for those in families.values()]
+    if count < len(ones):
+        return dice.sample(ones, count)
     rest = [mutant for mutant in left if mutant not in ones]
-    return ones + dice.sample(rest, max(0, min(12 - len(ones), len(rest))))
+    return ones + dice.sample(rest, min(count - len(ones), len(rest)))
 
 
 def seed_of(text):
@@ -195,7 +197,8 @@ def regex(text):
 def options():
     parser = argparse.ArgumentParser(prog="run.py", description=__doc__.splitlines()[0])
     parser.add_argument("--only", metavar="REGEX", type=regex, default=regex(""), help="those whose FAMILY.NAME it is found in")
-    parser.add_argument("--dozen", metavar="SEED", type=seed_of, help="twelve, of each family one, the same ones for the same seed; today")
+    parser.add_argument("--draw", metavar="N", type=int, help="so many, of as many families as possible")
+    parser.add_argument("--seed", metavar="SEED", type=seed_of, default=seed_of("today"), help="of --draw: the same seed, the same mutants; today")
     parser.add_argument("--target-passes", action="store_true", help="leave out the flights against the target as it is")
     parser.add_argument("--list", action="store_true", help="say what they are, and fly nothing")
     parser.add_argument("--json", metavar="FILE", type=Path, help="what became of each, and the table, as JSON")
@@ -241,7 +244,7 @@ def fly(mutants, jobs, target_passes):
 def main():
     asked = options()
     equivalent = seeded.equivalents()
-    mutants = chosen([one for one in seeded.all_mutants() if one.full_name not in equivalent], asked.only, asked.dozen)
+    mutants = chosen([one for one in seeded.all_mutants() if one.full_name not in equivalent], asked.only, asked.draw, asked.seed)
     if not mutants:
         raise Failure(f"--only: no mutant has '{asked.only.pattern}' in its name, expected one (see --list)")
     if asked.list:
@@ -249,7 +252,7 @@ def main():
             print(f"{mutant.family:<18} {mutant.name:<44} {mutant.what}")
         return 0
     for name, proof in equivalent.items():
-        if asked.only.search(name) and asked.dozen is None:
+        if asked.only.search(name) and asked.draw is None:
             print(f"{name}: not flown, equivalent: {proof}", flush=True)
     entries = fly(mutants, asked.jobs, asked.target_passes)
     table = table_of(entries)

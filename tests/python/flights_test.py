@@ -78,6 +78,28 @@ def test_a_fault_from_code_makes_a_check_fail(scenario: Path, flown: canhil.Run,
     file = tmp_path / "faults.toml"
     file.write_text(canhil.toml_text.toml_tables("fault", [BIAS]))
     assert canhil.run(scenario, bus="in-process", faults=file).judgements == run.judgements
+    assert canhil.run(scenario, bus="in-process", faults=BIAS).judgements == run.judgements
+    assert f"fault '{BIAS['name']}'" in run.report(tmp_path / "page.html").read_text()
+    with pytest.raises(canhil.Error, match=r"^faults: key 'fault\[1\].kind'") as caught:
+        canhil.run(scenario, bus="in-process", faults=[BIAS | {"kind": "bais"}])
+    assert caught.value.file is None
+
+
+def test_arguments_of_another_type_are_named(scenario: Path) -> None:
+    with pytest.raises(TypeError, match="expected a list of dicts"):
+        canhil.run(scenario, faults=["seed=3"])  # type: ignore[list-item]
+    with pytest.raises(TypeError, match="expected a dict"):
+        canhil.run(scenario, set=["seed=3"])  # type: ignore[arg-type]
+    with pytest.raises(canhil.Error, match="is a folder, expected the file of one scenario"):
+        canhil.run(scenario.parent)
+
+
+def test_a_name_that_is_unknown_has_near_ones(flown: canhil.Run) -> None:
+    for name in ("los.rate", "los.rate.pich"):
+        with pytest.raises(KeyError, match="'los.rate.pitch'"):
+            flown.series(name)
+    with pytest.raises(KeyError, match="expected one of run.quantities"):
+        flown.series("zzz")
 
 
 def test_latencies_and_flags_over_a_bus(scenario: Path) -> None:
@@ -132,9 +154,10 @@ def test_errors_name_file_line_and_key(scenario: Path, tmp_path: Path, monkeypat
     with pytest.raises(canhil.Error) as caught:
         canhil.run(scenario, bus="in-process", options=["--nonsense"])
     assert caught.value.file is None and "--nonsense" in str(caught.value)
-    monkeypatch.setenv("CANHIL_BENCH", str(scenario))
-    with pytest.raises(canhil.Error, match="is not a program"):
-        canhil.run(scenario)
+    for no_program in (scenario, scenario.parent):
+        monkeypatch.setenv("CANHIL_BENCH", str(no_program))
+        with pytest.raises(canhil.Error, match="is not a program"):
+            canhil.run(scenario)
     monkeypatch.delenv("CANHIL_BENCH")
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(canhil.Error, match="not in PATH"):

@@ -77,8 +77,56 @@ def test_fixtures_markers_and_artefacts(project: pytest.Pytester) -> None:
     result.assert_outcomes(passed=1, failed=3)
     kept = sorted(one.name for one in (project.path / "canhil-artefacts").iterdir())
     name = "test_fixtures_markers_and_artefacts.py-test_bad"
-    assert kept == [f"{name}-{limit}-{number}" for limit in (0.1, 0.2) for number in (1, 2)]
+    assert kept == [f"{name}-{limit}" for limit in (0.1, 0.2)]
+    assert sorted(one.name for one in (project.path / "canhil-artefacts" / kept[0]).iterdir()) == ["1", "2"]
     assert '<property name="requirement" value="REQ-2"' in (project.path / "j.xml").read_text()
+
+
+def test_a_scenario_that_is_wrong_does_not_disappear(project: pytest.Pytester) -> None:
+    good = (project.path / "good.toml").read_text()
+    for name, text in (("quote", good.replace('"', "", 1)), ("key", good.replace("duration_s", "duration")), ("twice", "duration_s = 1\n" + good)):
+        (project.path / f"{name}.toml").write_text(text)
+    result = fly(project, BUS, "-v", "quote.toml", "key.toml", "twice.toml")
+    result.assert_outcomes(failed=3)
+    result.stdout.fnmatch_lines(["*duration*is unknown, expected 'duration_s'*"])
+    fly(project, BUS).assert_outcomes(passed=1, failed=4, skipped=1)
+    fly(project, BUS, "broken.toml").assert_outcomes(failed=1)  # named, so it is a test
+
+
+def test_assertions_after_a_check_that_was_not_measured_count(project: pytest.Pytester) -> None:
+    project.makepyfile(
+        """
+        import pytest
+
+        def test_wrong(bench):
+            bench.check(bench.run("unclear.toml"))
+            assert False
+
+        def test_right(bench):
+            bench.check(bench.run("unclear.toml"))
+
+        def test_no_run(bench):
+            with pytest.raises(TypeError, match="expected what bench.run returned"):
+                bench.check("unclear.toml")
+        """
+    )
+    result = fly(project, "-rs", "-k", "test_", BUS)
+    result.assert_outcomes(passed=1, failed=1, skipped=1)
+    result.stdout.fnmatch_lines(["SKIPPED*.py*not measured: 1 of 2 checks*"])
+
+
+def test_files_of_an_earlier_failure_go(project: pytest.Pytester) -> None:
+    fly(project, "bad.toml", BUS).assert_outcomes(failed=1)
+    kept = project.path / "canhil-artefacts/bad.toml-scenario"
+    assert kept.exists()
+    (project.path / "bad.toml").write_text((project.path / "good.toml").read_text())
+    fly(project, "bad.toml", BUS).assert_outcomes(passed=1)
+    assert not kept.exists()
+
+
+def test_requirements_select_scenarios(project: pytest.Pytester) -> None:
+    fly(project, BUS, "-m", "requirement", "good.toml").assert_outcomes(passed=1)
+    fly(project, BUS, "-m", "not requirement", "good.toml").assert_outcomes(deselected=1)
 
 
 def test_several_processes_of_xdist(project: pytest.Pytester) -> None:

@@ -90,15 +90,16 @@ class Choosing(unittest.TestCase):
         self.mutants = seeded.all_mutants()
 
     def test_only_those_that_the_expression_is_in(self):
-        names = {mutant.full_name for mutant in run.chosen(self.mutants, re.compile(r"^wind\..*sign"), None)}
+        names = {mutant.full_name for mutant in run.chosen(self.mutants, re.compile(r"^wind\..*sign"))}
         self.assertIn("wind.rudder_sign", names)
         self.assertTrue(all(name.startswith("wind.") and "sign" in name for name in names), names)
 
-    def test_a_dozen_with_one_of_each_family_by_seed(self):
-        def picked(seed):
-            return run.chosen(self.mutants, re.compile(""), seed)
+    def test_as_many_as_asked_of_as_many_families_as_possible_by_seed(self):
+        def picked(seed, count=12):
+            return run.chosen(self.mutants, re.compile(""), count, seed)
         self.assertEqual([mutant.family for mutant in picked(1)][:len(seeded.FAMILIES)], list(seeded.FAMILIES))
         self.assertEqual(len(set(picked(1))), 12)
+        self.assertEqual(len({mutant.family for mutant in picked(1, 5)}), 5)
         self.assertEqual(picked(1), picked(1))
         self.assertNotEqual(picked(1), picked(2))
 

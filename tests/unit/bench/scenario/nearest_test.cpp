@@ -13,6 +13,8 @@ TEST(Nearest, FindsWhatWasMeant) {
   EXPECT_EQ(nearest("perod_ms", names), "period_ms");
   EXPECT_EQ(nearest("periods_ms", names), "period_ms");
   EXPECT_EQ(nearest("latency", names), "latency_ms") << "the unit was forgotten";
+  EXPECT_EQ(nearest("Wind", std::vector<std::string>{"Windy", "WindUpdate"}), "WindUpdate");
+  EXPECT_EQ(nearest("los.rate", std::vector<std::string>{"los.rates_", "los.rate.pitch"}), "los.rate.pitch");
   EXPECT_EQ(nearest("latenz", names), "") << "five edits in six letters are too many";
   EXPECT_EQ(nearest("latency_m", names), "latency_ms");
   EXPECT_EQ(nearest("velocity_sigma_mps", names), "velocity_noise_mps");
