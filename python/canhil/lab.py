@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import io
 import os
 import queue
@@ -239,8 +240,16 @@ def run(
     threads = [threading.Thread(target=serve, args=(bench,)) for bench in lab]
     for thread in threads:
         thread.start()
-    for thread in threads:
-        thread.join()
+    try:
+        for thread in threads:
+            thread.join()
+    except KeyboardInterrupt:
+        with contextlib.suppress(queue.Empty):  # begins nothing more; Ctrl-C reaches the runs that go on, too
+            while True:
+                waiting.get_nowait()
+        for thread in threads:
+            thread.join()
+        raise
     nobody = Error("no bench of the lab could fly it")
     return Result([one or Flown(path, lab[0], error=nobody) for one, path in zip(results, paths)])
 
@@ -261,6 +270,9 @@ def main(words: Sequence[str] | None = None) -> int:
     except Error as error:
         print(f"canhil.lab: {error}", file=sys.stderr)
         return program.USAGE
+    except KeyboardInterrupt:
+        print(f"canhil.lab: interrupted; {asked.out} has the runs that had ended", file=sys.stderr)
+        return program.NOT_MEASURED
     for one in result.flown:
         print(f"{one.outcome:13} {one.bench.name}: {one.scenario.name}: {one.run.reason if one.run else one.error}")
     return result.code

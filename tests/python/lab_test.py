@@ -1,6 +1,8 @@
 """canhil.lab: scenarios over several benches. ssh and labgrid-client are scripts that run the words here."""
 
 import os
+import signal
+import threading
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
@@ -116,3 +118,15 @@ def test_nothing_to_do_is_refused(scenarios: list[Path], tmp_path: Path) -> None
         lab.run([], here, folder=tmp_path / "out")
     with pytest.raises(canhil.Error, match="expected a scenario"):
         lab.run([tmp_path / "none.toml"], here, folder=tmp_path / "out")
+
+
+def test_an_interruption_begins_no_further_run(scenarios: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    begun = tmp_path / "begun"
+    slow = tmp_path / "slow"
+    slow.write_text(f"#!/bin/sh\necho >>{begun}\nsleep 1\nexit 3\n")
+    slow.chmod(0o700)
+    file = write_lab(tmp_path, f'[[bench]]\nname = "here"\nprogram = "{slow}"\n')
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    assert lab.main([str(file), *map(str, scenarios), "--out", str(tmp_path / "out")]) == 3
+    assert "interrupted" in capsys.readouterr().err
+    assert begun.read_text() == "\n"

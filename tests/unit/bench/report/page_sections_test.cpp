@@ -122,6 +122,24 @@ TEST(PageSections, WithoutFramesThePageSaysWhy) {
   EXPECT_THAT(page_of(run), HasSubstr("are not kept: a run keeps frames only with --html"));
 }
 
+TEST(PageSections, FaultsAndChangesStandOnThePage) {
+  drive::Run run = run_of();
+  EXPECT_THAT(page_of(run), Not(HasSubstr("Faults and changes")));
+  run.faults = {{.name = "gyro <1>",
+                 .kind = "bias",
+                 .count = 401,
+                 .windows = {{.from_us = 2'000'000, .to_us = 3'500'000}}},
+                {.name = "later", .kind = "noise"}};
+  run.seen.bus.notes = {"t=3.900 s: 'spoiler' set imu.rate.z to 2"};
+  const std::string page = page_of(run);
+  EXPECT_THAT(page, AllOf(HasSubstr("Faults and changes"), HasSubstr("2 to 3.<wbr>5"), HasSubstr(">401<"),
+                          HasSubstr("it never began"), HasSubstr("it did not strike"),
+                          HasSubstr("&#39;spoiler&#39; set imu")));
+  EXPECT_THAT(page,
+              AllOf(HasSubstr("fault &#39;gyro &lt;1&gt;&#39;"), Not(HasSubstr("fault &#39;later&#39;"))))
+      << "its times are shaded in the plots";
+}
+
 TEST(PageSections, TheSplitOfEachGroupStandsBesideThatOfAll) {
   drive::Run run = run_on_a_wire();
   checks::TimingRecord& timing = run.seen.timing;
