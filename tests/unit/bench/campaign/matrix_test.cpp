@@ -40,8 +40,10 @@ class Flown : public testing::Test {
     scenario_.binding = bindings::canhil();
     scenario_.duration_us = duration_us;
     scenario_.faults.push_back({.name = "it", .from_us = 8 * second_us, .to_us = 10 * second_us});
-    run_.faults.push_back(
-        {.name = "it", .kind = "bias", .from_us = 8 * second_us, .to_us = 10 * second_us, .count = 1});
+    run_.faults.push_back({.name = "it",
+                           .kind = "bias",
+                           .count = 1,
+                           .windows = {{.from_us = 8 * second_us, .to_us = 10 * second_us}}});
     run_.ending = {.kind = Ending::Kind::completed, .t_us = duration_us, .detail = ""};
     for (std::int64_t t_us = 100'000; t_us <= duration_us; t_us += 100'000)
       run_.seen.of<estimators::TransferAnswers>().filter.push_back({.cause_us = t_us});
