@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which defects does `hil-bench accept` detect? Seeds one defect after the other into the target and flies the acceptance suites against each.
 
-  python3 tests/mutants/run.py [--only REGEX] [--draw N] [--seed SEED] [--list] [--json FILE] [--jobs N] [--target-passes]
+  python3 tests/mutants/run.py [--only REGEX] [--draw N] [--seed SEED] [--good] [--list] [--json FILE] [--jobs N] [--target-passes]
 
 The defects are in tests/mutants/*.toml, one file per family; seeded.py describes their format. The sources of the project are not changed.
 build/default must be built; it defines how the target is compiled and linked. overlaid.py compiles the changed file from a copy and links it with
@@ -12,6 +12,7 @@ A mutant is caught if a requirement is not met. It survives if all requirements 
 
 --only          mutants whose FAMILY.NAME contains a match of the regular expression
 --draw          N mutants of as many families as possible; the same --seed selects the same mutants (`today`, the default: the current date)
+--good          asks only whether the target is good: no comparison with hil-target's code. A defect that leaves a good filter survives
 --target-passes skips the flights of the unchanged target, for callers that have flown them
 --list          lists the mutants and flies nothing
 --jobs          the number of parallel flights (1: timing can be measured too)
@@ -40,6 +41,7 @@ import seeded  # noqa: E402
 BUILD = ROOT / "build/default"
 BENCH = BUILD / "hil-bench"
 LONGEST_S = 900  # time limit of one call of hil-bench accept
+SAME = ("--same-as", "hil-target")
 
 CAUGHT, SURVIVED, NO_BUILD = "caught", "survived", "does not build"
 
@@ -87,13 +89,13 @@ def run(command, longest_s=None, **more):
         process.wait()
 
 
-def accept(target, estimator, families, folder):
+def accept(target, estimator, families, folder, question=SAME):
     """Flies one suite. Returns (requirement, observation) for the first requirement that the target violates, or
     None if the target violates no requirement that was measured."""
     report = Path(folder, "report.json")
     report.unlink(missing_ok=True)
     wanted = [word for family in families for word in ("--family", family)]
-    code, output = run([str(BENCH), "accept", "--same-as", "hil-target", "--first-failure", "--target", str(target), "--json", str(report), "--estimator", estimator,
+    code, output = run([str(BENCH), "accept", *question, "--first-failure", "--target", str(target), "--json", str(report), "--estimator", estimator,
                         *wanted], LONGEST_S)
     if code is None:
         return "no end", f"not within {LONGEST_S} s"
@@ -109,19 +111,19 @@ def accept(target, estimator, families, folder):
     return "no requirement", f"exit code {code}"
 
 
-def fly_suites(target, first, stages):
+def fly_suites(target, first, stages, question=SAME):
     """Calls accept() for all suites, stage by stage, until the target violates a requirement. In each stage the quick
     suite `several` comes first, then the suite `first`."""
     with tempfile.TemporaryDirectory() as folder:
         for families in stages:
             for estimator in sorted(SUITES, key=lambda name: (name != SUITES[0], name != first)):
-                wrong = accept(target, estimator, families, folder)
+                wrong = accept(target, estimator, families, folder, question)
                 if wrong:
                     return wrong
     return None
 
 
-def outcome_of(mutant, stages):
+def outcome_of(mutant, stages, question=SAME):
     """Builds and flies a mutant. Returns its result as the entry for the JSON file."""
     entry = {"family": mutant.family, "name": mutant.name, "file": mutant.file, "what": mutant.what}
     try:
@@ -129,7 +131,7 @@ def outcome_of(mutant, stages):
     except overlaid.DoesNotBuild as error:
         return {**entry, "outcome": NO_BUILD, "error": str(error)}
     try:
-        wrong = fly_suites(target, mutant.family, stages)
+        wrong = fly_suites(target, mutant.family, stages, question)
     finally:
         overlaid.remove(target)
     if wrong is None:
@@ -199,6 +201,7 @@ def options():
     parser.add_argument("--only", metavar="REGEX", type=regex, default=regex(""), help="those whose FAMILY.NAME it is found in")
     parser.add_argument("--draw", metavar="N", type=int, help="so many, of as many families as possible")
     parser.add_argument("--seed", metavar="SEED", type=seed_of, default=seed_of("today"), help="of --draw: the same seed, the same mutants; today")
+    parser.add_argument("--good", action="store_true", help="without a comparison with hil-target's code")
     parser.add_argument("--target-passes", action="store_true", help="leave out the flights against the target as it is")
     parser.add_argument("--list", action="store_true", help="say what they are, and fly nothing")
     parser.add_argument("--json", metavar="FILE", type=Path, help="what became of each, and the table, as JSON")
@@ -206,27 +209,27 @@ def options():
     return parser.parse_args()
 
 
-def prepare(progress):
+def prepare(progress, question):
     """Checks that the unchanged target passes."""
     if not BENCH.exists():
         raise Failure(f"{BENCH}: is not there, expected the project built (cmake --preset default; cmake --build --preset default)")
     progress.say("the target as it is")
-    wrong = fly_suites(BUILD / "hil-target", None, (SINGLE_FLIGHTS, CAMPAIGNS, TIMES))
+    wrong = fly_suites(BUILD / "hil-target", None, (SINGLE_FLIGHTS, CAMPAIGNS, TIMES), question)
     if wrong:
         raise Failure(f"the target as it is does not meet {wrong[0]}: {wrong[1]}; expected it to")
     progress.line(f"the target as it is meets every requirement that was measured ({len(SUITES)} suites)")
 
 
-def fly(mutants, jobs, target_passes):
+def fly(mutants, jobs, target_passes, question):
     """Tests `jobs` mutants at a time with the families that run in virtual time. The mutants that survive are then tested for timing one after
     the other, because in real time they would disturb each other."""
     progress = Progress()
     start = time.monotonic()
     if not target_passes:
-        prepare(progress)
+        prepare(progress, question)
     entries = []
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for entry in pool.map(lambda mutant: outcome_of(mutant, (SINGLE_FLIGHTS, CAMPAIGNS)), mutants):
+        for entry in pool.map(lambda mutant: outcome_of(mutant, (SINGLE_FLIGHTS, CAMPAIGNS), question), mutants):
             entries.append(entry)
             if entry["outcome"] != SURVIVED:
                 progress.line(line_of(entry))
@@ -235,7 +238,7 @@ def fly(mutants, jobs, target_passes):
     for place, mutant in enumerate(mutants):
         if entries[place]["outcome"] == SURVIVED:
             progress.say(f"{mutant.full_name} in real time")
-            entries[place] = outcome_of(mutant, (TIMES,))
+            entries[place] = outcome_of(mutant, (TIMES,), question)
             progress.line(line_of(entries[place]))
     progress.say("")
     return entries
@@ -254,7 +257,7 @@ def main():
     for name, proof in equivalent.items():
         if asked.only.search(name) and asked.draw is None:
             print(f"{name}: not flown, equivalent: {proof}", flush=True)
-    entries = fly(mutants, asked.jobs, asked.target_passes)
+    entries = fly(mutants, asked.jobs, asked.target_passes, () if asked.good else SAME)
     table = table_of(entries)
     print_table(table)
     if asked.json:

@@ -3,15 +3,16 @@
 #   bash tests/perf/run.sh [BENCHMARK OPTIONS...]        e.g.  --benchmark_filter=unpack --benchmark_repetitions=5
 # The results are in build/perf/DATE/: one PROGRAM.json for each *_benchmark (its "context" contains processor, kernel, compiler and
 # commit); machine.txt with the same description of the machine; one NAME.txt for each other program and for each count of instructions.
-# The figures are not judged: the exit code is 1 only if something did not build or run.
+# At the end stands a table of all goals (goals.py). A goal that is not met does not change the exit code: it is 1 only if something did not build or run,
+# or a figure of a goal is missing.
 set -euo pipefail
 exec </dev/null
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:${PATH:-} LC_ALL=C.UTF-8
 bash tests/setup/install.sh full
 
-build=build/default
-cmake --preset default >/dev/null
+build=build/measured
+cmake --preset perf >/dev/null
 ninja -C "$build" tests/perf/all hil-bench hil-target
 
 commit=$(git rev-parse --short HEAD 2>/dev/null || echo unknown)
@@ -26,6 +27,7 @@ about=(
   "governor=$(cat /sys/devices/system/cpu/cpu0/cpufreq/scaling_governor 2>/dev/null || echo unknown)"
 )
 context=$(printf '%s,' "${about[@]//[,]/ }")
+load_before=$(cut -d' ' -f1 /proc/loadavg)
 records=build/perf/$(date -u +%Y%m%dT%H%M%SZ)
 mkdir -p "$records"
 printf '%s\n' "${about[@]}" | tee "$records/machine.txt"
@@ -66,5 +68,7 @@ as_text live /usr/bin/python3 tests/perf/run/live.py "$build/hil-bench"
 as_text codec_instructions sh tests/perf/codec/count_instructions.sh "$build/tests/perf/codec/codec_instructions"
 as_text estimators_instructions sh tests/perf/estimators/count_instructions.sh "$build"
 as_text run_stages python3 tests/perf/run/stages.py "$build"
+printf '\n== goals; the load of the machine was %s before and is %s\n' "$load_before" "$(cut -d' ' -f1 /proc/loadavg)"
+python3 tests/perf/goals.py "$records" | tee "$records/goals.txt" || failed goals
 printf '\nrecorded in %s\n' "$records"
 exit "$code"

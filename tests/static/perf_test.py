@@ -64,5 +64,43 @@ class FalseValgrind(unittest.TestCase):
             self.assertEqual(self.run_with("summary: 20000\n", *script).returncode, 0, folder)
 
 
+TURNAROUND = """LOS rate               LosRateTarget    18629 |     9.2    17.4    125.0  0 |     8.0    15.3    110.0  0 |  1.14  1.14  1.13
+in-flight UKF          FixUpdate          594 |    23.3    47.1     80.0  0 |    18.0    23.6     50.0  0 |  1.30  1.99  1.60
+"""
+JITTER = """transmit lateness [us]               samples      p50      p99       max   over cyclictest's: p50, p99
+  cyclictest                            5500     45.0     78.4    1527.0
+  hil-bench                             5560     61.5    101.5     972.0          1.367   1.295
+  hil-bench --spin-us 100               5560      6.5     47.5    2434.0          0.144   0.606
+"""
+STAGES = """the paper's flight, Kalman filter: 26.70 million instructions a run
+  sensor and truth               28.0 %
+  pack + wire + E2E + unpack     9.1 %  (goal: below 10 %: met)
+  sensor and truth               28.0 %  (goal: below 25 %: not met)
+"""
+CODEC = """{"benchmarks": [{"name": "decode_by_plan/FourSignals", "run_type": "iteration", "real_time": 29.5},
+{"name": "decode_by_plan/FourSignals", "run_type": "iteration", "real_time": 28.5}]}"""
+
+
+class Goals(unittest.TestCase):
+    def printed(self, records):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in records.items():
+                Path(folder, name).write_text(text)
+            return subprocess.run((sys.executable, PERF / "goals.py", folder), capture_output=True, text=True, timeout=30)
+
+    def test_each_figure_is_read_from_its_record(self):
+        shown = self.printed({"turnaround.txt": TURNAROUND, "jitter.txt": JITTER, "run_stages.txt": STAGES, "codec_benchmark.json": CODEC})
+        self.assertEqual(shown.returncode, 1, "some are missing")
+        for line in ("flight of 20 s +<= +17 +26.7 million instructions +NOT met", "pack, wire.* 9.1 % +met", "sensors.* 28 % +NOT met",
+                     "turnaround of LOS rate, p50 .* 1.14 +met", "turnaround of in-flight UKF, p99.* 1.99 +NOT met", "decode of four.* 28.5 ns +NOT met",
+                     "cyclictest's, embedded bus.* 1.295 +NOT met", "cyclictest's, vcan.* - +not measured"):
+            self.assertRegex(shown.stdout, line)
+
+    def test_without_records_nothing_is_met(self):
+        shown = self.printed({})
+        self.assertEqual(shown.returncode, 1)
+        self.assertIn("0 of", shown.stdout.splitlines()[-1])
+
+
 if __name__ == "__main__":
     unittest.main()

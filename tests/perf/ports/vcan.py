@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Compares the SocketCAN port with can-utils and python-can, in one run on virtual interfaces.
 
-  tests/vcan/run.sh /usr/bin/python3 tests/perf/ports/vcan.py build/default/tests/perf/ports/vcan_node [ROUNDS]
+  tests/vcan/run.sh /usr/bin/python3 tests/perf/ports/vcan.py build/measured/tests/perf/ports/vcan_node [ROUNDS]
 
 Round trip: one program sends a frame, another program answers it. Every such pair has an interface of its own. All pairs are started at the beginning
 and take turns in short blocks of round trips, so that other load of the machine affects all of them equally.

@@ -21,12 +21,13 @@ GOALS = (("pack + wire + E2E + unpack", (PACK, WIRE, UNPACK), 10), (SENSOR, (SEN
 # A source file belongs to the stage of the first entry whose text occurs in the path of the file. If this entry has no stage (None), each line of the
 # file belongs to pack or to unpack; the function that contains the line decides which of the two.
 FILES = (
-    ("bench/world/", SENSOR), ("bench/nodes/", SENSOR),
+    ("bench/world/", SENSOR), ("bench/sensors/", SENSOR), ("bench/plant/", SENSOR),
+    ("bench/nodes/", PACK), ("bench/bindings/", PACK),
     ("messages/canhil.hpp", None), ("dbc/wire/bits", None), ("dbc/wire/quantise", None), ("dbc/wire/message.hpp", None),
     ("dbc/wire/transmit", PACK), ("dbc/wire/routes", UNPACK),
     ("dbc/wire/", WIRE), ("dbc/ports/", WIRE), ("bench/drive/in_process_port", WIRE), ("bench/drive/link", WIRE),
     ("target/estimators/", ESTIMATOR), ("target/", LOOP),
-    ("bench/observe/monitor", MONITOR), ("bench/checks/", MONITOR), ("bench/campaign/", MONITOR),
+    *((f"bench/{folder}/", MONITOR) for folder in ("protocol", "observe", "estimators", "quantities", "checks", "campaign")),
     ("bench/", LOOP), ("tests/perf/", LOOP),
 )
 UNPACKS = {"unpack", "load_le", "load_be", "unsigned_bits", "signed_bits", "physical", "real", "from_frame", "unpacked"}
@@ -166,7 +167,7 @@ def main():
             print(f"  {name:28} {100 * sum(shares[stage] for stage in stages) / total:5.1f} %  (goal: below {goal} %: {outcome})")
         undecided = undecided or NOT_MEASURED in outcomes
     if undecided:
-        sys.exit("stages.py: too many instructions belong to no stage, expected a build with line numbers (-g) of this source tree")
+        sys.exit("stages.py: too many instructions belong to no stage, expected a build with line numbers of this source tree (cmake --preset perf)")
 
 
 if __name__ == "__main__":
