@@ -95,6 +95,9 @@ TEST(RunMany, FliesNothingIfOneScenarioIsWrong) {
   EXPECT_EQ(hil_bench(fmt::format("run {} --bus in-process -k 'not wrong'", folder)).code, 1)
       << "what is not selected may be wrong";
   fs::remove(folder + "/wrong.toml");
+  std::ofstream(folder + "/misspelt.toml") << "title = \"misspelt\"\nduration = 3\n[target]\n";
+  expect_one_line(hil_bench(fmt::format("run {} --bus in-process", folder)), "misspelt.toml");
+  fs::remove(folder + "/misspelt.toml");
   const std::string both = fmt::format("run {0}/good.toml {0}/below --bus in-process ", folder);
   for (const std::string option : {"--json x.json", "--html x.html", "--csv x.csv", "--log x.log"})
     expect_one_line(hil_bench(both + option),
