@@ -115,7 +115,7 @@ std::string changes_section(const Json& report) {
                       when.empty() ? "it never began" : when,
                       count == 0 ? "it did not strike" : fmt::format("{}", count)});
     }
-    out += table({"fault", "kind", "where", "active, from to s", "struck, times"}, rows);
+    out += table({"fault", "kind", "where", "active, s", "struck, times"}, rows);
   }
   if (const Json& provenance = report.at("provenance"); provenance.contains("settings")) {
     Rows rows;
