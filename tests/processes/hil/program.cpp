@@ -157,6 +157,12 @@ std::string disturbance(const RealTimeRun& run) {
   add("frames lost by the target:", "/target_counters/frames_lost");
   add("frames of the target lost:", "/from_target/frames_lost");
   add("overflows of the bench's queue:", "/from_target/bench_overflows");
+  // A target that got no processor towards the end of the run answers after it.
+  for (const auto& [message, answers] : run.report.value("answers", nlohmann::json::object()).items()) {
+    if (run.answers_all && answers["came"] < answers["due"])
+      found +=
+          fmt::format("{} of {} answers in {}; ", answers["came"].dump(), answers["due"].dump(), message);
+  }
   if (const double silence_s = run.log.empty() ? 0 : longest_silence_of_bench_s(run.log); silence_s >= 1)
     found += fmt::format("the bench was silent for {:.3f} s; ", silence_s);
   return found;

@@ -46,15 +46,16 @@ std::vector<Frame> target_frames(const std::string& log_path);
 
 /// A run in real time.
 struct RealTimeRun {
-  nlohmann::json report;  // null: the configuration was rejected
-  std::string log = {};   // path of the recording; needed if the target's bits are compared
+  nlohmann::json report;    // null: the configuration was rejected
+  std::string log = {};     // path of the recording; needed if the target's bits are compared
+  bool answers_all = true;  // an answer that does not come is a disturbance
 };
 
-/// Describes how the host disturbed a run: the run did not complete, or frames were lost. If there is a
-/// recording, a silence of the bench of 1 s or more is a disturbance too, because a target that receives
-/// nothing for 2 s sends additional heartbeats. The text is empty if nothing disturbed the run; only then can
-/// tests count frames and compare their bits. A bench that is late, but not silent for so long, does not
-/// change the frames.
+/// Describes how the host disturbed a run: the run did not complete, frames were lost, or answers did not
+/// come. If there is a recording, a silence of the bench of 1 s or more is a disturbance too, because a
+/// target that receives nothing for 2 s sends additional heartbeats. The text is empty if nothing disturbed
+/// the run; only then can tests count frames and compare their bits. A bench that is late, but not silent for
+/// so long, does not change the frames.
 std::string disturbance(const RealTimeRun& run);
 
 /// Calls `fly` until a run is undisturbed or its configuration is rejected, but at most four times. Returns
