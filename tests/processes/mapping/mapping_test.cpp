@@ -344,9 +344,11 @@ TEST(Tracker, GuidesTheMissile) {
                 testing::Contains("miss_distance miss_distance"));
     EXPECT_GT(miss_m(), 5) << defect;
   }
-  // In real time an answer that comes too late for its command is counted.
+  // In real time an answer that comes too late for its command is counted. On a host that is late, the
+  // missile is guided late, and may miss or turn faster than the signals can say.
   Ended real = flown("none", "--bus " + bus());
-  for (int left = 3; left > 0 && real.code == 1; --left) real = flown("none", "--bus " + bus());
+  for (int left = 3; left > 0 && (real.code == 1 || real.code == 3); --left)
+    real = flown("none", "--bus " + bus());
   EXPECT_EQ(real.code, 0) << real.out << real.err;
   EXPECT_LT(miss_m(), 5);
 }
