@@ -158,7 +158,8 @@ std::string disturbance(const RealTimeRun& run) {
   add("frames of the target lost:", "/from_target/frames_lost");
   add("overflows of the bench's queue:", "/from_target/bench_overflows");
   // A target that got no processor towards the end of the run answers after it.
-  for (const auto& [message, answers] : run.report.value("answers", nlohmann::json::object()).items()) {
+  const nlohmann::json all = run.report.value("answers", nlohmann::json::object());
+  for (const auto& [message, answers] : all.items()) {
     if (run.answers_all && answers["came"] < answers["due"])
       found +=
           fmt::format("{} of {} answers in {}; ", answers["came"].dump(), answers["due"].dump(), message);
