@@ -183,13 +183,13 @@ class MappedDialect final : public Dialect {
       if (!hear.answers) speakers.insert(hear.target);
     }
     const auto is_there = [&] { return std::ranges::includes(watch.heard_from(), speakers); };
-    const auto has_spoken = [&] { return !speakers.empty() && is_there(); };
     if (!following_) following_.emplace(link, dialogue_);
     const std::int64_t settled_ns = link.now_ns() + start_.settle_us * 1000;
     if (auto talked = talk_before(link, settled_ns, gone); !talked) return talked;
     const std::int64_t limit_ns = std::max(settled_ns, link.now_ns() + find_limit_ns);
-    while (link.now_ns() < settled_ns || !is_there() ||
-           (absent() && (of_.others.complete || !has_spoken()))) {
+    // Where not every node is counted, a target that was heard is there, whether it is counted or not.
+    const bool must_join = of_.others.complete || speakers.empty();
+    while (link.now_ns() < settled_ns || !is_there() || (must_join && absent())) {
       if (link.drain() == LinkState::down)
         return failure(fmt::format("bus '{}': gone before the run", link.port().name()));
       if (const auto why = gone()) return failure(fmt::format("{} before the run", *why));

@@ -71,16 +71,14 @@ class Curves {
  public:
   Curves(const LinePlot& plot, double base) : plot_(plot), base_(base) {}
 
-  // A curve or several, which the legend shows as one. `kind` says to page.js what the values are; empty or
-  // "band": none that it shows.
+  // A curve or several, which the legend shows as one. `kind` says to page.js what the values are; empty:
+  // none that it shows.
   void add(std::string_view name, const std::string& attributes, std::string_view kind,
-           const std::string& path) {
+           const std::string& path, bool is_filled = false) {
     if (path.empty()) return;
     const std::size_t number = count_++;
     curves_ += fmt::format("<path data-curve=\"{}\"{} {} d=\"{}\"/>", number,
-                           kind.empty() || kind == "band" ? "" : fmt::format(" data-kind=\"{}\"", kind),
-                           attributes, path);
-    const bool is_filled = kind == "area" || kind == "top" || kind == "band";
+                           kind.empty() ? "" : fmt::format(" data-kind=\"{}\"", kind), attributes, path);
     add_to_legend(number, name,
                   fmt::format("<path {} d=\"{}\"/>", attributes, is_filled ? "M2 3H26V9H2Z" : "M2 6H26"));
   }
@@ -96,7 +94,7 @@ class Curves {
     }
     const bool from_nothing =
         plot_.from_zero && std::ranges::none_of(plot_.low, [](double low) { return low > 0; });
-    add(plot_.name.empty() ? plot_.title : plot_.name, as_area(), from_nothing ? "top" : "area", path);
+    add(plot_.name.empty() ? plot_.title : plot_.name, as_area(), from_nothing ? "top" : "area", path, true);
   }
   void add_values(std::string_view name, const std::string& attributes, std::string_view kind,
                   const std::vector<double>& values) {
@@ -142,7 +140,7 @@ class Curves {
       if (to < from) continue;
       path += fmt::format("M{}V{}H{:.7g}V{}Z", place(from, y.from), of(y.to), to, of(y.from));
     }
-    add(band.name, as_band(), "band", path);
+    add(band.name, as_band(), "", path, true);
   }
   void add_levels(const Axis& x) {
     std::string path;
