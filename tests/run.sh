@@ -120,32 +120,32 @@ build() { # build PRESET [TARGET...]
   fi
 }
 
-run_ctest() { # run_ctest NAME PRESET [CTEST OPTIONS...]: the files of results have this name
-  local name=$1 preset=$2 junit=$results/$1.xml log=$results/$1.ctest.log code=0 counts p f
-  shift 2
+run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
+  local preset=$1 junit=$results/$1.xml log=$results/$1.ctest.log code=0 counts p f
+  shift
   # One job more than cores: many tests run in real time or wait for a guest system, and leave their core idle.
   local way=()
   if [[ $preset != default ]]; then way=("${personality[@]}"); fi
-  logged "testing $name" "$log" "${way[@]}" ctest --test-dir "build/$preset" -j $((jobs + 1)) --timeout 300 \
+  logged "testing $preset" "$log" "${way[@]}" ctest --test-dir "build/$preset" -j $((jobs + 1)) --timeout 300 \
     --output-on-failure --no-tests=ignore ${only:+-R "$only"} --output-junit "$junit" "$@" || code=$?
   progress_rest "$log"
-  if ! counts=$(python3 tests/static/junit_counts.py "$junit"); then failure "no results of ctest for $name"; return; fi
+  if ! counts=$(python3 tests/static/junit_counts.py "$junit"); then failure "no results of ctest for $preset"; return; fi
   read -r p f <<<"$counts"
   passed=$((passed + p)) failed=$((failed + f))
-  if ((code && !f)); then failure "ctest for $name ended with $code"; fi
-  if ((!p && !f)) && [[ -z "$only" ]]; then failure "no tests found for $name"; fi
+  if ((code && !f)); then failure "ctest for $preset ended with $code"; fi
+  if ((!p && !f)) && [[ -z "$only" ]]; then failure "no tests found for $preset"; fi
 }
 personality=()
 
 # Prints a regular expression for ctest -L. A plus sign joins labels (tests/CMakeLists.txt): unit matches "unit+threads"; vcan does not match "vcan-full".
 labelled() { echo "(^|[+])($1)([+]|$)"; }
 
-optimised() { build default tests_unit tests_processes tests_vcan && run_ctest default default -L "$(labelled 'static|unit|processes|vcan')"; }
+optimised() { build default tests_unit tests_processes tests_vcan && run_ctest default -L "$(labelled 'static|unit|processes|vcan')"; }
 optimised_all() {
   local code=0
   build default || code=$?
   if make_fifth; then build_ahead "$fifth" asan "${asan_targets[@]}"; fi
-  if ((!code)); then run_ctest default default; fi
+  if ((!code)); then run_ctest default; fi
 }
 
 # Checks whether the sanitizers work on this machine: some need fixed addresses (setarch -R), the leak checker needs ptrace.
@@ -218,15 +218,17 @@ address_sanitizer() {
   # Builds what build_ahead has not built, and reports the errors.
   if build asan "${asan_targets[@]}"; then
     (cd "$root" && configure tsan "$results/tsan.ahead.log") && build_ahead "$root" tsan tests_threads
-    run_ctest asan asan -L "$(labelled 'input|fuzz|fifth_estimator')"
-    # Chosen by number, because a regular expression of CTest has at most nine parentheses.
+    # By number, because a regular expression of CTest has at most nine parentheses. With --only, all process tests with this name run.
     local numbers
-    numbers=$("${personality[@]}" ctest --test-dir build/asan -N -L "$(labelled processes)" | grep -E "$(IFS='|' && echo "${chosen[*]}")" |
-      grep -vE "$left_out" | sed -n 's/^ *Test *#\([0-9]*\):.*/\1/p' | paste -sd, -)
-    if [[ -z "$numbers" ]]; then
-      failure "no process tests chosen for the address sanitizer"
-    elif [[ -z "$only" ]]; then
-      run_ctest asan_processes asan -I "${numbers%%,*},${numbers%%,*},1,$numbers"
+    numbers=$({
+      "${personality[@]}" ctest --test-dir build/asan -N -L "$(labelled 'input|fuzz|fifth_estimator')"
+      "${personality[@]}" ctest --test-dir build/asan -N -L "$(labelled processes)" |
+        grep -E "$(IFS='|' && echo "${chosen[*]}")" | grep -vE "$left_out"
+    } | sed -n 's/^ *Test *#\([0-9]*\):.*/\1/p' | sort -un | paste -sd, -)
+    if [[ -n "$only" ]]; then
+      run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')"
+    else
+      run_ctest asan -I "0,0,0,$numbers"
     fi
   fi
   cd "$root" || exit 2
@@ -235,7 +237,7 @@ address_sanitizer() {
 thread_sanitizer() {
   echo "thread sanitizer on: code with threads (hil-target and hil-bench run have one thread each, with --live a second, whose queue is tested here)"
   if [[ -n "$ahead" ]]; then await_ahead tsan; fi
-  build tsan tests_threads && run_ctest tsan tsan -L "$(labelled threads)"
+  build tsan tests_threads && run_ctest tsan -L "$(labelled threads)"
 }
 
 coverage() {
@@ -244,7 +246,7 @@ coverage() {
   # -E leaves out two tests that prevent the program from writing files: the process could not write gcov's counts either.
   # The time-out is longer, because long tests take twice as long with instrumentation and less optimisation.
   build coverage tests_unit tests_processes tests_pages &&
-    run_ctest coverage coverage --timeout 600 -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&
+    run_ctest coverage --timeout 600 -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&
     python3 tests/static/coverage.py build/coverage | tee "$results/coverage.txt" || failure "no figures of coverage"
 }
 
