@@ -227,7 +227,7 @@ class Command(NamedTuple):
         """An error in the argument `faults`: it names no file, because the caller wrote none."""
         if error.file != self.folder / FAULTS:
             return error
-        return Error(f"faults: {str(error).split(': ', 1)[1]}", key=error.key)
+        return Error(f"faults: {str(error).removeprefix(str(error.file)).partition(': ')[2]}", key=error.key)
 
     def run(self) -> Run:
         """The run, after the command has ended."""

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from canhil.errors import Error
-from canhil.flights import Run, run
+from canhil.flights import PAGE, Run, run
 from canhil.report import Judgement, Verdict
 
 _RUNS: pytest.StashKey[list[Run]] = pytest.StashKey[list[Run]]()
@@ -146,7 +146,7 @@ def is_scenario(path: Path) -> bool:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError:
         return False
-    return re.search(rf"^\s*\[?({'|'.join(_SCENARIO_KEYS)})\b", text, re.MULTILINE) is not None
+    return re.search(rf"^\s*\[*({'|'.join(_SCENARIO_KEYS)})\b", text, re.MULTILINE) is not None
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> ScenarioFile | None:
@@ -198,7 +198,7 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
         shutil.rmtree(folder)  # of an earlier failure of this test
     if report.failed:
         for number, flown in enumerate(runs, 1):
-            page = flown.keep(folder if len(runs) == 1 else folder / str(number)) / "report.html"
+            page = flown.keep(folder if len(runs) == 1 else folder / str(number)) / PAGE
             report.sections.append(("hil-bench", f"{flown.title}: {flown.reason}\n{page}"))
     elif report.passed and _NOT_MEASURED in item.stash:
         report.outcome = "skipped"
