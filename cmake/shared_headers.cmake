@@ -26,9 +26,13 @@ function(canhil_targets_of folder result)
   set(${result} ${targets} PARENT_SCOPE)
 endfunction()
 
-# canhil_share_headers(FOLDER LIBRARIES lib... HEADERS <header>...): makes one precompiled header for each set of compiler options in the
-# folder. All targets get the macros that the libraries define, because the compiler accepts a precompiled header only if the macros agree.
+# canhil_share_headers(FOLDER LIBRARIES lib... HEADERS <header>...): in a one-off build, makes one precompiled header for each set of compiler
+# options in the folder. It must be called when all targets have their options, and where the same compiler is set as in the folder. All targets get
+# the macros that the libraries define, because the compiler accepts a precompiled header only if the macros agree.
 function(canhil_share_headers folder)
+  if(NOT (CANHIL_SANITIZE OR CANHIL_TOGETHER))
+    return()
+  endif()
   cmake_parse_arguments(ARG "" "" "LIBRARIES;HEADERS" ${ARGN})
   set(definitions "")
   foreach(library IN LISTS ARG_LIBRARIES)

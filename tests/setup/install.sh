@@ -23,6 +23,7 @@ test_packages=(
   clang-format
   python3 python3-can python3-canmatrix tshark # independent programs for comparison: a CAN node, a DBC reader, a reader of captures
   python3-pandas # an example of docs/recordings.md
+  python3-numpy # the filters of tests/independent
   python3-yaml # reads the pipelines in docs/examples
   python3-jsonschema # validates reports by the schemas in docs
   python3-warlock # makes readers of the schemas in docs

@@ -105,7 +105,7 @@ TEST_F(LocalGate, ARuntimeDirectoryThatOthersMayEnterIsNotTaken) {
 }
 
 TEST_F(LocalGate, WhatStandsInThePlaceOfTheDirectoryIsNamed) {
-  const auto why = [this](std::string_view bus) {
+  const auto why = [](std::string_view bus) {
     const auto hub = host_local_bus(bus, {});
     const auto node = open_port(bus, {});
     if (hub || node) return std::string("somebody was let in");
