@@ -11,13 +11,16 @@
 namespace canhil::commands {
 
 void add_reference(command_line::Command app, int& code) {
-  auto json = std::make_shared<bool>(false);
+  auto json = std::make_shared<bool>(false), schema = std::make_shared<bool>(false);
   const auto command = app.add_subcommand(std::string(reference_name), std::string(reference_summary));
   command.add_flag("--json", *json, "JSON instead of Markdown");
-  command.on_given([&code, json] {
+  command.add_flag("--schema", *schema, "JSON schema of scenario files, for editors");
+  command.on_given([&code, json, schema] {
     scenario::forbid_commands();  // the readers are given keys to see what they ask for
     const auto parts = reference::parts();
-    const auto shown = report::write_stdout(*json ? reference::json(parts) : reference::markdown(parts));
+    const auto shown = report::write_stdout(*schema ? reference::schema(parts)
+                                            : *json ? reference::json(parts)
+                                                    : reference::markdown(parts));
     code = static_cast<int>(shown ? ExitCode::pass : complain(shown.error()));
   });
 }

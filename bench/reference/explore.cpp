@@ -103,8 +103,11 @@ class Explorer {
     const auto same = [&](const DescribedKey& one) {
       return one.table == key.table && one.shown == key.shown;
     };
+    const auto described = [](const DescribedKey& one) {
+      return scenario::description(one.limits, one.type);
+    };
     const auto alike = [&](const DescribedKey& one) {
-      return same(one) && one.type == key.type && one.range == key.range &&
+      return same(one) && described(one) == described(key) &&
              (one.type == "one of" || one.fallback == key.fallback);
     };
     const auto any = std::ranges::find_if(found_, same);

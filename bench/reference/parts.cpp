@@ -15,6 +15,7 @@
 #include "bench/scenario/events.hpp"
 #include "bench/scenario/faults.hpp"
 #include "bench/scenario/node.hpp"
+#include "bench/scenario/program.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/scenario/sensor_name.hpp"
@@ -124,6 +125,11 @@ Part nodes_part(const scenario::DbcVocabulary& contract) {
            in_table(keys_of([&](Section& section) { std::ignore = scenario::read_node_programs(section); },
                             "[[node]]\nname = \"NAME\"\n"),
                     "node[1]")});
+  std::vector<AskedKey>& of_node = part.tables.back().keys;
+  for (AskedKey& one : keys_of([&](Section& section) { std::ignore = scenario::read_program(section); })) {
+    const auto is_it = [&](const AskedKey& other) { return other.key.name == one.key.name; };
+    if (std::ranges::none_of(of_node, is_it)) of_node.push_back(std::move(one));
+  }
   // Any sensor that a mapping could declare.
   const auto all = keys(nodes::bound(sensors::declared("sensor", {{.name = "VALUE", .si = "rad"}})).table);
   part.tables.push_back({.name = "[[sensor]] of kind `generic`",
@@ -175,7 +181,7 @@ Part events_part() {
         Section root = Section::parse(text, file);
         scenario::read_events(root, binding, longest_run_us);
       },
-      "[[event]]\n", Depth::as_it_is);
+      "[[event]]\nchannel = \"CHANNEL\"\n", Depth::as_it_is);
   return {
       .title = "Events",
       .about =

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "bench/scenario/quantity.hpp"
@@ -26,11 +27,20 @@ std::string in_code(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
+std::string range_of(const scenario::Limits& limits) {
+  if (!std::isfinite(limits.least) && !std::isfinite(limits.most)) return "";
+  if (!std::isfinite(limits.most))
+    return fmt::format("{} {}", limits.above_least ? "above" : "at least", limits.least);
+  if (limits.above_least) return fmt::format("above {}, up to {}", limits.least, limits.most);
+  return fmt::format("{} to {}", limits.least, limits.most);
+}
+
 std::string values_of(const scenario::DescribedKey& key) {
   if (key.type == "one of")
     return key.words.size() > most_words_shown || key.words.empty() ? "a name" : in_code(key.words);
   if (key.type == "array of names" && key.words.size() > most_words_shown) return "array of names";
-  return key.range.empty() ? key.type : fmt::format("{}, {}", key.type, key.range);
+  const std::string range = range_of(key.limits);
+  return range.empty() ? key.type : fmt::format("{}, {}", key.type, range);
 }
 
 std::string default_of(const AskedKey& one) {
@@ -141,7 +151,7 @@ std::string json(const std::vector<Part>& parts) {
         keys.push_back({{"key", one.key.shown},
                         {"unit", unit_of(one.key)},
                         {"type", one.key.type},
-                        {"range", one.key.range},
+                        {"range", range_of(one.key.limits)},
                         {"words", one.key.words},
                         {"required", one.key.required},
                         {"in_place", one.in_place},

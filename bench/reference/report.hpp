@@ -1,4 +1,4 @@
-// Formats the reference as Markdown and as JSON.
+// Formats the reference as Markdown, as JSON, and as a JSON schema.
 #pragma once
 
 #include <string>
@@ -13,5 +13,9 @@ std::string markdown(const std::vector<Part>& parts);
 /// A JSON object: {"parts": [{"title", "tables": [{"name", "about", "keys": [...]}]}]}. Each key has all its
 /// known properties.
 std::string json(const std::vector<Part>& parts);
+/// A JSON schema (draft 7) of scenario files, for editors: docs/scenario.schema.json. It knows the tables,
+/// their keys, types and ranges. What depends on other keys is left to the reader: kinds have the keys of all
+/// kinds.
+std::string schema(const std::vector<Part>& parts);
 
 }  // namespace canhil::reference

@@ -72,7 +72,8 @@ Line line_of(const Course& course, double tolerance) {
   line.worse = failed(newest);
   const auto value = newest ? newest->judgement.measurement.value : std::nullopt;
   if (value) {
-    const auto earlier = first != nullptr ? (*first)->judgement.measurement.value : std::nullopt;
+    std::optional<double> earlier;
+    if (first != nullptr) earlier = (*first)->judgement.measurement.value;
     const std::string& unit = newest->judgement.criterion.unit;
     line.words = fmt::format("{}{:.4g}{}{}, limit {}", earlier ? fmt::format("{:.4g} -> ", *earlier) : "",
                              *value, unit.empty() ? "" : " ", unit, to_text(newest->judgement.criterion));

@@ -17,14 +17,6 @@ double some_value(const Limits& limits) {
   return std::isfinite(limits.most) ? (limits.least + limits.most) / 2 : limits.least + 1;
 }
 
-std::string range_of(const Limits& limits) {
-  if (!std::isfinite(limits.least) && !std::isfinite(limits.most)) return "";
-  if (!std::isfinite(limits.most))
-    return fmt::format("{} {}", limits.above_least ? "above" : "at least", limits.least);
-  if (limits.above_least) return fmt::format("above {}, up to {}", limits.least, limits.most);
-  return fmt::format("{} to {}", limits.least, limits.most);
-}
-
 }  // namespace
 
 Describing::Describing(Description& description) : before_(described_now) { described_now = &description; }
@@ -33,7 +25,7 @@ Description* Describing::current() { return described_now; }
 
 DescribedKey described_number(std::string_view type, const Limits& limits, std::optional<double> fallback) {
   return {.type = std::string(type),
-          .range = range_of(limits),
+          .limits = limits,
           .fallback = fallback && holds(limits, *fallback) ? fmt::format("{}", *fallback)
                                                            : "",  // the default depends on another key
           .required = !fallback,

@@ -33,8 +33,8 @@ struct DescribedKey {
   std::string name{};
   std::string shown{};  ///< the name in the reference
   std::string meaning{};
-  std::string type{};   ///< "number", "text", "table" ...
-  std::string range{};  ///< in words, in the key's unit; empty: any value
+  std::string type{};  ///< "number", "text", "table" ...
+  Limits limits{};     ///< of a number, in the key's unit
   std::string fallback{};
   bool required = false;
   std::vector<std::string> words{};  ///< the permitted words

@@ -195,7 +195,7 @@ std::optional<std::int64_t> Section::optional_integer(const Key& key, std::int64
 
 std::optional<std::int64_t> Section::whole_number(const Key& key, std::int64_t least, bool required) {
   state_->describe(key, {.type = "whole number",
-                         .range = fmt::format("at least {}", least),
+                         .limits = Limits::at_least(static_cast<double>(least)),
                          .required = required,
                          .sample = fmt::format("{}", least)});
   const toml::node* node = state_->ask(key.name);
@@ -296,7 +296,7 @@ std::vector<std::string> Section::texts(const Key& key) {
 
 std::vector<std::int64_t> Section::integers(const Key& key, std::int64_t least) {
   state_->describe(key, {.type = "array of whole numbers",
-                         .range = fmt::format("at least {}", least),
+                         .limits = Limits::at_least(static_cast<double>(least)),
                          .sample = fmt::format("[{}]", least)});
   const std::string expected = fmt::format("an array of whole numbers of at least {}", least);
   std::vector<std::int64_t> all;

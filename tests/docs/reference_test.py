@@ -2,7 +2,8 @@
 """Tests the reference of the keys of scenario and campaign files: reference_test.py HIL_BENCH SOURCE.
 
 Checks that docs/scenario-reference.md equals the output of hil-bench reference, that the reference explains the
-meaning of each key, and that the reference contains each key of the project's scenario and campaign files.
+meaning of each key, and that the reference contains each key of the project's scenario and campaign files. Checks the
+JSON schema of scenarios against the same files.
 """
 
 import json
@@ -10,6 +11,8 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
+
+import jsonschema
 
 hil_bench, source = sys.argv[1], Path(sys.argv[2])
 page = source / "docs" / "scenario-reference.md"
@@ -98,6 +101,30 @@ for folder in ("bench", "docs/examples"):
         files += 1
 if files < 20:
     wrong.append(f"{files} scenarios and campaigns found, expected dozens")
+
+# The schema must be that of the program, accept each scenario of the project, and find what a reader would refuse.
+schema_file = source / "docs" / "scenario.schema.json"
+schema = json.loads(printed("--schema"))
+if not schema_file.exists() or schema_file.read_text() != printed("--schema"):
+    wrong.append(f"{schema_file}: is not what the program prints, make it again by: hil-bench reference --schema > docs/scenario.schema.json")
+jsonschema.Draft7Validator.check_schema(schema)
+validator = jsonschema.Draft7Validator(schema)
+scenarios = [file for folder in ("bench", "docs/examples") for file in sorted((source / folder).rglob("*.toml")) if "duration_s" in tomllib.loads(file.read_text())]
+if len(scenarios) < 20:
+    wrong.append(f"{len(scenarios)} scenarios, expected dozens")
+for file in scenarios:
+    wrong += [f"{file}: {'.'.join(map(str, one.path))}: {one.message[:200]}" for one in validator.iter_errors(tomllib.loads(file.read_text()))]
+quick = tomllib.loads((source / "bench/flights/los_quick.toml").read_text())
+for what, changed in {
+    "a misspelt key": {"seeker": quick["seeker"] | {"perod_ms": 5}},
+    "a text for a number": {"duration_s": "six"},
+    "a number out of range": {"duration_s": 0},
+    "an unknown table": {"sekeer": {}},
+    "an unknown check": {"check": [{"kind": "eror"}]},
+    "a misspelt key of a fault": {"fault": [{"kind": "bias", "quantity": "seeker.error_pitch", "by_mrad": 4, "form_s": 1}]},
+}.items():
+    if validator.is_valid(quick | changed):
+        wrong.append(f"{schema_file}: accepts {what}")
 
 print("\n".join(wrong) or f"{count} keys, and all of {files} files")
 sys.exit(bool(wrong))

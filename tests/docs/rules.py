@@ -47,6 +47,7 @@ RULES = (
     Rule(r"^ip |^gpg ", why_not="of real hardware and people's keys"),
     Rule(r"tests/(controller|vcan)/run\.sh", why_not="an emulated machine: tests/controller, tests/vcan"),
     Rule(r"tests/(mutants|soak|perf)/", why_not="minutes to hours: tests/run.sh --full, --soak"),
+    Rule(r"tests/independent/", why_not="an hour; the quick scenarios: test independent.Quick"),
     Rule(r"reception_fuzz", why_not="an hour: tests/fuzz"),
     Rule(r"can\.logconvert|asammdf", why_not="programs of others, on recordings of others"),
     Rule(r"/shared/|-of-N|\bmy\.sqlite|\bOUT\.sqlite", why_not="shards of a cluster: tests/processes/slurm"),
