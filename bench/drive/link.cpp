@@ -10,29 +10,31 @@ constexpr std::int64_t late_in_queue_ns = messages::Sync::info.cycle_time_us * 1
 }  // namespace
 
 LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional<std::int64_t> due_ns) {
-  std::int64_t deadline_ns = 0;  // computed on demand: most frames are accepted at once
+  std::int64_t late_ns = 0;
+  const SendOutcome outcome = try_to_send(frame, due_ns, late_ns);
+  return outcome == SendOutcome::sent ? LinkState::up : send_again(frame, patience_ns, due_ns, outcome);
+}
+
+SendOutcome Link::try_to_send(const Frame& frame, std::optional<std::int64_t> due_ns, std::int64_t& late_ns) {
+  // The stamp is taken before the frame is sent: the answer of a fast target must not have an earlier stamp.
+  const std::int64_t t_ns = port_.now_ns();
+  late_ns = due_ns ? port_.monotonic_ns() - *due_ns : 0;
+  const SendOutcome outcome = port_.send(frame);
+  if (outcome != SendOutcome::sent || !up_) look_at_interface();
+  if (outcome != SendOutcome::sent) return outcome;
+  for (observe::Observer* observer : observers_) observer->transmitted(frame, t_ns, late_ns);
+  return outcome;
+}
+
+// Most frames are accepted at once, so this is apart from send().
+LinkState Link::send_again(const Frame& frame, std::int64_t patience_ns, std::optional<std::int64_t> due_ns,
+                           SendOutcome outcome) {
+  const std::int64_t deadline_ns = port_.monotonic_ns() + patience_ns;
   for (;;) {
-    // The stamp is taken before the frame is sent: the answer of a fast target must not have an earlier
-    // stamp.
-    const std::int64_t t_ns = port_.now_ns();
-    const std::int64_t late_ns = due_ns ? port_.monotonic_ns() - *due_ns : 0;
-    const SendOutcome outcome = port_.send(frame);
-    if (outcome != SendOutcome::sent || !up_) look_at_interface();
-    if (outcome == SendOutcome::sent) {
-      const bool waited = deadline_ns != 0;
-      if (waited) while_waiting_.reset();
-      if (waited && late_ns > late_in_queue_ns) ++late_in_queue_;
-      for (observe::Observer* observer : observers_) observer->transmitted(frame, t_ns, late_ns);
-      return LinkState::up;
-    }
     const bool may_return = outcome == SendOutcome::down && !port_.up();
     if (outcome != SendOutcome::queue_full && !may_return) return LinkState::down;
-    const std::int64_t now_ns = port_.monotonic_ns();
-    if (deadline_ns == 0) {
-      deadline_ns = now_ns + patience_ns;
-      while_waiting_.emplace();
-    }
-    if (now_ns >= deadline_ns) {
+    if (!while_waiting_) while_waiting_.emplace();
+    if (port_.monotonic_ns() >= deadline_ns) {
       crowd_ = while_waiting_->frames() == 0 ? "" : while_waiting_->to_text();
       while_waiting_.reset();
       return may_return ? LinkState::down : LinkState::congested;
@@ -40,6 +42,12 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
     // The queue may be full because a target waits until the bench reads the target's answers.
     if (drain() == LinkState::down) return LinkState::down;
     if (!backlog_.more()) wait(port_, WaitFor::room, deadline_ns);
+    std::int64_t late_ns = 0;
+    outcome = try_to_send(frame, due_ns, late_ns);
+    if (outcome != SendOutcome::sent) continue;
+    while_waiting_.reset();
+    if (late_ns > late_in_queue_ns) ++late_in_queue_;
+    return LinkState::up;
   }
 }
 

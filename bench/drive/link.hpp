@@ -64,6 +64,9 @@ class Link {
   [[nodiscard]] const Port& port() const { return port_; }
 
  private:
+  SendOutcome try_to_send(const Frame& frame, std::optional<std::int64_t> due_ns, std::int64_t& late_ns);
+  LinkState send_again(const Frame& frame, std::int64_t patience_ns, std::optional<std::int64_t> due_ns,
+                       SendOutcome outcome);
   void look_at_interface();
 
   Port& port_;

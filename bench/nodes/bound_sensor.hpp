@@ -22,8 +22,10 @@ class SampleEncoder {
   /// What a signal carries.
   struct Slot {
     sensors::Role role = sensors::Role::value;
-    std::size_t index = 0;  ///< of the value or flag in the sample
-    double factor = 1;      ///< from the unit of the signal to SI
+    std::size_t index = 0;           ///< of the value or flag in the sample
+    double factor = 1;               ///< from the unit of the signal to SI
+    double step = 0;                 ///< of the signal; 0: a float
+    double lowest = 0, highest = 0;  ///< values beyond are clipped, see Clipped::check
     bool turns = false;
     double remainder = 0;  ///< of the last increment, in the unit of the signal
   };

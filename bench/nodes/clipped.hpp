@@ -22,11 +22,12 @@ class Clipped {
   /// A value was clipped; it is in the unit of the range.
   void add(std::string_view message, std::string_view signal, double value, const Range& range);
   void add(const Clipped& others);
-  /// A value, in the unit of the signal, is to be sent; adds it if the signal clips it. A value within half a
-  /// step of the range is rounded to the limit.
+  /// The limits of what is not clipped: a value within half a step of the range is rounded to its end.
+  static double lowest(const SignalInfo& signal) { return signal.minimum - wire::lsb(signal) / 2; }
+  static double highest(const SignalInfo& signal) { return signal.maximum + wire::lsb(signal) / 2; }
+  /// A value, in the unit of the signal, is to be sent; adds it if the signal clips it.
   void check(const MessageInfo& message, const SignalInfo& signal, double value) {
-    const double rounding = wire::lsb(signal) / 2;
-    if (value >= signal.minimum - rounding && value <= signal.maximum + rounding) return;
+    if (value >= lowest(signal) && value <= highest(signal)) return;
     add(message.name, signal.name, value, {signal.minimum, signal.maximum, signal.unit});
   }
 

@@ -29,7 +29,12 @@ class Transmission : public Outbox<8> {
     Message::visit(message, [&](const SignalInfo& signal, const auto& member) {
       if (valid) clipped_.check(Message::info, signal, static_cast<double>(member));
     });
-    Outbox<8>::send(message);
+    send_fitting(message);
+  }
+  /// Like send(), for a message whose values are known to fit into their signals.
+  template <class Message>
+  void send_fitting(const Message& message) {
+    Outbox<most>::send(message);
   }
   /// The values that were clipped since the construction.
   [[nodiscard]] const Clipped& clipped() const { return clipped_; }

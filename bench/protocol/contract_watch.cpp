@@ -11,9 +11,12 @@ void ContractWatch::received(const Received& received) {
   if (!alone_) second_.received(received);
   if (received.own || target_messages(received.frame) == Routes::nowhere) return;
   heard_ = true;
-  if (const auto done = protocol::decode_from_target<messages::StepDone>(received))
-    done_ = done_ || done->step == awaited_;
-  if (const auto beat = fault_in(received)) fault_ = beat;
+  if (received.frame.id == messages::StepDone::info.id) {
+    const auto done = decode_from_target<messages::StepDone>(received);
+    done_ = done_ || (done && done->step == awaited_);
+  } else if (received.frame.id == messages::TargetHeartbeat::info.id) {
+    if (const auto beat = fault_in(received)) fault_ = beat;
+  }
 }
 
 std::optional<std::string> ContractWatch::fault() const {

@@ -10,6 +10,7 @@
 #include "bench/protocol/sightings.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/time_base.hpp"
+#include "dbc/wire/transmit.hpp"
 
 namespace canhil::protocol {
 namespace {
@@ -39,23 +40,39 @@ constexpr Routes closing_messages([](const MessageInfo& info) {
 
 // The sample group that a frame of the bench completes, and its time of validity.
 struct Closed {
-  std::string_view group;  // empty: the frame completes no group that the target answers
+  std::size_t message = Routes::nowhere;  // nowhere: the frame completes no group that the target answers
   std::uint32_t valid_us = 0;
+  [[nodiscard]] std::string_view group() const { return all_messages[message].sample_group; }
 };
 
+// The time of validity in a message that closes a group; by index in all_messages.
+using ValidityOf = std::uint32_t (*)(const Frame&);
+template <class Message>
+std::uint32_t validity_in(const Frame& frame) {
+  return from_frame<Message>(frame).time_of_validity_us;
+}
+template <class Message>
+constexpr ValidityOf validity_in_message() {
+  if constexpr (ClosesStimulus<Message>)
+    return validity_in<Message>;
+  else
+    return nullptr;
+}
+constexpr auto validity_of = []<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
+  std::array<ValidityOf, all_messages.size()> found{};
+  ((found[message_index<Messages>()] = validity_in_message<Messages>()), ...);
+  return found;
+}(std::type_identity<AllMessages>{});
+
 Closed closed_by(const Frame& frame) {
-  Closed closed;
-  if (closing_messages(frame) == Routes::nowhere) return closed;
-  const auto try_one = [&]<class Message>(std::type_identity<Message>) {
-    if constexpr (ClosesStimulus<Message>) {
-      if (frame.id == Message::info.id)
-        closed = {Message::info.sample_group, from_frame<Message>(frame).time_of_validity_us};
-    }
-  };
-  [&]<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
-    (try_one(std::type_identity<Messages>{}), ...);
-  }(std::type_identity<AllMessages>{});
-  return closed;
+  const std::size_t message = closing_messages(frame);
+  if (message == Routes::nowhere || validity_of[message] == nullptr) return {};
+  return {message, validity_of[message](frame)};
+}
+
+// Equal texts nearly always are the same literal.
+bool same(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && (a.data() == b.data() || a == b);
 }
 
 }  // namespace
@@ -103,17 +120,19 @@ void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t la
     const auto sync = from_frame<Sync>(frame);
     now_us_ = static_cast<std::int64_t>(sync.time_us);
     if (model_) model_->synchronised(sync.lockstep != 0);
-  } else if (const Closed closed = closed_by(frame); !closed.group.empty()) {
+  } else if (const Closed closed = closed_by(frame); closed.message != Routes::nowhere) {
     const std::int64_t valid_us = unwrap_us(closed.valid_us, now_us_);
-    seen_.stimuli[closed.group].add(valid_us);
-    for (const auto& reception : receptions_) reception->sent(closed.group, valid_us, seen_);
+    checks::StimulusCount*& stimuli = stimuli_[closed.message];
+    if (stimuli == nullptr) stimuli = &seen_.stimuli[closed.group()];
+    stimuli->add(valid_us);
+    for (const auto& reception : receptions_) reception->sent(closed.group(), valid_us, seen_);
     const bool must_use = !model_ || model_->sent(frame, valid_us, now_us_);
     if (stopwatch_)
-      stopwatch_->stimulus(closed.group, {.valid_us = valid_us,
-                                          .counter = e2e::counter(frame.payload()),
-                                          .t_ns = t_ns,
-                                          .due_ns = t_ns - late_ns,
-                                          .owed_answer = must_use});
+      stopwatch_->stimulus(closed.group(), {.valid_us = valid_us,
+                                            .counter = e2e::counter(frame.payload()),
+                                            .t_ns = t_ns,
+                                            .due_ns = t_ns - late_ns,
+                                            .owed_answer = must_use});
     return;
   }
   if (model_) model_->sent(frame, std::nullopt, now_us_);
@@ -124,14 +143,17 @@ checks::Observations Monitor::finish() {
   if (model_) seen_.longest_input_gap_us = model_->longest_gap_us(now_us_);
   seen_.complaints.end(now_us_);
   seen_.reports.end(now_us_);
+  stimuli_ = {};  // they are in what is given away
   return std::move(seen_);
 }
 
 // The transmit stamp of the echo replaces the bench's own stamp of the stimulus.
 void Monitor::echoed(const Received& received) {
   const Closed closed = closed_by(received.frame);
-  if (!closed.group.empty()) seen_.transmit_stamps_echoed = true;
-  if (stopwatch_) stopwatch_->echoed(received, closed.group, unwrap_us(closed.valid_us, now_us_));
+  const bool closes = closed.message != Routes::nowhere;
+  if (closes) seen_.transmit_stamps_echoed = true;
+  if (stopwatch_)
+    stopwatch_->echoed(received, closes ? closed.group() : "", unwrap_us(closed.valid_us, now_us_));
 }
 
 void Monitor::received(const Received& received) {
@@ -172,7 +194,8 @@ void Monitor::decode(const Frame& frame, std::size_t index) {
     if (!whole) return;
     for (const std::size_t message : whole->messages) {
       const auto owed = all_messages[message].answers;  // a further answer does not replace one that is owed
-      if (std::ranges::find(owed, whole->cause_group) != owed.end()) ++seen_.answers[message];
+      if (std::ranges::any_of(owed, [&](std::string_view one) { return same(one, whole->cause_group); }))
+        ++seen_.answers[message];
     }
     if (stopwatch_)
       stopwatch_->answered(whole->messages, whole->cause_group, whole->cause_us, whole->cause_counter);

@@ -50,6 +50,8 @@ class Monitor final : public observe::Watcher {
   bool sent_any_ = false;
   bool in_handshake_ = false;  // with a target that was restarted in the flight
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
+  std::array<checks::StimulusCount*, messages::all_messages.size()>
+      stimuli_{};  // in seen_, by index of the message that closes the group; null: none was sent
   std::vector<std::unique_ptr<estimators::Reception>> receptions_;
   std::array<estimators::Reception*, messages::all_messages.size()>
       reception_of_{};       // by index in all_messages

@@ -163,6 +163,54 @@ MessagePlan::MessagePlan(const Message& message) : size_(message.size) {
     if (!name.empty()) steps_[i].multiplexor = numbers.at(name);
   }
   std::ranges::stable_sort(order_, {}, [this](std::uint32_t signal) { return multiplexors_above(signal); });
+  find_fields();
+}
+
+// x + -0.0 and x - 0.0 have the bits of x, for each x.
+MessagePlan::Field::Field(const Step& step, const RawLimits& raw_limits)
+    : mask(step.bits.mask),
+      sign_bit(step.conversion.sign_bit),
+      scale(step.conversion.scale),
+      added(step.conversion.offset == 0 ? -0.0 : step.conversion.offset),
+      subtracted(step.conversion.offset == 0 ? 0.0 : step.conversion.offset),
+      limits(raw_limits),
+      shift(step.bits.shift),
+      big_endian(step.bits.big_endian) {}
+
+void MessagePlan::find_fields() {
+  if (size_ > window) return;
+  std::uint64_t taken = 0;  // bits of the signals so far
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const Step& step = steps_[i];
+    const std::uint64_t in_word = step.bits.mask << step.bits.shift;
+    const std::uint64_t own = step.bits.big_endian ? __builtin_bswap64(in_word) : in_word;
+    const bool fits = step.multiplexor == always && step.conversion.kind == Conversion::Kind::integer &&
+                      step.conversion.scale > 0 && (taken & own) == 0;
+    if (!fits) return fields_.clear();
+    taken |= own;
+    fields_.emplace_back(step, limits_[i]);
+  }
+}
+
+void MessagePlan::decode_word(std::uint64_t word, double* values) const {
+  const std::uint64_t swapped = __builtin_bswap64(word);
+  for (const Field& field : fields_) {
+    const std::uint64_t raw = (field.big_endian ? swapped : word) >> field.shift & field.mask;
+    const auto number = static_cast<std::int64_t>((raw ^ field.sign_bit) - field.sign_bit);
+    *values++ = static_cast<double>(number) * field.scale + field.added;
+  }
+}
+
+std::uint64_t MessagePlan::encode_word(const double* values) const {
+  std::uint64_t word = 0;
+  for (const Field& field : fields_) {
+    const double raw = wire::clamped((*values++ - field.subtracted) / field.scale, field.limits.lowest,
+                                     field.limits.highest);
+    const std::uint64_t bits = (static_cast<std::uint64_t>(wire::round_half_even(raw)) & field.mask)
+                               << field.shift;
+    word |= field.big_endian ? __builtin_bswap64(bits) : bits;
+  }
+  return word;
 }
 
 std::size_t MessagePlan::multiplexors_above(std::uint32_t signal) const {
@@ -191,6 +239,10 @@ bool MessagePlan::is_present(std::size_t signal, std::span<const std::uint8_t> d
 bool MessagePlan::decode(std::span<const std::uint8_t> data, std::span<double> values) const {
   if (data.size() < size_ || values.size() < steps_.size()) return false;
   const Window bytes(data);
+  if (!fields_.empty()) {
+    decode_word(wire::load_le<0, window>(bytes.data()), values.data());
+    return true;
+  }
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const Step& step = steps_[i];
     const bool is_there = step.multiplexor == always || holds(step, bytes.data());
@@ -202,6 +254,14 @@ bool MessagePlan::decode(std::span<const std::uint8_t> data, std::span<double> v
 
 bool MessagePlan::encode(std::span<const double> values, std::span<std::uint8_t> data) const {
   if (data.size() < size_ || values.size() < steps_.size()) return false;
+  if (!fields_.empty()) {
+    const std::uint64_t word = encode_word(values.data());
+    if (size_ == window)
+      std::memcpy(data.data(), &word, window);
+    else
+      std::memcpy(data.data(), &word, size_);
+    return true;
+  }
   std::array<std::uint8_t, window> copy{};
   std::uint8_t* bytes = size_ < window ? copy.data() : data.data();
   if (size_ >= window) std::memset(bytes, 0, size_);

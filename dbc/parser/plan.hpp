@@ -107,6 +107,22 @@ class MessagePlan {
     std::uint32_t first_range = 0, end_range = 0;
   };
 
+  // A signal of a message that is one word: at most eight bytes, with integers that are always present and do
+  // not overlap. Nearly all messages of classic CAN are such. Then the message is loaded and stored once, and
+  // no signal needs a branch.
+  struct Field {
+    explicit Field(const Step& step, const RawLimits& limits);
+    std::uint64_t mask = 0, sign_bit = 0;
+    double scale = 1;
+    double added = 0, subtracted = 0;  // the offset; if it is 0: the zero that changes no number
+    RawLimits limits;
+    std::uint8_t shift = 0;
+    bool big_endian = false;
+  };
+
+  void find_fields();
+  void decode_word(std::uint64_t word, double* values) const;
+  [[nodiscard]] std::uint64_t encode_word(const double* values) const;
   [[nodiscard]] std::size_t multiplexors_above(std::uint32_t signal) const;
   [[nodiscard]] bool holds(const Step& step, const std::uint8_t* data) const;
 
@@ -115,6 +131,7 @@ class MessagePlan {
   std::vector<RawLimits> limits_;
   std::vector<MuxRange> ranges_;      ///< ranges of all signals, one signal after the other
   std::vector<std::uint32_t> order_;  ///< indices in the order of encoding: a multiplexor before its signals
+  std::vector<Field> fields_;         ///< of a message that is one word; otherwise empty
 };
 
 }  // namespace canhil::dbc

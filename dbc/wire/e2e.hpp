@@ -89,9 +89,10 @@ class Receiver {
     const std::uint8_t before = last_;
     last_ = now;
     if (before == none) return Check::ok;
+    if (now == next(before)) return Check::ok;
     if (now == before) return Check::repeated;
     lost_ = (now + counter_period - before - 1) % counter_period;
-    return lost_ == 0 ? Check::ok : Check::some_lost;
+    return Check::some_lost;
   }
   /// The number of frames that were lost before the frame that was checked last (0..13).
   [[nodiscard]] constexpr int lost() const { return lost_; }

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Builds and runs every benchmark of tests/perf, prints the figures, and stores them with a description of the machine.
 #   bash tests/perf/run.sh [BENCHMARK OPTIONS...]        e.g.  --benchmark_filter=unpack --benchmark_repetitions=5
-# The results are in build/perf/DATE/: one PROGRAM.json for each *_benchmark (its "context" contains processor, kernel, compiler and
-# commit); machine.txt with the same description of the machine; one NAME.txt for each other program and for each count of instructions.
+# The results are in build/perf/DATE/: one PROGRAM.json and PROGRAM.txt for each *_benchmark (the "context" of the former contains processor,
+# kernel, compiler and commit); machine.txt with the same description of the machine; one NAME.txt for each other program and for each count of
+# instructions. `python3 tests/perf/page.py build/perf/DATE` puts them into docs/performance.md.
 # At the end stands a table of all goals (goals.py). A goal that is not met does not change the exit code: it is 1 only if something did not build or run,
 # or a figure of a goal is missing.
 set -euo pipefail
@@ -18,7 +19,10 @@ ninja -C "$build" tests/perf/all hil-bench hil-target
 commit=$(git rev-parse --short HEAD 2>/dev/null || echo unknown)
 if [[ -n "$(git status --porcelain 2>/dev/null)" ]]; then commit+=-changed; fi
 about=(
+  "date=$(date -u +%Y-%m-%d)"
   "commit=$commit"
+  "processors=$(nproc)"
+  "load_before=$(cut -d' ' -f1-3 /proc/loadavg)"
   "compiler=$(c++ --version | head -n 1)"
   "build=$(sed -n 's/^CMAKE_BUILD_TYPE:[^=]*=//p' "$build/CMakeCache.txt")"
   "kernel=$(uname -sr)"
@@ -27,7 +31,6 @@ about=(
   "governor=$(cat /sys/devices/system/cpu/cpu0/cpufreq/scaling_governor 2>/dev/null || echo unknown)"
 )
 context=$(printf '%s,' "${about[@]//[,]/ }")
-load_before=$(cut -d' ' -f1 /proc/loadavg)
 records=build/perf/$(date -u +%Y%m%dT%H%M%SZ)
 mkdir -p "$records"
 printf '%s\n' "${about[@]}" | tee "$records/machine.txt"
@@ -46,8 +49,8 @@ while read -r program; do
     *_instructions | vcan_node | run_turnaround) ;; # started below: with callgrind, on vcan, or with real-time priority
     *_benchmark)
       printf '\n== %s\n' "$name"
-      "$program" --benchmark_context="${context%,}" --benchmark_out="$records/$name.json" --benchmark_out_format=json "$@" ||
-        failed "$name"
+      "$program" --benchmark_context="${context%,}" --benchmark_out="$records/$name.json" --benchmark_out_format=json "$@" 2>/dev/null |
+        tee "$records/$name.txt" || failed "$name"
       if grep -q '"error_occurred": true' "$records/$name.json"; then failed "$name"; fi
       ;;
     *) as_text "$name" "$program" ;;
@@ -68,7 +71,8 @@ as_text live /usr/bin/python3 tests/perf/run/live.py "$build/hil-bench"
 as_text codec_instructions sh tests/perf/codec/count_instructions.sh "$build/tests/perf/codec/codec_instructions"
 as_text estimators_instructions sh tests/perf/estimators/count_instructions.sh "$build"
 as_text run_stages python3 tests/perf/run/stages.py "$build"
-printf '\n== goals; the load of the machine was %s before and is %s\n' "$load_before" "$(cut -d' ' -f1 /proc/loadavg)"
+echo "load_after=$(cut -d' ' -f1-3 /proc/loadavg)" | tee -a "$records/machine.txt"
+printf '\n== goals\n'
 python3 tests/perf/goals.py "$records" | tee "$records/goals.txt" || failed goals
 printf '\nrecorded in %s\n' "$records"
 exit "$code"

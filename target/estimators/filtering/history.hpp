@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace canhil::filtering {
 
@@ -39,6 +40,7 @@ class History {
   /// Capacity is reached.
   explicit History(std::int64_t start_us, std::int64_t longest_us = std::numeric_limits<std::int64_t>::max())
       : longest_us_(longest_us) {
+    entries_.reserve(Capacity);
     restart(start_us);
   }
 
@@ -55,7 +57,11 @@ class History {
       first_ = (first_ + 1) % Capacity;
       --count_;
     }
-    at(count_++) = {state.ins, increment, now_us_};
+    const std::size_t place = (first_ + count_++) % Capacity;
+    if (place == entries_.size())
+      entries_.push_back({state.ins, increment, now_us_});
+    else
+      entries_[place] = {state.ins, increment, now_us_};
     now_us_ = t_us;
     step(state, increment, t_us, settings);
   }
@@ -149,7 +155,8 @@ class History {
     return state;
   }
 
-  std::array<Entry, Capacity> entries_;
+  std::vector<Entry> entries_;  // grows to Capacity without allocation: a target need not construct entries
+                                // that it never uses
   std::array<Prediction, Predictions> predictions_;
   std::int64_t longest_us_;
   std::size_t first_ = 0, count_ = 0, prediction_count_ = 0;
