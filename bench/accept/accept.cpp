@@ -23,13 +23,11 @@ namespace fs = std::filesystem;
 using checks::Outcome;
 using drive::Ending;
 
-/// Magnitude of a signal's mean over a flight; nullopt if no answer contains the signal.
+/// Mean of a signal over a flight; nullopt if no answer contains the signal.
 std::optional<double> mean_of(const Answers& answers, const Move& move) {
   const Series* series = answers.find(move.message);
-  if (series == nullptr) return std::nullopt;
-  const auto found = std::ranges::find(series->signals, std::string_view(move.signal), &SignalInfo::name);
-  if (found == series->signals.end()) return std::nullopt;
-  return std::abs(series->mean(static_cast<std::size_t>(found - series->signals.begin())));
+  const auto signal = series == nullptr ? std::nullopt : series->index_of(move.signal);
+  return signal ? std::optional(series->mean(*signal)) : std::nullopt;
 }
 
 // The execution of one suite.
@@ -87,7 +85,8 @@ class Run {
            (options_.same_as_hil_target && flight.reference && of(*flight.reference)) ||
            std::ranges::any_of(suite_.flights, [&](const Flight& other) {
              return (other.same_as && other.same_as->flight == flight.name && wanted(other)) ||
-                    (other.moves && other.moves->flight == flight.name && wanted(other));
+                    (std::ranges::find(other.moves, flight.name, &Move::flight) != other.moves.end() &&
+                     wanted(other));
            });
   }
   [[nodiscard]] bool done() const { return stop_ || (options_.first_failure && failed_); }
@@ -97,7 +96,7 @@ class Run {
     std::vector<std::string> ids{flight.requirement};
     if (options_.same_as_hil_target && flight.reference) ids.push_back(*flight.reference);
     if (flight.same_as) ids.push_back(flight.same_as->requirement);
-    if (flight.moves) ids.push_back(flight.moves->requirement);
+    for (const Move& move : flight.moves) ids.push_back(move.requirement);
     for (const scenario::Check& check : flight.scenario.checks) ids.push_back(check.requirement);
     return ids;
   }
@@ -157,7 +156,7 @@ class Run {
                            difference(answers, flown_[same.flight], same.steps, same.relative),
                            "the same answers"));
     }
-    if (flight.moves) found.push_back(moved(*flight.moves, name, answers));
+    for (const Move& move : flight.moves) found.push_back(moved(move, name, answers));
     return found;
   }
 
@@ -202,19 +201,44 @@ class Run {
     return found;
   }
 
+  /// Judges a response: how much a signal differs from the other flight, or from when on.
+  Item responded(const Move& move, const Answers& answers, Item item) {
+    item.expected = move.by ? fmt::format("{:g} to {:g} more than in flight '{}'", move.by->first,
+                                          move.by->second, move.flight)
+                            : fmt::format("the first difference from flight '{}' at {:g} s", move.flight,
+                                          *move.first_at_s);
+    const Series* here = answers.find(move.message);
+    const Series* there = flown_[move.flight].find(move.message);
+    if (here == nullptr || there == nullptr) return item;
+    if (move.by) {
+      const auto response = mean_difference(*here, *there, move.signal);
+      if (!response) return item;
+      if (*response >= move.by->first && *response <= move.by->second) item.outcome = Outcome::pass;
+      item.measured = fmt::format("{:.4g} more", *response);
+      return item;
+    }
+    constexpr double same_time_s = 1e-6;  // the resolution of a time on the bus
+    const auto first_s = first_difference(*here, *there, move.signal);
+    if (first_s && std::abs(*first_s - *move.first_at_s) < same_time_s) item.outcome = Outcome::pass;
+    item.measured = first_s ? fmt::format("at {:g} s", *first_s) : "no difference";
+    return item;
+  }
+
   Item moved(const Move& move, const std::string& name, const Answers& answers) {
+    Item item{.name = fmt::format("{}: {}.{}", name, move.message, move.signal),
+              .kind = "moves",
+              .requirement = move.requirement,
+              .outcome = Outcome::fail,
+              .measured = "no answer has this signal",
+              .expected = {}};
+    if (move.by || move.first_at_s) return responded(move, answers, std::move(item));
     const auto now = mean_of(answers, move), before = mean_of(flown_[move.flight], move);
-    const bool as_asked =
-        now && before && (move.up ? *now > least_move * *before : *before > least_move * *now);
-    return {.name = fmt::format("{}: {}.{}", name, move.message, move.signal),
-            .kind = "moves",
-            .requirement = move.requirement,
-            .outcome = as_asked ? Outcome::pass : Outcome::fail,
-            .measured = now && before ? fmt::format("mean magnitude {:.4g}, {:.4g} in flight '{}'", *now,
-                                                    *before, move.flight)
-                                      : "no answer has this signal",
-            .expected =
-                fmt::format("{} than there by {:g} %", move.up ? "more" : "less", 100 * (least_move - 1))};
+    item.expected = fmt::format("{} than there by {:g} %", move.up ? "more" : "less", 100 * (least_move - 1));
+    if (!now || !before) return item;
+    const double here = std::abs(*now), there = std::abs(*before);
+    if (move.up ? here > least_move * there : there > least_move * here) item.outcome = Outcome::pass;
+    item.measured = fmt::format("mean magnitude {:.4g}, {:.4g} in flight '{}'", here, there, move.flight);
+    return item;
   }
 
   Result<void> fly_campaign(const std::string& name) {

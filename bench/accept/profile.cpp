@@ -1,5 +1,6 @@
 #include "bench/accept/profile.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bench/observe/values.hpp"
@@ -24,8 +25,44 @@ bool comes_round(const SignalInfo& signal) {
 
 }  // namespace
 
-double distance(const SignalInfo& signal, double a, double b) {
-  return comes_round(signal) ? std::abs(std::remainder(a - b, full_turn_deg)) : std::abs(a - b);
+double difference(const SignalInfo& signal, double a, double b) {
+  return comes_round(signal) ? std::remainder(a - b, full_turn_deg) : a - b;
+}
+
+double distance(const SignalInfo& signal, double a, double b) { return std::abs(difference(signal, a, b)); }
+
+std::optional<double> mean_difference(const Series& here, const Series& there, std::string_view signal) {
+  const auto place = here.index_of(signal);
+  if (!place || there.index_of(signal) != place) return std::nullopt;
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0, j = 0; i < here.size() && j < there.size();) {
+    if (here.t_s[i] != there.t_s[j]) {
+      ++(here.t_s[i] < there.t_s[j] ? i : j);
+      continue;
+    }
+    sum += difference(*here.signals[*place], here.value(i++, *place), there.value(j++, *place));
+    ++count;
+  }
+  return count == 0 ? std::nullopt : std::optional(sum / static_cast<double>(count));
+}
+
+std::optional<double> first_difference(const Series& here, const Series& there, std::string_view signal) {
+  const auto place = here.index_of(signal);
+  if (!place || there.index_of(signal) != place) return std::nullopt;
+  const std::size_t both = std::min(here.size(), there.size());
+  for (std::size_t i = 0; i < both; ++i) {
+    if (here.t_s[i] != there.t_s[i] || here.value(i, *place) != there.value(i, *place))
+      return std::min(here.t_s[i], there.t_s[i]);
+  }
+  if (here.size() == there.size()) return std::nullopt;
+  return (here.size() > both ? here : there).t_s[both];
+}
+
+std::optional<std::size_t> Series::index_of(std::string_view signal) const {
+  const auto found = std::ranges::find(signals, signal, &SignalInfo::name);
+  return found == signals.end() ? std::nullopt
+                                : std::optional(static_cast<std::size_t>(found - signals.begin()));
 }
 
 double Series::mean(std::size_t signal) const {

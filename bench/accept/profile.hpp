@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,8 @@ struct Series {
   }
   /// The mean over the flight; 0 if there are no answers.
   [[nodiscard]] double mean(std::size_t signal) const;
+  /// The index of a signal; none: the message does not have it.
+  [[nodiscard]] std::optional<std::size_t> index_of(std::string_view signal) const;
 };
 
 /// Records the answers of a flight. Ignores reports about the host (TargetTiming), StepDone, and
@@ -48,6 +51,14 @@ class Answers final : public drive::Onlooker {
   double t_s_ = 0;
 };
 
+/// The difference a - b of two values of a signal; for angles, along the smaller of the two arcs.
+double difference(const SignalInfo& signal, double a, double b);
+/// The mean difference of a signal between two flights, over the answers that both have at the same time;
+/// none: they have none, or none has the signal.
+std::optional<double> mean_difference(const Series& here, const Series& there, std::string_view signal);
+/// The bench time [s] of the first answer in which a signal differs between two flights, or that only one of
+/// them has; none: the signal is equal in all answers.
+std::optional<double> first_difference(const Series& here, const Series& there, std::string_view signal);
 /// The absolute difference between two values of a signal; for angles, the smaller of the two arcs.
 double distance(const SignalInfo& signal, double a, double b);
 

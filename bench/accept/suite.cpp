@@ -130,24 +130,40 @@ class Reader {
                               .relative = same->plain_number("relative", Limits::at_least(0), 0)};
       same->finish();
     }
-    if (auto moves = section.optional_table("moves")) {
-      const Flight* other = this->flight(*moves, "beside");
-      const std::string signal = moves->text("signal");
-      const std::size_t dot = signal.find('.');
-      if (!names_one(signal) && !moves->error())
-        moves->reject("signal", fmt::format("'{}' is in no message", signal),
-                      "a signal of one: Message.signal");
-      flight.moves = Move{.flight = other == nullptr ? "" : other->name,
-                          .message = signal.substr(0, dot),
-                          .signal = dot == std::string::npos ? "" : signal.substr(dot + 1),
-                          .up = moves->one_of("to", std::vector<std::string>{"more", "less"}) == "more",
-                          .requirement = requirement(*moves, "requirement")};
-      moves->finish();
+    if (section.has("moves")) {
+      for (Section& moves : section.table_or_tables("moves")) flight.moves.push_back(read_move(moves));
     }
+    section.optional("moves");
     flight.real_time = section.flag("real_time");
     flight.faults = section.flag("faults");
     section.finish();
     suite_.flights.push_back(std::move(flight));
+  }
+
+  Move read_move(Section& section) {
+    const Flight* other = flight(section, "beside");
+    const std::string signal = section.text("signal");
+    const std::size_t dot = signal.find('.');
+    if (!names_one(signal) && !section.error())
+      section.reject("signal", fmt::format("'{}' is in no message", signal),
+                     "a signal of one: Message.signal");
+    Move move{.flight = other == nullptr ? "" : other->name,
+              .message = signal.substr(0, dot),
+              .signal = dot == std::string::npos ? "" : signal.substr(dot + 1),
+              .requirement = requirement(section, "requirement")};
+    if (section.has("first_at_s")) {
+      move.first_at_s = section.plain_number("first_at_s", Limits::at_least(0));
+      for (const char* other : {"by", "to"})
+        section.refuse(other, "is given beside 'first_at_s'", "one of them");
+    } else if (section.has("by")) {
+      move.by = section.interval("by", {});
+      section.refuse("to", "is given beside 'by'", "one of them");
+    } else if (!section.has("to")) {
+      section.missing("to", "\"more\", \"less\", or in its place 'by': an array [low, high], or first_at_s");
+    } else
+      move.up = section.one_of("to", std::vector<std::string>{"more", "less"}) == "more";
+    section.finish();
+    return move;
   }
 
   void read_parameter(Section& section) {

@@ -32,11 +32,16 @@ struct SameAs {
   double relative = 0;  ///< tolerance of a value, relative to the value
 };
 
-/// A signal whose mean must be larger, or smaller, in this flight than in another flight.
+/// A signal whose mean must differ between this flight and another one. Both have the same noise, so the
+/// difference is the response to what distinguishes the flights.
 struct Move {
   std::string flight;  ///< the other flight
   std::string message, signal;
   bool up = false;  ///< true: the magnitude of the mean must be larger in this flight; false: smaller
+  /// Instead of `up`: the limits of the mean difference, here minus there, in the unit of the signal.
+  std::optional<std::pair<double, double>> by{};
+  /// Instead of `up`: the bench time [s] of the first answer in which the signal differs.
+  std::optional<double> first_at_s{};
   std::string requirement;
 };
 
@@ -49,7 +54,7 @@ struct Flight {
       reference{};       ///< id of the requirement that the answers are hil-target's; none: not compared
   std::size_t rows = 0;  ///< number of instants that are compared
   std::optional<SameAs> same_as{};
-  std::optional<Move> moves{};
+  std::vector<Move> moves{};
   bool real_time = false;
   bool faults = false;  ///< true: the target must report a fault
 };

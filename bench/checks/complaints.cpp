@@ -14,9 +14,10 @@ std::string_view error_in(const SignalInfo& signal) {
   return signal.name.starts_with(error) ? signal.name.substr(error.size()) : std::string_view();
 }
 
-// Visits every signal of a message, with the values of the signal in `now` and in `before`.
+// If the messages differ, visits every signal, with the values of the signal in `now` and in `before`.
 template <class Message, class Visit>
 void compare(const Message& now, const Message& before, Visit visit) {
+  if (now == before) return;  // nearly always
   std::vector<double> then;
   Message::visit(before,
                  [&](const SignalInfo&, const auto& value) { then.push_back(static_cast<double>(value)); });
@@ -31,12 +32,13 @@ void compare(const Message& now, const Message& before, Visit visit) {
 void Complaints::hear(const messages::TargetHeartbeat& beat, std::int64_t now_us) {
   end(now_us);
   last_beat_us_ = now_us;
-  compare(beat, beats_[beat.estimator], [&](const SignalInfo& signal, double value, double before) {
+  messages::TargetHeartbeat& last = beats_[beat.estimator];
+  compare(beat, last, [&](const SignalInfo& signal, double value, double before) {
     if (const std::string_view what = error_in(signal); !what.empty() && value != 0 && before == 0)
       of_heartbeats_.push_back({now_us, what});
   });
   if (beat.degraded != 0) of_heartbeats_.push_back({now_us, "degraded"});
-  beats_[beat.estimator] = beat;
+  last = beat;
 }
 
 void Complaints::hear(const messages::TargetCounters& counters, std::int64_t now_us) {

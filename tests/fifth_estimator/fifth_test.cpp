@@ -101,7 +101,9 @@ TEST(FifthEstimator, ItsCheckWorksInAScenarioACampaignAndASuite) {
         "[[check]]\nname = 'mine'\nrequirement = 'S-1'\nkind = 'spread'\nquantity = 'height'\nfrom_s = 30.0\n"
         "below_m = {}\n",
         below_m);
-    const std::string flight = read(here("height.toml"));
+    std::string flight = read(here("height.toml"));
+    const std::string whole = "duration_s = 90.0";
+    flight.replace(flight.find(whole), whole.size(), "duration_s = 40.0");
     std::ofstream(folder + "/flight.toml") << flight.substr(0, flight.find("[[check]]")) << table;
     std::ofstream(folder + "/campaign.toml")
         << "title = 'C'\nruns = 3\nseed = 3\n[[variant]]\nname = 'V'\nscenario = 'flight.toml'\n"

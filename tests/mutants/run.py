@@ -5,7 +5,8 @@
 
 The defects are in tests/mutants/*.toml, one file per family; seeded.py describes their format. The sources of the project are not changed.
 build/default must be built; it defines how the target is compiled and linked. overlaid.py compiles the changed file from a copy and links it with
-the existing objects. A suite ends at the first requirement that is not met. The suite `several` and the suite of the defect's family are flown first.
+the existing objects. A suite ends at the first requirement that is not met. If the changed file belongs to one estimator, only its suite is flown, after
+the suite `several`; otherwise all suites, that of the defect's family first.
 Before all mutants, the unchanged target must pass all suites.
 
 A mutant is caught if a requirement is not met. It survives if all requirements are met or not measured.
@@ -23,13 +24,9 @@ Exit code: 0 all mutants were caught, 1 a mutant survived or does not build, 2 w
 import argparse
 import concurrent.futures
 import json
-import os
 import random
 import re
-import signal
-import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 
@@ -37,18 +34,12 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/mutants"))
 import overlaid  # noqa: E402
 import seeded  # noqa: E402
+from accepting import BENCH, BUILD, CAMPAIGNS, SINGLE_FLIGHTS, TIMES, accept  # noqa: E402
 
-BUILD = ROOT / "build/default"
-BENCH = BUILD / "hil-bench"
-LONGEST_S = 900  # time limit of one call of hil-bench accept
 SAME = ("--same-as", "hil-target")
 
 CAUGHT, SURVIVED, NO_BUILD = "caught", "survived", "does not build"
 
-# Families of requirements in three stages. The fastest requirements come first. Those about timing come last and run alone.
-SINGLE_FLIGHTS = ("algorithms", "parameters", "flags and states", "protocol")
-CAMPAIGNS = ("errors", "honesty")
-TIMES = ("timing",)
 SUITES = ("several", "transfer_alignment", "inflight_alignment", "los_rate", "wind")  # the suite `several` takes only a second
 
 
@@ -71,55 +62,19 @@ class Progress:
         print(("\r\x1b[K" if self.shown else "") + what, flush=True)
 
 
-def run(command, longest_s=None, **more):
-    """Runs a command and, at its end or at the time limit, kills all its processes. Returns (exit code, output); exit code None: time limit
-    exceeded."""
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                               errors="replace", start_new_session=True, **more)
-    try:
-        output = process.communicate(timeout=longest_s)[0]
-        return process.returncode, output
-    except subprocess.TimeoutExpired:
-        return None, ""
-    finally:
-        try:
-            os.killpg(process.pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
-        process.wait()
+def suites_of(mutant):
+    """The suites that can see a mutant: that of the estimator to which its file belongs, or all, that of its family first."""
+    own = [suite for suite in SUITES if suite in mutant.file]
+    return (SUITES[0], *own) if own else sorted(SUITES, key=lambda name: (name != SUITES[0], name != mutant.family))
 
 
-def accept(target, estimator, families, folder, question=SAME):
-    """Flies one suite. Returns (requirement, observation) for the first requirement that the target violates, or
-    None if the target violates no requirement that was measured."""
-    report = Path(folder, "report.json")
-    report.unlink(missing_ok=True)
-    wanted = [word for family in families for word in ("--family", family)]
-    code, output = run([str(BENCH), "accept", *question, "--first-failure", "--target", str(target), "--json", str(report), "--estimator", estimator,
-                        *wanted], LONGEST_S)
-    if code is None:
-        return "no end", f"not within {LONGEST_S} s"
-    if code in (0, 3):
-        return None
-    if not report.exists():
-        return "no report", f"exit code {code}: {(output.strip().splitlines() or ['no output'])[-1]}"
-    for suite in json.loads(report.read_text())["suites"]:
-        for requirement in suite["requirements"]:
-            for item in requirement["items"]:
-                if item["outcome"] == "fail":
-                    return requirement["id"], f"{item['name']}: {item['measured']}"
-    return "no requirement", f"exit code {code}"
-
-
-def fly_suites(target, first, stages, question=SAME):
-    """Calls accept() for all suites, stage by stage, until the target violates a requirement. In each stage the quick
-    suite `several` comes first, then the suite `first`."""
-    with tempfile.TemporaryDirectory() as folder:
-        for families in stages:
-            for estimator in sorted(SUITES, key=lambda name: (name != SUITES[0], name != first)):
-                wrong = accept(target, estimator, families, folder, question)
-                if wrong:
-                    return wrong
+def fly_suites(target, suites, stages, question=SAME):
+    """Asks accept about the suites, stage by stage. Returns the first (requirement, observation) that the target violates, or None."""
+    for families in stages:
+        for estimator in suites:
+            wrong = accept(target, estimator, families, question)[1]
+            if wrong:
+                return wrong
     return None
 
 
@@ -131,7 +86,7 @@ def outcome_of(mutant, stages, question=SAME):
     except overlaid.DoesNotBuild as error:
         return {**entry, "outcome": NO_BUILD, "error": str(error)}
     try:
-        wrong = fly_suites(target, mutant.family, stages, question)
+        wrong = fly_suites(target, suites_of(mutant), stages, question)
     finally:
         overlaid.remove(target)
     if wrong is None:
@@ -214,32 +169,34 @@ def prepare(progress, question):
     if not BENCH.exists():
         raise Failure(f"{BENCH}: is not there, expected the project built (cmake --preset default; cmake --build --preset default)")
     progress.say("the target as it is")
-    wrong = fly_suites(BUILD / "hil-target", None, (SINGLE_FLIGHTS, CAMPAIGNS, TIMES), question)
+    wrong = fly_suites(BUILD / "hil-target", SUITES, (SINGLE_FLIGHTS, CAMPAIGNS, TIMES), question)
     if wrong:
         raise Failure(f"the target as it is does not meet {wrong[0]}: {wrong[1]}; expected it to")
     progress.line(f"the target as it is meets every requirement that was measured ({len(SUITES)} suites)")
 
 
 def fly(mutants, jobs, target_passes, question):
-    """Tests `jobs` mutants at a time with the families that run in virtual time. The mutants that survive are then tested for timing one after
-    the other, because in real time they would disturb each other."""
+    """Tests `jobs` mutants at a time with the families that run in virtual time. Those of timing that survive are then tested for timing one
+    after the other, because in real time they would disturb each other."""
     progress = Progress()
     start = time.monotonic()
     if not target_passes:
         prepare(progress, question)
     entries = []
+    in_real_time = []  # the places of mutants that only timing can reveal
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for entry in pool.map(lambda mutant: outcome_of(mutant, (SINGLE_FLIGHTS, CAMPAIGNS), question), mutants):
-            entries.append(entry)
-            if entry["outcome"] != SURVIVED:
+        for mutant, entry in zip(mutants, pool.map(lambda mutant: outcome_of(mutant, (SINGLE_FLIGHTS, CAMPAIGNS), question), mutants)):
+            if entry["outcome"] == SURVIVED and mutant.real_time:
+                in_real_time.append(len(entries))
+            else:
                 progress.line(line_of(entry))
+            entries.append(entry)
             gone = int(time.monotonic() - start)
             progress.say(f"{len(entries)} of {len(mutants)} ({gone // 60}:{gone % 60:02d})")
-    for place, mutant in enumerate(mutants):
-        if entries[place]["outcome"] == SURVIVED:
-            progress.say(f"{mutant.full_name} in real time")
-            entries[place] = outcome_of(mutant, (TIMES,), question)
-            progress.line(line_of(entries[place]))
+    for place in in_real_time:
+        progress.say(f"{mutants[place].full_name} in real time")
+        entries[place] = outcome_of(mutants[place], (TIMES,), question)
+        progress.line(line_of(entries[place]))
     progress.say("")
     return entries
 

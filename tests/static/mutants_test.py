@@ -6,10 +6,10 @@ import tempfile
 import unittest
 from collections import Counter
 from pathlib import Path
-from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests/mutants"), str(ROOT / "tests/static")]
+import accepting  # noqa: E402
 import copied_tree  # noqa: E402
 import overlaid  # noqa: E402
 import run  # noqa: E402
@@ -110,7 +110,7 @@ PAGE = """{"suites": [{"requirements": [
 
 
 class Judging(unittest.TestCase):
-    """Tests run.accept() with a replacement for the bench: a program that writes a given report and ends with a given exit code."""
+    """Tests accept() with a replacement for the bench: a program that writes a given report and ends with a given exit code."""
 
     def judged(self, code, page=None):
         with tempfile.TemporaryDirectory() as folder:
@@ -118,23 +118,28 @@ class Judging(unittest.TestCase):
             write = f"while [ \"$1\" != --json ]; do shift; done\ncat > \"$2\" <<'END'\n{page}\nEND\n" if page else ""
             bench.write_text(f"#!/bin/sh\n{write}echo one; echo two; exit {code}\n")
             bench.chmod(0o755)
-            with mock.patch.object(run, "BENCH", bench):
-                return run.accept("target", "wind", ("errors",), folder)
+            return accepting.accept("target", "wind", ("errors",), bench=bench)
 
     def test_what_passes_or_is_not_measured_catches_nothing(self):
-        self.assertIsNone(self.judged(0))
-        self.assertIsNone(self.judged(3))
+        self.assertEqual(self.judged(0), (0, None))
+        self.assertEqual(self.judged(3), (3, None))
 
     def test_the_first_requirement_that_is_not_met_is_named(self):
-        self.assertEqual(self.judged(1, PAGE), ("B", "c: 3"))
-        self.assertEqual(self.judged(2), ("no report", "exit code 2: two"))
-        self.assertEqual(self.judged(1, '{"suites": []}'), ("no requirement", "exit code 1"))
+        self.assertEqual(self.judged(1, PAGE), (1, ("B", "c: 3")))
+        self.assertEqual(self.judged(2), (2, ("no report", "exit code 2: two")))
+        self.assertEqual(self.judged(1, '{"suites": []}'), (1, ("no requirement", "exit code 1")))
 
     def test_the_table_adds_up(self):
         entries = [{"family": "a", "outcome": run.CAUGHT}, {"family": "a", "outcome": run.SURVIVED},
                    {"family": "b", "outcome": run.NO_BUILD}]
         self.assertEqual(run.table_of(entries)["a"], {"mutants": 2, "caught": 1, "survived": 1, "does not build": 0})
         self.assertEqual(run.table_of(entries)["total"], {"mutants": 3, "caught": 1, "survived": 1, "does not build": 1})
+
+    def test_a_mutant_of_one_estimator_is_shown_to_its_suite_only(self):
+        mutants = {mutant.full_name: mutant for mutant in seeded.all_mutants()}
+        self.assertEqual(run.suites_of(mutants["wind.rudder_sign"]), ("several", "wind"))
+        shared, = seeded.mutants_of("strapdown", ONE)
+        self.assertEqual(sorted(run.suites_of(shared)), sorted(run.SUITES))
 
     def test_every_suite_is_flown(self):
         self.assertEqual(sorted(run.SUITES), sorted(file.parent.name for file in (ROOT / "bench/acceptance").glob("*/suite.toml")))

@@ -1,6 +1,9 @@
 #include "bench/estimators/wind/answers.hpp"
 
+#include <cmath>
 #include <optional>
+
+#include "bench/world/units.hpp"
 
 namespace canhil::estimators {
 namespace {
@@ -32,6 +35,10 @@ struct WindGroup : AnswerGroup<WindVector, WindSpeed, WindSigma, WindCorrelation
          .sigma = {sigma.wind_sigma_north_mps, sigma.wind_sigma_east_mps, sigma.wind_sigma_down_mps},
          .correlation = {correlation.wind_correlation_ne, correlation.wind_correlation_nd,
                          correlation.wind_correlation_ed},
+         .speed = status.wind_speed_mps,
+         .from = status.wind_from_deg * world::units::deg,
+         .speed_sigma = track.wind_speed_sigma_mps,
+         .from_sigma = track.wind_from_sigma_deg * world::units::deg,
          .along_track_sigma = track.along_track_sigma_mps,
          .cross_track_sigma = track.cross_track_sigma_mps,
          .nis = get<WindUpdate>().nis});
@@ -47,7 +54,9 @@ std::optional<WindError> error_of(const WindAnswer& answer, const TrueAir& air) 
   return WindError{.t_us = answer.cause_us,
                    .error_n = error,
                    .along_track = along.x() * error.x() + along.y() * error.y(),
-                   .cross_track = -along.y() * error.x() + along.x() * error.y()};
+                   .cross_track = -along.y() * error.x() + along.x() * error.y(),
+                   .speed = answer.speed - std::hypot(north, east),
+                   .from = world::wrapped(answer.from - std::atan2(-east, -north))};
 }
 
 }  // namespace

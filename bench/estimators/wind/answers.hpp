@@ -24,6 +24,10 @@ struct WindAnswer {
   world::Vector3 wind_n = world::Vector3::Zero();
   world::Vector3 sigma = world::Vector3::Zero();
   world::Vector3 correlation = world::Vector3::Zero();  ///< north-east, north-down, east-down
+  double speed = 0;                                     ///< of the horizontal wind
+  double from = 0;  ///< direction from which it blows, clockwise from north
+  double speed_sigma = 0;
+  double from_sigma = 0;
   double along_track_sigma = 0;
   double cross_track_sigma = 0;
   double nis = 0;  ///< normalised innovation squared, 9 degrees of freedom; 0: without an update
@@ -39,6 +43,8 @@ struct WindError {
   world::Vector3 error_n = world::Vector3::Zero();  ///< NED [m/s]
   double along_track = 0;                           ///< [m/s]
   double cross_track = 0;                           ///< to the right [m/s]
+  double speed = 0;                                 ///< of the speed of the horizontal wind [m/s]
+  double from = 0;                                  ///< of its direction, within +-pi [rad]
   std::size_t answer = 0;                           ///< index of the answer
 };
 

@@ -19,6 +19,11 @@ inline constexpr Quantity wind_norm{
     .name = "wind.norm", .meaning = "magnitude of the error of the wind", .unit = mps};
 inline constexpr Quantity wind_north{.name = "wind.north", .meaning = "error of the wind north", .unit = mps};
 inline constexpr Quantity wind_east{.name = "wind.east", .meaning = "error of the wind east", .unit = mps};
+/// The horizontal wind as its speed and the direction from which it blows, which the target reports apart.
+inline constexpr Quantity wind_speed{
+    .name = "wind.speed", .meaning = "error of the speed of the horizontal wind", .unit = mps};
+inline constexpr Quantity wind_from{
+    .name = "wind.from", .meaning = "error of the direction from which the wind blows", .unit = degrees};
 /// NIS of a sample; NaN without an update.
 inline constexpr Quantity wind_nis{.name = "wind.nis",
                                    .meaning = "normalised innovation squared of an update",

@@ -39,8 +39,9 @@ constexpr std::array derived{Derived{.quantity = &wind_norm, .of = of_all_three}
                              Derived{.quantity = &wind_along_over_sigma, .of = along_over_its_sigma},
                              derived_trust};
 
-constexpr std::array<const Quantity*, 8> of_runs{&wind_north, &wind_east, &wind_down, &wind_along,
-                                                 &wind_cross, &wind_norm, &wind_nis,  &wind_nees};
+constexpr std::array<const Quantity*, 10> of_runs{&wind_north, &wind_east, &wind_down,  &wind_along,
+                                                  &wind_cross, &wind_norm, &wind_speed, &wind_from,
+                                                  &wind_nis,   &wind_nees};
 
 constexpr Layout layout{.kept = kept, .derived = derived};
 
@@ -98,6 +99,12 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   });
   fill(judged(of.track(wind_cross, "wind error cross track")), [](const auto& answer, const WindError& e) {
     return TrackPoint{.value = e.cross_track, .sigma = answer.cross_track_sigma};
+  });
+  fill(judged(of.track(wind_speed, "wind speed error")), [](const auto& answer, const WindError& e) {
+    return TrackPoint{.value = e.speed, .sigma = answer.speed_sigma};
+  });
+  fill(judged(of.track(wind_from, "wind direction error")), [](const auto& answer, const WindError& e) {
+    return TrackPoint{.value = e.from, .sigma = answer.from_sigma};
   });
   fill(judged(of.track(wind_norm, "wind error norm")),
        [](const auto&, const WindError& e) { return TrackPoint{.value = e.error_n.norm()}; });

@@ -131,6 +131,28 @@ TEST_F(Accept, AMoveToTheOtherSideFails) {
   EXPECT_THAT(ended.out, HasSubstr("flight 'less sure': AlignUpdate.nis: mean magnitude"));
 }
 
+// The noise is the same in both flights, so the difference is the response to the master's velocity.
+TEST_F(Accept, AResponseWithTheWrongSignFails) {
+  std::ofstream(folder_ + "/small/suite.toml", std::ios::app) << R"(
+[[flight]]
+name = "faster"
+scenario = "flight.toml"
+set = { "fault" = [{ kind = "bias", quantity = "master_ins.velocity_north", by_mps = 1.0, from_s = 0 }] }
+requirement = "S-1"
+moves = [
+  { beside = "one", signal = "AlignVelocityNE.velocity_north_mps", by = [0.8, 1.05], requirement = "S-1" },
+  { beside = "one", signal = "AlignVelocityNE.velocity_east_mps", by = [-0.05, 0.05], requirement = "S-1" },
+]
+)";
+  const Ended right = accept("--family errors");
+  EXPECT_EQ(right.code, 0) << right.out << right.err;
+  change("suite.toml", "[0.8, 1.05]", "[-1.05, -0.8]");
+  const Ended wrong = accept("--family errors");
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_THAT(wrong.out, HasSubstr("flight 'faster': AlignVelocityNE.velocity_north_mps: 0."));
+  EXPECT_THAT(wrong.out, HasSubstr("-1.05 to -0.8 more than in flight 'one'"));
+}
+
 TEST_F(Accept, AFaultThatDoesNotComeFails) {
   change("suite.toml", "from_s = 1.0", "from_s = 2.95");  // so late that the target cannot detect a silence
   ASSERT_EQ(accept("--family protocol").code, 0);

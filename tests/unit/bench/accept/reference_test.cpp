@@ -29,6 +29,11 @@ class Flown {
                   0));
     return *this;
   }
+  /// An instant without an answer.
+  Flown& pass() {
+    sync();
+    return *this;
+  }
   template <class Message>
   Flown& hear(const Message& message) {
     return hear(to_frame(message, 0));
@@ -62,6 +67,40 @@ std::string departure_of(const Reference& reference, double off_deg, int coastin
   Flown flight;
   fly(flight, off_deg, coasting);
   return departure(reference, flight.answers, share);
+}
+
+// Only answers that both flights have at the same time are compared, and headings along the smaller arc.
+TEST(Response, IsTheMeanDifferenceOfAnswersAtTheSameTime) {
+  Flown there, here;
+  there.attitude(179).attitude(10).attitude(20);
+  here.attitude(-179);
+  here.pass().attitude(23);
+  const Series& series = *there.answers.find("AlignAttitude");
+  EXPECT_NEAR(*mean_difference(*here.answers.find("AlignAttitude"), series, "heading_deg"), (2 + 3) / 2.0,
+              heading_step_deg);
+  EXPECT_NEAR(*mean_difference(series, *here.answers.find("AlignAttitude"), "heading_deg"), -2.5,
+              heading_step_deg);
+  EXPECT_FALSE(mean_difference(series, series, "none"));
+  EXPECT_FALSE(
+      mean_difference(series, Series{.signals = series.signals, .t_s = {}, .values = {}}, "heading_deg"));
+}
+
+TEST(Response, BeginsAtTheFirstAnswerThatDiffers) {
+  const auto heading = [](std::initializer_list<double> headings_deg) {
+    Flown flown;
+    for (const double deg : headings_deg) {
+      flown.attitude(deg);
+      flown.pass();
+    }
+    return *flown.answers.find("AlignAttitude");
+  };
+  const Series there = heading({10, 11, 12});
+  const Series late = heading({10, 11, 13}), shorter = heading({10, 11});
+  EXPECT_EQ(first_difference(late, there, "heading_deg"), there.t_s[2]);
+  EXPECT_EQ(first_difference(shorter, there, "heading_deg"), there.t_s[2]);
+  EXPECT_FALSE(first_difference(there, there, "heading_deg"));
+  EXPECT_FALSE(first_difference(late, there, "roll_deg"));
+  EXPECT_FALSE(first_difference(late, there, "none"));
 }
 
 TEST(Reference, IsMetByTheSameAnswers) { EXPECT_THAT(departure_of(of(0), 0), IsEmpty()); }

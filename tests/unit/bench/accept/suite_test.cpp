@@ -114,6 +114,19 @@ TEST(Suites, AWrongOneIsOneLine) {
                       "beside = \"f\", signal = "
                       "\"WindUpdate.niss\", to = \"more\", requirement = \"R\" }\n"),
               HasSubstr("WindUpdate.niss"));
+  const auto moves = [](const std::string& keys) {
+    return refused(
+        "[[flight]]\nname = \"g\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\n"
+        "moves = [{ beside = \"f\", signal = \"WindUpdate.nis\", requirement = \"R\"" +
+        keys + " }]\n");
+  };
+  EXPECT_EQ(moves(", by = [1, 2]"), "");
+  EXPECT_THAT(moves(""), HasSubstr("by"));
+  EXPECT_THAT(moves(", by = [2, 1]"), HasSubstr("descending"));
+  EXPECT_THAT(moves(", by = [1, 2], to = \"more\""), HasSubstr("beside 'by'"));
+  EXPECT_EQ(moves(", first_at_s = 3"), "");
+  EXPECT_THAT(moves(", first_at_s = -1"), HasSubstr("first_at_s"));
+  EXPECT_THAT(moves(", first_at_s = 3, by = [1, 2]"), HasSubstr("beside 'first_at_s'"));
   EXPECT_THAT(refused("[[flight]]\nname = \"f\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\n"),
               HasSubstr("'f' is given twice"));
   EXPECT_THAT(refused("rows = 0\n"), HasSubstr("rows"));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "bench/checks/kinds/answers.hpp"
 #include "bench/checks/kinds/consistency.hpp"
@@ -44,6 +45,8 @@ class Winds : public testing::Test {
       seen_.stimuli["GliderNav"].add(t_us);
       WindAnswer answer{.cause_us = t_us, .started = true, .outcome = WindOutcome::updated};
       answer.wind_n = glide_.at(t_us).wind_n;
+      answer.speed = answer.wind_n.head<2>().norm();
+      answer.from = std::atan2(-answer.wind_n.y(), -answer.wind_n.x());
       answer.sigma = Vector3::Ones();
       answer.nis = 9;
       seen_.of<WindAnswers>().push_back(answer);
@@ -87,6 +90,20 @@ TEST_F(Winds, TheLargestAndTheMeanErrorAreJudged) {
   EXPECT_EQ(error(wind_down, mean, 0.009).outcome, Outcome::fail);  // the mean is 5 / 500
   EXPECT_EQ(error(wind_down, mean, 0.011).outcome, Outcome::pass);
   EXPECT_EQ(error(wind_cross, max, 1e-6).outcome, Outcome::pass);
+}
+
+TEST_F(Winds, SpeedAndDirectionAreJudgedAsTheTargetReportsThem) {
+  using quantities::wind_from, quantities::wind_speed;
+  constexpr double degree = std::numbers::pi / 180;
+  WindAnswer& answer = seen_.of<WindAnswers>()[100];
+  answer.from += 2 * std::numbers::pi;  // the same direction
+  EXPECT_EQ(error(wind_speed, max, 1e-6).outcome, Outcome::pass);
+  EXPECT_EQ(error(wind_from, max, 1e-6).outcome, Outcome::pass);
+  answer.speed += 0.5;
+  EXPECT_EQ(error(wind_speed, max, 0.49).outcome, Outcome::fail);
+  EXPECT_EQ(error(wind_speed, max, 0.51).outcome, Outcome::pass);
+  answer.from += std::numbers::pi;  // where it blows to
+  EXPECT_EQ(error(wind_from, max, 179 * degree).outcome, Outcome::fail);
 }
 
 TEST_F(Winds, SilenceAndNansNeverPass) {
