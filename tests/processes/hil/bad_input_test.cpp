@@ -284,13 +284,19 @@ TEST(BadInput, FilesThatWouldReplaceSomethingElse) {
 
 // A second bench or target is rejected without disturbing the current run.
 TEST(BadInput, ASecondBenchOrTargetOnABus) {
-  const std::string quick = scenario("transfer_alignment_quick");
+  const std::string long_flight =
+      scratch("long.toml");  // still on its way after both others, on a busy machine
+  ASSERT_EQ(shell(fmt::format("cp {} {}", scenario("transfer_alignment_quick"), long_flight)).code, 0);
+  edit(long_flight, "duration_s = 3.0", "duration_s = 8.0");
   const std::string report = scratch("first.json");
-  const Ended second =
-      shell(fmt::format("{0} run {1} --bus local:shared --json {2} >{3} & first=$!; sleep 1.5; {4} --bus "
-                        "local:shared; echo $? >{5}; "
-                        "{0} run {1} --bus local:shared --target none; code=$?; wait $first; exit $code",
-                        HIL_BENCH, quick, report, scratch("first.out"), HIL_TARGET, scratch("target.code")));
+  // Waits for the first run to begin: it then removes the report of an earlier one.
+  std::ofstream(report) << "of an earlier run";
+  const Ended second = shell(
+      fmt::format("{0} run {1} --bus local:shared --json {2} >{3} & first=$!; "
+                  "while [ -e {2} ] && kill -0 $first; do sleep 0.05; done; "
+                  "{4} --bus local:shared; echo $? >{5}; "
+                  "{0} run {1} --bus local:shared --target none; code=$?; wait $first; exit $code",
+                  HIL_BENCH, long_flight, report, scratch("first.out"), HIL_TARGET, scratch("target.code")));
   EXPECT_EQ(second.code, 2) << second.out << second.err;
   EXPECT_EQ(read(scratch("target.code")), "2\n");
   EXPECT_THAT(second.err, HasSubstr("a target answers here already"));
@@ -366,8 +372,12 @@ TEST(BadInput, ARunThatDoesNotBeginLosesNothingAndLeavesNothing) {
 TEST(BadInput, ARunThatBeganLeavesNoReportOfAnEarlierOne) {
   const std::string report = scratch("stale.json");
   std::ofstream(report) << "of an earlier run";
-  shell(fmt::format("timeout -s KILL 2 {} run {} --bus {} --json {}", HIL_BENCH,
-                    scenario("transfer_alignment_quick"), bus(), report));
+  // Waits for the run to begin, however slow the machine is, and kills it then. A run that leaves the report
+  // goes on to its end.
+  shell(
+      fmt::format("{} run {} --bus {} --json {} & "
+                  "while [ -e {} ] && kill -0 $!; do sleep 0.05; done; kill -KILL $!; wait",
+                  HIL_BENCH, scenario("transfer_alignment_quick"), bus(), report, report));
   EXPECT_FALSE(std::filesystem::exists(report));
 }
 

@@ -88,6 +88,23 @@ TEST_F(OutputComplaints, ExcuseATimingThatFailedByALateHostAlone) {
   }
 }
 
+// The check of an answer's time: not measured on a busy host, but never excused if it failed.
+TEST_F(OutputComplaints, NameAnEventThatFailedAndNotOneThatWasNotTimed) {
+  nlohmann::json event = report_["checks"][0];
+  event.update({{"kind", "event"}, {"unit", "ms"}, {"upper", 50.0}, {"outcome", "pass"}});
+  report_["checks"].push_back(event);
+  EXPECT_THAT(complaints(), IsEmpty());
+  end_with("event", "not measured");
+  EXPECT_THAT(complaints(), IsEmpty());
+  bench_was_late_by(1);
+  end_with("event", "fail");
+  EXPECT_THAT(complaints(),
+              ElementsAre(HasSubstr("\"event\""), "the verdict is 'fail', and no check of timing is why"));
+  report_["checks"].back()["unit"] = "";  // an answer without a limit of time must be measured
+  end_with("event", "not measured");
+  EXPECT_THAT(complaints(), ElementsAre(HasSubstr("\"event\"")));
+}
+
 TEST_F(OutputComplaints, NameAnExitCodeAnEndAndTooFewChecks) {
   ended_.code = 0;
   EXPECT_THAT(complaints(), ElementsAre("the verdict is 'not measured', the exit code 0"));
