@@ -114,7 +114,7 @@ class Run {
             .kind = "accept",
             .requirement = requirement,
             .outcome = wrong.empty() ? Outcome::pass : Outcome::fail,
-            .measured = wrong.empty() ? "so" : wrong,
+            .measured = wrong.empty() ? "as expected" : wrong,
             .expected = expected};
   }
 

@@ -130,8 +130,9 @@ class Reader {
                               .relative = same->plain_number("relative", Limits::at_least(0), 0)};
       same->finish();
     }
-    if (section.has("moves")) {
-      for (Section& moves : section.table_or_tables("moves")) flight.moves.push_back(read_move(moves));
+    if (section.has("moves")) read_moves(section, flight);
+    for (const char* key : {"beside", "response"}) {
+      if (!section.has("moves")) section.refuse(key, "is given without 'moves'", "both");
     }
     section.optional("moves");
     flight.real_time = section.flag("real_time");
@@ -140,17 +141,26 @@ class Reader {
     suite_.flights.push_back(std::move(flight));
   }
 
-  Move read_move(Section& section) {
-    const Flight* other = flight(section, "beside");
+  void read_moves(Section& section, Flight& flight) {
+    const Flight* other = this->flight(section, "beside");
+    const std::string response =
+        section.has("response") ? requirement(section, "response") : flight.requirement;
+    for (Section& moves : section.table_or_tables("moves")) {
+      Move move = read_move(moves);
+      if (other != nullptr) move.flight = other->name;
+      move.requirement = response;
+      flight.moves.push_back(std::move(move));
+    }
+  }
+
+  static Move read_move(Section& section) {
     const std::string signal = section.text("signal");
     const std::size_t dot = signal.find('.');
     if (!names_one(signal) && !section.error())
       section.reject("signal", fmt::format("'{}' is in no message", signal),
                      "a signal of one: Message.signal");
-    Move move{.flight = other == nullptr ? "" : other->name,
-              .message = signal.substr(0, dot),
-              .signal = dot == std::string::npos ? "" : signal.substr(dot + 1),
-              .requirement = requirement(section, "requirement")};
+    Move move{.message = signal.substr(0, dot),
+              .signal = dot == std::string::npos ? "" : signal.substr(dot + 1)};
     if (section.has("first_at_s")) {
       move.first_at_s = section.plain_number("first_at_s", Limits::at_least(0));
       for (const char* other : {"by", "to"})

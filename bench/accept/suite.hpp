@@ -35,14 +35,14 @@ struct SameAs {
 /// A signal whose mean must differ between this flight and another one. Both have the same noise, so the
 /// difference is the response to what distinguishes the flights.
 struct Move {
-  std::string flight;  ///< the other flight
+  std::string flight{};  ///< the other flight
   std::string message, signal;
   bool up = false;  ///< true: the magnitude of the mean must be larger in this flight; false: smaller
   /// Instead of `up`: the limits of the mean difference, here minus there, in the unit of the signal.
   std::optional<std::pair<double, double>> by{};
   /// Instead of `up`: the bench time [s] of the first answer in which the signal differs.
   std::optional<double> first_at_s{};
-  std::string requirement;
+  std::string requirement{};
 };
 
 /// A flight in lockstep or in real time.

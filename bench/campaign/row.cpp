@@ -34,7 +34,7 @@ std::int64_t hash_of(std::int64_t id, const Key& key, const drive::Ending& endin
 }
 
 Unfit damaged(const SQLite::Statement& row, std::string_view what) {
-  return Unfit(fmt::format("row {} {}, expected results as they were written: the file is damaged",
+  return Unfit(fmt::format("row {} {}, expected the results of a run: the file is damaged",
                            row.getColumn(0).getInt64(), what));
 }
 

@@ -52,7 +52,7 @@ Result<std::vector<checks::CheckResult>> ask(const std::vector<Rule>& rules,
                        .kind = rule.family,
                        .requirement = rule.id,
                        .outcome = wrong.empty() ? checks::Outcome::pass : checks::Outcome::fail,
-                       .measured = wrong.empty() ? "so" : wrong,
+                       .measured = wrong.empty() ? "as expected" : wrong,
                        .expected = rule.text});
   }
   return results;

@@ -151,7 +151,7 @@ std::string forgets(Subject& subject) {
 
 constexpr Rule all[] = {
     {"P-BEAT", "protocol",
-     "While no bench is at work a heartbeat comes every 100 ms, and says idle and the contract's hash.",
+     "While no bench runs, a heartbeat with the state idle and the contract's hash comes every 100 ms.",
      beats},
     {"P-CONTRACT", "protocol",
      "A command with another contract's hash is answered with dbc_mismatch and not obeyed.",

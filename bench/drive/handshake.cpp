@@ -120,7 +120,7 @@ Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) 
   }
   if (box.heartbeat->state == TargetState::running) dialogue.listen(several_syncs_ns);
   if (box.other_bench) {
-    return failure(fmt::format("bus '{}': another bench is at work here, expected to be the only one", bus));
+    return failure(fmt::format("bus '{}': another bench runs on this bus, expected only one", bus));
   }
   // The messages of an estimator that is left from an earlier run may differ.
   return box.heartbeat->estimator == Estimator::none ? same_messages(*box.heartbeat, bus) : Result<void>{};

@@ -34,7 +34,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch,
       closes_step = watch.closes_step(frame) || closes_step;
       if (link.send(frame, step_limit_ns) != LinkState::up) {
         return {Ending::Kind::bus_down, t_us,
-                fmt::format("the bus took no frame at t={:.3f} s", static_cast<double>(t_us) * 1e-6)};
+                fmt::format("the bus accepted no frame at t={:.3f} s", static_cast<double>(t_us) * 1e-6)};
       }
     }
     // An answer to an event takes no virtual time, unless the bench must send a frame before it.

@@ -18,7 +18,7 @@ constexpr std::int64_t progress_period_us = 100'000;
 
 // A bus that was busy all the time is full; the message then names the frames that fill the bus.
 std::string took_none(const Link& link, std::int64_t due_us) {
-  return fmt::format("the bus took no frame since t={:.3f} s{}{}", static_cast<double>(due_us) * 1e-6,
+  return fmt::format("the bus has accepted no frame since t={:.3f} s{}{}", static_cast<double>(due_us) * 1e-6,
                      link.crowd().empty() ? "" : " and carried ", link.crowd());
 }
 

@@ -56,8 +56,9 @@ Result<void> Player::check(const Mapping& mapping, const scenario::Scenario& sce
     for (const Play& play : mapping.plays) {
       if (!plays(play, kind)) continue;
       if (node == nullptr)
-        return failure(fmt::format("key '{}': is missing, and {} plays it, expected {}", kind->key, play.name,
-                                   kind->of == nullptr ? "a table" : "a [[sensor]] with this name"));
+        return failure(fmt::format("key '{}': is missing, expected {}: its samples are sent in {}", kind->key,
+                                   kind->of == nullptr ? "a table" : "a [[sensor]] with this name",
+                                   play.name));
       if (node->table().sensor != kind)
         return failure(fmt::format("key 'sensor': '{}' has another kind than in {}, expected '{}'", kind->key,
                                    to_text(mapping.files), kind->of->key));

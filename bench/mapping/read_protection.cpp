@@ -103,7 +103,7 @@ std::variant<protection::Crc, protection::Sum> read_rule(Section& section) {
   }
   section.optional("model");
   if (!section.has("kind")) {
-    section.reject("kind", "is missing, as is 'model'", "one of the two");
+    section.reject("kind", "is missing", "'kind' or 'model'");
     return protection::Crc{};
   }
   auto rule =
@@ -175,7 +175,7 @@ protection::Settings read_parts(Section& section, const dbc::Message& message, s
   }
   section.optional("constants");
   if (!settings.counter && !settings.checksum)
-    section.reject("counter", "is missing, as is 'checksum'", "at least one of the two, or a profile");
+    section.reject("counter", "is missing", "'counter', 'checksum' or both, or a profile");
   return settings;
 }
 

@@ -109,7 +109,7 @@ class Replay {
       }
       if (stop_) return {};
       if (now_ns >= give_up_ns)
-        return failure(fmt::format("bus '{}': took no frame for a second, expected a node that acknowledges",
+        return failure(fmt::format("bus '{}': accepted no frame for a second, expected a node that acknowledges",
                                    port.name()));
       wait(port, WaitFor::room, give_up_ns);
       discard_received();

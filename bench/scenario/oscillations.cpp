@@ -26,7 +26,7 @@ world::Sinusoid read_sinusoid(Section& section) {
                     Limits::between(-360, 360));
   if (section.has("phase_deg")) one.phase = phase;
   if (!section.has("acceleration_g") && !section.has("angle_mrad"))
-    section.reject("acceleration_g", "is missing, as is angle_mrad", "at least one of the two");
+    section.reject("acceleration_g", "is missing", "acceleration_g, angle_mrad, or both");
   section.finish();
   return one;
 }

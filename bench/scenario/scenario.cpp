@@ -246,14 +246,13 @@ void expect_aid(Section& root, const Scenario& scenario, const DbcVocabulary& co
     return aiding != target->parameters.end() && aiding->value == aid->aid->aiding;
   });
   const NodeTable* taken = chosen == aids.end() ? aids.front() : *chosen;
-  std::vector<std::string> keys, tables, others;
+  std::vector<std::string> tables, others;
   for (const NodeTable* aid : aids) {
-    if (aid != aids.front()) keys.push_back(fmt::format("'{}'", aid->key));
     if (aid != taken) others.push_back(fmt::format("{:g}", aid->aid->aiding));
     tables.push_back(fmt::format("[{}]", aid->key));
   }
   if (std::ranges::none_of(aids, [&](const NodeTable* aid) { return scenario.node(aid->key); })) {
-    root.reject(aids.front()->key, fmt::format("is missing, as is {}", fmt::join(keys, " and ")),
+    root.reject(aids.front()->key, "is missing",
                 fmt::format("at least one of the tables {}", fmt::join(tables, " and ")));
   }
   const bool may_choose = std::ranges::find(contract.parameters, parameter) != contract.parameters.end();

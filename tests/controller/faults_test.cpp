@@ -111,7 +111,7 @@ TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
   const Outcome outcome = run_with([] { set_interface("can0", false); });
   EXPECT_FALSE(outcome.report["ending"]["completed"]);
   // The full queue rejects frames. The message states the time at which the first rejected frame was due.
-  EXPECT_THAT(outcome.ended.out, testing::ContainsRegex("fail: .*the bus took no frame since t="));
+  EXPECT_THAT(outcome.ended.out, testing::ContainsRegex("fail: .*the bus has accepted no frame since t="));
   EXPECT_THAT(outcome.incidents(), Contains("error passive"));
   EXPECT_EQ(outcome.ended.code, 1);
 }

@@ -95,7 +95,7 @@ InterfaceDown InterfaceDown::read(scenario::Section& section, const scenario::Fa
 std::string InterfaceDown::cannot(const Place& place) const {
   if (place.interface == Place::Interface::none)
     return fmt::format("needs an interface, which '{}' is not, expected one of the kernel", place.bus);
-  if (place.virtual_time) return "takes no time in virtual time, which waits for the bus, expected real time";
+  if (place.virtual_time) return "has no effect in virtual time, which waits for the bus, expected real time";
   if (!place.may_set_interface)
     return fmt::format("may not set '{}' up and down, expected the capability CAP_NET_ADMIN", place.bus);
   return {};

@@ -18,7 +18,7 @@ std::string needs_process(const Place& place) {
 
 std::string needs_clock(const Place& place) {
   if (std::string why = needs_process(place); !why.empty()) return why;
-  return place.virtual_time ? "takes no time in virtual time, which waits for the target, expected real time"
+  return place.virtual_time ? "has no effect in virtual time, which waits for the target, expected real time"
                             : "";
 }
 

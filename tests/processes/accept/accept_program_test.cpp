@@ -50,7 +50,8 @@ name = "less sure"
 scenario = "flight.toml"
 set = { "target.parameters.velocity_noise_m2ps" = 0.01 }
 requirement = "S-3"
-moves = { beside = "one", signal = "AlignUpdate.nis", to = "less", requirement = "S-3" }
+beside = "one"
+moves = { signal = "AlignUpdate.nis", to = "less" }
 
 [[flight]]
 name = "silent"
@@ -139,9 +140,10 @@ name = "faster"
 scenario = "flight.toml"
 set = { "fault" = [{ kind = "bias", quantity = "master_ins.velocity_north", by_mps = 1.0, from_s = 0 }] }
 requirement = "S-1"
+beside = "one"
 moves = [
-  { beside = "one", signal = "AlignVelocityNE.velocity_north_mps", by = [0.8, 1.05], requirement = "S-1" },
-  { beside = "one", signal = "AlignVelocityNE.velocity_east_mps", by = [-0.05, 0.05], requirement = "S-1" },
+  { signal = "AlignVelocityNE.velocity_north_mps", by = [0.8, 1.05] },
+  { signal = "AlignVelocityNE.velocity_east_mps", by = [-0.05, 0.05] },
 ]
 )";
   const Ended right = accept("--family errors");

@@ -300,7 +300,7 @@ TEST(BadInput, ASecondBenchOrTargetOnABus) {
   EXPECT_EQ(second.code, 2) << second.out << second.err;
   EXPECT_EQ(read(scratch("target.code")), "2\n");
   EXPECT_THAT(second.err, HasSubstr("a target answers here already"));
-  EXPECT_THAT(second.err, HasSubstr("another bench is at work here"));
+  EXPECT_THAT(second.err, HasSubstr("another bench runs on this bus"));
   EXPECT_TRUE(read_json(report)["ending"]["completed"]);
   EXPECT_EQ(read_json(report)["from_target"]["frames_lost"], 0);
 }

@@ -170,7 +170,7 @@ TEST(Faults, WhatIsWrongWithThemIsSaidBeforeTheRun) {
   };
   refused(fault("lots", ""), "", "faults.toml:2: key 'fault[1].kind': 'lots' is unknown");
   refused("title = \"no faults\"\n", "", "key 'title': is unknown, expected");
-  refused(fault("paused", "from_s = 1\nfor_s = 0.1"), "--lockstep", "'paused' takes no time in virtual time");
+  refused(fault("paused", "from_s = 1\nfor_s = 0.1"), "--lockstep", "'paused' has no effect in virtual time");
   refused(fault("paused", "from_s = 1\nfor_s = 0.1"), "--target none",
           "needs a target that hil-bench starts");
   refused(fault("bus_off", "from_s = 1\nfor_s = 0.1"), "", "needs error frames");

@@ -106,18 +106,15 @@ TEST(Suites, AWrongOneIsOneLine) {
               HasSubstr("'Q' is not a requirement of this suite"));
   EXPECT_THAT(refused("", "wind.toml", "none.toml"), HasSubstr("none.toml: cannot be read"));
   EXPECT_THAT(refused("set = { \"seeds\" = 1 }\n"), HasSubstr("seeds"));
-  EXPECT_THAT(
-      refused(
-          "moves = { beside = \"g\", signal = \"WindUpdate.nis\", to = \"more\", requirement = \"R\" }\n"),
-      HasSubstr("'g' is not the name of an earlier flight"));
-  EXPECT_THAT(refused("[[flight]]\nname = \"g\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\nmoves = { "
-                      "beside = \"f\", signal = "
-                      "\"WindUpdate.niss\", to = \"more\", requirement = \"R\" }\n"),
+  EXPECT_THAT(refused("beside = \"g\"\nmoves = { signal = \"WindUpdate.nis\", to = \"more\" }\n"),
+              HasSubstr("'g' is not the name of an earlier flight"));
+  EXPECT_THAT(refused("[[flight]]\nname = \"g\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\n"
+                      "beside = \"f\"\nmoves = { signal = \"WindUpdate.niss\", to = \"more\" }\n"),
               HasSubstr("WindUpdate.niss"));
   const auto moves = [](const std::string& keys) {
     return refused(
         "[[flight]]\nname = \"g\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\n"
-        "moves = [{ beside = \"f\", signal = \"WindUpdate.nis\", requirement = \"R\"" +
+        "beside = \"f\"\nmoves = [{ signal = \"WindUpdate.nis\"" +
         keys + " }]\n");
   };
   EXPECT_EQ(moves(", by = [1, 2]"), "");
@@ -127,6 +124,7 @@ TEST(Suites, AWrongOneIsOneLine) {
   EXPECT_EQ(moves(", first_at_s = 3"), "");
   EXPECT_THAT(moves(", first_at_s = -1"), HasSubstr("first_at_s"));
   EXPECT_THAT(moves(", first_at_s = 3, by = [1, 2]"), HasSubstr("beside 'first_at_s'"));
+  EXPECT_THAT(refused("beside = \"f\"\n"), HasSubstr("beside': is given without 'moves'"));
   EXPECT_THAT(refused("[[flight]]\nname = \"f\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\n"),
               HasSubstr("'f' is given twice"));
   EXPECT_THAT(refused("rows = 0\n"), HasSubstr("rows"));

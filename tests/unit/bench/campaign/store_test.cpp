@@ -144,7 +144,7 @@ TEST_F(Damaged, WithAPageInThePlaceOfAnotherIsRefusedOrGivesTheSameReport) {
 
 TEST_F(Damaged, RowsAreRefusedByWhatIsWrong) {
   EXPECT_THAT(complaint_after("update run set run = -5 where id = 2"),
-              HasSubstr("row 2 is of run -5 of variant 0, expected results as they were written"));
+              HasSubstr("row 2 is of run -5 of variant 0, expected the results of a run"));
   EXPECT_THAT(complaint_after("update run set variant = 9e18 where id = 2"), HasSubstr("row 2 is of run 2"));
   EXPECT_THAT(complaint_after("update run set id = 77 where id = 7"), HasSubstr("3 of 4 runs"));
   EXPECT_THAT(complaint_after("update run set ending = 99 where id = 2"), HasSubstr("row 2 has ending 99"));

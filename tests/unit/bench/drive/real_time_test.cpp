@@ -173,7 +173,7 @@ TEST_F(Trouble, ABusOffIsWaitedForToo) {
 TEST_F(Trouble, AFullQueueIsNot) {
   const Ending ending = run_with(SendOutcome::queue_full);
   EXPECT_EQ(ending.kind, Ending::Kind::target_silent);
-  EXPECT_THAT(ending.detail, testing::HasSubstr("the bus took no frame since t="));
+  EXPECT_THAT(ending.detail, testing::HasSubstr("the bus has accepted no frame since t="));
   EXPECT_THAT(ending.detail, testing::StartsWith("target silent since t=")) << "nor did it say anything";
 }
 

@@ -95,7 +95,7 @@ TEST(ReadFaults, WhatCannotWorkSomewhereSaysWhy) {
   const std::string paused = fault("paused", "from_s = 1\nfor_s = 0.1");
   EXPECT_EQ(why(paused, local), "");
   EXPECT_THAT(why(paused, lockstep),
-              HasSubstr("key 'fault[1].kind': 'paused' takes no time in virtual time"));
+              HasSubstr("key 'fault[1].kind': 'paused' has no effect in virtual time"));
   EXPECT_THAT(why(paused, {}), HasSubstr("needs a target that hil-bench starts"));
   EXPECT_THAT(why(paused, {.in_process = true}), HasSubstr("needs a process"));
   const std::string off = fault("bus_off", "from_s = 1\nfor_s = 0.1");

@@ -243,7 +243,7 @@ INSTANTIATE_TEST_SUITE_P(
     InFlight, ScenarioError,
     testing::Values(
         Wrong{"transfer_alignment", "inflight_alignment",
-              "1: key 'ssbl': is missing, as is 'gps', expected at least one of the tables [ssbl] and [gps]"},
+              "1: key 'ssbl': is missing, expected at least one of the tables [ssbl] and [gps]"},
         Wrong{"\"rest\"", "\"s_path\"\nspeed_mps = 0",
               "10: key 'truth.speed_mps': 0 is out of range, expected a number above 0"},
         Wrong{"\"rest\"", s_path + "dive_depth_m = 100\ndive_period_s = 60",

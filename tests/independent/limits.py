@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""Finds the limits of a suite's responses: flies pairs of flights with hil-target and with the filter of another maker, and prints where both respond alike.
+
+  python3 tests/independent/limits.py ESTIMATOR --requirement ID [--margin SHARE] [--all]
+
+For each flight of the requirement that has no `moves` (--all: each flight), the flight beside it is the earlier one of the same scenario that shares most of its `set`.
+A signal whose mean difference between the two is the same for both filters within 6 % follows from the contract and the model. Its limits are the mean of both, plus or minus a
+margin (default 5 %) and twice their difference (docs/accept.md, "Faults"). Prints the three strongest such signals of each flight, each of another message, as lines for suite.toml; then how many signals moved, and how many alike.
+"""
+
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import re
+import sys
+import tempfile
+import tomllib
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "mutants"))
+import accepting  # noqa: E402
+
+ALIKE = 0.06  # largest difference of the two responses, as a share of their mean
+LEAST_STEPS = 5.0  # least mean response, in steps of the signal
+MOST_SIGNALS = 3  # limits of one flight
+NOT_ANSWERS = re.compile(r"e2e_|cause_|time_us$|^counter")
+LONGEST_S = 7200
+
+
+def answers(estimator):
+    """The numeric signals of the answers of an estimator, {"Message.signal": step}, from the DBC."""
+    dbc = (accepting.ROOT / "dbc/canhil.dbc").read_text()
+    of_estimator = {int(m[1]) for m in re.finditer(r'BA_ "Estimators" BO_ (\d+) "([^"]*)"', dbc) if estimator in m[2].split()}
+    of_answers = {int(m[1]) for m in re.finditer(r'BA_ "Answers" BO_ (\d+) "[^"]+"', dbc)}
+    found = {}
+    for message in re.finditer(r"^BO_ (\d+) (\w+): \d+ Target\n((?: SG_ .*\n)+)", dbc, re.M):
+        if int(message[1]) not in of_estimator & of_answers:
+            continue
+        for signal in re.finditer(r"SG_ (\w+) : \S+ \(([^,]+),", message[3]):
+            if not NOT_ANSWERS.search(signal[1]):
+                found[f"{message[2]}.{signal[1]}"] = float(signal[2])
+    return found
+
+
+def beside(flight, earlier):
+    """The earlier flight of the same scenario that shares most of `set` with this one, and sets nothing else."""
+    own = flight.get("set", {})
+    of_scenario = [one for one in earlier if one["scenario"] == flight["scenario"] and one.get("set", {}).items() <= own.items() and one.get("set", {}) != own]
+    return max(of_scenario, key=lambda one: len(one.get("set", {})), default=None)
+
+
+def toml(value):
+    """A value of a suite as TOML."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{json.dumps(key)} = {toml(one)}" for key, one in value.items()) + " }"
+    return "[" + ", ".join(toml(one) for one in value) + "]" if isinstance(value, list) else json.dumps(value)
+
+
+def probing_suite(suite, pairs, signals):
+    """A suite that flies each flight of the pairs and measures how each signal differs from the flight beside it."""
+    folder = accepting.ROOT / "bench/acceptance" / suite["estimator"]
+    text = [f'title = "Probe"\nestimator = "{suite["estimator"]}"\n\n[[requirement]]\nid = "X"\nfamily = "errors"\ntext = "Probe."']
+    flown = set()
+    for flight, other in pairs:
+        for one in (other, flight):
+            if one["name"] in flown:
+                continue
+            flown.add(one["name"])
+            table = {"name": one["name"], "scenario": str((folder / one["scenario"]).resolve()), "requirement": "X", "set": one.get("set", {})}
+            if one is flight:
+                table |= {"beside": other["name"], "moves": [{"signal": signal, "by": [-1e12, 1e12]} for signal in signals]}
+            text.append("[[flight]]\n" + "\n".join(f"{key} = {toml(value)}" for key, value in table.items() if value != {}))
+    return "\n\n".join(text) + "\n"
+
+
+def responses(folder, estimator, target):
+    """Flies the probing suite in `folder` with a target; returns {"flight 'NAME': SIGNAL": mean difference}."""
+    report = folder / f"{target.rsplit('/')[-1]}.json"
+    _, output = accepting.run([str(accepting.BENCH), "accept", "--suites", str(folder), "--target", target, "--estimator", estimator, "--json", str(report)], LONGEST_S)
+    if not report.exists():
+        sys.exit(f"limits.py: no report of {target}: {output.strip()[-300:]}")
+    found = {}
+    for suite in json.loads(report.read_text())["suites"]:
+        for requirement in suite["requirements"]:
+            for item in requirement["items"]:
+                if match := re.fullmatch(r"(\S+) more", item["measured"]):
+                    found[item["name"]] = float(match[1])
+    return found
+
+
+def limits(one, other, margin):
+    """The limits of a response that two filters have alike; None if they differ."""
+    mean, apart = (one + other) / 2, abs(one - other)
+    if apart > ALIKE * abs(mean):
+        return None
+    half = margin * abs(mean) + 2 * apart
+    return [float(f"{mean - half:.3g}"), float(f"{mean + half:.3g}")]
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="limits.py", description=__doc__.splitlines()[0])
+    parser.add_argument("estimator")
+    parser.add_argument("--requirement", required=True, metavar="ID", help="flights of this requirement")
+    parser.add_argument("--all", action="store_true", help="also flights that have limits already")
+    parser.add_argument("--margin", type=float, default=0.05, metavar="SHARE", help="of the mean of both responses")
+    asked = parser.parse_args()
+    suite = tomllib.loads((accepting.ROOT / "bench/acceptance" / asked.estimator / "suite.toml").read_text())
+    pairs = []
+    for number, flight in enumerate(suite["flight"]):
+        if flight["requirement"] == asked.requirement and not flight.get("real_time") and (asked.all or "moves" not in flight):
+            other = beside(flight, suite["flight"][:number])
+            print(f"{flight['name']}: beside {other['name']}" if other else f"{flight['name']}: no flight to compare with", file=sys.stderr)
+            if other:
+                pairs.append((flight, other))
+    signals = answers(asked.estimator)
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        (folder / asked.estimator).mkdir()
+        (folder / asked.estimator / "suite.toml").write_text(probing_suite(suite, pairs, signals))
+        targets = (str(accepting.BUILD / "hil-target"), f"{sys.executable} {HERE / asked.estimator}.py")
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            own, others = pool.map(lambda target: responses(folder, asked.estimator, target), targets)
+    moved = alike = 0
+    for flight, other in pairs:
+        strongest = {}  # by message: how strong, in steps; the signal; its limits
+        for signal, step in signals.items():
+            one, two = (answer.get(f"flight '{flight['name']}': {signal}", 0.0) for answer in (own, others))
+            if max(abs(one), abs(two)) < LEAST_STEPS * step:
+                continue
+            moved += 1
+            if found := limits(one, two, asked.margin):
+                alike += 1
+                message = signal.split(".")[0]
+                strongest[message] = max(strongest.get(message, (0,)), (min(abs(one), abs(two)) / step, signal, found))
+        print(f"\n# {flight['name']}")
+        if strongest:
+            print(f'beside = "{other["name"]}"', "moves = [", *(f'  {{ signal = "{signal}", by = {found} }},' for _, signal, found in sorted(strongest.values(), reverse=True)[:MOST_SIGNALS]), "]", sep="\n")
+    print(f"\n# {moved} signals moved, {alike} of them alike")
+
+
+if __name__ == "__main__":
+    main()
