@@ -15,6 +15,21 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
   return outcome == SendOutcome::sent ? LinkState::up : send_again(frame, patience_ns, due_ns, outcome);
 }
 
+LinkState Link::send_all(std::span<const Frame> frames, std::int64_t patience_ns) {
+  const std::int64_t t_ns = port_.now_ns();
+  const std::size_t sent = port_.send_all(frames);
+  if (!up_) look_at_interface();
+  for (const Frame& frame : frames.first(sent)) tell_sent(frame, t_ns, 0);
+  for (const Frame& frame : frames.subspan(sent)) {
+    if (const LinkState state = send(frame, patience_ns); state != LinkState::up) return state;
+  }
+  return LinkState::up;
+}
+
+void Link::tell_sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
+  for (observe::Observer* observer : observers_) observer->transmitted(frame, t_ns, late_ns);
+}
+
 SendOutcome Link::try_to_send(const Frame& frame, std::optional<std::int64_t> due_ns, std::int64_t& late_ns) {
   // The stamp is taken before the frame is sent: the answer of a fast target must not have an earlier stamp.
   const std::int64_t t_ns = port_.now_ns();
@@ -22,7 +37,7 @@ SendOutcome Link::try_to_send(const Frame& frame, std::optional<std::int64_t> du
   const SendOutcome outcome = port_.send(frame);
   if (outcome != SendOutcome::sent || !up_) look_at_interface();
   if (outcome != SendOutcome::sent) return outcome;
-  for (observe::Observer* observer : observers_) observer->transmitted(frame, t_ns, late_ns);
+  tell_sent(frame, t_ns, late_ns);
   return outcome;
 }
 

@@ -29,6 +29,9 @@ class Link {
   LinkState send(const Frame& frame, std::int64_t patience_ns,
                  std::optional<std::int64_t> due_ns = std::nullopt);
 
+  /// The same for frames without a deadline that are sent together.
+  LinkState send_all(std::span<const Frame> frames, std::int64_t patience_ns);
+
   /// Receives the frames that are waiting and passes them to the observers, without blocking. Returns `down`
   /// if the bus is gone. A bus may deliver frames without end, so one call takes at most `most_at_once`
   /// frames: before the next call the caller must check its deadline and whether to stop. While more frames
@@ -64,6 +67,7 @@ class Link {
   [[nodiscard]] const Port& port() const { return port_; }
 
  private:
+  void tell_sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
   SendOutcome try_to_send(const Frame& frame, std::optional<std::int64_t> due_ns, std::int64_t& late_ns);
   LinkState send_again(const Frame& frame, std::int64_t patience_ns, std::optional<std::int64_t> due_ns,
                        SendOutcome outcome);

@@ -30,24 +30,23 @@ Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch,
     bool closes_step = false;
     const auto frames = schedule.take();
     if (const auto why = schedule.why_failed()) return gone_at(t_us, *why);  // its truth moves no more
-    for (const Frame& frame : frames) {
-      closes_step = watch.closes_step(frame) || closes_step;
-      if (link.send(frame, step_limit_ns) != LinkState::up) {
-        return {Ending::Kind::bus_down, t_us,
-                fmt::format("the bus accepted no frame at t={:.3f} s", static_cast<double>(t_us) * 1e-6)};
-      }
+    for (const Frame& frame : frames) closes_step = watch.closes_step(frame) || closes_step;
+    if (link.send_all(frames, step_limit_ns) != LinkState::up) {
+      return {Ending::Kind::bus_down, t_us,
+              fmt::format("the bus accepted no frame at t={:.3f} s", static_cast<double>(t_us) * 1e-6)};
     }
     // An answer to an event takes no virtual time, unless the bench must send a frame before it.
     const auto awaits_answer = [&] { return schedule.awaits() && schedule.due_us() > t_us; };
     if (!closes_step && !awaits_answer()) continue;
     std::int64_t deadline_ns = 0;  // set at the first wait; a target in this process has already answered
+    bool woken = true;             // whether a target still lives costs a system call: asked if no frame came
     while (!watch.step_done() || awaits_answer()) {
       if (link.drain() == LinkState::down) {
         return {Ending::Kind::bus_down, t_us, "the bus is gone"};
       }
       if (watch.step_done() && !awaits_answer()) break;
       if (stop) return {Ending::Kind::interrupted, t_us, "interrupted"};
-      if (const auto why = gone()) return gone_at(t_us, *why);
+      if (const auto why = woken ? std::nullopt : gone()) return gone_at(t_us, *why);
       const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
       if (deadline_ns == 0) deadline_ns = now + step_limit_ns;
       if (now > deadline_ns && watch.step_done()) {
@@ -59,7 +58,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch,
                 fmt::format("target silent since t={:.3f} s: {} was not answered",
                             static_cast<double>(t_us) * 1e-6, watch.step())};
       }
-      link.wait_until(std::min(deadline_ns, now + look_period_ns));
+      woken = link.wait_until(std::min(deadline_ns, now + look_period_ns));
     }
     if (auto fault = watch.fault()) return {Ending::Kind::target_fault, t_us, *fault};
   }

@@ -109,8 +109,8 @@ class Replay {
       }
       if (stop_) return {};
       if (now_ns >= give_up_ns)
-        return failure(fmt::format("bus '{}': accepted no frame for a second, expected a node that acknowledges",
-                                   port.name()));
+        return failure(fmt::format(
+            "bus '{}': accepted no frame for a second, expected a node that acknowledges", port.name()));
       wait(port, WaitFor::room, give_up_ns);
       discard_received();
     }

@@ -42,7 +42,8 @@ std::string to_text(const checks::BusRecord& bus, std::int64_t first_ns) {
     lines += fmt::format(" ({})", said);
   lines += fmt::format("; interface down {} times; late in transmit queue {} frames", bus.downs,
                        bus.late_in_queue);
-  if (bus.foreign > 0) lines += fmt::format("; {} frames in the wrong format (classic CAN or CAN FD)", bus.foreign);
+  if (bus.foreign > 0)
+    lines += fmt::format("; {} frames in the wrong format (classic CAN or CAN FD)", bus.foreign);
   lines += '\n';
   for (const std::string& note : bus.notes) lines += fmt::format("    {}\n", one_line(note));
   for (const checks::BusIncident& incident : bus.incidents) {

@@ -49,4 +49,9 @@ Reading read(Peer& peer, bool fd_bus, Datagram& datagram, Frame& frame);
 /// False: the node wants the frame but has no room.
 bool offer(Peer& peer, Datagram& datagram, bool own);
 
+/// Whether the node wants every frame of the bus, so that offer_all() may be used.
+bool gets_all(const Peer& peer);
+/// Sends frames of other nodes, at most most_together, in one system call. Returns how many the node took.
+std::size_t offer_all(Peer& peer, std::span<Datagram> datagrams);
+
 }  // namespace canhil::local

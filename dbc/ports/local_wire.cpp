@@ -1,6 +1,7 @@
 #include "dbc/ports/local_wire.hpp"
 
 #include <fmt/format.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <cctype>
@@ -30,6 +31,18 @@ void encode(const Frame& frame, Datagram& datagram) {
   datagram.unused = 0;
   datagram.t_ns = 0;
   std::memcpy(datagram.data.data(), frame.data.data(), frame.size);
+}
+
+std::size_t send_datagrams(int socket, std::span<Datagram> datagrams) {
+  std::array<iovec, most_together> parts{};
+  std::array<mmsghdr, most_together> messages{};
+  for (std::size_t i = 0; i < datagrams.size(); ++i) {
+    parts[i] = {.iov_base = &datagrams[i], .iov_len = datagrams[i].bytes()};
+    messages[i].msg_hdr.msg_iov = &parts[i];
+    messages[i].msg_hdr.msg_iovlen = 1;
+  }
+  const int sent = ::sendmmsg(socket, messages.data(), static_cast<unsigned>(datagrams.size()), MSG_NOSIGNAL);
+  return static_cast<std::size_t>(std::max(sent, 0));
 }
 
 bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& frame) {

@@ -6,6 +6,7 @@
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "dbc/ports/port.hpp"
@@ -48,6 +49,12 @@ void encode(const Frame& frame, Datagram& datagram);
 /// Decodes a datagram of `received` bytes into `frame`, which must be default-constructed. False: the bus
 /// cannot carry such a frame.
 bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& frame);
+
+inline constexpr std::size_t most_together = 16;  ///< datagrams in one system call
+
+/// Sends datagrams, at most most_together, over a socket in one system call. Returns how many it took; if
+/// these are not all, errno has the reason.
+std::size_t send_datagrams(int socket, std::span<Datagram> datagrams);
 
 /// Converts a list of ids to a set. Returns an error if an id is not a standard id.
 Result<IdSet> id_set(const std::vector<std::uint32_t>& ids);

@@ -42,6 +42,12 @@ std::int64_t clock_ns(int clock) {
   return now.tv_sec * ns_per_s + now.tv_nsec;
 }
 
+std::size_t Port::send_all(std::span<const Frame> frames) {
+  const auto refused =
+      std::ranges::find_if(frames, [this](const Frame& frame) { return send(frame) != SendOutcome::sent; });
+  return static_cast<std::size_t>(refused - frames.begin());
+}
+
 bool Port::wait_for_frame(std::int64_t deadline_ns) {
   return wait_for(*this, {.events = POLLIN}, deadline_ns);
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -104,6 +105,9 @@ class Port {
   virtual ~Port() = default;
   /// Sends one frame; never blocks.
   virtual SendOutcome send(const Frame& frame) = 0;
+  /// Sends frames in order until the bus does not accept one; send() then tells why. Returns how many it
+  /// accepted. A port may need only one system call for several frames.
+  virtual std::size_t send_all(std::span<const Frame> frames);
   /// The next frame from the bus, if one is waiting; never blocks.
   virtual std::optional<Received> receive() = 0;
   /// A descriptor for poll(). It is readable when receive() has something to do or the bus has ended. Then

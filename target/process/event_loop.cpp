@@ -38,7 +38,7 @@ bool from_bench(const Frame& frame) {
 // by the E2E counters.
 void send(Port& port, std::span<const Frame> frames, BusNotes& notes) {
   std::int64_t deadline_ns = 0;  // set when the queue is first full
-  for (const Frame& frame : frames) {
+  for (const Frame& frame : frames.subspan(port.send_all(frames))) {
     SendOutcome outcome = port.send(frame);
     while (outcome == SendOutcome::queue_full) {
       if (deadline_ns == 0) deadline_ns = now_ns() + send_patience_ns;

@@ -23,6 +23,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -62,10 +63,11 @@ int complain(const std::string& what) {
   return 2;
 }
 
-/// The functions of the echo: one reads a frame, one writes a frame, each with a single blocking system call.
+/// The functions of the echo: one reads a frame, one writes an answer, each with as few system calls as the
+/// bus allows.
 struct Bare {
   std::function<void()> read;
-  std::function<void(const Frame&)> write;
+  std::function<void(std::span<const Frame>)> write;
 };
 
 Bare bare_node(const std::string& bus) {
@@ -77,7 +79,7 @@ Bare bare_node(const std::string& bus) {
     return {[node] {
               if (!node->receive()) ::_exit(0);
             },
-            [node](const Frame& frame) { static_cast<void>(node->send(frame)); }};
+            [node](std::span<const Frame> frames) { static_cast<void>(node->send_all(frames)); }};
   }
   const int socket = ::socket(AF_CAN, SOCK_RAW, CAN_RAW);
   sockaddr_can at{};
@@ -89,21 +91,24 @@ Bare bare_node(const std::string& bus) {
             can_frame frame{};
             if (::read(socket, &frame, sizeof frame) < 0) ::_exit(1);
           },
-          [socket](const Frame& frame) {
-            can_frame raw{};
-            raw.can_id = frame.id;
-            raw.len = frame.size;
-            std::memcpy(raw.data, frame.data.data(), frame.size);
-            static_cast<void>(::write(socket, &raw, sizeof raw));
+          [socket](std::span<const Frame> frames) {
+            for (const Frame& frame : frames) {
+              can_frame raw{};
+              raw.can_id = frame.id;
+              raw.len = frame.size;
+              std::memcpy(raw.data, frame.data.data(), frame.size);
+              static_cast<void>(::write(socket, &raw, sizeof raw));
+            }
           }};
 }
 
 [[noreturn]] void echo(const std::string& bus, const std::vector<Round>& rounds) {
   const Bare node = bare_node(bus);
-  node.write({.id = messages::TargetHeartbeat::info.id, .size = 8});  // reports that it is ready
+  const Frame ready{.id = messages::TargetHeartbeat::info.id, .size = 8};
+  node.write({&ready, 1});
   for (const Round& round : rounds) {
     for (std::size_t n = 0; n < round.stimulus.size(); ++n) node.read();
-    for (const Frame& answer : round.answers) node.write(answer);
+    node.write(round.answers);
   }
   ::pause();
   ::_exit(0);

@@ -152,9 +152,10 @@ TEST_F(Flooded, TheBenchSendsAllTheSame) {
 
 TEST_F(Flooded, WhoFillsABusThatTakesNoFrameIsNamed) {
   port_.outcome = SendOutcome::queue_full;
-  EXPECT_THAT(run_until_silent(ns_per_s / 10).detail,
-              testing::MatchesRegex(
-                  "the bus has accepted no frame since t=0.000 s and carried id 0C0: [0-9]+ of [0-9]+ frames"));
+  EXPECT_THAT(
+      run_until_silent(ns_per_s / 10).detail,
+      testing::MatchesRegex(
+          "the bus has accepted no frame since t=0.000 s and carried id 0C0: [0-9]+ of [0-9]+ frames"));
 }
 
 TEST_F(Flooded, TheBenchHearsThatItIsToStop) {

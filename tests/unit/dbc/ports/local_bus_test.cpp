@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "dbc/ports/local_place.hpp"
 #include "tests/unit/dbc/ports/frames.hpp"
@@ -46,6 +48,54 @@ class LocalBus : public ::testing::Test {
   const std::string bus_ = fmt::format("local:test-{}-{}", ::getpid(),
                                        ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
+
+TEST_F(LocalBus, TakesSeveralFramesInOneCall) {
+  const auto hub = host({.own_echo = true});
+  const auto node = join(*hub);
+  std::vector<Frame> frames;
+  for (std::uint32_t n = 0; n < 40; ++n) frames.push_back(numbered(0x111, n));
+  for (const auto& [from, to] : {std::pair(node.get(), static_cast<Port*>(hub.get())),
+                                 std::pair(static_cast<Port*>(hub.get()), node.get())}) {
+    const std::uint64_t before = from->counters().sent;
+    ASSERT_EQ(from->send_all(frames), frames.size());
+    EXPECT_EQ(from->counters().sent, before + frames.size());
+    for (const Frame& frame : frames) {
+      const auto received = next_frame(*to);
+      ASSERT_TRUE(received);
+      EXPECT_EQ(received->frame, frame);
+      EXPECT_FALSE(received->own);
+    }
+  }
+  for (const Frame& frame : frames) {
+    const auto echo = hub->receive();
+    ASSERT_TRUE(echo && echo->own);
+    EXPECT_EQ(echo->frame, frame);
+  }
+
+  const Frame fd{.id = 0x111, .size = 12, .fd = true};  // this bus cannot carry it
+  frames[21] = fd;
+  EXPECT_EQ(node->send_all(frames), 21U);
+  EXPECT_EQ(hub->send_all(frames), 21U);
+}
+
+TEST_F(LocalBus, TellsHowManyOfSeveralFramesHadRoom) {
+  const auto hub = host();
+  const auto node = join(*hub);
+  for (const auto& [from, to] : {std::pair(node.get(), static_cast<Port*>(hub.get())),
+                                 std::pair(static_cast<Port*>(hub.get()), node.get())}) {
+    std::uint32_t sent = fill(*from, 0x111), received = 0;
+    for (; received < 3; ++received) ASSERT_EQ(number_of(next_frame(*to).value().frame), received);
+    std::vector<Frame> more;
+    for (std::uint32_t n = 0; n < 40; ++n) more.push_back(numbered(0x111, sent + n));
+    const std::size_t accepted = from->send_all(more);
+    EXPECT_LT(accepted, more.size());
+    sent += static_cast<std::uint32_t>(accepted);
+    for (; received < sent; ++received) ASSERT_EQ(number_of(next_frame(*to).value().frame), received);
+    EXPECT_EQ(from->send_all(std::span(more).subspan(accepted)), more.size() - accepted);
+    while (to->receive()) {
+    }
+  }
+}
 
 TEST_F(LocalBus, CarriesFramesBothWaysWithTheHubsStamp) {
   const auto hub = host();
