@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include "bench/accept/dialogue.hpp"
 #include "bench/accept/profile.hpp"
 #include "bench/accept/reference.hpp"
+#include "bench/accept/response.hpp"
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/execute.hpp"
+#include "bench/conformance/conformance.hpp"
 #include "bench/drive/session.hpp"
 #include "dbc/files/output_file.hpp"
 
@@ -23,13 +24,6 @@ namespace fs = std::filesystem;
 using checks::Outcome;
 using drive::Ending;
 
-/// Mean of a signal over a flight; nullopt if no answer contains the signal.
-std::optional<double> mean_of(const Answers& answers, const Move& move) {
-  const Series* series = answers.find(move.message);
-  const auto signal = series == nullptr ? std::nullopt : series->index_of(move.signal);
-  return signal ? std::optional(series->mean(*signal)) : std::nullopt;
-}
-
 // The execution of one suite.
 class Run {
  public:
@@ -38,6 +32,8 @@ class Run {
 
   // The fastest tests run first; the flights in real time run last.
   Result<std::vector<Item>> fly() {
+    if (auto there = find_target(); !there) return tl::unexpected(there.error());
+    options_.begun();
     if (auto flown = fly_all(false); !flown) return tl::unexpected(flown.error());
     if (suite_.dialogue && (wanted("protocol") || wanted("parameters")) && done()) {
       for (const Requirement& requirement : protocol_requirements(suite_)) skipped_.insert(requirement.id);
@@ -58,6 +54,15 @@ class Run {
   [[nodiscard]] const std::set<std::string>& skipped() const { return skipped_; }
 
  private:
+  // A target that cannot be started, or that sends nothing, is found before a hundred flights fail one by
+  // one.
+  [[nodiscard]] Result<void> find_target() const {
+    const scenario::Scenario* first = suite_.dialogue          ? &*suite_.dialogue
+                                      : suite_.flights.empty() ? nullptr
+                                                               : &suite_.flights.front().scenario;
+    return first == nullptr ? Result<void>{} : conformance::find_target(*first, options_.target, stop_);
+  }
+
   Result<void> fly_all(bool in_real_time) {
     for (const Flight& flight : suite_.flights) {
       if (flight.real_time != in_real_time || !wanted(flight)) continue;
@@ -81,8 +86,7 @@ class Run {
       const Requirement* requirement = suite_.find(id);
       return requirement != nullptr && wanted(requirement->family);
     };
-    return of(flight.requirement) ||
-           (options_.same_as_hil_target && flight.reference && of(*flight.reference)) ||
+    return std::ranges::any_of(judged_by(flight), of) ||
            std::ranges::any_of(suite_.flights, [&](const Flight& other) {
              return (other.same_as && other.same_as->flight == flight.name && wanted(other)) ||
                     (std::ranges::find(other.moves, flight.name, &Move::flight) != other.moves.end() &&
@@ -91,12 +95,17 @@ class Run {
   }
   [[nodiscard]] bool done() const { return stop_ || (options_.first_failure && failed_); }
 
-  // The requirements that a flight tests.
-  [[nodiscard]] std::vector<std::string> tested_by(const Flight& flight) const {
+  // The requirements that a flight tests itself, apart from those that its checks name.
+  [[nodiscard]] std::vector<std::string> judged_by(const Flight& flight) const {
     std::vector<std::string> ids{flight.requirement};
     if (options_.same_as_hil_target && flight.reference) ids.push_back(*flight.reference);
     if (flight.same_as) ids.push_back(flight.same_as->requirement);
     for (const Move& move : flight.moves) ids.push_back(move.requirement);
+    return ids;
+  }
+  // All requirements that a flight tests.
+  [[nodiscard]] std::vector<std::string> tested_by(const Flight& flight) const {
+    std::vector<std::string> ids = judged_by(flight);
     for (const scenario::Check& check : flight.scenario.checks) ids.push_back(check.requirement);
     return ids;
   }
@@ -156,7 +165,8 @@ class Run {
                            difference(answers, flown_[same.flight], same.steps, same.relative),
                            "the same answers"));
     }
-    for (const Move& move : flight.moves) found.push_back(moved(move, name, answers));
+    for (const Move& move : flight.moves)
+      found.push_back(judge_move(move, name, answers, flown_[move.flight]));
     return found;
   }
 
@@ -192,8 +202,8 @@ class Run {
     if (run.ending.kind != Ending::Kind::completed) return found;
     for (const checks::CheckResult& check : run.verdict.checks) {
       // A flight in lockstep does not measure the timing, so its timing checks are skipped here. The suite's
-      // flights in real time judge the timing.
-      if (!flight.real_time && check.outcome == Outcome::not_measured) continue;
+      // flights in real time judge the timing. A flight that has no other check measures nothing.
+      if (!flight.real_time && check.outcome == Outcome::not_measured && !all_timing(run)) continue;
       Item& judged = found.emplace_back(check);
       judged.name = fmt::format("{}: {}", name, check.name);
       if (suite_.find(check.requirement) == nullptr) judged.requirement = flight.requirement;
@@ -201,44 +211,10 @@ class Run {
     return found;
   }
 
-  /// Judges a response: how much a signal differs from the other flight, or from when on.
-  Item responded(const Move& move, const Answers& answers, Item item) {
-    item.expected = move.by ? fmt::format("{:g} to {:g} more than in flight '{}'", move.by->first,
-                                          move.by->second, move.flight)
-                            : fmt::format("the first difference from flight '{}' at {:g} s", move.flight,
-                                          *move.first_at_s);
-    const Series* here = answers.find(move.message);
-    const Series* there = flown_[move.flight].find(move.message);
-    if (here == nullptr || there == nullptr) return item;
-    if (move.by) {
-      const auto response = mean_difference(*here, *there, move.signal);
-      if (!response) return item;
-      if (*response >= move.by->first && *response <= move.by->second) item.outcome = Outcome::pass;
-      item.measured = fmt::format("{:.4g} more", *response);
-      return item;
-    }
-    constexpr double same_time_s = 1e-6;  // the resolution of a time on the bus
-    const auto first_s = first_difference(*here, *there, move.signal);
-    if (first_s && std::abs(*first_s - *move.first_at_s) < same_time_s) item.outcome = Outcome::pass;
-    item.measured = first_s ? fmt::format("at {:g} s", *first_s) : "no difference";
-    return item;
-  }
-
-  Item moved(const Move& move, const std::string& name, const Answers& answers) {
-    Item item{.name = fmt::format("{}: {}.{}", name, move.message, move.signal),
-              .kind = "moves",
-              .requirement = move.requirement,
-              .outcome = Outcome::fail,
-              .measured = "no answer has this signal",
-              .expected = {}};
-    if (move.by || move.first_at_s) return responded(move, answers, std::move(item));
-    const auto now = mean_of(answers, move), before = mean_of(flown_[move.flight], move);
-    item.expected = fmt::format("{} than there by {:g} %", move.up ? "more" : "less", 100 * (least_move - 1));
-    if (!now || !before) return item;
-    const double here = std::abs(*now), there = std::abs(*before);
-    if (move.up ? here > least_move * there : there > least_move * here) item.outcome = Outcome::pass;
-    item.measured = fmt::format("mean magnitude {:.4g}, {:.4g} in flight '{}'", here, there, move.flight);
-    return item;
+  static bool all_timing(const drive::Run& run) {
+    return std::ranges::all_of(run.verdict.checks, [](const checks::CheckResult& check) {
+      return check.outcome == Outcome::not_measured;
+    });
   }
 
   Result<void> fly_campaign(const std::string& name) {
@@ -275,10 +251,21 @@ class Run {
       add(item(requirement_of(*campaign), fmt::format("campaign {}", name), why.message, all_runs));
     };
     const auto flown = campaign::execute(*campaign, options, stop_);
-    Result<void> judged;
-    if (flown && *flown == campaign::Execution::complete) judged = judge(*campaign, name, file);
+    if (flown && *flown == campaign::Execution::complete) return judge(*campaign, name, file);
     if (!flown && !of_target) return tl::unexpected(flown.error());
-    return judged;
+    if (!stop_) leave_unjudged(*campaign, name);
+    return {};
+  }
+
+  /// What a campaign that ended early would have judged is not measured.
+  void leave_unjudged(const campaign::Campaign& campaign, const std::string& name) {
+    for (const campaign::Metric& metric : campaign.metrics) {
+      if (metric.requirement.empty() || metric.requirement == requirement_of(campaign)) continue;
+      Item left = item(metric.requirement, fmt::format("{}: {}", name, metric.name), "", all_runs);
+      left.outcome = Outcome::not_measured;
+      left.measured = "the campaign ended early";
+      add(std::move(left));
+    }
   }
 
   /// The requirement of a campaign's runs: that of its first metric or check.
@@ -314,7 +301,6 @@ class Run {
     return {};
   }
 
-  static constexpr double least_move = 1.01;
   static constexpr const char* flown_to_its_end = "a flight to its end";
   static constexpr const char* all_runs = "all runs to their end";
 
@@ -375,6 +361,15 @@ Result<Acceptance> accept(const Suite& suite, const Options& options, const std:
                return flight.reference == finding.requirement.id;
              });
     });
+  }
+  for (Finding& finding : acceptance.findings) {
+    if (!finding.items.empty() || !finding.reached) continue;
+    finding.items.push_back({.name = "tests",
+                             .kind = "accept",
+                             .requirement = finding.requirement.id,
+                             .outcome = Outcome::not_measured,
+                             .measured = "the suite has none",
+                             .expected = "a flight, a rule or a metric with this requirement"});
   }
   acceptance.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return acceptance;

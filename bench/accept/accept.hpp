@@ -26,6 +26,7 @@ struct Options {
   double share = 1;                     ///< factor by which the tolerances of this comparison are multiplied
   bool first_failure = false;           ///< stop at the first failure
   std::vector<std::string> families{};  ///< test only requirements of these families; empty: all
+  std::function<void()> begun = [] {};  ///< called when the target has been found
   std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
 

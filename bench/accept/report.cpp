@@ -1,14 +1,17 @@
 #include "bench/accept/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "bench/checks/result_json.hpp"
 #include "bench/report/page_parts.hpp"
+#include "bench/report/provenance.hpp"
 #include "bench/report/run_reports.hpp"
 #include "dbc/text/escape.hpp"
+#include "dbc/version/version.hpp"
 
 namespace canhil::accept {
 namespace {
@@ -42,13 +45,44 @@ std::vector<const Item*> shown_items(const Finding& finding) {
 
 constexpr std::size_t most_shown = 5;
 
-/// All items as an HTML list, collapsed by default.
+std::string percent(const std::optional<double>& margin) {
+  return margin ? fmt::format("{:.0f} %", 100 * *margin) : "";
+}
+
+std::string tests(std::size_t count) { return fmt::format("{} test{}", count, count == 1 ? "" : "s"); }
+
+/// The margin of an item; none: it has no numbers, or must have exactly one value.
+std::optional<double> margin_of(const Item& item) {
+  const auto& [criterion, measurement] = item.judgement;
+  const bool exact = criterion.lower && criterion.upper && criterion.lower->value == criterion.upper->value;
+  return exact ? std::nullopt : checks::margin(item.judgement);
+}
+
+/// The item that is nearest to its limit; null: no item has numbers.
+const Item* nearest(const Finding& finding) {
+  const Item* found = nullptr;
+  for (const Item& item : finding.items) {
+    const auto margin = margin_of(item);
+    if (margin && (found == nullptr || *margin < *margin_of(*found))) found = &item;
+  }
+  return found;
+}
+
+/// "37 tests, the smallest margin 12 %".
+std::string extent(const Finding& finding) {
+  const Item* least = nearest(finding);
+  return tests(finding.items.size()) +
+         (least == nullptr ? "" : fmt::format(", the smallest margin {}", percent(margin_of(*least))));
+}
+
+/// All items as an HTML table, collapsed by default.
 std::string all_of(const Finding& finding) {
-  std::string list;
+  report::Rows rows;
   for (const Item& item : finding.items)
-    list += fmt::format("<li>{} {}: {}; expected {}</li>", report::look_of(checks::name(item.outcome)).sign,
-                        escaped(item.name), escaped(item.measured), escaped(item.expected));
-  return report::folded(fmt::format("{} looked at", finding.items.size()), fmt::format("<ul>{}</ul>", list));
+    rows.push_back({escaped(item.name), report::outcome_words(checks::name(item.outcome)),
+                    escaped(item.measured), escaped(item.expected), percent(margin_of(item))});
+  return report::folded(extent(finding),
+                        report::table({"test", "outcome", "measured", "expected", "margin"}, rows));
 }
 
 std::string section(const Acceptance& suite) {
@@ -69,7 +103,7 @@ std::string section(const Acceptance& suite) {
     }
     if (rows.empty()) continue;
     out += fmt::format("<h3>{}</h3>\n", family) +
-           report::table({"requirement", "what is asked", "outcome", "seen"}, rows);
+           report::table({"requirement", "what is asked", "outcome", "evidence"}, rows);
   }
   return report::section(suite.estimator, suite.title, out);
 }
@@ -77,8 +111,55 @@ std::string section(const Acceptance& suite) {
 // The question that the report answers.
 std::string asked(const Report& report) {
   return report.same_as.empty()
-             ? "asked: is it good (--same-as hil-target also compares the answers)"
-             : fmt::format("asked: is it good, and does it answer as {} does", report.same_as);
+             ? "The question: is the target good? (--same-as hil-target also compares its answers)"
+             : fmt::format("The question: is the target good, and are its answers those of {}?{}",
+                           report.same_as,
+                           report.tolerance > 1
+                               ? fmt::format(" The tolerances were multiplied by {:g}.", report.tolerance)
+                               : "");
+}
+
+// What the report is about: the options of the command, the programs and the files.
+ordered_json options_of(const Report& report) {
+  ordered_json options{{"families", report.families.empty() ? families : report.families}};
+  if (!report.same_as.empty()) options["tolerance"] = report.tolerance;
+  if (report.seed) options["seed"] = *report.seed;
+  return options;
+}
+
+ordered_json provenance_of(const Report& report) {
+  ordered_json files = ordered_json::array();
+  for (const drive::RunFile& file : report.files)
+    files.push_back({{"role", file.role}, {"name", file.name}, {"sha256", file.identity.sha256}});
+  return {{"date", report::date_utc(report.started_s)},
+          {"version", version_text()},
+          {"revision", revision()},
+          {"host", report::host_name()},
+          {"kernel", report::kernel()},
+          {"cpu_model", report::cpu_model()},
+          {"files", std::move(files)}};
+}
+
+std::string provenance_section(const Report& report) {
+  ordered_json facts{{"target", report.target}};
+  facts["families"] =
+      fmt::format("{}", fmt::join(report.families.empty() ? families : report.families, ", "));
+  ordered_json known = provenance_of(report);
+  const ordered_json options = options_of(report);
+  for (const auto& [key, value] : options.items()) {
+    if (key != "families") facts[key] = value;
+  }
+  const ordered_json files = known["files"];
+  known.erase("files");
+  facts.update(known);
+  report::Rows rows;
+  for (const ordered_json& file : files)
+    rows.push_back(
+        {report::text_in(file["role"]), report::text_in(file["name"]), report::text_in(file["sha256"])});
+  return report::section(
+      "provenance", "Provenance",
+      report::facts(facts) + report::folded(fmt::format("{} files", files.size()),
+                                            report::table({"role", "file", "SHA-256"}, rows)));
 }
 
 }  // namespace
@@ -92,8 +173,8 @@ std::string text(const Report& report) {
     for (const std::string& family : families) {
       for (const Finding& finding : suite.findings) {
         if (finding.requirement.family != family) continue;
-        out += fmt::format("  {:<12}  {:<12} {}  ({} looked at)\n", report::label(word(finding)),
-                           finding.requirement.id, finding.requirement.text, finding.items.size());
+        out += fmt::format("  {:<12}  {:<14} {}  ({})\n", report::label(word(finding)),
+                           finding.requirement.id, finding.requirement.text, extent(finding));
         const auto wrong = shown_items(finding);
         for (std::size_t i = 0; i < std::min(wrong.size(), most_shown); ++i)
           out += fmt::format("      {} {}: {}; expected {}\n", wrong[i]->outcome == Outcome::fail ? "-" : "?",
@@ -133,6 +214,8 @@ std::string json(const Report& report) {
   const ordered_json all{{"schema", "canhil-acceptance-1"},
                          {"target", report.target},
                          {"same_as", report.same_as},
+                         {"options", options_of(report)},
+                         {"provenance", provenance_of(report)},
                          {"started_s", report.started_s},
                          {"outcome", checks::name(report.outcome())},
                          {"suites", std::move(suites)}};
@@ -165,6 +248,7 @@ std::string page(const Report& report) {
         {escaped(suite.estimator), report::outcome_words(checks::name(suite.outcome())), counts(suite)});
   body += report::table({"estimator", "outcome", "requirements"}, rows);
   for (const Acceptance& suite : report.suites) body += section(suite);
+  body += provenance_section(report);
   return report::whole_page(fmt::format("{}: acceptance", verdict), report::styles, body);
 }
 

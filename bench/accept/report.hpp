@@ -2,17 +2,23 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/accept/accept.hpp"
+#include "bench/drive/run_files.hpp"
 
 namespace canhil::accept {
 
 /// The report of one `hil-bench accept`.
 struct Report {
-  std::string target;     ///< the target's command as given by the user
-  std::string same_as{};  ///< with what the answers were compared; empty: with nothing
+  std::string target;                   ///< the target's command as given by the user
+  std::string same_as{};                ///< with what the answers were compared; empty: with nothing
+  double tolerance = 1;                 ///< factor of the tolerances of this comparison
+  std::vector<std::string> families{};  ///< those that were asked for; empty: all
+  std::optional<std::uint64_t> seed{};  ///< of the campaigns; none: their own
+  std::vector<drive::RunFile> files{};  ///< the programs of bench and target, and the files of the suites
   std::int64_t started_s = 0;
   std::vector<Acceptance> suites;
   [[nodiscard]] checks::Outcome outcome() const;

@@ -1,6 +1,7 @@
 #include "bench/accept/suite.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -20,13 +21,8 @@ using scenario::Setting;
 
 constexpr std::int64_t most_rows = 1000;
 
-/// Whether `name` has the form "Message.signal" and names a signal of the DBC.
-bool names_one(std::string_view name) {
-  const std::size_t dot = std::min(name.find('.'), name.size());
-  const auto message = std::ranges::find(messages::all_messages, name.substr(0, dot), &MessageInfo::name);
-  return message != messages::all_messages.end() && dot < name.size() &&
-         observe::signal_of(*message, name.substr(dot + 1)) != nullptr;
-}
+/// The name of the suite for a target that runs several estimators at once.
+constexpr std::string_view several = "several";
 
 // Reads one suite.toml and the scenarios that it names.
 class Reader {
@@ -39,6 +35,11 @@ class Reader {
   Result<Suite> read() {
     suite_.title = root_.text("title");
     suite_.estimator = root_.text("estimator");
+    const auto& known = drive::contract().estimators;
+    alone_ = std::ranges::find(known, suite_.estimator) != known.end();
+    if (!alone_ && suite_.estimator != several && !root_.error())
+      root_.reject("estimator", fmt::format("'{}' is unknown", suite_.estimator),
+                   fmt::format("one of: {}, {}", fmt::join(known, ", "), several));
     for (Section& section : root_.tables("requirement")) read_requirement(section);
     for (Section& section : tables("flight")) read_flight(section);
     for (Section& section : tables("parameter")) read_parameter(section);
@@ -53,6 +54,9 @@ class Reader {
     }
     if (root_.has("dialogue")) suite_.dialogue = scenario(root_, "dialogue", {});
     root_.optional("dialogue");
+    for (const char* key : {"parameter", "apply"}) {
+      if (!suite_.dialogue) root_.refuse(key, "is given without 'dialogue'", "both");
+    }
     root_.finish();
     if (const auto error = root_.error()) return tl::unexpected(*error);
     if (error_) return tl::unexpected(*error_);
@@ -77,7 +81,7 @@ class Reader {
 
   std::string requirement(Section& section, std::string_view key) {
     std::string id = section.text(key);
-    if (suite_.find(id) == nullptr && !section.error())
+    if (section.has(key) && suite_.find(id) == nullptr && !section.error())
       section.reject(key, fmt::format("'{}' is not a requirement of this suite", id), "the id of one above");
     return id;
   }
@@ -86,7 +90,7 @@ class Reader {
     const std::string name = section.text(key);
     const auto found = std::ranges::find(suite_.flights, name, &Flight::name);
     if (found != suite_.flights.end()) return &*found;
-    if (!section.error())
+    if (section.has(key) && !section.error())
       section.reject(key, fmt::format("'{}' is not the name of an earlier flight", name), "the name of one");
     return nullptr;
   }
@@ -107,6 +111,10 @@ class Reader {
       refused(read.error());
       return {};
     }
+    if (alone_ && std::ranges::find(read->targets, suite_.estimator, &scenario::TargetSetup::estimator) ==
+                      read->targets.end())
+      section.reject(key, fmt::format("{} has no estimator {}", name, suite_.estimator),
+                     "a scenario of the suite's estimator");
     return std::move(*read);
   }
 
@@ -141,6 +149,17 @@ class Reader {
     suite_.flights.push_back(std::move(flight));
   }
 
+  /// Whether `name` has the form "Message.signal" and names a signal that a target with this estimator sends.
+  [[nodiscard]] bool answered(std::string_view name) const {
+    const std::size_t dot = std::min(name.find('.'), name.size());
+    const auto message = std::ranges::find(messages::all_messages, name.substr(0, dot), &MessageInfo::name);
+    if (message == messages::all_messages.end() || !is_targets(*message) || dot == name.size()) return false;
+    const auto& sent_by = drive::contract().sent_by;
+    const auto sender = sent_by.find(message->name);
+    const bool of_another = sender != sent_by.end() && alone_ && sender->second != suite_.estimator;
+    return !of_another && observe::signal_of(*message, name.substr(dot + 1)) != nullptr;
+  }
+
   void read_moves(Section& section, Flight& flight) {
     const Flight* other = this->flight(section, "beside");
     const std::string response =
@@ -153,14 +172,15 @@ class Reader {
     }
   }
 
-  static Move read_move(Section& section) {
+  [[nodiscard]] Move read_move(Section& section) const {
     const std::string signal = section.text("signal");
     const std::size_t dot = signal.find('.');
-    if (!names_one(signal) && !section.error())
-      section.reject("signal", fmt::format("'{}' is in no message", signal),
-                     "a signal of one: Message.signal");
+    if (section.has("signal") && !answered(signal) && !section.error())
+      section.reject("signal", fmt::format("'{}' is in no message that {} sends", signal, suite_.estimator),
+                     "Message.signal of an answer");
     Move move{.message = signal.substr(0, dot),
               .signal = dot == std::string::npos ? "" : signal.substr(dot + 1)};
+    for (const char* key : {"to", "by", "first_at_s"}) section.optional(key);
     if (section.has("first_at_s")) {
       move.first_at_s = section.plain_number("first_at_s", Limits::at_least(0));
       for (const char* other : {"by", "to"})
@@ -180,6 +200,9 @@ class Reader {
     Parameter parameter{.name = section.one_of("name", drive::contract().parameters)};
     parameter.least = section.plain_number("least", {});
     parameter.most = section.plain_number("most", {});
+    if (parameter.most < parameter.least)
+      section.reject("most", fmt::format("is {:g}", parameter.most),
+                     fmt::format("at least {:g}, the value of 'least'", parameter.least));
     parameter.whole = section.flag("whole");
     parameter.in_flight = section.flag("in_flight");
     section.finish();
@@ -189,6 +212,7 @@ class Reader {
   std::string file_;
   Section root_;
   Suite suite_;
+  bool alone_ = false;          // the suite is for one estimator, not for several
   std::optional<Error> error_;  // the first error in a file that the suite names
 };
 

@@ -5,7 +5,9 @@
 
 #include <ctime>
 #include <filesystem>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/drive/inputs.hpp"
+#include "bench/drive/run_files.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/processes/command.hpp"
 #include "bench/report/file.hpp"
@@ -48,6 +51,9 @@ Result<std::vector<accept::Suite>> read(const Arguments& arguments) {
   for (const fs::path& folder : *folders) {
     auto suite = accept::read_suite(folder);
     if (!suite) return tl::unexpected(suite.error());
+    if (std::ranges::find(names, suite->estimator) != names.end())
+      return failure(fmt::format("{}: is a second suite of {}, expected one suite for each estimator",
+                                 folder.string(), suite->estimator));
     names.push_back(suite->estimator);
     const auto& wanted = arguments.estimators;
     if (wanted.empty() || std::ranges::find(wanted, suite->estimator) != wanted.end())
@@ -62,6 +68,14 @@ Result<std::vector<accept::Suite>> read(const Arguments& arguments) {
     return failure(fmt::format("--same-as '{}': is unknown, expected hil-target", arguments.same_as));
   if (arguments.share && arguments.same_as.empty())
     return failure("--tolerance: is for the comparison with hil-target, expected --same-as hil-target too");
+  const auto compared = [](const accept::Suite& suite) {
+    return std::ranges::any_of(suite.flights, [](const auto& one) { return one.reference.has_value(); });
+  };
+  if (!arguments.same_as.empty() && !suites.empty() && std::ranges::none_of(suites, compared))
+    return failure(
+        fmt::format("--same-as {}: no flight of the suites in {} is compared, expected one with the "
+                    "key 'reference'",
+                    arguments.same_as, arguments.suites));
   for (const std::string& name : arguments.estimators) {
     if (std::ranges::find(names, name) == names.end())
       return failure(fmt::format("--estimator '{}': has no suite in {}, expected one of: {}", name,
@@ -93,6 +107,36 @@ Result<void> check_files(const Arguments& arguments, const std::vector<accept::S
   return files.check();
 }
 
+// The programs and files that the report is about, with their hashes.
+std::vector<drive::RunFile> files_of(const Arguments& arguments, const std::vector<accept::Suite>& suites) {
+  std::vector<CommandFiles::File> named{{"bench", "/proc/self/exe"}};
+  std::ranges::copy(drive::inputs_of_target(arguments.target), std::back_inserter(named));
+  std::error_code unknown;
+  for (const accept::Suite& suite : suites) {
+    for (const auto& entry : fs::recursive_directory_iterator(suite.folder, unknown))
+      named.push_back({"suite", entry.path().string()});
+    for (const accept::Flight& flight : suite.flights)
+      std::ranges::copy(drive::inputs_of(flight.scenario), std::back_inserter(named));
+  }
+  std::vector<drive::RunFile> files;
+  std::set<std::string> seen;
+  for (const CommandFiles::File& one : named) {
+    const fs::path path = fs::weakly_canonical(one.path, unknown);
+    if (!seen.insert(path.string()).second) continue;
+    if (auto identity = drive::identify_file(path.string()))
+      files.push_back({.role = one.role, .name = path.string(), .identity = std::move(*identity)});
+  }
+  return files;
+}
+
+// Reports of an earlier acceptance must not be taken for those of this one.
+void remove_earlier(const Arguments& arguments) {
+  std::error_code ignored;
+  for (const std::string& path : {arguments.json, arguments.junit, arguments.html}) {
+    if (path != report::to_stdout) fs::remove(path, ignored);
+  }
+}
+
 Result<void> write_reports(const Arguments& arguments, const accept::Report& all) {
   if (arguments.json != report::to_stdout && arguments.junit != report::to_stdout) {
     if (auto shown = report::show(accept::text(all)); !shown) return shown;
@@ -117,6 +161,10 @@ ExitCode execute(const Arguments& arguments) {
   const auto progress = [&](const std::string& what) { line.show([&] { return what; }); };
   accept::Report all{.target = arguments.target,
                      .same_as = arguments.same_as,
+                     .tolerance = static_cast<double>(arguments.share.value_or(1)),
+                     .families = arguments.families,
+                     .seed = arguments.seed,
+                     .files = files_of(arguments, *suites),
                      .started_s = std::time(nullptr),
                      .suites = {}};
   for (const accept::Suite& suite : *suites) {
@@ -125,6 +173,7 @@ ExitCode execute(const Arguments& arguments) {
     options.share = static_cast<double>(arguments.share.value_or(1));
     options.first_failure = arguments.first;
     options.families = arguments.families;
+    options.begun = [&] { remove_earlier(arguments); };
     options.progress = progress;
     auto one = accept::accept(suite, options, interrupted);
     if (!one) return end_with(one.error());

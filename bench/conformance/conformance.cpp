@@ -58,6 +58,12 @@ Result<std::vector<checks::CheckResult>> ask(const std::vector<Rule>& rules,
   return results;
 }
 
+Result<void> find_target(const scenario::Scenario& scenario, const std::string& target,
+                         const std::atomic<bool>& stop) {
+  const auto talk = Talk::open(scenario, target, stop);
+  return talk ? Result<void>{} : tl::unexpected(talk.error());
+}
+
 Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& candidates,
                                       const std::string& target, const std::atomic<bool>& stop) {
   std::vector<std::string> names;

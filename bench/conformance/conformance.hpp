@@ -24,6 +24,10 @@ Result<std::vector<checks::CheckResult>> ask(
     std::span<const Parameter> parameters, const std::optional<std::pair<std::string, double>>& apply,
     const std::atomic<bool>& stop, const std::function<void(const Rule&)>& progress = [](const Rule&) {});
 
+/// Starts the target and waits for a heartbeat. Returns an error if it does not start or sends none.
+Result<void> find_target(const scenario::Scenario& scenario, const std::string& target,
+                         const std::atomic<bool>& stop);
+
 /// Chooses one of the candidates as the scenario with which the target is tested. If the target's heartbeat
 /// names an estimator, the choice is the candidate for that estimator; otherwise it is the first candidate
 /// whose estimator the target accepts. The returned scenario has an algorithm that the target accepts, and no

@@ -119,6 +119,8 @@ std::string Talk::reset() {
   for (const scenario::Parameter& parameter : scenario_.targets.front().parameters) {
     const auto name = from_name<messages::Parameter>(parameter.name);
     const auto ack = name ? set(*name, parameter.value) : std::nullopt;
+    // A target need not have a parameter that only a sensor's data sheet sets, as in drive::handshake.
+    if (ack && parameter.stated && ack->status == ParameterStatus::unknown) continue;
     if (!ack || ack->status != ParameterStatus::accepted)
       return fmt::format("{} = {:g}: {}", parameter.name, parameter.value,
                          ack ? name_of(ack->status) : "no answer");

@@ -176,7 +176,8 @@ std::pair<double, double> Section::interval(const Key& key, Limits limits) {
   DescribedKey as = described_number(interval_type, limits, {});
   as.sample = fmt::format("[{0}, {0}]", as.sample);
   state_->describe(key, std::move(as));
-  const std::string expected = description(limits, "an array [low, high], each");
+  const std::string expected = description(
+      limits, std::isfinite(limits.least) ? "an array [low, high], each" : "an array [low, high]");
   if (!has(key.name)) state_->missing.emplace_back(key.name, expected);
   const auto values = state_->numbers<2>(key.name, limits, expected);
   if (values[0] > values[1]) reject(key.name, "is descending", expected);

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Finds the limits of a suite's responses: flies pairs of flights with hil-target and with the filter of another maker, and prints where both respond alike.
 
-  python3 tests/independent/limits.py ESTIMATOR --requirement ID [--margin SHARE] [--all]
+  python3 tests/independent/limits.py ESTIMATOR [--requirement ID] [--margin SHARE] [--all]
 
-For each flight of the requirement that has no `moves` (--all: each flight), the flight beside it is the earlier one of the same scenario that shares most of its `set`.
+For each flight (of the requirement) that has no `moves` (--all: each flight), the flight beside it is the earlier one of the same scenario that shares most of its `set`.
 A signal whose mean difference between the two is the same for both filters within 6 % follows from the contract and the model. Its limits are the mean of both, plus or minus a
 margin (default 5 %) and twice their difference (docs/accept.md, "Faults"). Prints the three strongest such signals of each flight, each of another message, as lines for suite.toml; then how many signals moved, and how many alike.
 """
@@ -84,7 +84,7 @@ def responses(folder, estimator, target):
     for suite in json.loads(report.read_text())["suites"]:
         for requirement in suite["requirements"]:
             for item in requirement["items"]:
-                if match := re.fullmatch(r"(\S+) more", item["measured"]):
+                if match := re.match(r"differs by (\S+)", item["measured"]):
                     found[item["name"]] = float(match[1])
     return found
 
@@ -101,14 +101,15 @@ def limits(one, other, margin):
 def main():
     parser = argparse.ArgumentParser(prog="limits.py", description=__doc__.splitlines()[0])
     parser.add_argument("estimator")
-    parser.add_argument("--requirement", required=True, metavar="ID", help="flights of this requirement")
+    parser.add_argument("--requirement", metavar="ID", help="only flights of this requirement")
     parser.add_argument("--all", action="store_true", help="also flights that have limits already")
     parser.add_argument("--margin", type=float, default=0.05, metavar="SHARE", help="of the mean of both responses")
     asked = parser.parse_args()
     suite = tomllib.loads((accepting.ROOT / "bench/acceptance" / asked.estimator / "suite.toml").read_text())
     pairs = []
     for number, flight in enumerate(suite["flight"]):
-        if flight["requirement"] == asked.requirement and not flight.get("real_time") and (asked.all or "moves" not in flight):
+        of_requirement = asked.requirement in (None, flight["requirement"])
+        if of_requirement and not flight.get("real_time") and not flight.get("faults") and (asked.all or "moves" not in flight):
             other = beside(flight, suite["flight"][:number])
             print(f"{flight['name']}: beside {other['name']}" if other else f"{flight['name']}: no flight to compare with", file=sys.stderr)
             if other:

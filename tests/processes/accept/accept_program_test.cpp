@@ -125,6 +125,43 @@ TEST_F(Accept, AnAnswerThatIsNotHilTargetsIsNamedIfThisIsAsked) {
   EXPECT_THAT(good.out, Not(HasSubstr("S-2"))) << "no test of it was asked";
 }
 
+// A target that is not there is found at once, and by one line; earlier reports stay.
+TEST_F(Accept, ATargetThatDoesNotAnswerIsNoTarget) {
+  const std::string html = scratch("page.html");
+  std::ofstream(html) << "of an earlier acceptance";
+  for (const char* target : {"/bin/false", "sh -c 'exit 3'"}) {
+    expect_one_line(accept(fmt::format("--family errors --target \"{}\" --html {}", target, html)),
+                    "before its first heartbeat");
+  }
+  EXPECT_EQ(read(html), "of an earlier acceptance");
+  EXPECT_EQ(accept("--family errors --html " + html).code, 0);
+  EXPECT_THAT(read(html), HasSubstr("Provenance"));
+}
+
+// A flight in virtual time does not measure the timing, so a requirement about nothing else is not met.
+TEST_F(Accept, AFlightWhoseChecksAreOnlyOfTimingMeasuresNothing) {
+  std::ofstream(folder_ + "/small/suite.toml", std::ios::app) << R"(
+[[flight]]
+name = "fast"
+scenario = "flight.toml"
+set = { "check" = [{ kind = "latency", message = "AlignUpdate", below_ms = 5, quantile = 0.5 }] }
+requirement = "S-1"
+)";
+  EXPECT_EQ(accept("--family errors").code, 3);
+}
+
+// What a requirement needs is flown although the flight itself belongs to another family.
+TEST_F(Accept, AResponseIsFlownForItsOwnFamily) {
+  change("suite.toml", "requirement = \"S-3\"\nbeside", "requirement = \"S-1\"\nresponse = \"S-3\"\nbeside");
+  const Ended ended = accept("--family parameters");
+  EXPECT_THAT(ended.out, HasSubstr("PASS          S-3"));
+}
+
+TEST_F(Accept, AComparisonNeedsSomethingToCompare) {
+  change("suite.toml", "reference = \"S-2\"\n", "");
+  expect_one_line(accept("--same-as hil-target"), "no flight of the suites in");
+}
+
 TEST_F(Accept, AMoveToTheOtherSideFails) {
   change("suite.toml", "to = \"less\"", "to = \"more\"");
   const Ended ended = accept("--family parameters");
@@ -151,8 +188,8 @@ moves = [
   change("suite.toml", "[0.8, 1.05]", "[-1.05, -0.8]");
   const Ended wrong = accept("--family errors");
   EXPECT_EQ(wrong.code, 1);
-  EXPECT_THAT(wrong.out, HasSubstr("flight 'faster': AlignVelocityNE.velocity_north_mps: 0."));
-  EXPECT_THAT(wrong.out, HasSubstr("-1.05 to -0.8 more than in flight 'one'"));
+  EXPECT_THAT(wrong.out, HasSubstr("flight 'faster': AlignVelocityNE.velocity_north_mps: differs by 0."));
+  EXPECT_THAT(wrong.out, HasSubstr("-1.05 to -0.8 m/s from flight 'one'"));
 }
 
 TEST_F(Accept, AFaultThatDoesNotComeFails) {
@@ -216,7 +253,7 @@ at_most_mps = 100
       fmt::format("{} accept --suites {} --estimator transfer_alignment --family errors", HIL_BENCH, folder_);
   const Ended kept = shell(flight);
   EXPECT_EQ(kept.code, 0) << kept.err;
-  EXPECT_THAT(kept.out, HasSubstr("(3 looked at)"));  // 3 results: two of the flight, one of the campaign
+  EXPECT_THAT(kept.out, HasSubstr("(3 tests"));  // 3 results: two of the flight, one of the campaign
   expect_one_line(shell("TMPDIR=/no/such/folder " + flight), "environment TMPDIR: expected a folder");
   expect_one_line(shell("TMPDIR=/proc " + flight), "/proc/canhil-accept");
 }

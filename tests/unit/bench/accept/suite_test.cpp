@@ -124,6 +124,20 @@ TEST(Suites, AWrongOneIsOneLine) {
   EXPECT_EQ(moves(", first_at_s = 3"), "");
   EXPECT_THAT(moves(", first_at_s = -1"), HasSubstr("first_at_s"));
   EXPECT_THAT(moves(", first_at_s = 3, by = [1, 2]"), HasSubstr("beside 'first_at_s'"));
+  EXPECT_THAT(refused("[[flight]]\nname = \"g\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\n"
+                      "moves = { signal = \"WindUpdate.nis\", to = \"more\" }\n"),
+              HasSubstr("'flight[2].beside': is missing"));
+  EXPECT_THAT(
+      refused("[[flight]]\nname = \"g\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\nbeside = \"f\"\n"
+              "moves = { signal = \"LosRateEstimate.los_rate_pitch_radps\", to = \"more\" }\n"),
+      HasSubstr("is in no message that wind sends"));
+  EXPECT_THAT(refused("", "estimator = \"wind\"", "estimator = \"wnid\""), HasSubstr("'wnid' is unknown"));
+  EXPECT_THAT(refused("", "estimator = \"wind\"", "estimator = \"los_rate\""),
+              HasSubstr("wind.toml has no estimator los_rate"));
+  EXPECT_THAT(refused("[[parameter]]\nname = \"theta_per_s\"\nleast = 0\nmost = 1\n"),
+              HasSubstr("'parameter': is given without 'dialogue'"));
+  EXPECT_THAT(refused("[[parameter]]\nname = \"theta_per_s\"\nleast = 2\nmost = 1\n"),
+              HasSubstr("'parameter[1].most': is 1, expected at least 2"));
   EXPECT_THAT(refused("beside = \"f\"\n"), HasSubstr("beside': is given without 'moves'"));
   EXPECT_THAT(refused("[[flight]]\nname = \"f\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\n"),
               HasSubstr("'f' is given twice"));
