@@ -6,7 +6,6 @@
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -38,8 +37,7 @@ constexpr int accept_every = 64;           // the hub looks for new nodes at lea
 // Nodes may send, join and leave without a pause. Therefore one call handles at most this number of these
 // events. If more events are waiting, the descriptor remains readable.
 constexpr int most_at_once = 256;
-constexpr int most_let_in =
-    4;  // at most so many nodes are admitted in one call: admission takes far longer than a frame
+constexpr int most_let_in = 4;  // nodes admitted in one call: this takes far longer than a frame
 
 class Hub final : public LocalHub {
  public:
@@ -81,20 +79,13 @@ class Hub final : public LocalHub {
   std::size_t send_all(std::span<const Frame> frames) override {
     if (frames.size() == 1 || wire_ || !catch_up() || peers_.size() != 1 || !local::gets_all(peers_.front()))
       return Port::send_all(frames);
-    Peer& peer = peers_.front();
-    std::array<Datagram, local::most_together> datagrams;
     const std::int64_t t_ns = clock_ns(CLOCK_MONOTONIC);
-    std::size_t part = 0;
-    for (; part < datagrams.size() && part < frames.size() && can_carry(frames[part], fd_); ++part) {
-      local::encode(frames[part], datagrams[part]);
-      datagrams[part].t_ns = t_ns;
-    }
-    const std::size_t sent = local::offer_all(peer, std::span(datagrams).first(part));
+    const std::size_t sent = local::offer_all(peers_.front(), frames, fd_, t_ns);
     counters_.sent += sent;
     for (const Frame& frame : frames.first(sent)) {
       if (own_echo_ && wants(frame)) queue_ready(frame, t_ns, true);
     }
-    return sent == part && sent > 0 ? sent + send_all(frames.subspan(sent)) : sent;
+    return sent;
   }
 
   /// If a frame is waiting, receive() needs one system call. The search for new nodes needs another one.
@@ -123,8 +114,7 @@ class Hub final : public LocalHub {
       count(*received);
       return received;
     }
-    received.reset();
-    return received;
+    return std::nullopt;
   }
 
   [[nodiscard]] int descriptor() const override { return epoll_.get(); }
@@ -405,17 +395,6 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
   Gate gate(std::move(listener), std::move(rules), std::string(bus));
   return std::make_unique<Hub>(std::move(*claim), std::move(gate), std::string(bus), options, *wanted,
                                std::move(wire));
-}
-
-void run_hub(Port& hub, const std::function<bool()>& stop) {
-  constexpr std::int64_t look_up_ns = 100'000'000;
-  constexpr int at_most =
-      1000;  // frames between two calls of stop(), so that stop() is called also on a full bus
-  while (!stop()) {
-    wait(hub, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + look_up_ns);
-    for (int n = 0; n < at_most && hub.receive(); ++n) {
-    }
-  }
 }
 
 }  // namespace canhil

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -41,20 +40,9 @@ class LocalNode final : public Port {
 
   std::size_t send_all(std::span<const Frame> frames) override {
     if (frames.size() == 1) return Port::send_all(frames);
-    std::size_t accepted = 0;
-    for (std::size_t part = local::most_together; part == local::most_together;) {
-      std::array<Datagram, local::most_together> datagrams;
-      for (part = 0; part < datagrams.size() && accepted + part < frames.size(); ++part) {
-        const Frame& frame = frames[accepted + part];
-        if (!can_carry(frame, fd_)) break;
-        local::encode(frame, datagrams[part]);
-      }
-      const std::size_t sent = local::send_datagrams(socket_.get(), std::span(datagrams).first(part));
-      accepted += sent;
-      counters_.sent += sent;
-      if (sent < part) break;
-    }
-    return accepted;
+    const std::size_t sent = local::send_frames(socket_.get(), frames, fd_, 0);
+    counters_.sent += sent;
+    return sent;
   }
 
   std::optional<Received> receive() override {

@@ -66,8 +66,8 @@ bool offer(Peer& peer, Datagram& datagram, bool own) {
 
 bool gets_all(const Peer& peer) { return peer.joined && !peer.mute && !peer.only_some; }
 
-std::size_t offer_all(Peer& peer, std::span<Datagram> datagrams) {
-  const std::size_t sent = send_datagrams(peer.socket.get(), datagrams);
+std::size_t offer_all(Peer& peer, std::span<const Frame> frames, bool fd_bus, std::int64_t t_ns) {
+  const std::size_t sent = send_frames(peer.socket.get(), frames, fd_bus, t_ns);
   peer.arrears_ns =
       std::max<std::int64_t>(peer.arrears_ns - static_cast<std::int64_t>(sent) * worked_off_ns, 0);
   return sent;

@@ -51,7 +51,7 @@ bool offer(Peer& peer, Datagram& datagram, bool own);
 
 /// Whether the node wants every frame of the bus, so that offer_all() may be used.
 bool gets_all(const Peer& peer);
-/// Sends frames of other nodes, at most most_together, in one system call. Returns how many the node took.
-std::size_t offer_all(Peer& peer, std::span<Datagram> datagrams);
+/// Sends frames of other nodes with their stamp; see send_frames(). Returns how many the node took.
+std::size_t offer_all(Peer& peer, std::span<const Frame> frames, bool fd_bus, std::int64_t t_ns);
 
 }  // namespace canhil::local

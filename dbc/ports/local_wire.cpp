@@ -33,16 +33,28 @@ void encode(const Frame& frame, Datagram& datagram) {
   std::memcpy(datagram.data.data(), frame.data.data(), frame.size);
 }
 
-std::size_t send_datagrams(int socket, std::span<Datagram> datagrams) {
+std::size_t send_frames(int socket, std::span<const Frame> frames, bool fd_bus, std::int64_t t_ns) {
+  constexpr std::size_t most_together = 16;
+  std::array<Datagram, most_together> datagrams;
   std::array<iovec, most_together> parts{};
   std::array<mmsghdr, most_together> messages{};
-  for (std::size_t i = 0; i < datagrams.size(); ++i) {
-    parts[i] = {.iov_base = &datagrams[i], .iov_len = datagrams[i].bytes()};
-    messages[i].msg_hdr.msg_iov = &parts[i];
-    messages[i].msg_hdr.msg_iovlen = 1;
+  std::size_t sent = 0;
+  for (;;) {
+    unsigned count = 0;
+    for (; count < most_together && sent + count < frames.size(); ++count) {
+      const Frame& frame = frames[sent + count];
+      if (!can_carry(frame, fd_bus)) break;
+      encode(frame, datagrams[count]);
+      datagrams[count].t_ns = t_ns;
+      parts[count] = {.iov_base = &datagrams[count], .iov_len = datagrams[count].bytes()};
+      messages[count].msg_hdr.msg_iov = &parts[count];
+      messages[count].msg_hdr.msg_iovlen = 1;
+    }
+    if (count == 0) return sent;
+    const int taken = ::sendmmsg(socket, messages.data(), count, MSG_NOSIGNAL);
+    sent += static_cast<std::size_t>(std::max(taken, 0));
+    if (taken < static_cast<int>(count)) return sent;
   }
-  const int sent = ::sendmmsg(socket, messages.data(), static_cast<unsigned>(datagrams.size()), MSG_NOSIGNAL);
-  return static_cast<std::size_t>(std::max(sent, 0));
 }
 
 bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& frame) {

@@ -50,11 +50,9 @@ void encode(const Frame& frame, Datagram& datagram);
 /// cannot carry such a frame.
 bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& frame);
 
-inline constexpr std::size_t most_together = 16;  ///< datagrams in one system call
-
-/// Sends datagrams, at most most_together, over a socket in one system call. Returns how many it took; if
-/// these are not all, errno has the reason.
-std::size_t send_datagrams(int socket, std::span<Datagram> datagrams);
+/// Sends frames over a socket, several in one system call, with the stamp t_ns. Returns how many the socket
+/// took, up to the first frame that the bus cannot carry.
+std::size_t send_frames(int socket, std::span<const Frame> frames, bool fd_bus, std::int64_t t_ns);
 
 /// Converts a list of ids to a set. Returns an error if an id is not a standard id.
 Result<IdSet> id_set(const std::vector<std::uint32_t>& ids);
