@@ -18,6 +18,7 @@
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
+#include "bench/commands/reports.hpp"
 #include "bench/drive/inputs.hpp"
 #include "bench/drive/run_files.hpp"
 #include "bench/drive/target_command.hpp"
@@ -84,22 +85,35 @@ Result<std::vector<accept::Suite>> read(const Arguments& arguments) {
   return suites;
 }
 
-// The inputs are all files of the suites, and what their flights and campaigns read in addition.
-Result<void> check_files(const Arguments& arguments, const std::vector<accept::Suite>& suites) {
-  CommandFiles files;
-  files.reads(drive::inputs_of_target(arguments.target));
+using Files = std::vector<CommandFiles::File>;
+
+// The target's program, all files of the suites, and what their flights and campaigns read in addition.
+Result<Files> inputs_of(const Arguments& arguments, const std::vector<accept::Suite>& suites) {
+  Files inputs = drive::inputs_of_target(arguments.target);
+  const auto add = [&inputs](const Files& more) { std::ranges::copy(more, std::back_inserter(inputs)); };
   std::error_code unknown;
-  for (const auto& entry : fs::recursive_directory_iterator(arguments.suites, unknown)) {
-    if (entry.is_regular_file(unknown)) files.reads("suite", entry.path().string());
-  }
   for (const accept::Suite& suite : suites) {
-    for (const accept::Flight& flight : suite.flights) files.reads(drive::inputs_of(flight.scenario));
-    if (suite.dialogue) files.reads(drive::inputs_of(*suite.dialogue));
+    for (const auto& entry : fs::recursive_directory_iterator(suite.folder, unknown)) {
+      if (entry.is_regular_file(unknown)) inputs.push_back({"suite", entry.path().string()});
+    }
+    for (const accept::Flight& flight : suite.flights) add(drive::inputs_of(flight.scenario));
+    if (suite.dialogue) add(drive::inputs_of(*suite.dialogue));
     for (const std::string& name : suite.campaigns) {
       const auto campaign = campaign::read_campaign(suite.folder / name);
       if (!campaign) return tl::unexpected(campaign.error());
-      files.reads(campaign::inputs_of(*campaign));
+      add(campaign::inputs_of(*campaign));
     }
+  }
+  return inputs;
+}
+
+// No output may replace an input, nor a file of a suite that is not asked about.
+Result<void> check_files(const Arguments& arguments, const Files& inputs) {
+  CommandFiles files;
+  files.reads(inputs);
+  std::error_code unknown;
+  for (const auto& entry : fs::recursive_directory_iterator(arguments.suites, unknown)) {
+    if (entry.is_regular_file(unknown)) files.reads("suite", entry.path().string());
   }
   files.writes("--json", arguments.json);
   files.writes("--junit", arguments.junit);
@@ -107,19 +121,13 @@ Result<void> check_files(const Arguments& arguments, const std::vector<accept::S
   return files.check();
 }
 
-// The programs and files that the report is about, with their hashes.
-std::vector<drive::RunFile> files_of(const Arguments& arguments, const std::vector<accept::Suite>& suites) {
-  std::vector<CommandFiles::File> named{{"bench", "/proc/self/exe"}};
-  std::ranges::copy(drive::inputs_of_target(arguments.target), std::back_inserter(named));
-  std::error_code unknown;
-  for (const accept::Suite& suite : suites) {
-    for (const auto& entry : fs::recursive_directory_iterator(suite.folder, unknown))
-      named.push_back({"suite", entry.path().string()});
-    for (const accept::Flight& flight : suite.flights)
-      std::ranges::copy(drive::inputs_of(flight.scenario), std::back_inserter(named));
-  }
+// The bench and its inputs, with their hashes, each once.
+std::vector<drive::RunFile> identified(const Files& inputs) {
+  Files named{{"bench", "/proc/self/exe"}};
+  std::ranges::copy(inputs, std::back_inserter(named));
   std::vector<drive::RunFile> files;
   std::set<std::string> seen;
+  std::error_code unknown;
   for (const CommandFiles::File& one : named) {
     const fs::path path = fs::weakly_canonical(one.path, unknown);
     if (!seen.insert(path.string()).second) continue;
@@ -127,14 +135,6 @@ std::vector<drive::RunFile> files_of(const Arguments& arguments, const std::vect
       files.push_back({.role = one.role, .name = path.string(), .identity = std::move(*identity)});
   }
   return files;
-}
-
-// Reports of an earlier acceptance must not be taken for those of this one.
-void remove_earlier(const Arguments& arguments) {
-  std::error_code ignored;
-  for (const std::string& path : {arguments.json, arguments.junit, arguments.html}) {
-    if (path != report::to_stdout) fs::remove(path, ignored);
-  }
 }
 
 Result<void> write_reports(const Arguments& arguments, const accept::Report& all) {
@@ -155,7 +155,9 @@ ExitCode execute(const Arguments& arguments) {
   if (arguments.no_commands) scenario::forbid_commands();
   const auto suites = read(arguments);
   if (!suites) return complain(suites.error());
-  if (auto fine = check_files(arguments, *suites); !fine) return complain(fine.error());
+  const auto inputs = inputs_of(arguments, *suites);
+  if (!inputs) return complain(inputs.error());
+  if (auto fine = check_files(arguments, *inputs); !fine) return complain(fine.error());
   catch_interrupts();
   const ProgressLine line;
   const auto progress = [&](const std::string& what) { line.show([&] { return what; }); };
@@ -164,7 +166,7 @@ ExitCode execute(const Arguments& arguments) {
                      .tolerance = static_cast<double>(arguments.share.value_or(1)),
                      .families = arguments.families,
                      .seed = arguments.seed,
-                     .files = files_of(arguments, *suites),
+                     .files = identified(*inputs),
                      .started_s = std::time(nullptr),
                      .suites = {}};
   for (const accept::Suite& suite : *suites) {
@@ -173,7 +175,9 @@ ExitCode execute(const Arguments& arguments) {
     options.share = static_cast<double>(arguments.share.value_or(1));
     options.first_failure = arguments.first;
     options.families = arguments.families;
-    options.begun = [&] { remove_earlier(arguments); };
+    options.begun = [&] {
+      remove_earlier({.json = arguments.json, .junit = arguments.junit, .html = arguments.html, .csv = {}});
+    };
     options.progress = progress;
     auto one = accept::accept(suite, options, interrupted);
     if (!one) return end_with(one.error());

@@ -77,8 +77,8 @@ class Hub final : public LocalHub {
 
   /// Usually the bus has one other node, which gets all frames.
   std::size_t send_all(std::span<const Frame> frames) override {
-    if (frames.size() == 1 || wire_ || !catch_up() || peers_.size() != 1 || !local::gets_all(peers_.front()))
-      return Port::send_all(frames);
+    const bool usual = !wire_ && catch_up() && peers_.size() == 1 && local::gets_all(peers_.front());
+    if (frames.size() == 1 || !usual || ready_.size() >= ready_limit) return Port::send_all(frames);
     const std::int64_t t_ns = clock_ns(CLOCK_MONOTONIC);
     const std::size_t sent = local::offer_all(peers_.front(), frames, fd_, t_ns);
     counters_.sent += sent;
