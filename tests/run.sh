@@ -143,9 +143,12 @@ personality=()
 # that the bench rightly judges nothing. Tests of other labels must pass the first time. finish() names each test that passed only alone.
 run_alone() { # run_alone PRESET: changes p, f and code of run_ctest
   local junit=$results/$1.alone.xml log=$results/$1.alone.log numbers counts p2 f2
-  numbers=$(cut -d: -f1 "build/$1/Testing/Temporary/LastTestsFailed.log" | paste -sd, -)
+  # Numbers alone choose the tests: of tests chosen by label too, ctest -I counts only those with the label.
+  numbers=$(comm -12 <(cut -d: -f1 "build/$1/Testing/Temporary/LastTestsFailed.log" | sort) \
+    <(ctest --test-dir "build/$1" -N -L "$(labelled 'processes|vcan|vcan-full|controller|fifth_estimator')" | numbers_of_tests) | paste -sd, -)
+  if [[ -z "$numbers" ]]; then return; fi
   logged "testing $1 again, alone" "$log" "${way[@]}" ctest --test-dir "build/$1" -I "0,0,0,$numbers" --timeout 300 --output-on-failure \
-    --no-tests=ignore -L "$(labelled 'processes|vcan|vcan-full|controller|fifth_estimator')" --output-junit "$junit" || true
+    --output-junit "$junit" || true
   progress_rest "$log"
   if ! counts=$(python3 tests/static/junit_counts.py "$junit"); then return; fi
   read -r p2 f2 <<<"$counts"
@@ -153,6 +156,9 @@ run_alone() { # run_alone PRESET: changes p, f and code of run_ctest
   p=$((p + p2)) f=$((f - p2))
   if ((!f)); then code=0; fi
 }
+
+# The numbers of the tests that ctest -N lists, each once, sorted as text.
+numbers_of_tests() { sed -n 's/^ *Test *#\([0-9]*\):.*/\1/p' | sort -u; }
 
 # Prints a regular expression for ctest -L. A plus sign joins labels (tests/CMakeLists.txt): unit matches "unit+threads"; vcan does not match "vcan-full".
 labelled() { echo "(^|[+])($1)([+]|$)"; }
@@ -241,7 +247,7 @@ address_sanitizer() {
       "${personality[@]}" ctest --test-dir build/asan -N -L "$(labelled 'input|fuzz|fifth_estimator')"
       "${personality[@]}" ctest --test-dir build/asan -N -L "$(labelled processes)" |
         grep -E "$(IFS='|' && echo "${chosen[*]}")" | grep -vE "$left_out"
-    } | sed -n 's/^ *Test *#\([0-9]*\):.*/\1/p' | sort -un | paste -sd, -)
+    } | numbers_of_tests | sort -n | paste -sd, -)
     if [[ -n "$only" ]]; then
       run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')"
     else
