@@ -139,22 +139,32 @@ run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
 }
 personality=()
 
-# Runs failed tests once more, alone, if they fly in real time or in a guest system: beside other tests, such a flight may get no processor for so long
-# that the bench rightly judges nothing. Tests of other labels must pass the first time. finish() names each test that passed only alone.
+# Runs failed tests once more, alone, also without the build that runs ahead, if they start programs: beside others, a flight in real time may get no
+# processor for so long that the bench rightly judges nothing. Unit tests and static checks must pass the first time. finish() names each test that
+# passed only alone.
 run_alone() { # run_alone PRESET: changes p, f and code of run_ctest
   local junit=$results/$1.alone.xml log=$results/$1.alone.log numbers counts p2 f2
   # Numbers alone choose the tests: of tests chosen by label too, ctest -I counts only those with the label.
   numbers=$(comm -12 <(cut -d: -f1 "build/$1/Testing/Temporary/LastTestsFailed.log" | sort) \
-    <(ctest --test-dir "build/$1" -N -L "$(labelled 'processes|vcan|vcan-full|controller|fifth_estimator')" | numbers_of_tests) | paste -sd, -)
+    <(ctest --test-dir "build/$1" -N -LE "$(labelled 'unit|static|fuzz')" | numbers_of_tests) | paste -sd, -)
   if [[ -z "$numbers" ]]; then return; fi
+  if [[ -n "$ahead" ]]; then signal_session STOP "$ahead"; fi
   logged "testing $1 again, alone" "$log" "${way[@]}" ctest --test-dir "build/$1" -I "0,0,0,$numbers" --timeout 300 --output-on-failure \
     --output-junit "$junit" || true
+  if [[ -n "$ahead" ]]; then signal_session CONT "$ahead"; fi
   progress_rest "$log"
   if ! counts=$(python3 tests/static/junit_counts.py "$junit"); then return; fi
   read -r p2 f2 <<<"$counts"
   mapfile -t -O ${#alone[@]} alone < <(sed -nE "s/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .* Passed .*/\1 ($1)/p" "$log")
   p=$((p + p2)) f=$((f - p2))
   if ((!f)); then code=0; fi
+}
+
+# Sends a signal to all processes of a session. (Ninja gives each compiler a process group of its own.)
+signal_session() { # signal_session SIGNAL SESSION
+  local members
+  mapfile -t members < <(awk -v session="$2" '{ pid = $1; sub(/^.*[)] /, ""); if ($4 == session) print pid }' /proc/[0-9]*/stat 2>/dev/null)
+  kill -s "$1" -- "${members[@]}" 2>/dev/null || true
 }
 
 # The numbers of the tests that ctest -N lists, each once, sorted as text.

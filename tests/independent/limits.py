@@ -45,9 +45,14 @@ def answers(estimator):
 
 def beside(flight, earlier):
     """The earlier flight of the same scenario that shares most of `set` with this one, and sets nothing else."""
-    own = flight.get("set", {})
-    of_scenario = [one for one in earlier if one["scenario"] == flight["scenario"] and one.get("set", {}).items() <= own.items() and one.get("set", {}) != own]
-    return max(of_scenario, key=lambda one: len(one.get("set", {})), default=None)
+    own = settings(flight)
+    of_scenario = [one for one in earlier if one["scenario"] == flight["scenario"] and settings(one).items() <= own.items() and settings(one) != own]
+    return max(of_scenario, key=lambda one: len(settings(one)), default=None)
+
+
+def settings(flight):
+    """What a flight sets, without its checks, which change no answer."""
+    return {key: value for key, value in flight.get("set", {}).items() if key != "check"}
 
 
 def toml(value):
@@ -57,35 +62,41 @@ def toml(value):
     return "[" + ", ".join(toml(one) for one in value) + "]" if isinstance(value, list) else json.dumps(value)
 
 
-def probing_suite(suite, pairs, signals):
-    """A suite that flies each flight of the pairs and measures how each signal differs from the flight beside it."""
-    folder = accepting.ROOT / "bench/acceptance" / suite["estimator"]
-    text = [f'title = "Probe"\nestimator = "{suite["estimator"]}"\n\n[[requirement]]\nid = "X"\nfamily = "errors"\ntext = "Probe."']
-    flown = set()
-    for flight, other in pairs:
-        for one in (other, flight):
-            if one["name"] in flown:
-                continue
-            flown.add(one["name"])
-            table = {"name": one["name"], "scenario": str((folder / one["scenario"]).resolve()), "requirement": "X", "set": one.get("set", {})}
-            if one is flight:
-                table |= {"beside": other["name"], "moves": [{"signal": signal, "by": [-1e12, 1e12]} for signal in signals]}
-            text.append("[[flight]]\n" + "\n".join(f"{key} = {toml(value)}" for key, value in table.items() if value != {}))
-    return "\n\n".join(text) + "\n"
+def write_suite(folder, estimator, flights):
+    """Writes a suite of the flights, each as (flight of the project's suite, what to set besides, further keys), to FOLDER/ESTIMATOR/suite.toml."""
+    scenarios = accepting.ROOT / "bench/acceptance" / estimator
+    text = [f'title = "Probe"\nestimator = "{estimator}"\n\n[[requirement]]\nid = "X"\nfamily = "errors"\ntext = "Probe."']
+    for flight, also, more in flights:
+        table = {"name": flight["name"], "scenario": str((scenarios / flight["scenario"]).resolve()), "requirement": "X", "set": flight.get("set", {}) | also, **more}
+        text.append("[[flight]]\n" + "\n".join(f"{key} = {toml(value)}" for key, value in table.items() if value != {}))
+    (folder / estimator).mkdir()
+    (folder / estimator / "suite.toml").write_text("\n\n".join(text) + "\n")
 
 
-def responses(folder, estimator, target):
-    """Flies the probing suite in `folder` with a target; returns {"flight 'NAME': SIGNAL": mean difference}."""
+def items(folder, estimator, target):
+    """Flies the suite in `folder` with a target; returns all items of the report."""
     report = folder / f"{target.rsplit('/')[-1]}.json"
     _, output = accepting.run([str(accepting.BENCH), "accept", "--suites", str(folder), "--target", target, "--estimator", estimator, "--json", str(report)], LONGEST_S)
     if not report.exists():
-        sys.exit(f"limits.py: no report of {target}: {output.strip()[-300:]}")
+        sys.exit(f"no report of {target}: {output.strip()[-300:]}")
+    return [item for suite in json.loads(report.read_text())["suites"] for requirement in suite["requirements"] for item in requirement["items"]]
+
+
+def probes(pairs, signals):
+    """Each flight of the pairs once, for write_suite(): a flight measures how each signal differs from the flight beside it."""
+    flights = {}
+    for flight, other in pairs:
+        flights.setdefault(other["name"], (other, {}, {}))
+        flights[flight["name"]] = (flight, {}, {"beside": other["name"], "moves": [{"signal": signal, "by": [-1e12, 1e12]} for signal in signals]})
+    return flights.values()
+
+
+def responses(folder, estimator, target):
+    """Flies the probes with a target; returns {"flight 'NAME': SIGNAL": mean difference}."""
     found = {}
-    for suite in json.loads(report.read_text())["suites"]:
-        for requirement in suite["requirements"]:
-            for item in requirement["items"]:
-                if match := re.match(r"differs by (\S+)", item["measured"]):
-                    found[item["name"]] = float(match[1])
+    for item in items(folder, estimator, target):
+        if match := re.match(r"differs by (\S+)", item["measured"]):
+            found[item["name"]] = float(match[1])
     return found
 
 
@@ -117,8 +128,7 @@ def main():
     signals = answers(asked.estimator)
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
-        (folder / asked.estimator).mkdir()
-        (folder / asked.estimator / "suite.toml").write_text(probing_suite(suite, pairs, signals))
+        write_suite(folder, asked.estimator, probes(pairs, signals))
         targets = (str(accepting.BUILD / "hil-target"), f"{sys.executable} {HERE / asked.estimator}.py")
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             own, others = pool.map(lambda target: responses(folder, asked.estimator, target), targets)
