@@ -28,9 +28,10 @@ constexpr checks::Outcome outcome_of(ExitCode code) {
 /// Writes a line to stderr, with the name of the program.
 inline void say(const std::string& line) { std::fprintf(stderr, "hil-bench: %s\n", one_line(line).c_str()); }
 
-/// Reports an error on stderr in one line.
+/// Reports an error on stderr in one line, and each further error in a line of its own.
 inline ExitCode complain(const Error& error) {
   say(error.message);
+  for (const std::string& line : error.more) say(line);
   return ExitCode::usage;
 }
 

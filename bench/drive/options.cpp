@@ -27,6 +27,7 @@ Options in_lockstep_against(std::string command) {
       BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));
   options.targets = {std::move(command)};
   options.lockstep = true;
+  options.offers_realtime = false;
   return options;
 }
 

@@ -125,7 +125,8 @@ class Session {
     std::optional<Attached> load_watched, host_watched;
     if (options_.for_verdict) {
       load_watched.emplace(link_, load_);
-      host_watched.emplace(link_, host_.emplace(port_->stamp_clock(), !options_.realtime));
+      host_watched.emplace(
+          link_, host_.emplace(port_->stamp_clock(), options_.offers_realtime && !options_.realtime));
       if (clock_ == ClockKind::real_time)
         delay_watches_.emplace(targets_.ids(), options_.realtime.has_value());
     }

@@ -48,6 +48,7 @@ struct Options {
   std::vector<Onlooker*> onlookers{};  ///< each also receives every frame of the flight
   std::string control{};               ///< path of the control socket; empty: the run has none
   bool awaits_control = false;         ///< the run begins when a client has connected
+  bool offers_realtime = true;         ///< the command has the option --realtime, so a message may name it
   bool for_verdict = true;  ///< false: observes only the target's frames, not times, load, bus and host
 };
 

@@ -4,7 +4,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -15,99 +14,6 @@
 #include "bench/scenario/toml_settings.hpp"
 
 namespace canhil::scenario {
-
-struct Section::State {
-  std::shared_ptr<File> file;
-  const toml::table* table = nullptr;  // null: the table is missing; this is reported as an error
-  std::string path;
-  std::size_t line = 1;
-  std::vector<std::string> asked;
-  std::vector<std::pair<std::string, std::string>> missing;  // key, expected value
-
-  /// Records how a key is requested, for the reference of all keys.
-  void describe(const Key& key, DescribedKey as) const {
-    if (file->description == nullptr) return;
-    as.table = path;
-    as.name = key.name;
-    as.shown = key.shown.empty() ? key.name : key.shown;
-    as.meaning = key.meaning;
-    file->description->keys.push_back(std::move(as));
-  }
-  const toml::node* ask(std::string_view key) {
-    if (std::ranges::find(asked, key) == asked.end()) asked.emplace_back(key);
-    return table == nullptr ? nullptr : table->get(key);
-  }
-  /// Requests a key, as ask(key) does. An absent key also counts as missing, unless `may_be_absent` is set.
-  const toml::node* ask(std::string_view key, std::string_view expected, bool may_be_absent = false) {
-    const toml::node* node = ask(key);
-    if (node == nullptr && !may_be_absent) missing.emplace_back(key, expected);
-    return node;
-  }
-  [[nodiscard]] std::string path_of(std::string_view key) const {
-    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-  }
-  [[nodiscard]] std::size_t line_of_key(std::string_view key) const {
-    const toml::node* node = table == nullptr ? nullptr : table->get(key);
-    return node == nullptr ? line : line_of(*node);
-  }
-  void fail(std::string_view key, std::size_t at, std::string_view what, std::string_view expected) const {
-    file->fail(at, fmt::format("key '{}': {}, expected {}", path_of(key), what, expected));
-  }
-  /// The text of a key. Null: the key is absent, or its value is not a text; only the second case is reported
-  /// as an error here.
-  const std::string* text(std::string_view key, std::string_view expected, bool may_be_absent) {
-    const toml::node* node = ask(key, expected, may_be_absent);
-    if (node == nullptr) return nullptr;
-    const auto* value = node->as_string();
-    if (value == nullptr) fail(key, line_of(*node), type_of(*node), expected);
-    return value == nullptr ? nullptr : &value->get();
-  }
-  /// The elements of an array. The result is empty in three cases: `node` is null, the node is not an array,
-  /// or the array is empty. The last two cases are reported as errors.
-  const toml::array& elements(std::string_view key, const toml::node* node, std::string_view expected) const {
-    static const toml::array none;
-    if (node == nullptr) return none;
-    const toml::array* array = node->as_array();
-    if (array != nullptr && !array->empty()) return *array;
-    fail(key, line_of(*node), array == nullptr ? type_of(*node) : "is empty", expected);
-    return none;
-  }
-  /// The table at `node`. If `node` is null, returns a table without keys.
-  [[nodiscard]] Section inside(std::string_view key, const toml::node* node, std::string inner_path) const {
-    auto state = std::make_shared<State>();
-    state->file = file;
-    state->path = std::move(inner_path);
-    if (node == nullptr) return Section(std::move(state));
-    state->line = line_of(*node);
-    state->table = node->as_table();
-    if (state->table == nullptr) fail(key, state->line, type_of(*node), "a table");
-    return Section(std::move(state));
-  }
-  /// The numbers of an array, or zeros if the array is missing or wrong.
-  template <std::size_t n>
-  std::array<double, n> numbers(std::string_view key, const Limits& limits, std::string_view expected) {
-    const toml::node* node = ask(key);
-    if (node == nullptr) return {};
-    const toml::array* array = node->as_array();
-    if (array == nullptr || array->size() != n) {
-      const std::string what =
-          array == nullptr ? type_of(*node) : fmt::format("has {} elements", array->size());
-      fail(key, line_of(*node), what, expected);
-      return {};
-    }
-    std::array<double, n> values{};
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::optional<double> value = as_number((*array)[i]);
-      if (value && holds(limits, *value)) {
-        values[i] = *value;
-      } else {
-        const std::string what = value ? fmt::format("is {}", *value) : type_of((*array)[i]);
-        fail(key, line_of(*node), fmt::format("element {} {}", i + 1, what), expected);
-      }
-    }
-    return values;
-  }
-};
 
 Section Section::parse(std::string_view text, std::string_view file_name, std::span<const Setting> settings) {
   auto state = std::make_shared<State>();
@@ -156,7 +62,8 @@ double Section::plain_number(const Key& key, Limits limits, std::optional<double
   if (node == nullptr) return fallback.value_or(0.0);
   const std::optional<double> value = as_number(*node);
   if (value && holds(limits, *value)) return *value;
-  reject(key.name, value ? fmt::format("{} is out of range", *value) : type_of(*node), expected);
+  state_->refuse_value(key.name, value ? fmt::format("{} is out of range", *value) : type_of(*node),
+                       expected);
   return 0.0;
 }
 
@@ -204,10 +111,11 @@ std::optional<std::int64_t> Section::whole_number(const Key& key, std::int64_t l
   const std::string expected = fmt::format("a whole number of at least {}", least);
   const auto* value = node->as_integer();
   if (value == nullptr) {
-    reject(key.name, node->is_floating_point() ? "is not whole" : type_of(*node), expected);
+    state_->refuse_value(key.name, node->is_floating_point() ? "is not whole" : type_of(*node), expected);
     return 0;
   }
-  if (value->get() < least) reject(key.name, fmt::format("{} is out of range", value->get()), expected);
+  if (value->get() < least)
+    state_->refuse_value(key.name, fmt::format("{} is out of range", value->get()), expected);
   return value->get();
 }
 
@@ -215,7 +123,7 @@ bool Section::flag(const Key& key) {
   state_->describe(key, {.type = "true or false", .fallback = "false", .sample = "true"});
   const toml::node* node = state_->ask(key.name);
   if (node == nullptr) return false;
-  if (!node->is_boolean()) reject(key.name, type_of(*node), "true or false");
+  if (!node->is_boolean()) state_->refuse_value(key.name, type_of(*node), "true or false");
   return node->value_or(false);
 }
 
@@ -252,7 +160,8 @@ std::string Section::choice(const Key& key, std::span<const std::string> names,
   const std::string* value = state_->text(key.name, expected_instead("", names), fallback.has_value());
   if (value == nullptr) return fallback.value_or("");
   if (std::ranges::find(names, *value) != names.end()) return *value;
-  reject(key.name, fmt::format("'{}' is unknown", *value), expected_instead(*value, names));
+  state_->fail(key.name, state_->line_of_key(key.name), fmt::format("'{}' is unknown", *value),
+               expected_instead(*value, names), &File::fail_last);
   return {};
 }
 
@@ -390,8 +299,12 @@ void Section::finish(std::string_view unasked) {
     unknown_key = key.str();
   }
   if (unknown != nullptr)
-    state_->fail(unknown_key, line_of(*unknown), unasked, expected_instead(unknown_key, state_->asked));
-  for (const auto& [key, expected] : state_->missing) reject(key, "is missing", expected);
+    state_->fail(unknown_key, line_of(*unknown), unasked, expected_instead(unknown_key, state_->asked),
+                 &File::collect);
+  // The unknown key can be the missing one, misspelt.
+  for (const auto& [key, expected] : state_->missing)
+    state_->fail(key, state_->line_of_key(key), "is missing", expected,
+                 unknown == nullptr ? &File::fail_last : &File::fail);
 }
 
 std::optional<Error> Section::error() const { return state_->file->error; }

@@ -1,7 +1,9 @@
 // A table of a scenario file, read strictly: the reader must request every key in the table, with the type
 // and limits of the key.
 //
-// The first error of the file is kept. Readers need not check for errors: after an error they receive
+// The first error of the file is kept, and those after it that cannot be consequences of another: values of
+// the wrong type or out of range and the first unknown key of each table, up to the first missing key,
+// unknown word or error of another kind. Readers need not check for errors: after an error they receive
 // harmless values. A key's unit is its suffix (heading_deg); values are returned in SI and radians.
 #pragma once
 
@@ -123,7 +125,7 @@ class Section {
   /// requested, with the given reason; if there is no such key, reports a missing key.
   void finish(std::string_view unasked = "is unknown");
 
-  /// The first error of the whole file.
+  /// The errors of the whole file.
   [[nodiscard]] std::optional<Error> error() const;
 
  private:

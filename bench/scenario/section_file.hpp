@@ -1,15 +1,21 @@
-// The parsed file that sections belong to. This header includes toml++, which is slow to compile. So only
-// section.cpp and edited_text.cpp include this header.
+// The parsed file that sections belong to, and the state of a section. This header includes toml++, which is
+// slow to compile. So only section.cpp and edited_text.cpp include this header.
 #pragma once
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "bench/scenario/key_depth.hpp"
 #include "bench/scenario/section.hpp"
@@ -43,6 +49,9 @@ inline std::string type_of(const toml::node& node) {
 
 inline std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
 
+/// The most errors of a file that are told.
+inline constexpr std::size_t most_errors = 20;
+
 struct Section::File {
   std::string name;
   std::string folder;                // folder of the files that this file names
@@ -50,6 +59,7 @@ struct Section::File {
   std::vector<std::string> files{};  // the files that were read
   toml::table root;
   std::optional<Error> error;
+  bool collecting = true;
   Description* description = Describing::current();
 
   /// A value from a setting has no line in the file.
@@ -57,9 +67,26 @@ struct Section::File {
     return line == 0 ? name : fmt::format("{}:{}", name, line);
   }
 
+  /// Reports an error, if it is the first: it can be a consequence of an earlier one, and others of it.
   void fail(std::size_t line, std::string_view what) {
-    if (error) return;
-    error = Error{one_line(fmt::format("{}: {}", where(line), what))};  // a key may contain any character
+    if (!error) collect(line, what);
+    collecting = false;
+  }
+  /// Reports an error that is no consequence of another, but of which others can be one.
+  void fail_last(std::size_t line, std::string_view what) {
+    collect(line, what);
+    collecting = false;
+  }
+  /// Reports an error that is no consequence of another and has none.
+  void collect(std::size_t line, std::string_view what) {
+    if (!collecting) return;
+    std::string text = one_line(fmt::format("{}: {}", where(line), what));  // a key may contain any character
+    if (!error) {
+      error = Error{std::move(text)};
+    } else if (text != error->message && std::ranges::find(error->more, text) == error->more.end() &&
+               error->more.size() < most_errors - 1) {
+      error->more.push_back(std::move(text));
+    }
   }
 
   /// The table of an array of tables that a part of a setting's key names: by its `name`, or by its number,
@@ -107,6 +134,105 @@ struct Section::File {
     }
     const toml::table value = toml::parse(fmt::format("value = {}", setting.value));
     table->insert_or_assign(rest, *value.get("value"));
+  }
+};
+
+struct Section::State {
+  std::shared_ptr<File> file;
+  const toml::table* table = nullptr;  // null: the table is missing; this is reported as an error
+  std::string path;
+  std::size_t line = 1;
+  std::vector<std::string> asked;
+  std::vector<std::pair<std::string, std::string>> missing;  // key, expected value
+
+  /// Records how a key is requested, for the reference of all keys.
+  void describe(const Key& key, DescribedKey as) const {
+    if (file->description == nullptr) return;
+    as.table = path;
+    as.name = key.name;
+    as.shown = key.shown.empty() ? key.name : key.shown;
+    as.meaning = key.meaning;
+    file->description->keys.push_back(std::move(as));
+  }
+  const toml::node* ask(std::string_view key) {
+    if (std::ranges::find(asked, key) == asked.end()) asked.emplace_back(key);
+    return table == nullptr ? nullptr : table->get(key);
+  }
+  /// Requests a key, as ask(key) does. An absent key also counts as missing, unless `may_be_absent` is set.
+  const toml::node* ask(std::string_view key, std::string_view expected, bool may_be_absent = false) {
+    const toml::node* node = ask(key);
+    if (node == nullptr && !may_be_absent) missing.emplace_back(key, expected);
+    return node;
+  }
+  [[nodiscard]] std::string path_of(std::string_view key) const {
+    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+  }
+  [[nodiscard]] std::size_t line_of_key(std::string_view key) const {
+    const toml::node* node = table == nullptr ? nullptr : table->get(key);
+    return node == nullptr ? line : line_of(*node);
+  }
+  using Fail = void (File::*)(std::size_t, std::string_view);
+  void fail(std::string_view key, std::size_t at, std::string_view what, std::string_view expected,
+            Fail how = &File::fail) const {
+    ((*file).*how)(at, fmt::format("key '{}': {}, expected {}", path_of(key), what, expected));
+  }
+  /// Reports a value in place of which the reader has a harmless one.
+  void refuse_value(std::string_view key, std::string_view what, std::string_view expected) const {
+    fail(key, line_of_key(key), what, expected, &File::collect);
+  }
+  /// The text of a key. Null: the key is absent, or its value is not a text; only the second case is reported
+  /// as an error here.
+  const std::string* text(std::string_view key, std::string_view expected, bool may_be_absent) {
+    const toml::node* node = ask(key, expected, may_be_absent);
+    if (node == nullptr) return nullptr;
+    const auto* value = node->as_string();
+    if (value == nullptr) fail(key, line_of(*node), type_of(*node), expected);
+    return value == nullptr ? nullptr : &value->get();
+  }
+  /// The elements of an array. The result is empty in three cases: `node` is null, the node is not an array,
+  /// or the array is empty. The last two cases are reported as errors.
+  const toml::array& elements(std::string_view key, const toml::node* node, std::string_view expected) const {
+    static const toml::array none;
+    if (node == nullptr) return none;
+    const toml::array* array = node->as_array();
+    if (array != nullptr && !array->empty()) return *array;
+    fail(key, line_of(*node), array == nullptr ? type_of(*node) : "is empty", expected);
+    return none;
+  }
+  /// The table at `node`. If `node` is null, returns a table without keys.
+  [[nodiscard]] Section inside(std::string_view key, const toml::node* node, std::string inner_path) const {
+    auto state = std::make_shared<State>();
+    state->file = file;
+    state->path = std::move(inner_path);
+    if (node == nullptr) return Section(std::move(state));
+    state->line = line_of(*node);
+    state->table = node->as_table();
+    if (state->table == nullptr) fail(key, state->line, type_of(*node), "a table");
+    return Section(std::move(state));
+  }
+  /// The numbers of an array, or zeros if the array is missing or wrong.
+  template <std::size_t n>
+  std::array<double, n> numbers(std::string_view key, const Limits& limits, std::string_view expected) {
+    const toml::node* node = ask(key);
+    if (node == nullptr) return {};
+    const toml::array* array = node->as_array();
+    if (array == nullptr || array->size() != n) {
+      const std::string what =
+          array == nullptr ? type_of(*node) : fmt::format("has {} elements", array->size());
+      refuse_value(key, what, expected);
+      return {};
+    }
+    std::array<double, n> values{};
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::optional<double> value = as_number((*array)[i]);
+      if (value && holds(limits, *value)) {
+        values[i] = *value;
+      } else {
+        const std::string what = value ? fmt::format("is {}", *value) : type_of((*array)[i]);
+        refuse_value(key, fmt::format("element {} {}", i + 1, what), expected);
+      }
+    }
+    return values;
   }
 };
 

@@ -5,12 +5,14 @@
 #include <string>
 #include <tl/expected.hpp>
 #include <utility>
+#include <vector>
 
 namespace canhil {
 
 /// One line for the user that states what is wrong, where, and what was expected.
 struct Error {
   std::string message;
+  std::vector<std::string> more{};  ///< further lines of this kind about the same file
 };
 
 template <class T>

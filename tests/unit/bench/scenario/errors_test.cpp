@@ -1,5 +1,6 @@
-// Every error of a scenario gives exactly one line: where, what, what was expected.
-#include <gtest/gtest.h>
+// Each error of a scenario gives exactly one line: where, what, what was expected.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <fstream>
 
@@ -19,6 +20,46 @@ class ScenarioError : public testing::TestWithParam<Wrong> {};
 
 TEST_P(ScenarioError, IsOneExactLine) {
   EXPECT_EQ(error_of(with(GetParam().from, GetParam().to)), "s.toml:" + GetParam().error);
+}
+
+/// All errors of a text, without the file's name.
+std::vector<std::string> errors_of(std::string_view text) {
+  const Result<Scenario> result = parse(text, "s.toml", contract);
+  if (result) return {};
+  std::vector<std::string> all{result.error().message};
+  all.insert(all.end(), result.error().more.begin(), result.error().more.end());
+  for (std::string& one : all) one.erase(0, std::string("s.toml:").size());
+  return all;
+}
+
+TEST(ScenarioErrors, AreToldAllIfNoneCanBeAConsequenceOfAnother) {
+  const std::string many =
+      with("seed = 7", "seed = 7.5", inside("[master_ins]", "perod_ms = 3\nperiods = 4"));
+  EXPECT_THAT(errors_of(with("height_m = 1000.0", "height_m = 1e6",
+                             with("heading_deg = 90", "heading_deg = true", many))),
+              testing::ElementsAre(
+                  "3: key 'seed': is not whole, expected a whole number of at least 0",
+                  "12: key 'truth.height_m': 1000000 is out of range, expected a number from -1000 to 50000",
+                  "13: key 'truth.heading_deg': is a boolean, expected a number",
+                  "15: key 'master_ins.perod_ms': is unknown, expected 'period_ms'"));
+}
+
+TEST(ScenarioErrors, EndWithAnErrorThatCanHaveConsequences) {
+  // Without its trajectory, [truth] has other keys.
+  const std::string missing = with("trajectory = \"rest\"\n", "", with("seed = 7", "seed = 7.5"));
+  const std::string unknown = with("\"rest\"", "\"arrest\"", with("seed = 7", "seed = 7.5"));
+  for (const auto& [text, last] : {std::pair{missing, "8: key 'truth.trajectory': is missing"},
+                                   {unknown, "9: key 'truth.trajectory': 'arrest' is unknown"}}) {
+    EXPECT_THAT(errors_of(with("[slave_imu]", "[slave_imu]\nperod_ms = 3", text)),
+                testing::ElementsAre("3: key 'seed': is not whole, expected a whole number of at least 0",
+                                     testing::StartsWith(last)));
+  }
+}
+
+TEST(ScenarioErrors, AreToldUpToTwenty) {
+  std::string text(valid);
+  for (int i = 0; i < 30; ++i) text += "[[check]]\nkind = \"heartbeat\"\nsilent_at_most_s = -1\n";
+  EXPECT_EQ(errors_of(text).size(), 20U);
 }
 
 /// The keys in the order in which they are read: sections that depend on a truth follow the section of this
