@@ -11,7 +11,8 @@ _PLACE = re.compile(r"(?P<file>[^:]+)(?::(?P<line>\d+))?: (?:key '(?P<key>[^']*)
 class Error(Exception):
     """The bench refused its input or could not fly.
 
-    ``str()`` is the line of the bench: what, where, what was expected.
+    ``str()`` is the line of the bench: what, where, what was expected. If several keys of a file are wrong, it has
+    a line for each; `line` and `key` are those of the first.
 
     >>> import canhil
     >>> try:
@@ -34,13 +35,18 @@ class Error(Exception):
 
 
 def error_of(stderr: str) -> Error:
-    """The error that a program of the bench printed: its last line says what was wrong."""
+    """The error that a program of the bench printed: its last line says what was wrong, as do the lines before it
+    about the same file."""
     lines = [line for line in stderr.splitlines() if line.strip()]
     if not lines:
         return Error("the bench ended without a message")
-    message = lines[-1].removeprefix("hil-bench: ")
-    place = _PLACE.match(message)
-    if place is None or not (place["line"] or Path(place["file"]).suffix or Path(place["file"]).exists()):
-        return Error(message)
+    lines = [line.removeprefix("hil-bench: ") for line in lines]
+    last = _PLACE.match(lines[-1])
+    if last is None or not (last["line"] or Path(last["file"]).suffix or Path(last["file"]).exists()):
+        return Error(lines[-1])
+    first = len(lines) - 1
+    while first > 0 and lines[first - 1].startswith(f"{last['file']}:"):
+        first -= 1
+    place = _PLACE.match(lines[first]) or last
     line = int(place["line"]) if place["line"] else None
-    return Error(message, file=Path(place["file"]), line=line, key=place["key"])
+    return Error("\n".join(lines[first:]), file=Path(place["file"]), line=line, key=place["key"])

@@ -227,7 +227,8 @@ class Command(NamedTuple):
         """An error in the argument `faults`: it names no file, because the caller wrote none."""
         if error.file != self.folder / FAULTS:
             return error
-        return Error(f"faults: {str(error).removeprefix(str(error.file)).partition(': ')[2]}", key=error.key)
+        lines = (line.removeprefix(str(error.file)).partition(": ")[2] for line in str(error).splitlines())
+        return Error("\n".join(f"faults: {line}" for line in lines), key=error.key)
 
     def run(self) -> Run:
         """The run, after the command has ended."""

@@ -164,6 +164,17 @@ def test_errors_name_file_line_and_key(scenario: Path, tmp_path: Path, monkeypat
         canhil.run(scenario)
 
 
+def test_an_error_has_a_line_for_each_key(scenario: Path) -> None:
+    with pytest.raises(canhil.Error) as caught:
+        canhil.run(scenario, set={"seed": -1, "seeker.perod_ms": 5})
+    assert [line.partition(": ")[2].partition(":")[0] for line in str(caught.value).splitlines()] == ["key 'seed'", "key 'seeker.perod_ms'"]
+    assert caught.value.key == "seed"
+    spike = {"name": "spike", "kind": "bias", "quantity": "seeker.error_pitch", "by_mrad": "4", "from_s": -3}
+    with pytest.raises(canhil.Error) as caught:
+        canhil.run(scenario, faults=spike)
+    assert all(line.startswith("faults: key 'fault[1].") for line in str(caught.value).splitlines())
+
+
 def test_what_the_bench_does_when_it_dies_is_an_error(scenario: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     program = tmp_path / "bench"
     monkeypatch.setenv("CANHIL_BENCH", str(program))
