@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Finds limits of errors, NIS and NEES for flights that have none: flies them with hil-target and with the filter of another maker, and prints what holds for both.
 
-  python3 tests/independent/bands.py ESTIMATOR [--requirement ID] [--margin SHARE]
+  python3 tests/independent/bands.py ESTIMATOR [--requirement ID] [--margin SHARE] [--all]
 
-Of the flights of the suite whose scenario stands in the suite's folder, those count that have no `moves`, no `same_as` and no checks of their own. Printed as a line for suite.toml:
+Of the flights of the suite whose scenario stands in the suite's folder, those count that have no `moves`, no `same_as` and no checks of their own (--all: no checks of their own). Printed as a line for suite.toml:
 `honest`, if no trusted error of either filter is beyond 4.5 sigma; and each mean NIS and NEES that is at most five times its degrees of freedom and the same for both within 10 %, with the mean of both as the middle of the band,
 plus or minus a margin (default 20 %) and twice their difference.
 """
@@ -75,10 +75,12 @@ def main():
     parser.add_argument("estimator", choices=sorted(STATISTICS))
     parser.add_argument("--requirement", metavar="ID", help="only flights of this requirement")
     parser.add_argument("--margin", type=float, default=0.2, metavar="SHARE", help="of the mean of both filters")
+    parser.add_argument("--all", action="store_true", help="also flights that are compared with another")
     asked = parser.parse_args()
+    passed_over = {"faults", "real_time"}
     suite = tomllib.loads((accepting.ROOT / "bench/acceptance" / asked.estimator / "suite.toml").read_text())
     flights = [one for one in suite["flight"] if "/" not in one["scenario"] and asked.requirement in (None, one["requirement"])
-               and not {"moves", "same_as", "faults", "real_time"} & one.keys() and "check" not in one.get("set", {})]
+               and not (passed_over if asked.all else passed_over | {"moves", "same_as"}) & one.keys() and "check" not in one.get("set", {})]
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         limits.write_suite(folder, asked.estimator, [(one, {"check": checks_of(asked.estimator)}, {}) for one in flights])
