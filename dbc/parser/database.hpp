@@ -84,6 +84,21 @@ inline constexpr unsigned largest_message = 1785;  ///< the most of a transport 
 /// The type of a raw value.
 enum class RawType : std::uint8_t { unsigned_integer, signed_integer, float32, float64 };
 
+/// The type in words of a programming language: unsigned, signed, float or double.
+constexpr std::string_view name(RawType type) {
+  switch (type) {
+    case RawType::unsigned_integer:
+      return "unsigned";
+    case RawType::signed_integer:
+      return "signed";
+    case RawType::float32:
+      return "float";
+    case RawType::float64:
+      break;
+  }
+  return "double";
+}
+
 /// A range of raw values of a multiplexor; `first` and `last` are included.
 struct MuxRange {
   std::uint64_t first = 0;

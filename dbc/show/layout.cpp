@@ -44,20 +44,6 @@ std::string matrix(const Message& message) {
   return aligned(rows);
 }
 
-std::string_view type_text(RawType type) {
-  switch (type) {
-    case RawType::unsigned_integer:
-      return "unsigned";
-    case RawType::signed_integer:
-      return "signed";
-    case RawType::float32:
-      return "float";
-    case RawType::float64:
-      break;
-  }
-  return "double";
-}
-
 std::string when_text(const Signal& signal) {
   if (signal.multiplexed_by.empty()) return signal.multiplexor ? "always, multiplexor" : "always";
   std::string text;
@@ -82,7 +68,7 @@ Row signal_row(std::size_t number, const Signal& signal) {
           std::to_string(signal.start_bit),
           std::to_string(signal.length),
           signal.byte_order == ByteOrder::big_endian ? "Motorola" : "Intel",
-          std::string(type_text(signal.type)),
+          std::string(name(signal.type)),
           fmt::format("{}", signal.scale),
           fmt::format("{}", signal.offset),
           limited ? fmt::format("{}..{}", signal.minimum, signal.maximum) : "-",

@@ -65,20 +65,6 @@ Pieces pieces_of(const Signal& signal) {
   return pieces;
 }
 
-std::string_view kind_of(RawType type) {
-  switch (type) {
-    case RawType::unsigned_integer:
-      return "unsigned";
-    case RawType::signed_integer:
-      return "signed";
-    case RawType::float32:
-      return "float";
-    case RawType::float64:
-      break;
-  }
-  return "double";
-}
-
 std::string multiplexing_text(const Message& message, const Signal& signal) {
   if (signal.multiplexed_by.empty()) return "";
   std::string ranges;
@@ -97,7 +83,7 @@ std::string signal_text(const Message& message, const Signal& signal) {
       "    {{ name = {}, filter = \"{}\", kind = \"{}\", plain = {}, length = {}, first = {}, bytes = {}, "
       "scale = "
       "{}, offset = {}, unit = {},\n      pieces = {{{}}}, values = {{{}}}{} }},\n",
-      lua_string(signal.name), filter_name(signal.name), kind_of(signal.type),
+      lua_string(signal.name), filter_name(signal.name), name(signal.type),
       signal.scale == 1 && signal.offset == 0, signal.length, pieces.first, pieces.end, signal.scale,
       signal.offset, lua_string(signal.unit), pieces.text, values, multiplexing_text(message, signal));
 }
