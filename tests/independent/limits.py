@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Finds the limits of a suite's responses: flies pairs of flights with hil-target and with the filter of another maker, and prints where both respond alike.
 
-  python3 tests/independent/limits.py ESTIMATOR [--requirement ID] [--margin SHARE] [--all]
+  python3 tests/independent/limits.py ESTIMATOR [--requirement ID] [--margin SHARE] [--all] [--uncovered]
 
 For each flight (of the requirement) that has no `moves` (--all: each flight), the flight beside it is the earlier one of the same scenario that shares most of its `set`.
 A signal whose mean difference between the two is the same for both filters within 6 % follows from the contract and the model. Its limits are the mean of both, plus or minus a
-margin (default 5 %) and twice their difference (docs/accept.md, "Faults"). Prints the three strongest such signals of each flight, each of another message, as lines for suite.toml; then how many signals moved, and how many alike.
+margin (default 5 %) and twice their difference (docs/accept.md, "Faults"). Prints the three strongest such signals of each flight, each of another message, as lines for suite.toml; then how many signals moved, and how many alike. With --uncovered, only signals that have no limits in the suite are looked at,
+in all flights, and each is printed for the one flight in which it moves most.
 """
 
 import argparse
@@ -23,6 +24,7 @@ import accepting  # noqa: E402
 
 ALIKE = 0.06  # largest difference of the two responses, as a share of their mean
 LEAST_STEPS = 5.0  # least mean response, in steps of the signal
+LEAST_SHARE = 0.003  # the same for whole numbers, such as flags: the mean over the flight
 MOST_SIGNALS = 3  # limits of one flight
 NOT_ANSWERS = re.compile(r"e2e_|cause_|time_us$|^counter")
 LONGEST_S = 7200
@@ -109,35 +111,65 @@ def limits(one, other, margin):
     return [float(f"{mean - half:.3g}"), float(f"{mean + half:.3g}")]
 
 
+def least(step):
+    """The least mean response of a signal."""
+    return LEAST_STEPS * step if step < 1 else LEAST_SHARE
+
+
+def print_best(pairs, signals, own, others, margin):
+    """For each signal, the flight in which it moves most of those in which it moves alike."""
+    for signal, step in signals.items():
+        best = (least(step) / step, "# no flight moves it alike")
+        for flight, other in pairs:
+            one, two = (answer.get(f"flight '{flight['name']}': {signal}", 0.0) for answer in (own, others))
+            found = limits(one, two, margin)
+            if found and min(abs(one), abs(two)) / step > best[0]:
+                best = (min(abs(one), abs(two)) / step, f'{flight["name"]} | {other["name"]} | {{ signal = "{signal}", by = {found} }},')
+        print(f"{signal}: {best[1]}")
+
+
+def covered(suite):
+    """The signals of which a flight of the suite has limits."""
+    moves = [flight.get("moves", []) for flight in suite["flight"]]
+    return {one["signal"] for each in moves for one in ([each] if isinstance(each, dict) else each) if "by" in one}
+
+
 def main():
     parser = argparse.ArgumentParser(prog="limits.py", description=__doc__.splitlines()[0])
     parser.add_argument("estimator")
     parser.add_argument("--requirement", metavar="ID", help="only flights of this requirement")
     parser.add_argument("--all", action="store_true", help="also flights that have limits already")
+    parser.add_argument("--uncovered", action="store_true", help="only signals that have no limits, in all flights")
     parser.add_argument("--margin", type=float, default=0.05, metavar="SHARE", help="of the mean of both responses")
     asked = parser.parse_args()
     suite = tomllib.loads((accepting.ROOT / "bench/acceptance" / asked.estimator / "suite.toml").read_text())
     pairs = []
     for number, flight in enumerate(suite["flight"]):
         of_requirement = asked.requirement in (None, flight["requirement"])
-        if of_requirement and not flight.get("real_time") and not flight.get("faults") and (asked.all or "moves" not in flight):
-            other = beside(flight, suite["flight"][:number])
+        if of_requirement and not flight.get("real_time") and not flight.get("faults") and (asked.all or asked.uncovered or "moves" not in flight):
+            earlier = suite["flight"][:number]
+            other = next((one for one in earlier if one["name"] == flight.get("beside")), None) or beside(flight, earlier)
             print(f"{flight['name']}: beside {other['name']}" if other else f"{flight['name']}: no flight to compare with", file=sys.stderr)
             if other:
                 pairs.append((flight, other))
     signals = answers(asked.estimator)
+    if asked.uncovered:
+        signals = {name: step for name, step in signals.items() if name not in covered(suite)}
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         write_suite(folder, asked.estimator, probes(pairs, signals))
         targets = (str(accepting.BUILD / "hil-target"), f"{sys.executable} {HERE / asked.estimator}.py")
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             own, others = pool.map(lambda target: responses(folder, asked.estimator, target), targets)
+    if asked.uncovered:
+        print_best(pairs, signals, own, others, asked.margin)
+        return
     moved = alike = 0
     for flight, other in pairs:
         strongest = {}  # by message: how strong, in steps; the signal; its limits
         for signal, step in signals.items():
             one, two = (answer.get(f"flight '{flight['name']}': {signal}", 0.0) for answer in (own, others))
-            if max(abs(one), abs(two)) < LEAST_STEPS * step:
+            if max(abs(one), abs(two)) < least(step):
                 continue
             moved += 1
             if found := limits(one, two, asked.margin):
