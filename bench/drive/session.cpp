@@ -18,7 +18,6 @@
 #include "bench/drive/stimuli.hpp"
 #include "bench/drive/target_process.hpp"
 #include "bench/estimators/of_scenario.hpp"
-#include "bench/estimators/registry.hpp"
 #include "bench/observe/bus_watch.hpp"
 #include "bench/observe/delay_watch.hpp"
 #include "bench/observe/host_watch.hpp"

@@ -300,8 +300,8 @@ void Section::finish(std::string_view unasked) {
   }
   if (unknown != nullptr)
     state_->fail(unknown_key, line_of(*unknown), unasked, expected_instead(unknown_key, state_->asked),
-                 &File::collect);
-  // The unknown key can be the missing one, misspelt.
+                 state_->missing.empty() ? &File::collect : &File::fail);
+  // The unknown key can be the missing one, misspelt, or a consequence of it.
   for (const auto& [key, expected] : state_->missing)
     state_->fail(key, state_->line_of_key(key), "is missing", expected,
                  unknown == nullptr ? &File::fail_last : &File::fail);
