@@ -64,6 +64,7 @@ interrupted() {
   progress_stop
   echo "tests/run.sh: interrupted" >&2
   for group in $running $ahead; do kill -TERM -- "-$group" 2>/dev/null; done
+  if [[ -n "$ahead" ]]; then signal_session CONT "$ahead"; fi # run_alone may have stopped it, and a stopped process does not end
   failed=$((failed + 1))
   finish
 }

@@ -9,8 +9,6 @@ plus or minus a margin (default 20 %) and twice their difference.
 """
 
 import argparse
-import concurrent.futures
-import json
 import pathlib
 import re
 import sys
@@ -51,11 +49,7 @@ def measured(folder, estimator, target):
 
 def band(one, other, freedom, margin):
     """The band of a mean that two filters have alike; None if they differ, or if it is too large."""
-    mean, apart = (one + other) / 2, abs(one - other)
-    if apart > ALIKE * mean or mean > LARGEST_RATIO * freedom:
-        return None
-    half = margin * mean + 2 * apart
-    return [float(f"{mean - half:.3g}"), float(f"{mean + half:.3g}")]
+    return None if one + other > 2 * LARGEST_RATIO * freedom else limits.limits(one, other, margin, ALIKE)
 
 
 def checks_for(name, estimator, own, others, margin):
@@ -84,9 +78,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         limits.write_suite(folder, asked.estimator, [(one, {"check": checks_of(asked.estimator)}, {}) for one in flights])
-        targets = (str(accepting.BUILD / "hil-target"), f"{sys.executable} {HERE / asked.estimator}.py")
-        with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            own, others = pool.map(lambda target: measured(folder, asked.estimator, target), targets)
+        own, others = limits.of_both(folder, asked.estimator, measured)
     for one in flights:
         name = one["name"]
         seen = ", ".join(f"{check} {own.get((name, check), 'none')} and {others.get((name, check), 'none')}" for check in ("honest", *STATISTICS[asked.estimator]))

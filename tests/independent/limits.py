@@ -102,10 +102,17 @@ def responses(folder, estimator, target):
     return found
 
 
-def limits(one, other, margin):
-    """The limits of a response that two filters have alike; None if they differ."""
+def of_both(folder, estimator, ask):
+    """ask(folder, estimator, target) about hil-target and about the filter of another maker, at the same time."""
+    targets = (str(accepting.BUILD / "hil-target"), f"{sys.executable} {HERE / estimator}.py")
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        return pool.map(lambda target: ask(folder, estimator, target), targets)
+
+
+def limits(one, other, margin, alike=ALIKE):
+    """The limits of a value that two filters have alike; None if they differ."""
     mean, apart = (one + other) / 2, abs(one - other)
-    if apart > ALIKE * abs(mean):
+    if apart > alike * abs(mean):
         return None
     half = margin * abs(mean) + 2 * apart
     return [float(f"{mean - half:.3g}"), float(f"{mean + half:.3g}")]
@@ -116,12 +123,17 @@ def least(step):
     return LEAST_STEPS * step if step < 1 else LEAST_SHARE
 
 
+def both(flight, signal, own, others):
+    """The mean differences of a signal between a flight and the one beside it: of the two filters."""
+    return (answer.get(f"flight '{flight['name']}': {signal}", 0.0) for answer in (own, others))
+
+
 def print_best(pairs, signals, own, others, margin):
     """For each signal, the flight in which it moves most of those in which it moves alike."""
     for signal, step in signals.items():
         best = (least(step) / step, "# no flight moves it alike")
         for flight, other in pairs:
-            one, two = (answer.get(f"flight '{flight['name']}': {signal}", 0.0) for answer in (own, others))
+            one, two = both(flight, signal, own, others)
             found = limits(one, two, margin)
             if found and min(abs(one), abs(two)) / step > best[0]:
                 best = (min(abs(one), abs(two)) / step, f'{flight["name"]} | {other["name"]} | {{ signal = "{signal}", by = {found} }},')
@@ -158,9 +170,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         write_suite(folder, asked.estimator, probes(pairs, signals))
-        targets = (str(accepting.BUILD / "hil-target"), f"{sys.executable} {HERE / asked.estimator}.py")
-        with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            own, others = pool.map(lambda target: responses(folder, asked.estimator, target), targets)
+        own, others = of_both(folder, asked.estimator, responses)
     if asked.uncovered:
         print_best(pairs, signals, own, others, asked.margin)
         return
@@ -168,7 +178,7 @@ def main():
     for flight, other in pairs:
         strongest = {}  # by message: how strong, in steps; the signal; its limits
         for signal, step in signals.items():
-            one, two = (answer.get(f"flight '{flight['name']}': {signal}", 0.0) for answer in (own, others))
+            one, two = both(flight, signal, own, others)
             if max(abs(one), abs(two)) < least(step):
                 continue
             moved += 1
