@@ -294,7 +294,7 @@ class Reader {
           section.reject("answers", fmt::format("{} is not the last message of its play", name),
                          fmt::format("'{}'", one.name));
       }
-      name = section.one_of("answers", names_of(mapping_->plays, &Play::name));
+      name = section.given_name("answers", names_of(mapping_->plays, &Play::name));
       const auto play = std::ranges::find(mapping_->plays, name, &Play::name);
       if (play != mapping_->plays.end())
         hear.answers = static_cast<std::size_t>(play - mapping_->plays.begin());

@@ -152,6 +152,8 @@ std::string Section::given_name(const Key& key, std::span<const std::string> nam
 std::string Section::choice(const Key& key, std::span<const std::string> names,
                             const std::optional<std::string>& fallback, std::string_view type,
                             std::vector<std::string> words) {
+  // A name that the file defines can be unknown because of an error in its definition.
+  const auto how = words.empty() ? &File::fail : &File::fail_last;
   state_->describe(key, {.type = std::string(type),
                          .fallback = fallback.value_or(""),
                          .required = !fallback,
@@ -161,7 +163,7 @@ std::string Section::choice(const Key& key, std::span<const std::string> names,
   if (value == nullptr) return fallback.value_or("");
   if (std::ranges::find(names, *value) != names.end()) return *value;
   state_->fail(key.name, state_->line_of_key(key.name), fmt::format("'{}' is unknown", *value),
-               expected_instead(*value, names), &File::fail_last);
+               expected_instead(*value, names), how);
   return {};
 }
 

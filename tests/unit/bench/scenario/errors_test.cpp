@@ -54,6 +54,26 @@ TEST(ScenarioErrors, EndWithAnErrorThatCanHaveConsequences) {
       testing::ElementsAre(first, testing::StartsWith("9: key 'truth.trajectory': 'arrest' is unknown")));
 }
 
+// The unknown key may be the one that defines the name.
+TEST(ScenarioErrors, OfANameThatTheFileDefinesAreToldOnlyIfTheyAreTheFirst) {
+  const auto after = [](std::string_view text) {
+    Section section = Section::parse(text, "s.toml");
+    section.table("a").finish();
+    section.given_name("b", std::vector<std::string>{});
+    section.one_of("c", std::vector<std::string>{"yes"});
+    const std::optional<Error> error = section.error();
+    std::vector<std::string> all{error->message};
+    all.insert(all.end(), error->more.begin(), error->more.end());
+    return all;
+  };
+  EXPECT_THAT(after("a = { wrong = 1 }\nb = \"none\"\nc = \"yes\"\n"),
+              testing::ElementsAre(testing::HasSubstr("'a.wrong'")));
+  EXPECT_THAT(after("a = {}\nb = \"none\"\nc = \"no\"\n"),
+              testing::ElementsAre(testing::HasSubstr("'none'")));
+  EXPECT_THAT(after("a = { wrong = 1 }\nb = \"none\"\nc = \"no\"\n"),
+              testing::ElementsAre(testing::HasSubstr("'a.wrong'")));
+}
+
 TEST(ScenarioErrors, AreToldUpToTwenty) {
   std::string text;
   for (int i = 0; i < 30; ++i) text += fmt::format("key{}_s = -1\n", i);
