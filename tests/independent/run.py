@@ -62,7 +62,8 @@ def main():
     questions = [(name, defect) for name in asked.filters or FILTERS for defect in (None, *wrong)]
     with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
         right = []
-        for one, line in pool.map(lambda question: ask(*question), questions):
+        for ended in concurrent.futures.as_completed([pool.submit(ask, *question) for question in questions]):
+            one, line = ended.result()
             print(line, flush=True)
             right.append(one)
     print(f"{sum(right)} of {len(right)} as it must be")

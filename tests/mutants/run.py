@@ -182,18 +182,20 @@ def fly(mutants, jobs, target_passes, question):
     start = time.monotonic()
     if not target_passes:
         prepare(progress, question)
-    entries = []
+    entries = [{} for _ in mutants]  # in their order; told as they end
     in_real_time = []  # the places of mutants that only timing can reveal
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for mutant, entry in zip(mutants, pool.map(lambda mutant: outcome_of(mutant, (SINGLE_FLIGHTS, CAMPAIGNS), question), mutants)):
-            if entry["outcome"] == SURVIVED and mutant.real_time:
-                in_real_time.append(len(entries))
+        flown = {pool.submit(outcome_of, mutant, (SINGLE_FLIGHTS, CAMPAIGNS), question): place for place, mutant in enumerate(mutants)}
+        for count, ended in enumerate(concurrent.futures.as_completed(flown), 1):
+            place, entry = flown[ended], ended.result()
+            if entry["outcome"] == SURVIVED and mutants[place].real_time:
+                in_real_time.append(place)
             else:
                 progress.line(line_of(entry))
-            entries.append(entry)
+            entries[place] = entry
             gone = int(time.monotonic() - start)
-            progress.say(f"{len(entries)} of {len(mutants)} ({gone // 60}:{gone % 60:02d})")
-    for place in in_real_time:
+            progress.say(f"{count} of {len(mutants)} ({gone // 60}:{gone % 60:02d})")
+    for place in sorted(in_real_time):
         progress.say(f"{mutants[place].full_name} in real time")
         entries[place] = outcome_of(mutants[place], (TIMES,), question)
         progress.line(line_of(entries[place]))
