@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
 #include "dbc/wire/time_base.hpp"
 #include "target/device/adapter.hpp"
@@ -45,13 +46,6 @@ inline strapdown::NavState nav_of(const InitialState& initial) {
 
 class ImuStream {
  public:
-  enum class Taken : std::uint8_t {
-    foreign,  ///< a frame of another group
-    waiting,  ///< the INS was not advanced: the group is incomplete, invalid or late
-    stepped,  ///< the INS has reached now_us()
-    fault     ///< a gap too long to bridge
-  };
-
   void reset() { group_.discard(); }
 
   /// Starts the INS at t_us. An answer is due at the first sample.
@@ -76,20 +70,23 @@ class ImuStream {
     return Health::fault;
   }
 
-  /// Processes one frame. Calls step(increment, t_us) for each increment, also for those that bridge a gap;
-  /// t_us is the end of the increment.
-  template <class Step>
-  Taken receive(const Frame& frame, std::uint8_t counter, Context& context, const Step& step) {
+  /// Processes one frame of the IMU. Calls step(increment, t_us) for each increment, also for those that
+  /// bridge a gap; t_us is the end of the increment. Then the INS has reached now_us(), and reached() is
+  /// called and says how it goes on. A group that is incomplete, invalid or late does not advance the INS; a
+  /// gap too long to bridge is a fault. No value: the frame is another sensor's.
+  template <class Step, class Reached>
+  std::optional<Health> receive(const Frame& frame, std::uint8_t counter, Context& context, const Step& step,
+                                const Reached& reached) {
     using namespace messages;
     switch (frame.id) {
       case SlaveImuDeltaTheta::info.id:
-        return put<SlaveImuDeltaTheta>(frame, counter, context, step);
+        return put<SlaveImuDeltaTheta>(frame, counter, context, step, reached);
       case SlaveImuDeltaV::info.id:
-        return put<SlaveImuDeltaV>(frame, counter, context, step);
+        return put<SlaveImuDeltaV>(frame, counter, context, step, reached);
       case SlaveImuStatus::info.id:
-        return put<SlaveImuStatus>(frame, counter, context, step);
+        return put<SlaveImuStatus>(frame, counter, context, step, reached);
       default:
-        return Taken::foreign;
+        return std::nullopt;
     }
   }
 
@@ -124,14 +121,15 @@ class ImuStream {
   static constexpr std::int64_t most_parts = 400;            // increments that bridge one gap, in one call
   static constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of the IMU is an error
 
-  template <class Message, class Step>
-  Taken put(const Frame& frame, std::uint8_t counter, Context& context, const Step& step) {
-    if (completes<Message>(group_, frame, counter, context)) return on_group(context, step);
-    return Taken::waiting;
+  template <class Message, class Step, class Reached>
+  Health put(const Frame& frame, std::uint8_t counter, Context& context, const Step& step,
+             const Reached& reached) {
+    if (completes<Message>(group_, frame, counter, context)) return on_group(context, step, reached);
+    return Health::good;
   }
 
-  template <class Step>
-  Taken on_group(Context& context, const Step& step) {
+  template <class Step, class Reached>
+  Health on_group(Context& context, const Step& step, const Reached& reached) {
     const auto& theta = group_.template get<messages::SlaveImuDeltaTheta>();
     const auto& velocity = group_.template get<messages::SlaveImuDeltaV>();
     const auto& status = group_.template get<messages::SlaveImuStatus>();
@@ -143,17 +141,17 @@ class ImuStream {
     if (theta.gyro_validity != messages::Validity::valid ||
         velocity.accel_validity != messages::Validity::valid || !(imu.dt > 0)) {
       drop_group(context);  // the gap is bridged when the next group arrives
-      return Taken::waiting;
+      return Health::good;
     }
     const auto interval_us = static_cast<std::int64_t>(status.interval_us);
     const std::int64_t gap_us = t_us - interval_us - now_us_;
     if (gap_us <= -interval_us / 2) {
       ++context.losses.late;
-      return Taken::waiting;
+      return Health::good;
     }
     if (gap_us > bridge_limit_us) {
       context.errors.input_silent = true;
-      return Taken::fault;
+      return Health::fault;
     }
     interval_us_ = interval_us;
     if (gap_us >= interval_us / 2) {
@@ -163,7 +161,7 @@ class ImuStream {
     take(imu, t_us, step);
     bridging_.take(imu);
     previous_ = imu;
-    return Taken::stepped;
+    return reached();
   }
 
   // Bridges a gap with increments that are computed from the mean of the rates before and after the gap, and

@@ -95,19 +95,11 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   }
 
   Health receive(const Frame& frame, std::uint8_t counter, Context context) override {
-    switch (
-        imu_.receive(frame, counter, context, [this](const strapdown::ImuIncrement& imu, std::int64_t t_us) {
-          history_.propagate(state_, imu, t_us, tuning_.filter);
-        })) {
-      case ImuStream::Taken::stepped:
-        return on_imu(context);
-      case ImuStream::Taken::waiting:
-        return Health::good;
-      case ImuStream::Taken::fault:
-        return Health::fault;
-      case ImuStream::Taken::foreign:
-        break;
-    }
+    const auto step = [this](const strapdown::ImuIncrement& imu, std::int64_t t_us) {
+      history_.propagate(state_, imu, t_us, tuning_.filter);
+    };
+    if (const auto health = imu_.receive(frame, counter, context, step, [&] { return on_imu(context); }))
+      return *health;
     switch (frame.id) {
       case SsblRelativeNE::info.id:
         return put_ssbl<SsblRelativeNE>(frame, counter, context);

@@ -54,19 +54,14 @@ class BaroInertialAdapter final : public TunedAdapter<baro_inertial::Settings> {
   }
 
   Health receive(const Frame& frame, std::uint8_t counter, Context context) override {
-    switch (imu_.receive(frame, counter, context, [this](const strapdown::ImuIncrement& imu, std::int64_t) {
+    const auto step = [this](const strapdown::ImuIncrement& imu, std::int64_t) {
       channel_.propagate(imu, tuning_);
-    })) {
-      case ImuStream::Taken::stepped:
-        if (!channel_.finite()) return numeric_fault(context);
-        return pending_.reached(imu_.now_us(), [&](const At<double>& fix) { return answer(fix, context); });
-      case ImuStream::Taken::waiting:
-        return Health::good;
-      case ImuStream::Taken::fault:
-        return Health::fault;
-      case ImuStream::Taken::foreign:
-        break;
-    }
+    };
+    const auto reached = [&] {
+      if (!channel_.finite()) return numeric_fault(context);
+      return pending_.reached(imu_.now_us(), [&](const At<double>& fix) { return answer(fix, context); });
+    };
+    if (const auto health = imu_.receive(frame, counter, context, step, reached)) return *health;
     if (frame.id == BarometerHeight::info.id && completes<BarometerHeight>(group_, frame, counter, context)) {
       const auto& measured = group_.get<BarometerHeight>();
       const At<double> fix{unwrap_us(measured.time_of_validity_us, context.now_us), counter,
