@@ -104,7 +104,7 @@ def responses(folder, estimator, target):
 
 def of_both(folder, estimator, ask):
     """ask(folder, estimator, target) about hil-target and about the filter of another maker, at the same time."""
-    targets = (str(accepting.BUILD / "hil-target"), f"{sys.executable} {HERE / estimator}.py")
+    targets = (str(accepting.BUILD / "hil-target"), f"{accepting.PYTHON} {HERE / estimator}.py")
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return pool.map(lambda target: ask(folder, estimator, target), targets)
 

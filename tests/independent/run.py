@@ -30,7 +30,7 @@ FAMILIES = (*accepting.CAMPAIGNS, *accepting.SINGLE_FLIGHTS)
 
 
 def program_of(name, defect=None):
-    return f"{sys.executable} {HERE / name}.py" + (f" --defect {defect}" if defect else "")
+    return f"{accepting.PYTHON} {HERE / name}.py" + (f" --defect {defect}" if defect else "")
 
 
 def asked_accept(name, defect):

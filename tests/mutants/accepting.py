@@ -10,6 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/default"
 BENCH = BUILD / "hil-bench"
+PYTHON = "/usr/bin/python3"  # Debian's, which has numpy
 LONGEST_S = 900  # time limit of one call of hil-bench accept
 
 # Families of requirements in three stages. The fastest requirements come first. Those about timing come last and run alone.
