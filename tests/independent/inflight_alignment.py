@@ -248,7 +248,7 @@ class Filter(canhil_target.Estimator):
         gyro, accel = (ins.gyro_bias + x[known.GYRO]) / DEGPH, (ins.accel_bias + x[known.ACCEL]) / UG
         return {
             **signals("innovation_{}_m", NED, innovation),
-            "latitude_deg": math.degrees(ins.latitude), "longitude_deg": math.degrees(ins.longitude), "height_m": ins.height,
+            "latitude_deg": math.degrees(ins.latitude), "longitude_deg": math.degrees(math.remainder(ins.longitude, math.tau)), "height_m": ins.height,
             **signals("tilt_sigma_{}_deg", NED, known.tilt_sigma() / DEG), "heading_sigma_deg": known.heading_sigma() / DEG,
             **signals("velocity_sigma_{}_mps", NED, known.sigma(known.SPEED)), **signals("position_sigma_{}_m", NED, known.sigma(known.PLACE)),
             **signals("gyro_bias_{}_degph", AXES, gyro), **signals("gyro_bias_sigma_{}_degph", AXES, known.sigma(known.GYRO) / DEGPH),
