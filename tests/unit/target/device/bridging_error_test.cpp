@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace canhil::target {
@@ -53,6 +55,55 @@ TEST(BridgingError, IsThatOfTheBridgesThatFollow) {
       EXPECT_NEAR(std::sqrt(velocity.z() * bridges / velocity_squares.z()), 1, 0.5);
       EXPECT_LT(theta.z(), 1e-30) << "a constant rate is bridged without an error";
     }
+  }
+}
+
+// Of every `period` samples one is lost, for 95 s.
+struct Sum {
+  double in_sigmas;              ///< the errors of the bridges about x together, over the sigma of their sum
+  double in_independent_sigmas;  ///< the same with the sigma of independent errors
+  double variance;               ///< mean variance of a bridge over that of the first
+};
+
+Sum sum_of_bridges(int period, double frequency) {
+  std::mt19937_64 random(45);
+  BridgingError error;
+  double sum = 0, variance = 0, first = 0;
+  int gaps = 0;
+  for (int k = 0; k < 10'000; ++k) {
+    const ImuIncrement own = sample(k, frequency, random);
+    if (k < 500 || k % period != 2) {
+      error.take(own);
+      continue;
+    }
+    const ImuIncrement before = sample(k - 1, frequency, random), after = sample(k + 1, frequency, random);
+    const double of_gap = error.of_gap(1, dt, before, after).first.x();
+    if (gaps++ == 0) first = of_gap;
+    variance += of_gap;
+    sum += std::midpoint(before.delta_theta.x(), after.delta_theta.x()) - own.delta_theta.x();
+  }
+  return {.in_sigmas = std::abs(sum) / std::sqrt(variance),
+          .in_independent_sigmas = std::abs(sum) / std::sqrt(gaps * first),
+          .variance = variance / (gaps * first)};
+}
+
+// 16 samples of 10 ms are two periods of 12.5 Hz and 20 samples two of 10 Hz: each lost sample has the same
+// phase. The known errors reach back 1.3 s, and the sum here is of 95 s, so some sigmas are left.
+TEST(BridgingError, AddsUpWhereSamplesAreLostInStepWithAVibration) {
+  for (const auto& [period, frequency] : {std::pair{16, 12.5}, std::pair{20, 10.0}}) {
+    SCOPED_TRACE(period);
+    const Sum sum = sum_of_bridges(period, frequency);
+    EXPECT_GT(sum.in_independent_sigmas, 25);
+    EXPECT_LT(sum.in_sigmas, 13);
+  }
+}
+
+TEST(BridgingError, AveragesOutWhereTheyAreLostOutOfStep) {
+  for (const int period : {17, 23, 33}) {
+    SCOPED_TRACE(period);
+    const Sum sum = sum_of_bridges(period, 10);
+    EXPECT_LT(sum.in_sigmas, 3);
+    EXPECT_LT(sum.variance, 1);
   }
 }
 
