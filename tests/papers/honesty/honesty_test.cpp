@@ -14,7 +14,7 @@ TEST(Honesty, OfTheTransferAlignment) {
   expect_bars_met("bench/monte_carlo/honesty/transfer_alignment.toml", 71, 60);
 }
 TEST(Honesty, OfTheTransferAlignmentWithOrdinarySensors) {
-  expect_bars_met("bench/monte_carlo/honesty/ordinary_sensors.toml", 41, 16,
+  expect_bars_met("bench/monte_carlo/honesty/ordinary_sensors.toml", 42, 16,
                   {"share of answers that say degraded"});
 }
 TEST(Honesty, OfTheInflightAlignment) {
