@@ -133,7 +133,20 @@ struct Section::File {
       }
     }
     const toml::table value = toml::parse(fmt::format("value = {}", setting.value));
-    table->insert_or_assign(rest, *value.get("value"));
+    if (rest.ends_with('+'))
+      add(setting, *table, rest.substr(0, rest.size() - 1), *value.get("value"));
+    else
+      table->insert_or_assign(rest, *value.get("value"));
+  }
+
+  /// A setting whose key ends with a plus sign adds tables to an array, and creates it where it is missing.
+  void add(const Setting& setting, toml::table& to, std::string_view key, const toml::node& more) {
+    toml::node& present = to.insert(key, toml::array{}).first->second;
+    if (!present.is_array() || !more.is_array_of_tables()) {
+      const toml::node& wrong = present.is_array() ? more : present;
+      return fail(0, fmt::format("key '{}': {}, expected an array of tables", setting.key, type_of(wrong)));
+    }
+    for (const toml::node& element : *more.as_array()) present.as_array()->push_back(element);
   }
 };
 

@@ -5,7 +5,7 @@
 
 Of the flights of the suite whose scenario stands in the suite's folder, those count that have no `moves`, no `same_as` and no checks of their own (--all: no checks of their own). Printed as a line for suite.toml:
 `honest`, if no trusted error of either filter is beyond 4.5 sigma; and each mean NIS and NEES that is at most five times its degrees of freedom and the same for both within 10 %, with the mean of both as the middle of the band,
-plus or minus a margin (default 20 %) and twice their difference.
+plus or minus a margin (default 20 %) and twice their difference. They are added to the checks of the scenario.
 """
 
 import argparse
@@ -74,7 +74,7 @@ def main():
     passed_over = {"faults", "real_time"}
     suite = tomllib.loads((accepting.ROOT / "bench/acceptance" / asked.estimator / "suite.toml").read_text())
     flights = [one for one in suite["flight"] if "/" not in one["scenario"] and asked.requirement in (None, one["requirement"])
-               and not (passed_over if asked.all else passed_over | {"moves", "same_as"}) & one.keys() and "check" not in one.get("set", {})]
+               and not (passed_over if asked.all else passed_over | {"moves", "same_as"}) & one.keys() and not {"check", "check+"} & one.get("set", {}).keys()]
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         limits.write_suite(folder, asked.estimator, [(one, {"check": checks_of(asked.estimator)}, {}) for one in flights])
@@ -84,7 +84,7 @@ def main():
         seen = ", ".join(f"{check} {own.get((name, check), 'none')} and {others.get((name, check), 'none')}" for check in ("honest", *STATISTICS[asked.estimator]))
         print(f"\n# {name}: {seen}")
         if checks := checks_for(name, asked.estimator, own, others, asked.margin):
-            print('"check" = [', *(f"  {limits.toml(check)}," for check in checks), "]", sep="\n")
+            print('"check+" = [', *(f"  {limits.toml(check)}," for check in checks), "]", sep="\n")
 
 
 if __name__ == "__main__":

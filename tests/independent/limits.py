@@ -54,7 +54,7 @@ def beside(flight, earlier):
 
 def settings(flight):
     """What a flight sets, without its checks, which change no answer."""
-    return {key: value for key, value in flight.get("set", {}).items() if key != "check"}
+    return {key: value for key, value in flight.get("set", {}).items() if key not in ("check", "check+")}
 
 
 def toml(value):

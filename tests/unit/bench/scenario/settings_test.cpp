@@ -39,6 +39,26 @@ Result<Scenario> with_setting(std::string_view text, const std::string& scenario
   return parse(scenario, "s.toml", contract, parse_setting(text).value());
 }
 
+TEST(Settings, AddTablesWhereTheKeyEndsWithAPlus) {
+  const std::string one = "[{ name = 'second', kind = 'heartbeat', silent_at_most_s = 0.7 }]";
+  const auto scenario = with_setting("check+=" + one, std::string(valid));
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  ASSERT_EQ(scenario->checks.size(), 2U);
+  EXPECT_EQ(rule_of<checks::Heartbeat>(scenario->checks[0]).silent_at_most_us, 500'000);
+  EXPECT_EQ(rule_of<checks::Heartbeat>(scenario->checks[1]).silent_at_most_us, 700'000);
+  const auto replaced = with_setting("check=" + one, std::string(valid));
+  ASSERT_TRUE(replaced) << replaced.error().message;
+  EXPECT_EQ(replaced->checks.size(), 1U);
+  EXPECT_NE(replaced->hash, scenario->hash);
+  EXPECT_THAT(with_setting("fault+=[{ kind = 'flood' }]", std::string(valid)).error().message,
+              HasSubstr("key 'fault[1].kind'"))
+      << "the scenario has no faults yet";
+  for (const std::string_view wrong : {"check+=3", "title+=[{}]", "check+=[1]"})
+    EXPECT_THAT(with_setting(wrong, std::string(valid)).error().message,
+                HasSubstr("expected an array of tables"))
+        << wrong;
+}
+
 TEST(Settings, NameATableOfAnArrayByItsNameOrItsNumber) {
   const std::string two =
       std::string(valid) + "[[check]]\nname = \"second\"\nkind = \"heartbeat\"\nsilent_at_most_s = 0.6\n";
