@@ -13,8 +13,8 @@ CASE, BUILD, SOURCE = sys.argv[1], *map(Path, sys.argv[2:4])
 HERE = Path(__file__).resolve().parent
 PACKAGE = SOURCE / "python"
 LEAST_COVERED_PERCENT = 95
-LARGEST_OVERHEAD_S = 0.05
-LARGEST_STEP_S = 100e-6
+LARGEST_OVERHEAD = 0.2  # of the time of the command
+LARGEST_STEP = 10  # echoes; 5 to 7 were seen
 ENVIRONMENT = os.environ | {
     "PATH": f"{BUILD}:/usr/bin:/bin",
     "PYTHONPATH": str(PACKAGE),
@@ -87,16 +87,17 @@ def overhead(scratch: Path) -> None:
         start = time.perf_counter()
         assert canhil.run(scenario, bus="in-process").verdict is canhil.Verdict.NOT_MEASURED
         by_package.append(time.perf_counter() - start)
-    more_s = statistics.median(by_package) - statistics.median(by_command)
-    print(f"{1e3 * statistics.median(by_command):.1f} ms by the command, {1e3 * more_s:.1f} ms more by the package")
-    assert more_s < LARGEST_OVERHEAD_S, f"{more_s:.3f} s, expected less than {LARGEST_OVERHEAD_S} s"
+    command_s = statistics.median(by_command)
+    more_s = statistics.median(by_package) - command_s
+    print(f"{1e3 * command_s:.1f} ms by the command, {1e3 * more_s:.1f} ms more by the package")
+    assert more_s < LARGEST_OVERHEAD * command_s, f"{more_s:.3f} s more than {command_s:.3f} s, expected less than {LARGEST_OVERHEAD:.0%} of it"
     # On one CPU, as a wake-up on another one may cost ten times as much, for the echo too.
     cpus = os.sched_getaffinity(0)
     os.sched_setaffinity(0, {min(cpus)})
     step_s, echo_s = step_of_node(scratch, scenario), step_of_echo(scratch)
     os.sched_setaffinity(0, cpus)
     print(f"a step of a node in Python {1e6 * step_s:.1f} us, an echo in Python {1e6 * echo_s:.1f} us")
-    assert step_s < echo_s + LARGEST_STEP_S, f"{step_s - echo_s:.6f} s more than an echo, expected less than {LARGEST_STEP_S} s"
+    assert step_s < LARGEST_STEP * echo_s, f"{step_s / echo_s:.1f} echoes, expected less than {LARGEST_STEP}"
 
 
 def step_of_node(scratch: Path, scenario: Path) -> float:
