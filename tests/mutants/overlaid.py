@@ -9,6 +9,7 @@ import re
 import shlex
 import shutil
 import subprocess
+import threading
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -18,8 +19,12 @@ class DoesNotBuild(Exception):
     """Holds the first error line of the compiler or linker."""
 
 
+ONE_AT_A_TIME = threading.Lock()  # ninja may rewrite its log of dependencies when it reads it
+
+
 def ask(folder, *words):
-    return subprocess.run(["ninja", "-C", str(folder), "-t", *words], capture_output=True, text=True, check=True).stdout
+    with ONE_AT_A_TIME:
+        return subprocess.run(["ninja", "-C", str(folder), "-t", *words], capture_output=True, text=True, check=True).stdout
 
 
 @functools.lru_cache(maxsize=None)
