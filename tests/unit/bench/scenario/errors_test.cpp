@@ -22,12 +22,17 @@ TEST_P(ScenarioError, IsOneExactLine) {
   EXPECT_EQ(error_of(with(GetParam().from, GetParam().to)), "s.toml:" + GetParam().error);
 }
 
+std::vector<std::string> lines_of(const Error& error) {
+  std::vector<std::string> all{error.message};
+  all.insert(all.end(), error.more.begin(), error.more.end());
+  return all;
+}
+
 /// All errors of a text, without the file's name.
 std::vector<std::string> errors_of(std::string_view text) {
   const Result<Scenario> result = parse(text, "s.toml", contract);
   if (result) return {};
-  std::vector<std::string> all{result.error().message};
-  all.insert(all.end(), result.error().more.begin(), result.error().more.end());
+  std::vector<std::string> all = lines_of(result.error());
   for (std::string& one : all) one.erase(0, std::string("s.toml:").size());
   return all;
 }
@@ -61,10 +66,7 @@ TEST(ScenarioErrors, OfANameThatTheFileDefinesAreToldOnlyIfTheyAreTheFirst) {
     section.table("a").finish();
     section.given_name("b", std::vector<std::string>{});
     section.one_of("c", std::vector<std::string>{"yes"});
-    const std::optional<Error> error = section.error();
-    std::vector<std::string> all{error->message};
-    all.insert(all.end(), error->more.begin(), error->more.end());
-    return all;
+    return lines_of(section.error().value());
   };
   EXPECT_THAT(after("a = { wrong = 1 }\nb = \"none\"\nc = \"yes\"\n"),
               testing::ElementsAre(testing::HasSubstr("'a.wrong'")));
