@@ -28,8 +28,10 @@ GenericValue value_of(const std::string& truth) {
   return {.truth = scenario::Expression::parse(truth).value()};
 }
 
-// The samples of a sensor with one value. `run`: its index, on which the random numbers depend.
-std::vector<Sample> samples_of(const GenericValue& value, std::uint64_t run = 0) {
+// The samples of a sensor with one value. `run`: its index, on which the random numbers depend. `count`: the
+// largest number of samples.
+std::vector<Sample> samples_of(const GenericValue& value, std::uint64_t run = 0,
+                               std::size_t count = SIZE_MAX) {
   static const scenario::Scenario any;  // sensors keep a reference to their scenario
   const Kind& kind = declared("it", {{.name = "value", .si = "m"}});
   GenericSettings settings{.values = {value}};
@@ -37,12 +39,13 @@ std::vector<Sample> samples_of(const GenericValue& value, std::uint64_t run = 0)
   const scenario::NodeSettings node(nodes::bound(kind).table, settings);
   const auto sensor = kind.make(node, {.scenario = any, .index = run, .flight = flight()});
   std::vector<Sample> all;
-  while (sensor->due_us() != never_us) all.push_back(sensor->measure());
+  while (sensor->due_us() != never_us && all.size() < count) all.push_back(sensor->measure());
   return all;
 }
-std::vector<double> values_of(const GenericValue& value, std::uint64_t run = 0) {
+std::vector<double> values_of(const GenericValue& value, std::uint64_t run = 0,
+                              std::size_t count = SIZE_MAX) {
   std::vector<double> values;
-  for (const Sample& one : samples_of(value, run)) values.push_back(one.values[0]);
+  for (const Sample& one : samples_of(value, run, count)) values.push_back(one.values[0]);
   return values;
 }
 double mean_square(const std::vector<double>& values) {
@@ -66,7 +69,7 @@ TEST(Generic, HasConstantErrors) {
   value.bias = {.sigma = 2};
   value.scale_factor = {};
   std::vector<double> biases;
-  for (std::uint64_t run = 0; run < 200; ++run) biases.push_back(values_of(value, run).front() - 3);
+  for (std::uint64_t run = 0; run < 200; ++run) biases.push_back(values_of(value, run, 1).front() - 3);
   EXPECT_NEAR(std::sqrt(mean_square(biases)), 2, 3 * 2 / std::sqrt(2 * 200.0));
 }
 
