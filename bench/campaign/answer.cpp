@@ -220,9 +220,11 @@ void answer(const WindowMoments& rule, const Runs& runs, const Runs& /*other*/, 
 void answer(const RunMean& rule, const Runs& runs, const Runs& other, Answer& out) {
   const quantities::Unit& unit = rule.quantity->unit;
   const RunMeans found = run_means(runs, *rule.quantity, rule.from_us, rule.to_us);
-  out.measured = fmt::format("mean {}, standard deviation {} over runs, largest {}{}",
-                             with_unit(found.mean, unit), with_unit(found.standard_deviation, unit),
-                             with_unit(found.largest, unit), missing_note(found.missing));
+  const bool scatters = std::isfinite(found.standard_deviation);  // one run has none
+  out.measured =
+      fmt::format("mean {}, standard deviation {} over runs, largest {}{}", with_unit(found.mean, unit),
+                  scatters ? with_unit(found.standard_deviation, unit) : "unknown",
+                  with_unit(found.largest, unit), missing_note(found.missing));
   out.figures = {figure("mean", found.mean, unit),
                  figure("standard_deviation", found.standard_deviation, unit),
                  figure("largest", found.largest, unit),

@@ -15,7 +15,8 @@ namespace canhil::mapping {
 /// One value of a quantity, in SI.
 struct TimedValue {
   std::int64_t t_us = 0;  ///< time of validity of the cause, or the arrival time if there is no cause
-  double value = 0;       ///< NaN: the target sent the value that means "none"
+  double value = 0;
+  bool none = false;  ///< the target said that it has none (of a sigma or a correlation)
 };
 
 /// What the targets reported.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <vector>
 
 #include "bench/checks/delay.hpp"
@@ -53,9 +55,9 @@ void tracks_of(const MappedTarget& target, const checks::Observations& seen, con
                const quantities::TrackSink& give) {
   for (const quantities::Quantity* quantity : target.quantities) {
     const ReferenceQuantity& of = reference_of(target, *quantity);
-    const std::string_view message = hear_of(target, sources_of(target, *quantity).back()).of.message->name;
+    const Hear& hear = hear_of(target, sources_of(target, *quantity).back());
     const estimators::Answering answering{
-        .longest_wait_us = estimators::longest_wait_us(seen, message),
+        .longest_wait_us = longest_wait_us(seen, hear),
         .answers_end_us = quantity->has_time_to_go
                               ? estimators::answers_end_us(truth.plants, truth.duration_us)
                               : truth.duration_us};
@@ -75,27 +77,42 @@ void tracks_of(const MappedTarget& target, const checks::Observations& seen, con
 
 // Takes a sample at each time at which a quantity was reported. Each sample contains the last error of every
 // quantity, because a target may report its quantities in turn. A NEES or a NIS is of one time only:
-// elsewhere it is NaN. No sample is taken before every other quantity has an error, and none if causes of
-// answers are not certain.
+// elsewhere it is NaN, and where it cannot be computed, it is infinite. No sample is taken before every other
+// quantity has an error, or after one was silent, and none if causes of answers are not certain.
 quantities::Samples samples_of(const MappedTarget& target, const checks::Observations& seen,
                                const Truth& truth) {
   const auto& reported = target.layout->kept;
   const bool unclear = std::ranges::any_of(
       reported, [&](const auto* quantity) { return !ambiguous(target, seen, *quantity).empty(); });
   if (unclear) return {};
-  std::map<std::int64_t, std::map<std::size_t, double>> by_time;  // by quantity
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  // By quantity; no value: the target reported it where it has no truth.
+  std::map<std::int64_t, std::map<std::size_t, std::optional<double>>> by_time;
   for (std::size_t i = 0; i < reported.size(); ++i) {
-    for (const TrackPoint& one : points_of(reference_of(target, *reported[i]), target, seen, truth).points)
-      by_time[one.t_us][i] = one.value;
+    const Points points = points_of(reference_of(target, *reported[i]), target, seen, truth);
+    for (const std::int64_t t_us : points.without_truth) by_time[t_us][i] = std::nullopt;
+    for (const TrackPoint& one : points.points)
+      by_time[one.t_us][i] = reported[i]->nan_allowed && std::isnan(one.value) ? infinite : one.value;
   }
   quantities::Samples samples(*target.layout);
   std::vector<std::optional<double>> last(reported.size());
+  std::vector<std::int64_t> ends_us(reported.size());  // from when on the last value is too old
+  std::vector<double> longest_us;
+  for (const quantities::Quantity* quantity : reported) {
+    longest_us.push_back(longest_wait_us(seen, hear_of(target, sources_of(target, *quantity).back())));
+  }
   for (const auto& [t_us, values] : by_time) {
     for (std::size_t i = 0; i < last.size(); ++i) {
+      // Innovations come with updates, which may be rare.
+      if (t_us > ends_us[i] && !reported[i]->white) last[i].reset();
       if (reported[i]->nan_allowed) last[i] = std::nan("");
     }
-    for (const auto& [index, value] : values) last[index] = value;
-    if (std::ranges::any_of(last, [](const auto& value) { return !value; })) continue;
+    for (const auto& [index, value] : values) {
+      if (value) last[index] = value;
+      ends_us[index] = t_us + std::llround(longest_us[index]);
+    }
+    const bool any = std::ranges::any_of(values, [](const auto& one) { return one.second.has_value(); });
+    if (!any || std::ranges::any_of(last, [](const auto& value) { return !value; })) continue;
     std::vector<double> all;
     for (const auto& value : last) all.push_back(*value);
     samples.add(t_us, all);
@@ -183,7 +200,22 @@ std::string without_truth(const MappedTarget& target, const scenario::Scenario& 
   return why_no_truth(reference_of(target, quantity), scenario);
 }
 
-quantities::Freshness freshness_of(const scenario::Scenario& /*scenario*/) { return {}; }
+// Samples become stale if a message with a quantity is silent. If the period of one is not known, or if the
+// truth of a quantity is an expression of the mapping, which may have no value at times, no sample does.
+quantities::Freshness freshness_of(const MappedTarget& target, const scenario::Scenario& scenario) {
+  const auto& mapping = dynamic_cast<const Mapping&>(*scenario.binding);
+  double longest_us = 0;
+  for (const Hear& hear : target.hears) {
+    if (hear.reported_signals.empty()) continue;
+    std::int64_t period_us = std::max(hear.task_us, hear.of.message->cycle_time_us);
+    if (hear.is_owed()) period_us = std::max(period_us, mapping.plays[*hear.answers].period_us);
+    if (period_us == 0) return {};
+    longest_us =
+        std::max(longest_us, pages_of(hear) * checks::longest_wait_us(static_cast<double>(period_us)));
+  }
+  if (!target.own.empty()) return {};
+  return {.age_limit_us = std::llround(longest_us), .end_us = scenario.duration_us};
+}
 
 // A function of a mapped target as a function with a context.
 template <auto function>
@@ -212,7 +244,7 @@ estimators::Estimator estimator_of(const MappedTarget& target) {
           .ambiguous = {OfTarget<ambiguous>::call, &target},
           .closing = target.closing,
           .closing_with = {OfTarget<closing_with>::call, &target},
-          .freshness = freshness_of};
+          .freshness = {OfTarget<freshness_of>::call, &target}};
 }
 
 }  // namespace canhil::mapping

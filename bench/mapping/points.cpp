@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/estimators/tracks.hpp"
@@ -56,18 +59,22 @@ Told told(const MappedTarget& target, What what, const quantities::Quantity* of,
   return {};
 }
 
-// The values of a signal of sigmas or correlations over a run.
+// A sigma that is negative or infinite says as little as one that is not a number.
+std::optional<double> checked(const std::optional<double>& sigma) {
+  return sigma && !(*sigma >= 0 && std::isfinite(*sigma)) ? std::nan("") : sigma;
+}
+
+// The values of a signal of sigmas or correlations over a run; none where the target says that it has none.
 class Values {
  public:
   Values(const Told& told, const checks::Observations& seen) {
     const auto& all = seen.of<Answers>().values;
     const auto found = told.signal == nullptr ? all.end() : all.find(told.signal);
-    if (found != all.end())
-      latest_.emplace(found->second, estimators::longest_wait_us(seen, told.in->of.message->name));
+    if (found != all.end()) latest_.emplace(found->second, longest_wait_us(seen, *told.in));
   }
   std::optional<double> at(std::int64_t t_us) {
     const TimedValue* one = latest_ ? latest_->at(t_us) : nullptr;
-    return one == nullptr || std::isnan(one->value) ? std::nullopt : std::optional(one->value);
+    return one == nullptr || one->none ? std::nullopt : std::optional(one->value);
   }
 
  private:
@@ -97,7 +104,7 @@ Points reported(const ReferenceQuantity& of, const MappedTarget& target, const c
     last_truth = of.turns ? quantities::unwrapped(*at, last_truth) : *at;
     TrackPoint point{.t_us = one.t_us,
                      .value = error,
-                     .sigma = sigmas.at(one.t_us),
+                     .sigma = checked(sigmas.at(one.t_us)),
                      .estimate = last_truth + error,
                      .truth = last_truth};
     if (point.sigma && sigma.signal->in_metres)
@@ -118,8 +125,7 @@ Points derived(const ReferenceQuantity& of, const MappedTarget& target, const ch
   std::vector<Latest<Spool<TrackPoint>>> latest;
   std::vector<Values> correlations;  // of part i with part j at i * n + j
   for (std::size_t i = 0; i < n; ++i) {
-    latest.emplace_back(series[i],
-                        estimators::longest_wait_us(seen, hear_of(target, of.of[i]).of.message->name));
+    latest.emplace_back(series[i], longest_wait_us(seen, hear_of(target, of.of[i])));
     for (std::size_t j = 0; j < n; ++j)
       correlations.emplace_back(i == j ? Told{} : told(target, What::correlation, of.of[i], of.of[j]), seen);
   }
@@ -150,6 +156,18 @@ Points derived(const ReferenceQuantity& of, const MappedTarget& target, const ch
 Points points_of(const ReferenceQuantity& of, const MappedTarget& target, const checks::Observations& seen,
                  const Truth& truth) {
   return of.of.empty() ? reported(of, target, seen, truth) : derived(of, target, seen, truth);
+}
+
+double pages_of(const Hear& hear) {
+  std::set<std::pair<std::string_view, std::uint64_t>> pages;
+  for (const dbc::Signal& signal : hear.of.message->signals) {
+    if (!signal.mux_ranges.empty()) pages.emplace(signal.multiplexed_by, signal.mux_ranges.front().first);
+  }
+  return static_cast<double>(std::max<std::size_t>(1, pages.size()));
+}
+
+double longest_wait_us(const checks::Observations& seen, const Hear& hear) {
+  return pages_of(hear) * estimators::longest_wait_us(seen, hear.of.message->name);
 }
 
 const Hear& hear_of(const MappedTarget& target, const quantities::Quantity* quantity) {

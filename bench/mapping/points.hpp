@@ -17,6 +17,11 @@ struct Points {
 Points points_of(const ReferenceQuantity& of, const MappedTarget& target, const checks::Observations& seen,
                  const estimators::Truth& truth);
 
+/// The number of pages of a multiplexed message, which come in turn; 1 for any other.
+double pages_of(const Hear& hear);
+/// The longest time [us] between the values of a signal in this message that does not count as silence.
+double longest_wait_us(const checks::Observations& seen, const Hear& hear);
+
 /// The message that carries a quantity which the target reports.
 const Hear& hear_of(const MappedTarget& target, const quantities::Quantity* quantity);
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "bench/drive/flight.hpp"
@@ -193,6 +194,70 @@ TEST(Derived, ANeesHasTheSigmasAndCorrelationsThatAreTold) {
   told.sigma("LatLon", 4'000'000, 1.2);
   told.place(4'000'000, 3, -4, 1.5);
   EXPECT_TRUE(std::isnan(told.points("position.horizontal.nees").at(2).value)) << "no covariance";
+}
+
+// Such a sigma would otherwise hide any error: a NEES that is not a number fails each check of it.
+TEST(Derived, ASigmaThatIsNoneIsNoSmallNees) {
+  for (const double sigma : {std::nan(""), std::numeric_limits<double>::infinity(), -2.0}) {
+    Told told;
+    told.sigma("LatSigma", 1'000'000, sigma);
+    told.sigma("LonSigma", 1'000'000, 1);
+    told.place(1'000'000, 300, 0, 0);
+    ASSERT_EQ(told.points("position.horizontal.nees").size(), 1U) << sigma;
+    EXPECT_TRUE(std::isnan(told.points("position.horizontal.nees").front().value)) << sigma;
+    EXPECT_TRUE(std::isnan(told.points("position.latitude").front().sigma.value())) << sigma;
+  }
+  Told told;
+  for (const char* signal : {"LatSigma", "LonSigma"}) told.sigma(signal, 1'000'000, 1);
+  told.sigma("LatLon", 1'000'000, std::nan(""));
+  told.place(1'000'000, 300, 0, 0);
+  EXPECT_TRUE(std::isnan(told.points("position.horizontal.nees").at(0).value)) << "nor is a correlation 0";
+}
+
+// In a campaign, a NEES that is none is infinite, because NaN means that the answer has none.
+TEST(Derived, ACampaignSeesASigmaThatIsNone) {
+  Told told;
+  for (const char* axis : {"north", "east", "down"})
+    told.value(std::string("innovation.velocity.") + axis, 1'000'000, 0.3);
+  for (const char* signal : {"LatSigma", "LonSigma", "HeightSigma"})
+    told.sigma(signal, 1'000'000, std::nan(""));
+  told.place(1'000'000, 300, 0, 0);
+  const quantities::Samples samples = told.samples();
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_TRUE(std::isinf(samples.value(0, *find_reference_quantity("position.nees")->quantity)));
+}
+
+// An error is not kept for ever: a quantity that is silent has no samples.
+TEST(Derived, ACampaignHasNoSamplesOfAQuantityThatIsSilent) {
+  Told told;
+  const auto innovations = [&](std::int64_t t_us) {
+    for (const char* axis : {"north", "east", "down"})
+      told.value(std::string("innovation.velocity.") + axis, t_us, 0.3);
+  };
+  told.place(1'000'000, 3, -4, 1.5);
+  for (const std::int64_t t_us : {1'000'000, 1'900'000, 5'000'000, 6'000'000}) innovations(t_us);
+  told.place(6'000'000, 3, -4, 1.5);
+  std::vector<std::int64_t> times;
+  const quantities::Samples samples = told.samples();
+  for (std::size_t i = 0; i < samples.size(); ++i) times.push_back(samples.times()[i]);
+  EXPECT_THAT(times, testing::ElementsAre(1'000'000, 1'900'000, 6'000'000));
+}
+
+// Metrics treat a sample as missing if it is older than two periods of the messages, or a second longer than
+// one.
+TEST(Derived, SamplesOfACampaignAgeByThePeriodsOfTheMessages) {
+  const auto age_us = [](const std::string& mapping) {
+    const auto scenario = read(mapping).value();
+    const auto& target = dynamic_cast<const Mapping&>(*scenario.binding).targets.front();
+    return target.estimator->freshness(scenario).age_limit_us;
+  };
+  EXPECT_EQ(age_us(mapping_text), std::numeric_limits<std::int64_t>::max()) << "their periods are not known";
+  std::string known = mapping_text;
+  for (const char* message : {"Sigmas", "Place", "Innovation"}) {
+    const std::string line = std::string("message = \"") + message + "\"\n";
+    known.replace(known.find(line), line.size(), line + "answers = \"Rates\"\n");
+  }
+  EXPECT_EQ(age_us(known), 1'020'000);
 }
 
 // A campaign has a sample for each time, also where there is no NEES because no sigma came.
