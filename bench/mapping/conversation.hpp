@@ -43,33 +43,40 @@ struct Conversation {
   std::function<void(const Source& source, double value)> on_value{};
 };
 
-/// Follows frames of the bench on their way to the bus. If a fault drops or changes a frame of a play, the
-/// target need not answer the play.
+/// Follows frames of the bench on their way to the bus. The target must answer a play if all its frames came
+/// as they were made, and before any frame of the next. It may answer what else a fault lets through: a part,
+/// frames that others overtook, frames that were changed and have no checksum.
 class Passing {
  public:
   explicit Passing(const Conversation& conversation)
-      : conversation_(conversation), passed_(conversation.sent.size()), in_part_(conversation.sent.size()) {}
+      : conversation_(conversation), passed_(conversation.sent.size()) {}
 
   struct Whole {
     std::size_t play = 0;
     const Sent* sent = nullptr;
   };
-  /// The play that this frame completes; none: the frame completes no play.
+  /// The play that this frame completes, so that the target must answer it; none: the frame completes no
+  /// play.
   std::optional<Whole> take(const Frame& frame);
-  /// Whether this message of a transmission reached the bus, but the transmission as a whole did not. A
-  /// target may answer it, for example with the samples of a redundant sensor.
-  [[nodiscard]] bool brought_in_part(std::size_t play, std::int64_t valid_us, std::size_t message) const;
+  /// Whether this message of a transmission reached the bus, but the target need not answer the transmission:
+  /// for example, it may answer the samples of one of two redundant sensors.
+  [[nodiscard]] bool may_answer(std::size_t play, std::int64_t valid_us, std::size_t message) const;
+  /// Whether the message that a target echoes was changed on its way and then carried this value.
+  [[nodiscard]] bool carried_changed(const Hear& hear, std::uint64_t echoed) const;
 
  private:
   struct Passed {
     std::int64_t valid_us = -1;
-    std::set<std::size_t> frames;
-    std::vector<std::size_t> message_of;  // as in Sent
+    std::vector<std::size_t> message_of;     // as in Sent
+    std::set<std::size_t> frames{};          // indices of those that came
+    std::map<std::size_t, Frame> changed{};  // by index: came with other bytes, which the target cannot see
+    bool whole = false;                      // came in time, so the target must answer it
   };
+  Passed& passed(std::size_t play, const Sent& sent);
+  void take_changed(const Frame& frame);
+
   const Conversation& conversation_;
-  std::vector<Passed> passed_;  // the newest transmission of each play
-  std::vector<std::deque<Passed>>
-      in_part_;  // for each play: earlier transmissions of which a frame is missing
+  std::vector<std::deque<Passed>> passed_;  // for each play: transmissions of which a frame came, by time
 };
 
 /// The value that an answer echoes, and the value that a stimulus carries in the signal which is echoed. Both

@@ -59,12 +59,16 @@ void Listener::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t l
   stopwatch_.sent(frame, t_ns, late_ns);
   const auto whole = passing_.take(frame);
   if (!whole) return;
-  due_us_ = whole->sent->due_us;
-  due_ns_ = t_ns - late_ns;
+  // A delayed frame is not at its time of the time base.
+  const Sent& newest = conversation_.sent[whole->play].back();
+  if (virtual_time_ || whole->sent == &newest) {
+    due_us_ = newest.due_us;
+    due_ns_ = t_ns - late_ns;
+  }
   const std::string_view group = conversation_.mapping.groups[whole->play];
   const std::int64_t valid_us = whole->sent->valid_us;
   seen_.stimuli[group].add(valid_us);
-  stopwatch_.stimulus(group, {.valid_us = valid_us, .t_ns = t_ns, .due_ns = due_ns_});
+  stopwatch_.stimulus(group, {.valid_us = valid_us, .t_ns = t_ns, .due_ns = t_ns - late_ns});
   for (std::size_t i = 0; i < pairings_.size(); ++i) {
     const Hear& hear = conversation_.mapping.hears[i];
     if (hear.is_owed() && hear.answers == whole->play)
@@ -126,12 +130,14 @@ void Listener::hear(const Hear& hear, const Received& received) {
   Paired otherwise{.answer = received,
                    .bytes = {taken.bytes.begin(), taken.bytes.end()},
                    .certain = hear.echo.has_value()};
+  const std::uint64_t echoed = echoed_by(hear, taken.bytes);
+  otherwise.owed = !passing_.carried_changed(hear, echoed);
   if (const Sent* latest = cause_of(conversation_, hear, taken.bytes)) {
     otherwise.cause_us = latest->valid_us;
-    otherwise.owed =
-        !hear.echo || !passing_.brought_in_part(*hear.answers, latest->valid_us, hear.echo->message);
+    if (hear.echo && passing_.may_answer(*hear.answers, latest->valid_us, hear.echo->message))
+      otherwise.owed = false;
   }
-  pairing_of(hear).pairing.answered(received, echoed_by(hear, taken.bytes), otherwise, settler(hear));
+  pairing_of(hear).pairing.answered(received, echoed, otherwise, settler(hear));
 }
 
 Listener::OwnPairing& Listener::pairing_of(const Hear& hear) {
@@ -147,11 +153,12 @@ Pairing::Give Listener::settler(const Hear& hear) {
 void Listener::settle(const Hear& hear, const Paired& paired) {
   const std::size_t index = hear.of.index;
   stopwatch_.arrived(index, paired.answer);
-  // The answer to a stimulus that was never complete has no latency.
-  if (paired.owed && paired.certain) {
+  // The answer to a stimulus that was never complete has no latency, and neither has its second page.
+  const bool counts = paired.owed && !is_another_page(hear, paired);
+  if (counts && paired.certain) {
     stopwatch_.answered({&index, 1}, conversation_.mapping.groups[*hear.answers],
                         paired.cause_us.value_or(-1));
-  } else if (paired.owed) {
+  } else if (counts) {
     OwnPairing& own = pairing_of(hear);
     if (own.uncertain++ == 0) own.apart_us = paired.apart_us;
     own.apart_us = std::min(own.apart_us, paired.apart_us);
@@ -159,13 +166,27 @@ void Listener::settle(const Hear& hear, const Paired& paired) {
   if (paired.cause_us) record(hear, paired.bytes, *paired.cause_us);
 }
 
+// A target may spread its answer to a sample over pages of a multiplexed message. None of them is given
+// twice.
+bool Listener::is_another_page(const Hear& hear, const Paired& paired) {
+  const auto& signals = hear.of.message->signals;
+  if (!paired.cause_us || std::ranges::all_of(signals, &std::string::empty, &dbc::Signal::multiplexed_by))
+    return false;
+  std::vector<bool> page;
+  for (std::size_t i = 0; i < signals.size(); ++i) page.push_back(hear.of.plan.is_present(i, paired.bytes));
+  OwnPairing& own = pairing_of(hear);
+  const bool same_cause = std::exchange(own.cause_us, paired.cause_us) == paired.cause_us;
+  if (!same_cause) own.pages.clear();
+  return own.pages.insert(std::move(page)).second && same_cause;
+}
+
 void Listener::record(const Hear& hear, std::span<const std::uint8_t> bytes, std::int64_t t_us) {
   auto& answers = seen_.of<Answers>();
   answers.messages[hear.of.message->name].push_back(t_us);
   read(hear, bytes, values_, [&](const ReportedSignal& telling, double value, bool invalid) {
-    // NaN is recorded too; it makes checks fail.
+    // A value that is not a number is recorded too: it makes checks fail.
     if (telling.what != ReportedSignal::What::value || !invalid)
-      answers.values[&telling].push_back({.t_us = t_us, .value = value});
+      answers.values[&telling].push_back({.t_us = t_us, .value = value, .none = invalid});
   });
   for (const ReportedFlag& flag : hear.flags) {
     if (state_of(hear, flag, bytes).value_or(false)) answers.flags[&flag].push_back(t_us);

@@ -30,12 +30,16 @@ class Listener final : public observe::Watcher {
  private:
   struct OwnPairing {
     Pairing pairing{};
-    std::uint64_t uncertain = 0;  // answers whose cause is not certain
-    std::int64_t apart_us = 0;    // shortest time between two possible causes of such an answer
+    std::uint64_t uncertain = 0;             // answers whose cause is not certain
+    std::int64_t apart_us = 0;               // shortest time between two possible causes of such an answer
+    std::optional<std::int64_t> cause_us{};  // of the latest answer
+    std::set<std::vector<bool>>
+        pages{};  // of the multiplexed message that came for this cause: the signals in each
   };
 
   void hear(const Hear& hear, const Received& received);
   void settle(const Hear& hear, const Paired& paired);
+  [[nodiscard]] bool is_another_page(const Hear& hear, const Paired& paired);
   void record(const Hear& hear, std::span<const std::uint8_t> bytes, std::int64_t t_us);
   OwnPairing& pairing_of(const Hear& hear);
   Pairing::Give settler(const Hear& hear);

@@ -26,7 +26,7 @@ struct Paired {
   std::optional<std::int64_t>
       cause_us{};  ///< time of validity of the (latest possible) cause; none: no cause
   bool certain = true;
-  bool owed = true;  ///< false: the cause reached the bus only in part, so the target need not answer
+  bool owed = true;           ///< false: a fault of the bench is why the target need not answer the cause
   std::int64_t apart_us = 0;  ///< if not certain: from the previous possible cause to the latest
 };
 
