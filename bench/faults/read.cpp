@@ -155,6 +155,14 @@ const sensors::Measurand* read_quantity(Section& section, const FaultContext& co
   return found == known.end() ? nullptr : found->second;
 }
 
+void expect_carried(Section& section, const FaultContext& context, std::string_view key,
+                    const sensors::Measurand& measurand) {
+  const std::uint64_t values = context.contract.binding->carried(*measurand.sensor).values;
+  if ((values >> measurand.index & 1) == 0)
+    section.reject(key, fmt::format("'{}' is in no message of the bench", measurand.name),
+                   "a quantity that the mapping plays");
+}
+
 OfValues read_values(Section& section, const FaultContext& context) {
   OfValues of;
   if (section.has("quantity")) {
@@ -166,6 +174,7 @@ OfValues read_values(Section& section, const FaultContext& context) {
                        "Measured quantity that the fault changes (faults.md). In place of this key, "
                        "`messages` and `signal` may be given."});
     if (measurand == nullptr) return of;
+    expect_carried(section, context, "quantity", *measurand);
     of.all.push_back(measured(*measurand));
     of.si = measurand->si;
     of.text = measurand->name;

@@ -34,6 +34,10 @@ OfValues read_values(scenario::Section& section, const scenario::FaultContext& c
 /// error.
 const sensors::Measurand* read_quantity(scenario::Section& section, const scenario::FaultContext& context,
                                         const scenario::Key& key);
+/// The section has an error if the bench sends this quantity in no message, so that no fault of it can
+/// strike.
+void expect_carried(scenario::Section& section, const scenario::FaultContext& context, std::string_view key,
+                    const sensors::Measurand& measurand);
 /// A quantity, in SI.
 Measured measured(const sensors::Measurand& measurand);
 /// A node by its table.

@@ -42,6 +42,29 @@ bool Mapping::is_played(const MessageInfo& message, std::span<const scenario::No
   return !is_targets(message);
 }
 
+Mapping::Carried Mapping::carried(const sensors::Kind& sensor) const {
+  Carried all{.samples = false, .times = false, .intervals = false, .values = 0, .flags = 0};
+  for (const Play& play : plays) {
+    const bool triggers = play.sensor != nullptr && play.sensor->key == sensor.key;
+    if (triggers) all.samples = true;
+    for (const PlayedMessage& message : play.messages) {
+      for (const Source& source : message.sources) {
+        if (source.measurand == nullptr) {
+          if (triggers && source.time) all.times = true;
+          if (triggers && source.invalid) all.flags = ~std::uint32_t{0};
+          continue;
+        }
+        if (source.measurand->sensor->key != sensor.key) continue;
+        all.samples = true;
+        all.values |= std::uint64_t{1} << source.measurand->index;
+        if (source.measurand->over == sensors::Over::rate) all.intervals = true;
+        if (source.invalid) all.flags |= source.measurand->output().flags;
+      }
+    }
+  }
+  return all;
+}
+
 std::vector<const dbc::Database*> Mapping::databases() const {
   std::vector<const dbc::Database*> all;
   for (const MappedTarget& target : targets) all.push_back(&target.database);

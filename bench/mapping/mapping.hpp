@@ -174,6 +174,7 @@ struct Mapping final : scenario::Binding {
       const MessageInfo& message) const override;
   [[nodiscard]] bool is_played(const MessageInfo& message,
                                std::span<const scenario::NodeSettings> nodes) const override;
+  [[nodiscard]] Carried carried(const sensors::Kind& sensor) const override;
   [[nodiscard]] std::vector<const dbc::Database*> databases() const override;
   [[nodiscard]] std::string_view sender_of(const MessageInfo& message) const override;
   [[nodiscard]] std::string_view estimator_of(const MessageInfo& message) const override;

@@ -247,6 +247,17 @@ void Player::add_frames(Sent& sent, const Mapped& of, std::vector<std::uint8_t> 
   sent.messages.push_back(std::move(bytes));
 }
 
+// A valid value that is rounded to the raw value for "invalid" does not fit, as one beyond the range does
+// not.
+void Player::add_clipped(const dbc::Message& message, const Source& source, double value) {
+  auto [lowest, highest] = physical_range(*source.signal).value_or(std::pair(0.0, 0.0));
+  const double reserved = source.invalid ? dbc::to_physical(*source.signal, *source.invalid) : std::nan(""),
+               step = std::abs(source.signal->scale);
+  if (std::abs(reserved - highest) < std::abs(reserved - lowest)) highest = reserved - step;
+  if (std::abs(reserved - lowest) < std::abs(reserved - highest)) lowest = reserved + step;
+  clipped_.add(message.name, source.signal->name, value, {lowest, highest, source.signal->unit});
+}
+
 Sent Player::put_together(std::size_t index, const sensors::Sample& sample, std::int64_t due_us) {
   Sent sent{.valid_us = sample.valid_us, .due_us = due_us};
   for (const PlayedMessage& one : conversation_.mapping.plays[index].messages) {
@@ -258,9 +269,7 @@ Sent Player::put_together(std::size_t index, const sensors::Sample& sample, std:
       value =
           constant ? source.value : held(source, value_of(index, source, sample.stamp_us) * source.factor);
       if (conversation_.on_value) conversation_.on_value(source, value);
-      if (dbc::holds(*source.signal, value)) continue;
-      const auto [lowest, highest] = physical_range(*source.signal).value_or(std::pair(0.0, 0.0));
-      clipped_.add(message.name, source.signal->name, value, {lowest, highest, source.signal->unit});
+      if (!dbc::holds(*source.signal, value)) add_clipped(message, source, value);
     }
     std::vector<std::uint8_t> bytes(message.size);
     static_cast<void>(one.of.plan.encode(values, bytes));  // the sizes match
@@ -269,6 +278,9 @@ Sent Player::put_together(std::size_t index, const sensors::Sample& sample, std:
       const bool invalid = source.measurand != nullptr ? !values_[index][source.measurand].valid
                                                        : std::ranges::any_of(values_[index], says_invalid);
       if (source.invalid && invalid) dbc::put_raw_bits(*source.signal, *source.invalid, bytes);
+      const bool constant = source.measurand == nullptr && !source.time;
+      if (source.invalid && !invalid && !constant && dbc::raw_bits(*source.signal, bytes) == *source.invalid)
+        add_clipped(message, source, values[one.of.number(*source.signal)]);
     }
     if (one.of.protection) {
       const auto& counter = one.of.protection->settings().counter;

@@ -70,6 +70,7 @@ class Player final : public nodes::Node {
   [[nodiscard]] std::int64_t next_without_sensor_us(std::size_t play) const;
   void insert(Due due);
   void add_frames(Sent& sent, const Mapped& of, std::vector<std::uint8_t> bytes);
+  void add_clipped(const dbc::Message& message, const Source& source, double value);
   Sent put_together(std::size_t index, const sensors::Sample& sample, std::int64_t due_us);
   double value_of(std::size_t play, const Source& source, std::int64_t stamp_us);
 

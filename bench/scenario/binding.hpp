@@ -58,6 +58,15 @@ struct Binding {
     std::string name, si;  ///< SI unit; empty: a plain number
   };
 
+  /// The parts of a sensor's samples that the bench sends. A fault of another part changes nothing on the
+  /// bus.
+  struct Carried {
+    bool samples = true;  ///< at all
+    bool times = true, intervals = true;
+    std::uint64_t values = ~std::uint64_t{0};  ///< bit i: value i
+    std::uint32_t flags = ~std::uint32_t{0};   ///< validity
+  };
+
   Binding() = default;
   Binding(const Binding&) = delete;
   Binding& operator=(const Binding&) = delete;
@@ -76,6 +85,7 @@ struct Binding {
                                        std::span<const NodeSettings> /*nodes*/) const {
     return false;
   }
+  [[nodiscard]] virtual Carried carried(const sensors::Kind& /*sensor*/) const { return {}; }
   /// The bytes of the message of one of `channels`, from values of its signals in their units; the others are
   /// 0. Error: one phrase.
   [[nodiscard]] virtual Result<std::vector<std::uint8_t>> encoded(

@@ -1,5 +1,7 @@
 #include "bench/faults/sensors/nodes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -7,6 +9,7 @@
 #include <utility>
 
 #include "bench/faults/sensors/faulty_sensor.hpp"
+#include "bench/scenario/binding.hpp"
 #include "bench/scenario/rule.hpp"
 
 namespace canhil::faults {
@@ -18,12 +21,31 @@ using scenario::Section;
 using sensors::Sample;
 using sensors::Sensor;
 
+const scenario::NodeTable* read_sent_node(Section& section, const FaultContext& context) {
+  const scenario::NodeTable* node = read_node(section, context);
+  if (node != nullptr && !context.contract.binding->carried(sensor_of(*node)).samples)
+    section.reject("node", fmt::format("'{}' is in no message of the bench", node->key),
+                   "one that the mapping plays");
+  return node;
+}
+
 template <class Kind>
 Kind read_of_node(Section& section, const FaultContext& context, Repeats repeats = Repeats::stretch) {
   Kind kind;
-  kind.table = read_node(section, context);
+  kind.table = read_sent_node(section, context);
   kind.when = read_when(section, context, repeats);
   return kind;
+}
+
+// A wrong clock shows in the times of a sample and, if it runs too fast, in the rates, which are divided by
+// the interval.
+void expect_times(Section& section, const FaultContext& context, const scenario::NodeTable* node,
+                  bool drifts) {
+  if (node == nullptr) return;
+  const auto carried = context.contract.binding->carried(sensor_of(*node));
+  if (carried.samples && !carried.times && !(drifts && carried.intervals))
+    section.reject("node", fmt::format("'{}' has no time in a message of the bench", node->key),
+                   "one whose times the mapping plays");
 }
 
 class SilentSensor final : public FaultySensor {
@@ -158,7 +180,7 @@ std::unique_ptr<Sensor> Silent::with_fault(std::unique_ptr<Sensor> sensor, const
 
 NodeRestart NodeRestart::read(Section& section, const FaultContext& context) {
   NodeRestart kind;
-  kind.table = read_node(section, context);
+  kind.table = read_sent_node(section, context);
   kind.when.from_us = section.time_us({"from_s", "Time of transmission at which the fault begins."},
                                       scenario::Limits::at_least(0));
   scenario::expect_within_run(section, "from_s", kind.when.from_us, context.duration_us);
@@ -194,6 +216,7 @@ std::unique_ptr<Sensor> Slow::with_fault(std::unique_ptr<Sensor> sensor, const N
 
 ClockStep ClockStep::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<ClockStep>(section, context);
+  expect_times(section, context, kind.table, false);
   kind.by_us = section.time_us({"by_ms", "Size of the step, which is added to the times of validity."}, {});
   return kind;
 }
@@ -204,6 +227,7 @@ std::unique_ptr<Sensor> ClockStep::with_fault(std::unique_ptr<Sensor> sensor,
 
 ClockDrift ClockDrift::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<ClockDrift>(section, context);
+  expect_times(section, context, kind.table, true);
   kind.rate = section.number({"by_ppm", "Relative error of the clock's rate; positive: too fast."},
                              scenario::Limits::between(-1e5, 1e5));
   return kind;

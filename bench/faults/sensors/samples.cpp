@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bench/faults/sensors/faulty_sensor.hpp"
+#include "bench/scenario/binding.hpp"
 
 namespace canhil::faults {
 namespace {
@@ -19,8 +20,9 @@ class WithSwapped final : public FaultySensor {
  private:
   void change(sensors::Sample& sample, std::int64_t t_us) override {
     if (!occasions_.next(t_us)) return;
-    const double one = kind_.one.get(sample, period_us_);
-    kind_.one.put(sample, period_us_, kind_.other.get(sample, period_us_));
+    const double one = kind_.one.get(sample, period_us_), other = kind_.other.get(sample, period_us_);
+    if (one == other) return;
+    kind_.one.put(sample, period_us_, other);
     kind_.other.put(sample, period_us_, one);
     ++tally().count;
     ++tally().changed;
@@ -39,7 +41,7 @@ class WithInvalid final : public FaultySensor {
 
  private:
   void change(sensors::Sample& sample, std::int64_t t_us) override {
-    if (!occasions_.next(t_us)) return;
+    if (!occasions_.next(t_us) || (sample.invalid & flags_) == flags_) return;
     ++tally().count;
     sample.invalid |= flags_;
   }
@@ -61,6 +63,8 @@ Swapped Swapped::read(scenario::Section& section, const scenario::FaultContext& 
   if (one == other || one->si != other->si || one->sensor != other->sensor || one->over != other->over)
     section.reject("with", fmt::format("'{}' is not like '{}'", other->name, one->name),
                    "another quantity of the same node and unit");
+  expect_carried(section, context, "quantity", *one);
+  expect_carried(section, context, "with", *other);
   kind.one = measured(*one);
   kind.other = measured(*other);
   kind.text = one->name + " " + other->name;
@@ -95,7 +99,12 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
       if (!kind.of->outputs.flags.empty()) kind.flags = measurand->output().flags;
     }
   }
-  if (kind.flags == 0) section.reject(key, "has no validity flag", "one that has");
+  if (kind.flags == 0) {
+    section.reject(key, "has no validity flag", "one that has");
+  } else if ((context.contract.binding->carried(*kind.of).flags & kind.flags) == 0) {
+    section.reject(key, "has a validity that no message of the bench carries",
+                   "one with an entry in [play.invalid] of the mapping");
+  }
   kind.when = read_when(section, context, Repeats::each);
   return kind;
 }

@@ -38,9 +38,11 @@ class WithValues final : public FaultySensor {
     for (Own& own : own_) {
       if (!when_.holds(t_us)) own.held.reset();
       if (!own.occasions.next(t_us)) continue;
-      own.value.put(sample, period_us_,
-                    becomes_(own.value.get(sample, period_us_),
-                             {.since_us = t_us - when_.begins_us(), .held = own.held, .noise = own.noise}));
+      const double right = own.value.get(sample, period_us_);
+      const double wrong =
+          becomes_(right, {.since_us = t_us - when_.begins_us(), .held = own.held, .noise = own.noise});
+      if (wrong == right) continue;  // has not struck: not yet saturated, or stuck where it was
+      own.value.put(sample, period_us_, wrong);
       ++tally().count;
       ++tally().changed;
       if (own.value.is_time()) ++tally().changed_times;

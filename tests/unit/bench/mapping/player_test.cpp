@@ -123,6 +123,7 @@ struct Flown {
       due.push_back(due_us);
       for (const Frame& frame : out.frames()) frames.push_back(frame);
     }
+    for (const auto& fault : faults.reports()) struck += fault.count;
   }
   [[nodiscard]] double value(std::size_t place, const char* signal) const {
     const Frame& frame = frames[place];
@@ -137,6 +138,7 @@ struct Flown {
   std::vector<std::int64_t> due;
   std::vector<Frame> frames;
   nodes::Clipped clipped;
+  std::uint64_t struck = 0;  // how often faults did
 };
 
 TEST(Player, AddsIncrementsUpAndTakesTheMeanOfRates) {
@@ -226,6 +228,19 @@ TEST(Player, SendsAQuantityAsInvalidIfAFlagOfItsSampleGroupIs) {
   }
 }
 
+// Else the target would take a valid height for an invalid one.
+TEST(Player, AValidValueThatIsRoundedToTheInvalidOneDoesNotFit) {
+  std::string mapping = mapping_with(
+      "\"Rates.Mode\" = 7", "\"Rates.Mode\" = \"imu.specific_force.z\"\n[play.invalid]\n\"Rates.Mode\" = 10");
+  mapping.replace(mapping.find("[units]\n"), 8, "[units]\n\"Rates.Mode\" = \"m/s2\"\n");
+  const auto positive = mapping.find("\"imu.specific_force.z\"");
+  const auto scenario = read("", mapping.replace(positive + 1, 0, "-"));
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  EXPECT_THAT(flown.clipped.to_text(), testing::ElementsAre(testing::MatchesRegex(
+                                           "Rates.Mode holds .*its node measures 9.7.*49 times beyond.*")));
+}
+
 TEST(Player, ALostSampleUsesItsCounterUp) {
   const auto scenario = read("loss_percent = 30");
   ASSERT_TRUE(scenario) << scenario.error().message;
@@ -240,6 +255,37 @@ TEST(Player, ALostSampleUsesItsCounterUp) {
 
 Result<scenario::Scenario> with_fault(const std::string& kind, const std::string& more) {
   return read(fmt::format("[[fault]]\nkind = \"{}\"\nnode = \"slave_imu\"\n{}", kind, more));
+}
+
+// A fault that changes nothing on the bus cannot strike: what a check of it says would be about nothing.
+TEST(Player, AFaultOfWhatIsNotPlayedIsRefused) {
+  const auto refused = [](const std::string& tables, const std::string& mapping = mapping_text) {
+    const auto scenario = read(tables, mapping);
+    return scenario ? "nothing" : scenario.error().message;
+  };
+  EXPECT_THAT(refused("[[fault]]\nkind = \"bias\"\nquantity = \"imu.rate.x\"\nby_degps = 1"),
+              testing::HasSubstr("'imu.rate.x' is in no message of the bench"));
+  EXPECT_THAT(refused("[[fault]]\nkind = \"swapped\"\nquantity = \"imu.rate.z\"\nwith = \"imu.rate.x\""),
+              testing::HasSubstr("'imu.rate.x' is in no message of the bench"));
+  EXPECT_THAT(refused("[gps]\nperiod_ms = 10\n[[fault]]\nkind = \"silent\"\nnode = \"gps\""),
+              testing::HasSubstr("'gps' is in no message of the bench"));
+  EXPECT_THAT(refused("[gps]\nperiod_ms = 10\n[[fault]]\nkind = \"invalid\"\nquantity = \"gps.height\"",
+                      mapping_with("\"Rates.Mode\" = 7", "\"Rates.Mode\" = \"gps.height\"")),
+              testing::HasSubstr("has a validity that no message of the bench carries"));
+  const std::string step = "[[fault]]\nkind = \"clock_step\"\nnode = \"slave_imu\"\nby_ms = 5";
+  EXPECT_EQ(refused(step), "nothing");
+  EXPECT_THAT(refused(step, mapping_with("\"Rates.Time\" = \"time\"\n", "")),
+              testing::HasSubstr("'slave_imu' has no time in a message of the bench"));
+}
+
+TEST(Player, AFaultThatChangesNoSampleDoesNotStrike) {
+  const auto struck = [](const char* at_degps) {
+    const auto scenario = read(
+        fmt::format("[[fault]]\nkind = \"saturated\"\nquantity = \"imu.rate.z\"\nat_degps = {}", at_degps));
+    return Flown(*scenario).struck;
+  };
+  EXPECT_EQ(struck("37"), 0U) << "the turn has 36 deg/s";
+  EXPECT_GE(struck("35"), 98U);
 }
 
 // A fault of a sensor acts on samples, so it is the same for every DBC.
