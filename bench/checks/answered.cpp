@@ -106,7 +106,7 @@ Finding too_few(const Observations& seen, std::string_view message, const Answer
               .expected = std::move(expected)};
   const std::uint64_t lost = lost_to_the_target(seen);
   std::string elsewhere = seen.bus.outages();
-  if (found.came > 0 && lost > 0 && found.missing() <= seen.target_frames_lost + lost)
+  if (found.came > 0 && lost > 0 && found.missing() <= seen.lost_from_target() + lost)
     elsewhere = fmt::format("{} frames were lost on the way to the target", lost);
   if (elsewhere.empty()) return why;
   why.outcome = Outcome::not_measured;
@@ -118,7 +118,7 @@ std::optional<Finding> missing_answers(const Observations& seen, std::string_vie
                                        const scenario::Window& window) {
   const Answered found = answered(seen, message, window);
   const std::uint64_t missing = found.missing();
-  if (found.half() && (!seen.answers_each_sample || missing <= seen.target_frames_lost)) return std::nullopt;
+  if (found.half() && (!seen.answers_each_sample || missing <= seen.lost_from_target())) return std::nullopt;
   return too_few(seen, message, found);
 }
 

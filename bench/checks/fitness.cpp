@@ -42,8 +42,8 @@ std::string remedy(const HostRecord& host) { return host.may_be_realtime ? "; --
 std::string unfit_for_timing(const Observations& seen) {
   if (seen.receive_overflows > 0)
     return fmt::format("the bench's port lost {} frames", seen.receive_overflows);
-  if (seen.target_frames_lost > 0)
-    return fmt::format("{} frames of the target were lost", seen.target_frames_lost);
+  if (seen.lost_from_target() > 0)
+    return fmt::format("{} frames of the target were lost", seen.lost_from_target());
   const HostRecord& host = seen.host;
   if (host.clock_step_ns != 0)
     return fmt::format("the clock of the stamps was set by {:.3f} ms in mid-run",

@@ -296,7 +296,8 @@ std::vector<CheckResult> of_every_run(const scenario::Scenario& scenario, const 
         "running throughout, no error that nothing explains");
   // A second target sends the same counters.
   imply(Protection::kind, other_senders(seen).empty() ? Outcome::fail : Outcome::not_measured,
-        counter_faults(scenario, seen), "each counter one more than the one before");
+        protection_faults(scenario, seen),
+        "right checksums and sizes, each counter one more than the one before");
   imply(stimuli_kind, Outcome::not_measured, fmt::format("{}", fmt::join(seen.clipped, "; ")),
         "values that their signals hold");
   imply(senders_kind, Outcome::not_measured, other_senders(seen), "each message from its own sender alone");

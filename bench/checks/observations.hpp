@@ -69,6 +69,19 @@ struct Observations {
   }
   std::map<std::type_index, std::any> answered;  ///< answers by their type
 
+  /// Frames of the targets that were lost, by their counters.
+  [[nodiscard]] std::uint64_t lost_from_target() const {
+    std::uint64_t sum = 0;
+    for (const Sighting& one : from_target) sum += one.lost;
+    return sum;
+  }
+  /// Frames of the targets with a wrong checksum, counter or size.
+  [[nodiscard]] std::uint64_t spoilt_from_target() const {
+    std::uint64_t sum = 0;
+    for (const Sighting& one : from_target) sum += one.wrong_crc + one.wrong_counter + one.wrong_size;
+    return sum;
+  }
+
   std::map<std::string_view, StimulusCount> stimuli;  ///< by sample group; only groups that are answered
   std::vector<std::uint64_t> answers;                 ///< by index in timing.messages
   std::vector<Sighting> from_target;                  ///< by index in timing.messages
@@ -95,10 +108,8 @@ struct Observations {
   ExpectedCounts expected_counts{};                    ///< limits for `counters`
   std::vector<wire::BitLength> length_by_second{};     ///< lengths of all frames on the bus; see
                                                        ///< observe::LoadMeter
-  std::uint32_t target_frames_lost = 0;                ///< lost frames of the target, by their E2E counters
-  std::uint32_t target_bad_crc = 0;
-  std::uint32_t receive_overflows = 0;  ///< frames that the bench's own port lost
-  std::uint16_t queue_max_us = 0;       ///< largest queueing time in TargetTiming; saturates at 8191
+  std::uint32_t receive_overflows = 0;                 ///< frames that the bench's own port lost
+  std::uint16_t queue_max_us = 0;  ///< largest queueing time in TargetTiming; saturates at 8191
   std::uint16_t compute_max_us = 0;
   bool target_timing_seen = false;
   std::vector<std::string> clipped{};  ///< signals of the bench that could not hold a value, one line each

@@ -216,6 +216,9 @@ ExitCode extract(const ExtractArguments& arguments) {
   if (extracted->incomplete > 0)
     say(fmt::format("{}: {} groups of {} were not whole and are left out, {} are there", arguments.log,
                     extracted->incomplete, arguments.play, extracted->rows));
+  if (extracted->invalid > 0)
+    say(fmt::format("{}: {} groups of {} have a value that says it is invalid and are left out",
+                    arguments.log, extracted->invalid, arguments.play));
   return printed(extracted->csv);
 }
 

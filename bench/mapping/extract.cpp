@@ -7,6 +7,7 @@
 #include "bench/mapping/receiver.hpp"
 #include "bench/nodes/registry.hpp"
 #include "dbc/logs/log.hpp"
+#include "dbc/parser/codec.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -18,7 +19,8 @@ class Group {
       : play_(play),
         receivers_(play.messages.size()),
         values_(play.messages.size()),
-        here_(play.messages.size()) {}
+        here_(play.messages.size()),
+        invalid_(play.messages.size()) {}
 
   void take(const LogEntry& entry, Extracted& to) {
     for (std::size_t i = 0; i < play_.messages.size(); ++i) {
@@ -29,6 +31,7 @@ class Group {
       if (taken.outcome == Receiver::Outcome::part) return;
       values_[i].resize(of.plan.signals());
       const bool right = taken.outcome == Receiver::Outcome::whole;
+      invalid_[i] = right && is_invalid(play_.messages[i], taken.bytes);
       if (right) static_cast<void>(of.plan.decode(taken.bytes, values_[i]));
       if (right && !has_page(play_.messages[i], values_[i])) return;  // of another play
       here_[i] = right;
@@ -45,11 +48,21 @@ class Group {
     });
   }
 
+  static bool is_invalid(const PlayedMessage& played, std::span<const std::uint8_t> bytes) {
+    return std::ranges::any_of(played.sources, [&](const Source& source) {
+      return source.invalid && dbc::raw_bits(*source.signal, bytes) == *source.invalid;
+    });
+  }
+
   void close(std::int64_t t_ns, Extracted& to) {
     const bool whole = std::ranges::find(here_, false) == here_.end();
     std::fill(here_.begin(), here_.end(), false);
     if (!whole) {
       ++to.incomplete;
+      return;
+    }
+    if (std::ranges::find(invalid_, true) != invalid_.end()) {
+      ++to.invalid;
       return;
     }
     ++to.rows;
@@ -69,6 +82,7 @@ class Group {
   std::vector<Receiver> receivers_;
   std::vector<std::vector<double>> values_;  // for each message
   std::vector<bool> here_;                   // for each message: received since the last row
+  std::vector<bool> invalid_;                // for each message: the latest one says that a value is invalid
 };
 
 }  // namespace
@@ -101,8 +115,8 @@ Result<Extracted> extract(const Mapping& mapping, std::string_view name, const s
     group.take(**entry, extracted);
   }
   if (extracted.rows == 0)
-    return failure(fmt::format("{}: has no whole group of {}, expected a recording of {}", log, name,
-                               to_text(mapping.files)));
+    return failure(fmt::format("{}: has no {} group of {}, expected a recording of {}", log,
+                               extracted.invalid > 0 ? "valid" : "whole", name, to_text(mapping.files)));
   return extracted;
 }
 

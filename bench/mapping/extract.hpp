@@ -12,6 +12,7 @@ struct Extracted {
   std::string csv;
   std::size_t rows = 0;
   std::size_t incomplete = 0;  ///< groups left out: a message is missing or its protection fails
+  std::size_t invalid = 0;     ///< transmissions left out: a value is said to be invalid
 };
 
 /// Extracts the transmissions of a play from a log, with one row for each transmission. t_s is the

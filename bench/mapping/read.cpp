@@ -72,6 +72,7 @@ class Reader {
     for (Section& section : tables("protection")) read_protection(section);
     for (Section& section : tables("play")) read_play(section);
     for (Section& section : root_.tables("hear")) read_hear(section);
+    expect_signs();
     if (auto channels = root_.optional_table("channels")) read_channels(*channels);
     root_.finish();
     if (const auto error = root_.error()) return tl::unexpected(*error);
@@ -315,6 +316,19 @@ class Reader {
     if (auto flags = section.optional_table("flags")) hear.flags = read_flags(*flags, *of, signs_);
     section.finish();
     mapping_->hears.push_back(std::move(hear));
+  }
+
+  // Each of `signs` must be a flag: a misspelt one would never be seen.
+  void expect_signs() {
+    std::vector<std::string> flags;
+    for (const Hear& hear : mapping_->hears) {
+      for (const ReportedFlag& flag : hear.flags) flags.push_back(flag.name);
+    }
+    for (const std::string& sign : signs_) {
+      if (std::ranges::find(flags, sign) == flags.end())
+        root_.reject("signs", fmt::format("'{}' is no flag of a [[hear]]", sign),
+                     fmt::format("some of: {}", fmt::join(flags, ", ")));
+    }
   }
 
   void read_channels(Section& section) {

@@ -281,8 +281,8 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
                                 {"mean", load.mean},
                                 {"busiest_second", load.busiest}});
   }
-  page["from_target"] = {{"frames_lost", run.seen.target_frames_lost},
-                         {"bad_crc", run.seen.target_bad_crc},
+  page["from_target"] = {{"frames_lost", run.seen.lost_from_target()},
+                         {"bad_crc", run.seen.spoilt_from_target()},
                          {"bench_overflows", run.seen.receive_overflows}};
   page["bus"] = object(run.seen.bus, run.seen.first_ns);
   page["bus_load_line"] = load_line(run.seen, load_rates(run)[0]);

@@ -236,7 +236,7 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
       counters ? fmt::format("{} frames, {} bad CRC, {} bad groups, {} late", counters->frames_lost,
                              counters->bad_crc, counters->bad_group, counters->late)
                : "unknown",
-      run.seen.target_frames_lost, run.seen.target_bad_crc, run.seen.receive_overflows);
+      run.seen.lost_from_target(), run.seen.spoilt_from_target(), run.seen.receive_overflows);
 
   page += to_text(run.seen.bus, run.seen.first_ns);
 

@@ -54,8 +54,8 @@ Finding Answering::judge(const Evidence& evidence) const {
   const Expected expected{.text = "answers and heartbeats without a gap, all numbers, whole frames"};
   const auto failed = [&](std::string why) { return Finding{Outcome::fail, std::move(why), expected}; };
   const Observations& seen = evidence.seen;
-  if (seen.target_bad_crc > 0)
-    return failed(fmt::format("{} frames of the target with a wrong CRC or size", seen.target_bad_crc));
+  if (seen.spoilt_from_target() > 0)
+    return failed(fmt::format("{} frames of the target with a wrong CRC or size", seen.spoilt_from_target()));
   if (auto wrong = no_number(evidence, judged); !wrong.empty()) return failed(std::move(wrong));
   std::size_t values = 0;
   for (const Subject& subject : judged) {

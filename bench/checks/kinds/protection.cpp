@@ -1,6 +1,7 @@
 #include "bench/checks/kinds/protection.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -138,7 +139,7 @@ Finding Protection::judge(const Evidence& evidence) const {
   return finding;
 }
 
-std::string counter_faults(const scenario::Scenario& scenario, const Observations& seen) {
+std::string protection_faults(const scenario::Scenario& scenario, const Observations& seen) {
   const auto messages = seen.timing.messages;
   const auto has_limits = [&](std::string_view message) {
     return std::ranges::any_of(scenario.checks, [&](const scenario::Check& check) {
@@ -146,19 +147,25 @@ std::string counter_faults(const scenario::Scenario& scenario, const Observation
       return rule != nullptr && rule->kind().message.value_or(std::string(message)) == message;
     });
   };
-  std::string line;
+  std::vector<std::string> all;
   for (std::size_t i = 0; i < messages.size(); ++i) {
     if (has_limits(messages[i].name)) continue;
     const Sighting& one = seen.from_target[i];
-    const std::string separator = line.empty() ? "" : "; ";
-    if (one.repeated > 0)
-      line += fmt::format("{}{}: {} of {} frames repeat the counter of the frame before", separator,
-                          messages[i].name, one.repeated, arrived(one));
-    else if (const auto jumps = jumped(seen, i, scenario.duration_us, scenario.targets.size()); jumps > 0)
-      line += fmt::format("{}{}: the counter jumps over {} frames that are not missing", separator,
-                          messages[i].name, jumps);
+    const auto add = [&](std::uint64_t count, std::string_view what) {
+      if (count > 0)
+        all.push_back(fmt::format("{}: {} of {} frames {}", messages[i].name, count, arrived(one), what));
+    };
+    add(one.wrong_crc, "with a wrong checksum");
+    add(one.wrong_counter, "with a counter that is not allowed");
+    add(one.wrong_size, "of a wrong size");
+    // A counter comes round while frames with a wrong checksum pass, and cannot be judged then.
+    if (one.wrong_crc == 0) add(one.repeated, "repeat the counter of the frame before");
+    if (const auto jumps = jumped(seen, i, scenario.duration_us, scenario.targets.size());
+        jumps > 0 && one.repeated == 0)
+      all.push_back(
+          fmt::format("{}: the counter jumps over {} frames that are not missing", messages[i].name, jumps));
   }
-  return line;
+  return fmt::format("{}", fmt::join(all, "; "));
 }
 
 }  // namespace canhil::checks

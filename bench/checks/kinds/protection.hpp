@@ -1,5 +1,6 @@
 // Limits the errors that the bench finds in the target's messages: wrong checksums, wrong counters, wrong
-// sizes, and lost messages. In every run, a counter that stands still or jumps fails (counter_faults()).
+// sizes, and lost messages. In every run, a wrong checksum or size fails, and so does a counter that stands
+// still or jumps (protection_faults()).
 #pragma once
 
 #include "bench/checks/kinds/counters.hpp"
@@ -23,9 +24,10 @@ struct Protection {
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 
-/// Reports, in one line, the messages of the target whose counters stand still or jump. Jumps are gaps of
-/// more frames than the target can have sent, so frames that were lost on the way do not count. Leaves out
-/// the messages for which a check of the scenario has limits of its own. Empty: none.
-std::string counter_faults(const scenario::Scenario& scenario, const Observations& seen);
+/// Reports, in one line, the messages of the target with wrong checksums or sizes, and those whose counters
+/// stand still or jump. Jumps are gaps of more frames than the target can have sent, so frames that were lost
+/// on the way do not count. Leaves out the messages for which a check of the scenario has limits of its own.
+/// Empty: none.
+std::string protection_faults(const scenario::Scenario& scenario, const Observations& seen);
 
 }  // namespace canhil::checks

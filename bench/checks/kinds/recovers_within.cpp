@@ -113,7 +113,12 @@ Finding RecoversWithin::judge(const Evidence& evidence) const {
     if (point.t_us > due_us) ++judged;
     if (point.t_us > end_us && !(std::abs(point.value) < below)) beyond_us = point.t_us;
   }
-  if (judged == 0) return {Outcome::fail, "no answers after that", expected};
+  if (judged == 0) {
+    const auto& untold = tracks.front()->without_truth;
+    if (std::ranges::any_of(untold, [&](std::int64_t t_us) { return t_us > due_us; }))
+      return {Outcome::not_measured, "the truth has no value there", expected};
+    return {Outcome::fail, "no answers after that", expected};
+  }
   measured += beyond_us < 0 ? ", always below"
                             : fmt::format(", below from {:.3f} s after", seconds_of(beyond_us - end_us));
   if (beyond_us >= 0) disturbed_us = std::max(disturbed_us.value_or(beyond_us), beyond_us);

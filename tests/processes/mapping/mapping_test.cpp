@@ -291,6 +291,8 @@ TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
   expect_refused(mapping, "\"IMU_TX3.TX3_Counter\"", "\"ECU_Status.STS_State\"",
                  "is not part of the play that it answers");
   expect_refused(mapping, "CRC-8/SAE-J1850", "CRC-8/NOBODY", "CRC-8/NOBODY");
+  expect_refused(mapping, "dbc = \"own_ecu.dbc\"", "dbc = \"own_ecu.dbc\"\nsigns = [\"excludes\"]",
+                 "'excludes' is no flag of a [[hear]]");
   expect_refused(mapping, "counter = { signal = \"TX1_Counter\" }", "countr = 3", "countr");
   expect_refused("own_ecu.toml", "period_ms = 10", "period_ms = 3", "expected a whole fraction of it");
   expect_refused("own_ecu.toml", "handshake = \"none\"", "handshake = \"some\"", "handshake");

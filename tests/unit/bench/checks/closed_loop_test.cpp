@@ -113,6 +113,11 @@ TEST(Response, AnglesTakeTheShortWay) {
 TEST(Response, NeedsAStepACommandAndATruth) {
   ClosedLoop at_setpoint([](double) { return 1.0; });
   EXPECT_EQ(at_setpoint.judge(response(overshoot, 1)).outcome, Outcome::not_measured);
+  EXPECT_EQ(ClosedLoop([](double t) { return 1 - 1e-16 + 1e-3 * std::min(t, 1.0); })
+                .judge(response(overshoot, 1))
+                .outcome,
+            Outcome::not_measured)
+      << "a rounding is no step";
   EXPECT_EQ(at_setpoint.judge(response(settling_time, 1)).outcome, Outcome::not_measured);
   EXPECT_EQ(at_setpoint.judge(response(steady_error, 1)).outcome, Outcome::pass);
   at_setpoint.command().given = {};

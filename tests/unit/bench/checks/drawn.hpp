@@ -203,7 +203,7 @@ inline Observations observed(const Drawn& run, const Flown& flight, std::int64_t
   seen.reports.end(duration_us);
   seen.last_ns = duration_us * 1000;
   seen.expected_counts = run.expected_counts;
-  seen.target_frames_lost = run.frames_lost;
+  seen.from_target.front().lost = run.frames_lost;
   seen.bus.downs = run.outages;
   if (run.fault) seen.faults.push_back(*run.fault);
   return seen;

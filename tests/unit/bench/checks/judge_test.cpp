@@ -465,6 +465,26 @@ TEST_F(Judged, OfAGroupThatIsNeverWholeTheMissingMessageIsNamed) {
   EXPECT_EQ(verdict_.checks.size(), 1U) << "some may be lost on the way";
 }
 
+// Whatever a scenario checks: such frames are rejected, so nothing else would show them.
+TEST_F(Judged, FramesThatTheirProtectionRejectsFailTheRun) {
+  const std::size_t index = message_index<messages::TargetCounters>();
+  for (auto Sighting::*count : {&Sighting::wrong_crc, &Sighting::wrong_size, &Sighting::wrong_counter}) {
+    seen_.from_target[index] = {.right = 97};
+    judge(attitude);
+    EXPECT_EQ(verdict_.checks.size(), 1U);
+    seen_.from_target[index].*count = 3;
+    judge(attitude);
+    ASSERT_EQ(verdict_.checks.size(), 2U);
+    EXPECT_EQ(verdict_.checks[1].kind, "protection");
+    EXPECT_THAT(verdict_.checks[1].measured, HasSubstr("TargetCounters: 3 of 100 frames "));
+    EXPECT_EQ(verdict_.outcome, Outcome::fail);
+  }
+  seen_.from_target[index] = {.right = 90, .wrong_crc = 9, .repeated = 1};
+  judge(attitude);
+  EXPECT_EQ(verdict_.checks[1].measured, "TargetCounters: 9 of 100 frames with a wrong checksum")
+      << "after nine frames that were rejected, a counter may have come round";
+}
+
 TEST_F(Judged, TheTargetsCountsAreHeldAgainstWhatTheBenchWithheld) {
   CountsMatch rule;
   seen_.expected_counts = {.least = {.frames_lost = 5, .bad_group = 2},
@@ -558,7 +578,7 @@ TEST_F(Judged, TimingIsNotMeasuredByALateBenchWhateverTheTargetDid) {
 
 TEST_F(Judged, TimingIsNotMeasuredWithLostFrames) {
   EXPECT_EQ(unfit_for_timing(seen_), "");
-  seen_.target_frames_lost = 2;
+  seen_.from_target.front().lost = 2;
   EXPECT_THAT(unfit_for_timing(seen_), HasSubstr("2 frames of the target were lost"));
   seen_.receive_overflows = 3;
   EXPECT_THAT(unfit_for_timing(seen_), HasSubstr("port lost 3 frames"));

@@ -184,7 +184,7 @@ TEST_F(Disturbed, AnsweringWithNumbersAndWithoutAGap) {
   EXPECT_EQ(judge(rule).measured,
             "velocity.north: 1 of 200 answers are not a number (NaN or infinite), first at 5 s");
   seen_ = sound;
-  seen_.target_bad_crc = 1;
+  seen_.from_target.front().wrong_crc = 1;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
   seen_ = sound;
   seen_.complaints.end(22 * second_us);

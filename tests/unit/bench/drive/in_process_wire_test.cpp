@@ -218,7 +218,7 @@ TEST(InProcessWire, ADisturbedWireLosesNothingAndTakesLonger) {
   const Flown clean = quick(std::string(at_500k)), run = quick(disturbed + "1");
   EXPECT_GT(run.seen.bus.errors.bus_error, 10U);
   EXPECT_EQ(run.seen.bus.errors.bus_off, 0U);
-  EXPECT_EQ(run.seen.target_frames_lost, 0U);
+  EXPECT_EQ(run.seen.lost_from_target(), 0U);
   EXPECT_EQ(run.seen.counters->frames_lost, 0U);
   expect_same_estimates(run, clean);
   EXPECT_EQ(run.verdict.outcome, checks::Outcome::pass) << run.verdict.reason;

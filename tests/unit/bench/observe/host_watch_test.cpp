@@ -203,7 +203,7 @@ TEST_F(Unfit, FramesThatWereLost) {
   seen_.receive_overflows = 3;
   EXPECT_EQ(why(), "the bench's port lost 3 frames");
   seen_.receive_overflows = 0;
-  seen_.target_frames_lost = 2;
+  seen_.from_target.front().lost = 2;
   EXPECT_EQ(why(), "2 frames of the target were lost");
 }
 

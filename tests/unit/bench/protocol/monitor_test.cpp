@@ -287,7 +287,7 @@ TEST_F(Watched, AGapInTheCountersIsCountedAsLostFrames) {
   receive(TargetHeartbeat{});
   for (int k = 0; k < 3; ++k) static_cast<void>(next(target_, TargetHeartbeat{}));
   receive(TargetHeartbeat{});
-  EXPECT_EQ(seen().target_frames_lost, 3U);
+  EXPECT_EQ(seen().lost_from_target(), 3U);
 }
 
 TEST_F(Watched, AGroupThatMissesAFrameIsNoAnswer) {
@@ -299,7 +299,7 @@ TEST_F(Watched, AGroupThatMissesAFrameIsNoAnswer) {
   EXPECT_EQ(seen().answers[message_index<AlignVelocityD>()], 1U);
   answer(30'000);
   EXPECT_EQ(seen().of<estimators::TransferAnswers>().navigation.size(), 2U);
-  EXPECT_EQ(seen().target_frames_lost, 1U);
+  EXPECT_EQ(seen().lost_from_target(), 1U);
 }
 
 TEST_F(Watched, ABrokenFrameIsCountedAndNotUsed) {
@@ -308,7 +308,7 @@ TEST_F(Watched, ABrokenFrameIsCountedAndNotUsed) {
   monitor_.received({.frame = frame});
   frame.size = 3;
   monitor_.received({.frame = frame});
-  EXPECT_EQ(seen().target_bad_crc, 2U);
+  EXPECT_EQ(seen().spoilt_from_target(), 2U);
   EXPECT_FALSE(seen().timing.answers[message_index<TargetHeartbeat>()].last_ns);
 }
 
