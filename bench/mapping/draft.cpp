@@ -7,14 +7,11 @@
 #include <set>
 
 #include "bench/mapping/guess.hpp"
+#include "bench/mapping/reading.hpp"
 #include "bench/scenario/setting.hpp"
 
 namespace canhil::mapping {
 namespace {
-
-bool is_multiplexed(const dbc::Message& message) {
-  return std::ranges::any_of(message.signals, [](const dbc::Signal& one) { return one.multiplexor; });
-}
 
 bool receives(const dbc::Message& message, std::string_view node) {
   return std::ranges::any_of(message.signals, [&](const dbc::Signal& one) {

@@ -203,6 +203,7 @@ std::string without_truth(const MappedTarget& target, const scenario::Scenario& 
 // Samples become stale if a message with a quantity is silent. If the period of one is not known, or if the
 // truth of a quantity is an expression of the mapping, which may have no value at times, no sample does.
 quantities::Freshness freshness_of(const MappedTarget& target, const scenario::Scenario& scenario) {
+  if (!target.own.empty()) return {};
   const auto& mapping = dynamic_cast<const Mapping&>(*scenario.binding);
   double longest_us = 0;
   for (const Hear& hear : target.hears) {
@@ -213,7 +214,6 @@ quantities::Freshness freshness_of(const MappedTarget& target, const scenario::S
     longest_us =
         std::max(longest_us, pages_of(hear) * checks::longest_wait_us(static_cast<double>(period_us)));
   }
-  if (!target.own.empty()) return {};
   return {.age_limit_us = std::llround(longest_us), .end_us = scenario.duration_us};
 }
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "bench/mapping/reading.hpp"
 #include "bench/mapping/receiver.hpp"
 #include "bench/nodes/registry.hpp"
 #include "dbc/logs/log.hpp"
-#include "dbc/parser/codec.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -50,7 +50,7 @@ class Group {
 
   static bool is_invalid(const PlayedMessage& played, std::span<const std::uint8_t> bytes) {
     return std::ranges::any_of(played.sources, [&](const Source& source) {
-      return source.invalid && dbc::raw_bits(*source.signal, bytes) == *source.invalid;
+      return says_invalid(*source.signal, source.invalid, bytes);
     });
   }
 

@@ -170,8 +170,7 @@ void Listener::settle(const Hear& hear, const Paired& paired) {
 // twice.
 bool Listener::is_another_page(const Hear& hear, const Paired& paired) {
   const auto& signals = hear.of.message->signals;
-  if (!paired.cause_us || std::ranges::all_of(signals, &std::string::empty, &dbc::Signal::multiplexed_by))
-    return false;
+  if (!paired.cause_us || !is_multiplexed(*hear.of.message)) return false;
   std::vector<bool> page;
   for (std::size_t i = 0; i < signals.size(); ++i) page.push_back(hear.of.plan.is_present(i, paired.bytes));
   OwnPairing& own = pairing_of(hear);

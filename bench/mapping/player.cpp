@@ -48,6 +48,8 @@ double held(const Source& source, double value) {
 
 double ms(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-3; }
 
+bool is_constant(const Source& source) { return source.measurand == nullptr && !source.time; }
+
 }  // namespace
 
 Result<void> Player::check(const Mapping& mapping, const scenario::Scenario& scenario) {
@@ -264,22 +266,20 @@ Sent Player::put_together(std::size_t index, const sensors::Sample& sample, std:
     const dbc::Message& message = *one.of.message;
     std::vector<double> values(one.of.plan.signals(), 0.0);
     for (const Source& source : one.sources) {
-      const bool constant = source.measurand == nullptr && !source.time;
       double& value = values[one.of.number(*source.signal)];
-      value =
-          constant ? source.value : held(source, value_of(index, source, sample.stamp_us) * source.factor);
+      value = is_constant(source) ? source.value
+                                  : held(source, value_of(index, source, sample.stamp_us) * source.factor);
       if (conversation_.on_value) conversation_.on_value(source, value);
       if (!dbc::holds(*source.signal, value)) add_clipped(message, source, value);
     }
     std::vector<std::uint8_t> bytes(message.size);
     static_cast<void>(one.of.plan.encode(values, bytes));  // the sizes match
     for (const Source& source : one.sources) {
-      const auto says_invalid = [](const auto& kept) { return !kept.second.valid; };
+      const auto is_invalid = [](const auto& kept) { return !kept.second.valid; };
       const bool invalid = source.measurand != nullptr ? !values_[index][source.measurand].valid
-                                                       : std::ranges::any_of(values_[index], says_invalid);
+                                                       : std::ranges::any_of(values_[index], is_invalid);
       if (source.invalid && invalid) dbc::put_raw_bits(*source.signal, *source.invalid, bytes);
-      const bool constant = source.measurand == nullptr && !source.time;
-      if (source.invalid && !invalid && !constant && dbc::raw_bits(*source.signal, bytes) == *source.invalid)
+      if (!invalid && !is_constant(source) && says_invalid(*source.signal, source.invalid, bytes))
         add_clipped(message, source, values[one.of.number(*source.signal)]);
     }
     if (one.of.protection) {

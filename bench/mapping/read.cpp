@@ -14,6 +14,7 @@
 #include "bench/mapping/read_flags.hpp"
 #include "bench/mapping/read_protection.hpp"
 #include "bench/mapping/read_reported.hpp"
+#include "bench/mapping/reading.hpp"
 #include "bench/mapping/signal_units.hpp"
 #include "bench/quantities/wire_unit.hpp"
 #include "bench/scenario/section.hpp"
@@ -140,8 +141,7 @@ class Reader {
   Mapped mapped(Section& section, std::string_view key, const dbc::Message& message, bool of_target) {
     auto& all = mapping_->infos;
     const auto used = std::ranges::find(all, message.name, &MessageInfo::name);
-    const bool has_pages = std::ranges::any_of(message.signals, &dbc::Signal::multiplexor);
-    if (used != all.end() && (of_target || !has_pages || is_targets(*used)))
+    if (used != all.end() && (of_target || !is_multiplexed(message) || is_targets(*used)))
       section.reject(key, fmt::format("{} is already used", message.name),
                      "each message once, or each page of a multiplexed message that the bench sends");
     // dbc::parse_leniently() accepts any size, because DBC files also describe what transport protocols

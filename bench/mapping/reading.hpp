@@ -10,6 +10,13 @@
 
 namespace canhil::mapping {
 
+/// Whether frames of a message may have different pages.
+bool is_multiplexed(const dbc::Message& message);
+
+/// Whether a signal has the raw value that means "invalid". `invalid`: none: no value means this.
+bool says_invalid(const dbc::Signal& signal, const std::optional<std::uint64_t>& invalid,
+                  std::span<const std::uint8_t> data);
+
 /// The attitude of the quaternion in a message of which all signals have been decoded; none: it is invalid,
 /// or its magnitude is below 1/2. A quaternion is normalised, because its parts are rounded.
 std::optional<world::Euler> angles_in(const Hear& hear, std::span<const std::uint8_t> data,
@@ -30,7 +37,7 @@ void read(const Hear& hear, std::span<const std::uint8_t> data, std::vector<doub
     }
     const std::size_t number = hear.of.number(*one.signal);
     if (!hear.of.plan.is_present(number, data)) continue;
-    const bool invalid = one.invalid && dbc::raw_bits(*one.signal, data) == *one.invalid;
+    const bool invalid = says_invalid(*one.signal, one.invalid, data);
     give(one, invalid ? std::nan("") : values[number] * one.factor, invalid);
   }
 }

@@ -169,11 +169,11 @@ Finding Response::judge(const Evidence& evidence) const {
   };
   if (statistic == Statistic::steady_error)
     return found(*largest < below, "max " + shown(*largest), largest, largest_at_us);
-  // A turn by more than half a circle has no side beyond the setpoint.
   // The rounding of a setpoint in another unit is no step.
   const double no_step = 1e-9 * std::max({1.0, std::abs(setpoint), *largest});
   if (statistic == Statistic::overshoot && !(std::abs(*first) > no_step))
     return {Outcome::not_measured, "the response begins at its setpoint", expected};
+  // A turn by more than half a circle has no side beyond the setpoint.
   if (statistic == Statistic::overshoot)
     return found(*beyond < below,
                  fmt::format("{}, {:.1f} % of the step", shown(*beyond), 100 * *beyond / std::abs(*first)),
