@@ -1,17 +1,15 @@
 // The hub of the embedded bus, which is the port of the host.
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/epoll.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
-#include <deque>
 #include <utility>
 
+#include "dbc/ports/datagram_batch.hpp"
 #include "dbc/ports/descriptor.hpp"
 #include "dbc/ports/hub_wire.hpp"
 #include "dbc/ports/local_bus.hpp"
@@ -19,6 +17,8 @@
 #include "dbc/ports/local_peer.hpp"
 #include "dbc/ports/local_place.hpp"
 #include "dbc/ports/local_wire.hpp"
+#include "dbc/ports/ready_queue.hpp"
+#include "dbc/ports/watched.hpp"
 #include "dbc/wire/frame_rules.hpp"
 
 namespace canhil {
@@ -30,6 +30,7 @@ using local::Gate;
 using local::HubWire;
 using local::Peer;
 using local::Reading;
+using Wake = local::ReadyQueue::Wake;
 
 constexpr int backlog = 64;                // how many connections may wait for accept()
 constexpr std::size_t ready_limit = 4096;  // how many frames may wait until the host receives them
@@ -45,20 +46,16 @@ class Hub final : public LocalHub {
       std::optional<HubWire> wire)
       : claim_(std::move(claim)),
         gate_(std::move(gate)),
-        epoll_(::epoll_create1(EPOLL_CLOEXEC)),
         name_(std::move(name)),
         fd_(options.fd),
         only_some_(!options.only_ids.empty()),
         wanted_(wanted),
         own_echo_(options.own_echo),
         wire_(std::move(wire)) {
-    if (own_echo_ || wire_) {
-      ready_event_ = Descriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
-      watch(ready_event_.get(), EPOLLIN);
-    }
-    if (wire_) watch(wire_->descriptor(), EPOLLIN);
-    watch(gate_.alarm(), EPOLLIN);
-    watch(gate_.listener(), EPOLLIN);
+    if (own_echo_ || wire_) events_.watch(ready_.enable_wake(), EPOLLIN);
+    if (wire_) events_.watch(wire_->descriptor(), EPOLLIN);
+    events_.watch(gate_.alarm(), EPOLLIN);
+    events_.watch(gate_.listener(), EPOLLIN);
     gate_.count(peers_);
   }
 
@@ -70,7 +67,7 @@ class Hub final : public LocalHub {
     local::encode(frame, datagram);
     datagram.t_ns = clock_ns(CLOCK_MONOTONIC);
     deliver(datagram, no_origin);
-    if (own_echo_ && wants(frame)) queue_ready(frame, datagram.t_ns, true);
+    if (own_echo_ && wants(frame)) ready_.push(frame, datagram.t_ns, true, Wake::yes);
     ++counters_.sent;
     return SendOutcome::sent;
   }
@@ -83,7 +80,7 @@ class Hub final : public LocalHub {
     const std::size_t sent = local::offer_all(peers_.front(), frames, fd_, t_ns);
     counters_.sent += sent;
     for (const Frame& frame : frames.first(sent)) {
-      if (own_echo_ && wants(frame)) queue_ready(frame, t_ns, true);
+      if (own_echo_ && wants(frame)) ready_.push(frame, t_ns, true, Wake::yes);
     }
     return sent;
   }
@@ -94,13 +91,18 @@ class Hub final : public LocalHub {
   std::optional<Received> receive() override {
     if (wire_) run_wire();
     if (!ready_.empty()) return next_ready();  // these frames are older than all frames in the sockets
-    if (wire_) return std::nullopt;
+    if (wire_ || std::exchange(took_all_, false)) return std::nullopt;
     std::optional<Received> received(std::in_place);
     Datagram datagram;
     int let_in = 0;
     for (int n = 0; n < most_at_once && catch_up(); ++n) {
       if (++reads_since_accept_ >= accept_every) accept_nodes();
-      const int origin = read_any(datagram, received->frame);
+      if (one_node() && read_together()) {
+        found_nothing_ = false;
+        if (!ready_.empty()) return next_ready();
+        continue;
+      }
+      const int origin = one_node() ? no_origin : read_any(datagram, received->frame);
       if (origin == no_origin) {
         if (!std::exchange(found_nothing_, true) || ++let_in > most_let_in || !accept_nodes()) break;
         continue;
@@ -117,7 +119,7 @@ class Hub final : public LocalHub {
     return std::nullopt;
   }
 
-  [[nodiscard]] int descriptor() const override { return epoll_.get(); }
+  [[nodiscard]] int descriptor() const override { return events_.descriptor(); }
   /// An epoll descriptor is never writable. If the bus is stalled, the descriptor becomes readable when the
   /// node that stalls the bus has room.
   [[nodiscard]] RoomWait room_wait() const override {
@@ -133,37 +135,19 @@ class Hub final : public LocalHub {
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] const std::string& name() const override { return name_; }
 
-  [[nodiscard]] std::vector<std::string> nodes() const override {
-    std::vector<std::string> names;
-    for (const Peer& peer : peers_) {
-      if (peer.joined) names.push_back(peer.name);
-    }
-    return names;
-  }
-  [[nodiscard]] std::string held_up_by() const override {
-    const auto slow = std::ranges::find(peers_, true, &Peer::behind);
-    return slow == peers_.end() ? std::string() : slow->name;
-  }
+  [[nodiscard]] std::vector<std::string> nodes() const override { return local::names(peers_); }
+  [[nodiscard]] std::string held_up_by() const override { return local::first_behind(peers_); }
 
  private:
   static constexpr int no_origin = -1;
-
-  void watch(int descriptor, std::uint32_t events) {
-    epoll_event event{.events = events, .data = {.fd = descriptor}};
-    if (events == 0) {
-      ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, descriptor, nullptr);
-    } else if (::epoll_ctl(epoll_.get(), EPOLL_CTL_MOD, descriptor, &event) != 0) {
-      ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, descriptor, &event);
-    }
-  }
 
   /// Sets which events wake the host. While the bus is stalled, only the nodes that stall the bus may wake
   /// the host, because the bus carries no other frames.
   void watch_all() {
     const std::uint32_t others = behind_ > 0 ? 0 : std::uint32_t{EPOLLIN};
-    watch(gate_.listener(), others);
+    events_.watch(gate_.listener(), others);
     for (const Peer& peer : peers_)
-      watch(peer.socket.get(), peer.behind ? std::uint32_t{EPOLLOUT} : peer.held ? 0 : others);
+      events_.watch(peer.socket.get(), peer.behind ? std::uint32_t{EPOLLOUT} : peer.held ? 0 : others);
     gate_.set_alarm(peers_);
   }
 
@@ -233,13 +217,34 @@ class Hub final : public LocalHub {
     return no_origin;
   }
 
+  /// Whether the bus has one other node, to which the hub delivers none of the frames that it reads.
+  [[nodiscard]] bool one_node() const {
+    return peers_.size() == 1 && peers_.front().joined && !peers_.front().own_echo;
+  }
+
+  /// Reads the frames of the only node, many in one system call, into ready_. False: the node has sent
+  /// nothing.
+  bool read_together() {
+    const Reading end = local::read_all(peers_.front(), batch_, fd_, [this](const Frame& frame) {
+      if (wants(frame)) ready_.push(frame, clock_ns(CLOCK_MONOTONIC), false, Wake::no);
+    });
+    if (end == Reading::nothing) return false;
+    took_all_ = batch_.took_all();
+    if (end == Reading::nonsense) gate_.report_nonsense(peers_.front());
+    if (end != Reading::frame) {
+      peers_.clear();
+      gate_.count(peers_);
+    }
+    return true;
+  }
+
   /// Admits or refuses the next waiting node; false: no node was waiting.
   bool accept_nodes() {
     reads_since_accept_ = 0;
     gate_.drop_silent(peers_, fd_);
     const Gate::Admission admission = gate_.admit(peers_);
     if (admission == Gate::Admission::admitted) {
-      watch(peers_.back().socket.get(), EPOLLIN);
+      events_.watch(peers_.back().socket.get(), EPOLLIN);
       if (wire_) peers_.back().wire_node = wire_->add_node();
     }
     return admission != Gate::Admission::none;
@@ -249,17 +254,8 @@ class Hub final : public LocalHub {
     return !only_some_ || frame.error || (!frame.extended && wanted_.test(frame.id));
   }
 
-  /// Puts a frame into the queue from which the host receives.
-  void queue_ready(const Frame& frame, std::int64_t t_ns, bool own) {
-    if (ready_.empty()) ::eventfd_write(ready_event_.get(), 1);
-    ready_.push_back({.frame = frame, .t_ns = t_ns, .source = StampSource::hub, .own = own});
-  }
-
   Received next_ready() {
-    const Received received = ready_.front();
-    ready_.pop_front();
-    eventfd_t events = 0;
-    if (ready_.empty()) ::eventfd_read(ready_event_.get(), &events);
+    const Received received = ready_.pop();
     count(received);
     return received;
   }
@@ -301,7 +297,7 @@ class Hub final : public LocalHub {
 
   /// Delivers the report of a controller only to the node that has this controller.
   void deliver(const WireReport& report) {
-    if (report.node == HubWire::host) return queue_ready(report.frame, report.t_ns, false);
+    if (report.node == HubWire::host) return ready_.push(report.frame, report.t_ns, false, Wake::yes);
     const auto peer = peer_of(report.node);
     if (peer == peers_.end()) return;
     Datagram datagram;
@@ -318,7 +314,8 @@ class Hub final : public LocalHub {
     datagram.t_ns = carried.delivered_ns;
     deliver(datagram, from == peers_.end() ? no_origin : from->socket.get());
     const bool own = carried.node == HubWire::host;
-    if ((!own || own_echo_) && wants(carried.frame)) queue_ready(carried.frame, carried.delivered_ns, own);
+    if ((!own || own_echo_) && wants(carried.frame))
+      ready_.push(carried.frame, carried.delivered_ns, own, Wake::yes);
   }
 
   /// Moves at most `left` frames from the nodes into the queues of the wire. Does not read from nodes whose
@@ -335,7 +332,7 @@ class Hub final : public LocalHub {
       if (frame.error) {  // an error frame that a node sent is not transmitted over the wire
         datagram.t_ns = clock_ns(CLOCK_MONOTONIC);
         deliver(datagram, origin);
-        if (wants(frame)) queue_ready(frame, datagram.t_ns, false);
+        if (wants(frame)) ready_.push(frame, datagram.t_ns, false, Wake::yes);
         continue;
       }
       const auto from = std::ranges::find(peers_, origin, [](const Peer& peer) { return peer.socket.get(); });
@@ -347,7 +344,7 @@ class Hub final : public LocalHub {
     for (Peer& peer : peers_) {
       const bool full = !wire_->has_room(peer.wire_node);
       if (full == std::exchange(peer.held, full)) continue;
-      watch(peer.socket.get(), full ? 0 : std::uint32_t{EPOLLIN});
+      events_.watch(peer.socket.get(), full ? 0 : std::uint32_t{EPOLLIN});
     }
   }
 
@@ -358,8 +355,7 @@ class Hub final : public LocalHub {
 
   local::Claim claim_;
   Gate gate_;
-  Descriptor epoll_;
-  Descriptor ready_event_;
+  Watched events_;
   std::string name_;
   bool fd_;
   bool only_some_;
@@ -373,7 +369,9 @@ class Hub final : public LocalHub {
   int behind_ = 0;  ///< number of peers for which Peer::behind is true
   Datagram pending_{};
   int pending_origin_ = no_origin;
-  std::deque<Received> ready_;
+  local::ReadyQueue ready_;
+  local::DatagramBatch batch_{local::DatagramBatch::Messages::of_one};  ///< from the only node
+  bool took_all_ = false;  ///< the only node had sent nothing more; wait() notices what it sends later
   PortCounters counters_;
 };
 

@@ -1,4 +1,5 @@
 // The port of a node of the embedded bus. The node has one connection to the hub.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -8,7 +9,9 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <utility>
 
+#include "dbc/ports/datagram_batch.hpp"
 #include "dbc/ports/descriptor.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/ports/local_place.hpp"
@@ -21,6 +24,9 @@ namespace {
 using local::Datagram;
 using local::Format;
 
+/// How long one system call waits for a frame.
+constexpr std::int64_t blocking_ns = 20'000'000;
+
 class LocalNode final : public Port {
  public:
   LocalNode(Descriptor socket, std::string name, bool fd, WireFacts wire)
@@ -30,7 +36,7 @@ class LocalNode final : public Port {
     if (!can_carry(frame, fd_)) return SendOutcome::refused;
     Datagram datagram;
     local::encode(frame, datagram);
-    if (::send(socket_.get(), &datagram, datagram.bytes(), MSG_NOSIGNAL) >= 0) {
+    if (::send(socket_.get(), &datagram, datagram.bytes(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0) {
       ++counters_.sent;
       return SendOutcome::sent;
     }
@@ -46,16 +52,10 @@ class LocalNode final : public Port {
   }
 
   std::optional<Received> receive() override {
-    Datagram datagram;
-    ssize_t bytes = 0;
-    do {
-      // If the hub closes the connection before it has read all frames of this node, recv() fails once with
-      // ECONNRESET. The next calls return the frames that the hub had sent before.
-      bytes = ::recv(socket_.get(), &datagram, sizeof datagram, 0);
-    } while (bytes < 0 && (errno == EINTR || errno == ECONNRESET));
-    if (bytes < 0 && errno == EAGAIN) return std::nullopt;
+    if (batch_.empty() && !fetch()) return std::nullopt;
+    const auto [datagram, bytes] = batch_.take();
     std::optional<Received> received(std::in_place);
-    if (bytes <= 0 || !local::decode(datagram, static_cast<std::size_t>(bytes), fd_, received->frame)) {
+    if (!local::decode(datagram, bytes, fd_, received->frame)) {
       closed_ = true;  // the hub has ended, or the other process is no hub
       return std::nullopt;
     }
@@ -65,6 +65,16 @@ class LocalNode final : public Port {
     ++counters_.received;
     if (received->frame.error) ++counters_.error_frames;
     return received;
+  }
+
+  /// Waits and reads in one system call. Its timeout is coarse, therefore the last milliseconds before the
+  /// deadline are spent in poll(), which has an exact timer.
+  bool wait_for_frame(std::int64_t deadline_ns) override {
+    while (deadline_ns == no_deadline || deadline_ns - clock_ns(CLOCK_MONOTONIC) >= 2 * blocking_ns) {
+      if (!batch_.empty() || fetch(MSG_WAITFORONE)) return true;
+      if (closed_ || errno != EAGAIN) return errno != EINTR;
+    }
+    return !batch_.empty() || Port::wait_for_frame(deadline_ns);
   }
 
   [[nodiscard]] int descriptor() const override { return socket_.get(); }
@@ -78,11 +88,28 @@ class LocalNode final : public Port {
   [[nodiscard]] const std::string& name() const override { return name_; }
 
  private:
-  Descriptor socket_;
+  /// Reads the waiting frames. False: no frame is waiting, the previous read emptied the queue, or the hub
+  /// has ended.
+  bool fetch() {
+    if (std::exchange(took_all_, false))
+      return false;  // saves a system call; wait() notices what has come since
+    return fetch(MSG_DONTWAIT);
+  }
+
+  bool fetch(int flags) {
+    const bool any = batch_.fetch(socket_.get(), flags);
+    took_all_ = any && batch_.took_all();
+    if (!any && errno != EAGAIN && errno != EINTR) closed_ = true;
+    return any;
+  }
+
+  Descriptor socket_;  // blocking, with the timeout blocking_ns
   std::string name_;
   bool fd_;
   WireFacts
       wire_;  // known only if the name of the bus has the settings, because the hub does not report them
+  local::DatagramBatch batch_{local::DatagramBatch::Messages::together};
+  bool took_all_ = false;  // the queue was empty after the last frame of the batch
   bool closed_ = false;
   PortCounters counters_;
 };
@@ -100,6 +127,14 @@ std::string why_not_joined(std::string_view bus, const std::string& directory, c
   }
   return fmt::format("{2}'{0}': nobody hosts it in {1}; start `hil-bench` first or `hil-bench bus {0}`", bus,
                      directory, nobody_hosts);
+}
+
+/// Makes reads without MSG_DONTWAIT wait for a frame, at most blocking_ns.
+bool blocks(int socket) {
+  const timeval most{.tv_sec = 0, .tv_usec = blocking_ns / 1000};
+  const int flags = ::fcntl(socket, F_GETFL);
+  return flags >= 0 && ::fcntl(socket, F_SETFL, flags & ~O_NONBLOCK) == 0 &&
+         ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most) == 0;
 }
 
 }  // namespace
@@ -121,7 +156,8 @@ Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOpt
   }
 
   local::Hello hello;
-  hello.own_echo = options.own_echo ? 1 : 0;
+  hello.wishes =
+      static_cast<std::uint8_t>(local::Hello::together | (options.own_echo ? local::Hello::own_echo : 0));
   hello.only_some = options.only_ids.empty() ? 0 : 1;
   for (std::size_t id = 0; id < wanted->size(); ++id) {
     if (wanted->test(id))
@@ -132,6 +168,7 @@ Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOpt
   if (::send(socket.get(), &hello, sizeof hello, MSG_NOSIGNAL) < 0) {
     return failure(fmt::format("bus '{}': its host went away while this node joined", bus));
   }
+  if (!blocks(socket.get())) return failure(fmt::format("bus '{}': {}", bus, std::strerror(errno)));
   return std::make_unique<LocalNode>(std::move(socket), std::string(bus), options.fd, name->wire.facts());
 }
 

@@ -21,7 +21,8 @@ Reading read_hello(Peer& peer) {
   // sequences are replaced.
   std::ranges::replace_if(
       peer.name, [](char c) { return c < ' ' || c > '~'; }, '?');
-  peer.own_echo = hello.own_echo != 0;
+  peer.own_echo = (hello.wishes & Hello::own_echo) != 0;
+  peer.together = (hello.wishes & Hello::together) != 0;
   peer.only_some = hello.only_some != 0;
   for (std::size_t id = 0; id < peer.wanted.size(); ++id)
     peer.wanted[id] = (hello.wanted[id / 8] >> (id % 8) & 1) != 0;
@@ -48,6 +49,33 @@ Reading read(Peer& peer, bool fd_bus, Datagram& datagram, Frame& frame) {
   return one_of_ours ? Reading::frame : Reading::nonsense;
 }
 
+Reading read_all(const Peer& peer, DatagramBatch& batch, bool fd_bus,
+                 const std::function<void(const Frame&)>& each) {
+  if (!batch.fetch(peer.socket.get(), MSG_DONTWAIT))
+    return errno == EAGAIN || errno == EINTR ? Reading::nothing : Reading::gone;
+  while (!batch.empty()) {
+    const auto [datagram, bytes] = batch.take();
+    if (bytes == 0) return Reading::gone;
+    Frame frame;
+    if (!decode(datagram, bytes, fd_bus, frame)) return Reading::nonsense;
+    each(frame);
+  }
+  return Reading::frame;
+}
+
+std::vector<std::string> names(const std::vector<Peer>& peers) {
+  std::vector<std::string> names;
+  for (const Peer& peer : peers) {
+    if (peer.joined) names.push_back(peer.name);
+  }
+  return names;
+}
+
+std::string first_behind(const std::vector<Peer>& peers) {
+  const auto slow = std::ranges::find(peers, true, &Peer::behind);
+  return slow == peers.end() ? std::string() : slow->name;
+}
+
 bool offer(Peer& peer, Datagram& datagram, bool own) {
   if (!peer.joined || peer.mute || (own && !peer.own_echo)) return true;
   const bool selectable = (datagram.flags & (Datagram::error | Datagram::extended)) == 0;
@@ -67,7 +95,8 @@ bool offer(Peer& peer, Datagram& datagram, bool own) {
 bool gets_all(const Peer& peer) { return peer.joined && !peer.mute && !peer.only_some; }
 
 std::size_t offer_all(Peer& peer, std::span<const Frame> frames, bool fd_bus, std::int64_t t_ns) {
-  const std::size_t sent = send_frames(peer.socket.get(), frames, fd_bus, t_ns);
+  const auto send = peer.together ? send_together : send_frames;
+  const std::size_t sent = send(peer.socket.get(), frames, fd_bus, t_ns);
   peer.arrears_ns =
       std::max<std::int64_t>(peer.arrears_ns - static_cast<std::int64_t>(sent) * worked_off_ns, 0);
   return sent;

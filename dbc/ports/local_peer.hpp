@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <vector>
 
+#include "dbc/ports/datagram_batch.hpp"
 #include "dbc/ports/descriptor.hpp"
 #include "dbc/ports/local_place.hpp"
 #include "dbc/ports/local_wire.hpp"
@@ -17,6 +20,7 @@ struct Peer {
   std::string name;
   bool joined = false;  ///< the node has sent its Hello
   bool own_echo = false;
+  bool together = false;  ///< the node takes several frames in one message
   bool only_some = false;
   bool mute = false;    ///< the node accepts no more frames; frames that it sent before are still used
   bool behind = false;  ///< the node had no room for the hub's pending frame, and so stalls the bus
@@ -44,6 +48,17 @@ enum class Reading : std::uint8_t { nothing, joined, frame, nonsense, gone };
 /// Reads the next datagram of a node. If it is a frame, stores it in `datagram` and `frame`; if it is a
 /// Hello, stores its content in `peer`. The result is `nonsense` if the datagram is neither.
 Reading read(Peer& peer, bool fd_bus, Datagram& datagram, Frame& frame);
+
+/// Reads the datagrams of a node that has joined, many in one system call, and calls `each` with every frame.
+/// The result is `frame` if all were frames; it is that of the last datagram otherwise.
+Reading read_all(const Peer& peer, DatagramBatch& batch, bool fd_bus,
+                 const std::function<void(const Frame&)>& each);
+
+/// The names of the nodes that have joined.
+std::vector<std::string> names(const std::vector<Peer>& peers);
+
+/// The name of the first node that stalls the bus; empty: none does.
+std::string first_behind(const std::vector<Peer>& peers);
 
 /// Sends a frame to the node if the node wants the frame. `own` means that the node itself sent the frame.
 /// False: the node wants the frame but has no room.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <cstring>
 
 #include "dbc/ports/local_bus.hpp"
@@ -33,8 +34,27 @@ void encode(const Frame& frame, Datagram& datagram) {
   std::memcpy(datagram.data.data(), frame.data.data(), frame.size);
 }
 
+std::size_t send_together(int socket, std::span<const Frame> frames, bool fd_bus, std::int64_t t_ns) {
+  Together message;
+  std::size_t sent = 0;
+  for (;;) {
+    std::size_t count = 0, begin = 0, end = 0;
+    for (; count < most_together && sent + count < frames.size(); ++count) {
+      const Frame& frame = frames[sent + count];
+      if (!can_carry(frame, fd_bus)) break;
+      Datagram datagram;
+      encode(frame, datagram);
+      datagram.t_ns = t_ns;
+      std::memcpy(message.data() + begin, &datagram, datagram.bytes());
+      end = begin + datagram.bytes();
+      begin += stride(datagram);
+    }
+    if (count == 0 || ::send(socket, message.data(), end, MSG_NOSIGNAL | MSG_DONTWAIT) < 0) return sent;
+    sent += count;
+  }
+}
+
 std::size_t send_frames(int socket, std::span<const Frame> frames, bool fd_bus, std::int64_t t_ns) {
-  constexpr std::size_t most_together = 16;
   std::array<Datagram, most_together> datagrams;
   std::array<iovec, most_together> parts{};
   std::array<mmsghdr, most_together> messages{};
@@ -51,7 +71,7 @@ std::size_t send_frames(int socket, std::span<const Frame> frames, bool fd_bus, 
       messages[count].msg_hdr.msg_iovlen = 1;
     }
     if (count == 0) return sent;
-    const int taken = ::sendmmsg(socket, messages.data(), count, MSG_NOSIGNAL);
+    const int taken = ::sendmmsg(socket, messages.data(), count, MSG_NOSIGNAL | MSG_DONTWAIT);
     sent += static_cast<std::size_t>(std::max(taken, 0));
     if (taken < static_cast<int>(count)) return sent;
   }

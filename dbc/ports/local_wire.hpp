@@ -30,11 +30,19 @@ struct Datagram {
 };
 static_assert(offsetof(Datagram, data) == 16);
 
+/// Several datagrams in one message of the socket, for nodes that take them (Hello::together): one system
+/// call, and the node wakes up once. The next datagram begins stride() after the one before.
+constexpr std::size_t most_together = 16;
+using Together = std::array<std::byte, most_together * sizeof(Datagram)>;
+inline std::size_t stride(const Datagram& datagram) { return (datagram.bytes() + 7) / 8 * 8; }
+
 /// The first datagram of a node. It contains the filter of the node. The hub applies the filter, so that
 /// unwanted frames cost the node nothing.
 struct Hello {
+  enum Wish : std::uint8_t { own_echo = 1, together = 2 };
+
   std::uint32_t magic = expected_magic;
-  std::uint8_t own_echo = 0;
+  std::uint8_t wishes = 0;                 ///< see Wish
   std::uint8_t only_some = 0;              ///< if not 0, the hub delivers only the wanted ids
   std::array<std::uint8_t, 256> wanted{};  ///< one bit for each standard id
   std::array<char, 66> node_name{};        ///< the last character is 0
@@ -50,8 +58,11 @@ void encode(const Frame& frame, Datagram& datagram);
 /// cannot carry such a frame.
 bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& frame);
 
-/// Sends frames over a socket, several in one system call, with the stamp t_ns. Returns how many the socket
-/// took, up to the first frame that the bus cannot carry.
+/// Sends frames over a socket, several in one message, with the stamp t_ns, to a node that takes them so.
+/// Returns how many the socket took, up to the first frame that the bus cannot carry.
+std::size_t send_together(int socket, std::span<const Frame> frames, bool fd_bus, std::int64_t t_ns);
+
+/// The same with a message for each frame.
 std::size_t send_frames(int socket, std::span<const Frame> frames, bool fd_bus, std::int64_t t_ns);
 
 /// Converts a list of ids to a set. Returns an error if an id is not a standard id.
