@@ -26,7 +26,25 @@ LinkState Link::send_all(std::span<const Frame> frames, std::int64_t patience_ns
   return LinkState::up;
 }
 
+LinkState Link::post(std::span<const Frame> frames, std::int64_t patience_ns) {
+  if (port_.capabilities().in_process) return send_all(frames, patience_ns);
+  const std::int64_t t_ns = port_.now_ns();
+  for (const Frame& frame : frames) tell_sent(frame, t_ns, 0);
+  posted_.insert(posted_.end(), frames.begin(), frames.end());
+  return LinkState::up;
+}
+
+LinkState Link::flush(std::int64_t patience_ns) {
+  if (posted_.empty()) return LinkState::up;
+  told_ = true;
+  const LinkState state = send_all(posted_, patience_ns);
+  told_ = false;
+  posted_.clear();
+  return state;
+}
+
 void Link::tell_sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
+  if (told_) return;
   for (observe::Observer* observer : observers_) observer->transmitted(frame, t_ns, late_ns);
 }
 

@@ -32,6 +32,13 @@ class Link {
   /// The same for frames without a deadline that are sent together.
   LinkState send_all(std::span<const Frame> frames, std::int64_t patience_ns);
 
+  /// Keeps frames until flush() sends them together; observers see them at once. For virtual time: each
+  /// message may wake the target, which costs more than its frames, and nobody needs them before the bench
+  /// waits for an answer. A device in this process gets them at once.
+  LinkState post(std::span<const Frame> frames, std::int64_t patience_ns);
+  /// Sends the frames that post() has kept.
+  LinkState flush(std::int64_t patience_ns);
+
   /// Receives the frames that are waiting and passes them to the observers, without blocking. Returns `down`
   /// if the bus is gone. A bus may deliver frames without end, so one call takes at most `most_at_once`
   /// frames: before the next call the caller must check its deadline and whether to stop. While more frames
@@ -75,6 +82,8 @@ class Link {
 
   Port& port_;
   std::vector<observe::Observer*> observers_;
+  std::vector<Frame> posted_;
+  bool told_ = false;  // the observers have seen the frames that are being sent: those of post()
   bool up_ = true;
   std::uint64_t late_in_queue_ = 0;
   std::uint64_t overflowed_ = 0;  // the port's count at the last check
