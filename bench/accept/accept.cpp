@@ -8,7 +8,7 @@
 #include <set>
 
 #include "bench/accept/dialogue.hpp"
-#include "bench/accept/profile.hpp"
+#include "bench/accept/flown.hpp"
 #include "bench/accept/reference.hpp"
 #include "bench/accept/response.hpp"
 #include "bench/campaign/evaluate.hpp"
@@ -63,15 +63,27 @@ class Run {
     return first == nullptr ? Result<void>{} : conformance::find_target(*first, options_.target, stop_);
   }
 
+  /// Flights in lockstep are flown on several threads; flights in real time one after the other, because
+  /// others beside them would take their time.
   Result<void> fly_all(bool in_real_time) {
+    std::vector<const Flight*> flights;
     for (const Flight& flight : suite_.flights) {
-      if (flight.real_time != in_real_time || !wanted(flight)) continue;
+      if (flight.real_time == in_real_time && wanted(flight)) flights.push_back(&flight);
+    }
+    FlownAhead ahead(
+        done() ? std::vector<const Flight*>() : flights, in_real_time ? 1 : options_.threads,
+        [this](const Flight& flight, const std::atomic<bool>& stop) { return fly(flight, stop); }, stop_);
+    for (const Flight* flight : flights) {
       if (done()) {
-        for (const std::string& id : tested_by(flight)) skipped_.insert(id);
+        for (const std::string& id : tested_by(*flight)) skipped_.insert(id);
         continue;
       }
-      options_.progress(fmt::format("{}: flight '{}'", suite_.estimator, flight.name));
-      if (auto flown = fly(flight); !flown) return flown;
+      options_.progress(fmt::format("{}: flight '{}'", suite_.estimator, flight->name));
+      Flown flown = ahead.next();
+      if (!flown.items) return tl::unexpected(flown.items.error());
+      for (Item& one : *flown.items) add(std::move(one));
+      for (Item& one : compared(*flight, *flown.answers)) add(std::move(one));
+      flown_[flight->name] = std::move(flown.answers);
     }
     return {};
   }
@@ -129,59 +141,68 @@ class Run {
 
   /// A flight in real time that does not pass is repeated, up to twice, because the host may cause occasional
   /// delays. Only the results of the last attempt are used.
-  Result<void> fly(const Flight& flight) {
-    constexpr int most_attempts = 3;
-    for (int left = flight.real_time ? most_attempts : 1;; --left) {
-      auto found = fly_once(flight);
-      if (!found) return tl::unexpected(found.error());
-      const bool good =
-          std::ranges::all_of(*found, [](const Item& one) { return one.outcome == Outcome::pass; });
-      if (!good && left > 1 && !stop_) continue;
-      for (Item& one : *found) add(std::move(one));
-      return {};
-    }
+  Flown fly(const Flight& flight, const std::atomic<bool>& stop) const {
+    const auto good = [](const Flown& flown) {
+      return !flown.items || checks::outcome_of(*flown.items, &Item::outcome) == Outcome::pass;
+    };
+    Flown flown = fly_once(flight, stop);
+    for (int left = flight.real_time ? 2 : 0; left > 0 && !good(flown) && !stop; --left)
+      flown = fly_once(flight, stop);
+    return flown;
   }
 
-  Result<Items> fly_once(const Flight& flight) {
-    const std::string name = fmt::format("flight '{}'", flight.name);
-    Answers& answers = flown_[flight.name];
-    answers.clear();
+  Flown fly_once(const Flight& flight, const std::atomic<bool>& stop) const {
+    const std::string name = name_of(flight);
+    Flown flown{.items = Items()};
     drive::Options options = drive::in_lockstep_against(options_.target);
     options.lockstep = !flight.real_time;
     options.format = drive::format_of(flight.scenario);
-    options.onlookers = {&answers};
-    const auto run = drive::run(flight.scenario, options, stop_, [&](std::int64_t) {});
-    if (!run) return Items{item(flight.requirement, name, run.error().message, flown_to_its_end)};
-    Items found = judged(flight, name, *run);
-    if (options_.same_as_hil_target && flight.reference && !stop_) {
-      const auto reference = reference_of(flight);
-      if (!reference) return tl::unexpected(reference.error());
-      found.push_back(item(*flight.reference, name + " as the reference",
-                           departure(*reference, answers, options_.share), "answers as the reference's"));
+    options.onlookers = {flown.answers.get()};
+    const auto run = drive::run(flight.scenario, options, stop, [](std::int64_t) {});
+    if (!run) {
+      flown.items->push_back(item(flight.requirement, name, run.error().message, flown_to_its_end));
+      return flown;
     }
+    *flown.items = judged(flight, name, *run);
+    if (options_.same_as_hil_target && flight.reference && !stop) {
+      const auto reference = reference_of(flight, stop);
+      if (!reference) return {.items = tl::unexpected(reference.error())};
+      flown.items->push_back(item(*flight.reference, name + " as the reference",
+                                  departure(*reference, *flown.answers, options_.share),
+                                  "answers as the reference's"));
+    }
+    return flown;
+  }
+
+  /// Compares a flight with others, which were flown before.
+  [[nodiscard]] Items compared(const Flight& flight, const Answers& answers) const {
+    const std::string name = name_of(flight);
+    Items found;
     if (flight.same_as) {
       const SameAs& same = *flight.same_as;
       found.push_back(item(same.requirement, fmt::format("{} as flight '{}'", name, same.flight),
-                           difference(answers, flown_[same.flight], same.steps, same.relative),
+                           difference(answers, *flown_.at(same.flight), same.steps, same.relative),
                            "the same answers"));
     }
     for (const Move& move : flight.moves)
-      found.push_back(judge_move(move, name, answers, flown_[move.flight]));
+      found.push_back(judge_move(move, name, answers, *flown_.at(move.flight)));
     return found;
   }
 
+  static std::string name_of(const Flight& flight) { return fmt::format("flight '{}'", flight.name); }
+
   // The answers of hil-target's code in this process: with frames as they are, and with unrounded ones.
-  Result<Reference> reference_of(const Flight& flight) const {
+  static Result<Reference> reference_of(const Flight& flight, const std::atomic<bool>& stop) {
     Answers rounded, unrounded;
     for (const auto& [bus, answers] :
          {std::pair(drive::in_process_bus, &rounded), std::pair(drive::unrounded_bus, &unrounded)}) {
       drive::Options options;
       options.bus = drive::BusName(std::string(bus));
       options.onlookers = {answers};
-      const auto run = drive::run(flight.scenario, options, stop_, [](std::int64_t) {});
+      const auto run = drive::run(flight.scenario, options, stop, [](std::int64_t) {});
       if (!run) return tl::unexpected(run.error());
       const auto expected = flight.faults ? Ending::Kind::target_fault : Ending::Kind::completed;
-      if (run->ending.kind != expected && !stop_)
+      if (run->ending.kind != expected && !stop)
         return failure(fmt::format(
             "flight '{}' of the reference: {}", flight.name,
             run->ending.detail.empty() ? "is flown to its end, expected a fault" : run->ending.detail));
@@ -240,6 +261,7 @@ class Run {
     options.file = file;
     options.resume = true;  // the file exists, without content
     options.target = options_.target;
+    options.threads = options_.threads;
     options.progress = [&](const campaign::Progress& progress) {
       options_.progress(
           fmt::format("{}: {} {} / {} runs", suite_.estimator, name, progress.done, progress.total));
@@ -307,7 +329,7 @@ class Run {
   const Suite& suite_;
   const Options& options_;
   const std::atomic<bool>& stop_;
-  std::map<std::string, Answers> flown_;
+  std::map<std::string, std::unique_ptr<Answers>> flown_;
   std::vector<Item> items_;
   std::set<std::string> skipped_;
   bool failed_ = false;

@@ -24,7 +24,8 @@ struct Options {
   std::optional<std::uint64_t> seed{};  ///< replaces the seeds in the campaign files
   bool same_as_hil_target = false;      ///< also compare the answers with those of hil-target's code
   double share = 1;                     ///< factor by which the tolerances of this comparison are multiplied
-  bool first_failure = false;           ///< stop at the first failure
+  unsigned threads = 0;        ///< number of flights at the same time, but for real time; 0: one per core
+  bool first_failure = false;  ///< stop at the first failure
   std::vector<std::string> families{};  ///< test only requirements of these families; empty: all
   std::function<void()> begun = [] {};  ///< called when the target has been found
   std::function<void(const std::string&)> progress = [](const std::string&) {};

@@ -36,11 +36,6 @@ class Answers final : public drive::Onlooker {
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
 
-  /// Returns to the initial state.
-  void clear() {
-    messages_.clear();
-    t_s_ = 0;
-  }
   /// The answers of each message, sorted by message name.
   [[nodiscard]] const std::map<std::string, Series, std::less<>>& messages() const { return messages_; }
   /// The answers of a message; null if the message is unknown or has no answers in this flight.

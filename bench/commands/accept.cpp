@@ -39,6 +39,7 @@ struct Arguments {
   std::vector<std::string> estimators, families;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> share;
+  std::optional<std::uint64_t> threads;
   std::string same_as;
   bool first = false, no_commands = false;
   std::string json, junit, html;
@@ -173,6 +174,7 @@ ExitCode execute(const Arguments& arguments) {
     accept::Options options{.target = arguments.target, .seed = arguments.seed};
     options.same_as_hil_target = !arguments.same_as.empty();
     options.share = static_cast<double>(arguments.share.value_or(1));
+    options.threads = static_cast<unsigned>(arguments.threads.value_or(0));
     options.first_failure = arguments.first;
     options.families = arguments.families;
     options.begun = [&] {
@@ -208,6 +210,9 @@ void add_accept(command_line::Command app, int& code) {
   command.add_number("--tolerance", arguments->share,
                      "with --same-as: multiplies by how much an answer may differ (default: 1)", 1,
                      1'000'000);
+  command.add_number("--threads", arguments->threads,
+                     "the number of flights in lockstep at the same time (default: one a core)", 1,
+                     most_threads);
   command.add_flag("--first-failure", arguments->first, "stop at the first requirement that is not met");
   command
       .add_option("--family", arguments->families,

@@ -1,6 +1,7 @@
 // The subcommands of the separate program hil-bench-campaign, with their summaries for the help of hil-bench.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "dbc/command_line/command_line.hpp"
@@ -19,6 +20,8 @@ inline constexpr std::string_view faults_summary =
 inline constexpr std::string_view reference_name = "reference";
 inline constexpr std::string_view reference_summary =
     "every key of scenario and campaign files: unit, range, default, meaning";
+
+inline constexpr std::uint64_t most_threads = 1024;  ///< of --threads
 
 /// `hil-bench reference`: prints the page docs/scenario-reference.md.
 void add_reference(command_line::Command app, int& code);

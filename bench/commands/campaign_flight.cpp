@@ -13,6 +13,7 @@
 #include "bench/campaign/shards.hpp"
 #include "bench/campaign_report/matrix.hpp"
 #include "bench/campaign_report/report.hpp"
+#include "bench/commands/campaign.hpp"
 #include "bench/commands/campaign_course.hpp"
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/progress_line.hpp"
@@ -25,8 +26,6 @@ namespace canhil::commands {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t most_threads = 1024;
 
 // A text such as "[===   ] 300 / 1200 runs · 812.1/s · 1 s left".
 std::string progress_text(const campaign::Progress& progress, double elapsed_s) {
