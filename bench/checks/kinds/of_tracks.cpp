@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <ranges>
 #include <utility>
@@ -193,11 +195,40 @@ std::string silence(const Track& track, const Stretch& stretch, const Places& pa
   return silent ? "no answers " + seconds(*silent) : std::string();
 }
 
+namespace {
+
+// Whether a window without answers is so short that it lies between two answers of a target that is not
+// silent there: it is shorter than the mean time between all answers.
+bool lies_between_answers(const Track& track, const scenario::Window& window) {
+  constexpr std::int64_t never_us = std::numeric_limits<std::int64_t>::max();
+  std::int64_t first_us = never_us, last_us = 0, count = 0;
+  scenario::Window around{.from_us = 0, .to_us = track.answers_end_us};
+  const auto is_outside = [&](std::int64_t t_us) {
+    first_us = std::min(first_us, t_us);
+    last_us = std::max(last_us, t_us);
+    ++count;
+    if (t_us < window.from_us) around.from_us = std::max(around.from_us, t_us);
+    if (t_us > window.to_us) around.to_us = std::min(around.to_us, t_us);
+    return !within(window, t_us);
+  };
+  const bool none_inside = std::ranges::all_of(track.points, is_outside, &quantities::TrackPoint::t_us) &&
+                           std::ranges::all_of(track.without_truth, is_outside);
+  if (!none_inside || count < 2 || (window.to_us - window.from_us) * (count - 1) >= last_us - first_us)
+    return false;
+  if (track.unanswered) return track.unanswered(around.from_us, around.to_us).empty();
+  return !silent_stretch(std::array<std::int64_t, 0>{}, around, track.answers_end_us, track.longest_wait_us);
+}
+
+}  // namespace
+
 std::optional<Finding> no_evidence(const Track& track, const Stretch& stretch, const Places& part,
                                    const Expected& expected, const Evidence& evidence) {
   // The target must answer in the whole stretch, also while the condition does not hold.
   const Stretch whole{.window = stretch.window, .to_go_s = stretch.to_go_s};
   const Places all = stretch.condition == nullptr ? Places() : inside(track, whole, evidence);
+  if (!stretch.to_go_s && part.empty() && all.empty() && lies_between_answers(track, stretch.window))
+    return Finding{Outcome::not_measured, "the window is shorter than the time between two answers",
+                   expected};
   if (std::string gap = silence(track, stretch, stretch.condition == nullptr ? part : all); !gap.empty())
     return Finding{Outcome::fail, std::move(gap), expected};
   if (!part.empty()) return std::nullopt;

@@ -2,6 +2,8 @@
 // silent.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/error.hpp"
 #include "bench/checks/rule.hpp"
@@ -14,7 +16,7 @@ namespace {
 constexpr std::int64_t second_us = 1'000'000;
 
 // Answers every 100 ms for 10 s. There is a truth up to 2 s, and an answer `silent_s` after that is the next.
-Finding judged(std::int64_t from_s, std::int64_t to_s, std::int64_t silent_s = 0) {
+Finding judged(double from_s, double to_s, std::int64_t silent_s = 0) {
   quantities::Track track{.quantity = &quantities::attitude_heading,
                           .longest_wait_us = 1.1 * second_us,
                           .answers_end_us = 10 * second_us};
@@ -30,7 +32,8 @@ Finding judged(std::int64_t from_s, std::int64_t to_s, std::int64_t silent_s = 0
   evidence.tracks.push_back({.estimator = "it", .track = std::move(track)});
   const Error rule{.judged = {.estimator = "it", .quantity = &quantities::attitude_heading},
                    .statistic = Error::Statistic::max,
-                   .stretch = {.window = {.from_us = from_s * second_us, .to_us = to_s * second_us}},
+                   .stretch = {.window = {.from_us = std::llround(from_s * second_us),
+                                          .to_us = std::llround(to_s * second_us)}},
                    .below = 0.01,
                    .unit = quantities::attitude_heading.unit};
   return rule.judge(evidence);
@@ -48,6 +51,18 @@ TEST(NoTruth, DoesNotHideSilence) {
   EXPECT_EQ(judged(0, 10, 3).outcome, Outcome::fail);
   EXPECT_EQ(judged(2, 8, 8).outcome, Outcome::fail);
   EXPECT_EQ(judged(3, 8, 9).outcome, Outcome::fail);
+}
+
+TEST(NoTruth, OfAWindowBetweenTwoAnswersIsNotMeasured) {
+  EXPECT_EQ(judged(1.01, 1.09).outcome, Outcome::not_measured);
+  EXPECT_EQ(judged(1.01, 1.09).measured, "the window is shorter than the time between two answers");
+  EXPECT_EQ(judged(1.01, 1.11).outcome, Outcome::pass);
+}
+
+TEST(NoTruth, OfAWindowWithinASilenceFails) {
+  EXPECT_EQ(judged(4.0, 4.5, 3).outcome, Outcome::fail);
+  EXPECT_EQ(judged(4.0, 4.05, 3).outcome, Outcome::fail);
+  EXPECT_EQ(judged(9.0, 9.05, 9).outcome, Outcome::fail);
 }
 
 }  // namespace
