@@ -7,22 +7,28 @@
 #include <map>
 #include <set>
 
+#include "bench/accept/ahead.hpp"
+#include "bench/accept/campaign.hpp"
 #include "bench/accept/dialogue.hpp"
-#include "bench/accept/flown.hpp"
+#include "bench/accept/item.hpp"
+#include "bench/accept/profile.hpp"
 #include "bench/accept/reference.hpp"
 #include "bench/accept/response.hpp"
-#include "bench/campaign/evaluate.hpp"
-#include "bench/campaign/execute.hpp"
 #include "bench/conformance/conformance.hpp"
 #include "bench/drive/session.hpp"
-#include "dbc/files/output_file.hpp"
 
 namespace canhil::accept {
 namespace {
 
-namespace fs = std::filesystem;
 using checks::Outcome;
 using drive::Ending;
+
+// What one flight brought: the results of its own checks, and its answers, for flights that are compared with
+// it.
+struct Flown {
+  Result<std::vector<Item>> items;
+  std::unique_ptr<Answers> answers = std::make_unique<Answers>();
+};
 
 // The execution of one suite.
 class Run {
@@ -70,7 +76,7 @@ class Run {
     for (const Flight& flight : suite_.flights) {
       if (flight.real_time == in_real_time && wanted(flight)) flights.push_back(&flight);
     }
-    FlownAhead ahead(
+    Ahead<Flight, Flown> ahead(
         done() ? std::vector<const Flight*>() : flights, in_real_time ? 1 : options_.threads,
         [this](const Flight& flight, const std::atomic<bool>& stop) { return fly(flight, stop); }, stop_);
     for (const Flight* flight : flights) {
@@ -128,17 +134,6 @@ class Run {
     failed_ = failed_ || item.outcome == Outcome::fail;
     items_.push_back(std::move(item));
   }
-  /// `wrong`: text of the violation; empty if there is no violation.
-  static Item item(const std::string& requirement, const std::string& name, const std::string& wrong,
-                   const std::string& expected) {
-    return {.name = name,
-            .kind = "accept",
-            .requirement = requirement,
-            .outcome = wrong.empty() ? Outcome::pass : Outcome::fail,
-            .measured = wrong.empty() ? "as expected" : wrong,
-            .expected = expected};
-  }
-
   /// A flight in real time that does not pass is repeated, up to twice, because the host may cause occasional
   /// delays. Only the results of the last attempt are used.
   Flown fly(const Flight& flight, const std::atomic<bool>& stop) const {
@@ -239,92 +234,19 @@ class Run {
   }
 
   Result<void> fly_campaign(const std::string& name) {
-    auto campaign = campaign::read_campaign(suite_.folder / name);
-    if (!campaign) return tl::unexpected(campaign.error());
     if (done()) {
-      for (const campaign::Metric& metric : campaign->metrics) skipped_.insert(metric.requirement);
-      for (const campaign::Variant& variant : campaign->variants) {
-        for (const scenario::Check& check : variant.scenario.checks) skipped_.insert(check.requirement);
-      }
+      const auto ids = tested_by_campaign(suite_, name);
+      if (!ids) return tl::unexpected(ids.error());
+      skipped_.insert(ids->begin(), ids->end());
       return {};
     }
-    if (options_.seed) {
-      for (campaign::Variant& variant : campaign->variants) variant.scenario.seed = *options_.seed;
-    }
-    std::error_code no_folder;
-    const fs::path folder = fs::temp_directory_path(no_folder);
-    if (no_folder) return failure("environment TMPDIR: expected a folder, for the results of campaigns");
-    const auto results = OutputFile::create((folder / "canhil-accept").string());  // removed at the end
-    if (!results) return tl::unexpected(results.error());
-    const std::string& file = results->temporary_name();
-    campaign::Options options;
-    options.file = file;
-    options.resume = true;  // the file exists, without content
-    options.target = options_.target;
-    options.threads = options_.threads;
-    options.progress = [&](const campaign::Progress& progress) {
-      options_.progress(
-          fmt::format("{}: {} {} / {} runs", suite_.estimator, name, progress.done, progress.total));
-    };
-    bool of_target = false;
-    options.not_flown = [&](const Error& why) {
-      if (requirement_of(*campaign).empty()) return;
-      of_target = true;
-      add(item(requirement_of(*campaign), fmt::format("campaign {}", name), why.message, all_runs));
-    };
-    const auto flown = campaign::execute(*campaign, options, stop_);
-    if (flown && *flown == campaign::Execution::complete) return judge(*campaign, name, file);
-    if (!flown && !of_target) return tl::unexpected(flown.error());
-    if (!stop_) leave_unjudged(*campaign, name);
-    return {};
-  }
-
-  /// What a campaign that ended early would have judged is not measured.
-  void leave_unjudged(const campaign::Campaign& campaign, const std::string& name) {
-    for (const campaign::Metric& metric : campaign.metrics) {
-      if (metric.requirement.empty() || metric.requirement == requirement_of(campaign)) continue;
-      Item left = item(metric.requirement, fmt::format("{}: {}", name, metric.name), "", all_runs);
-      left.outcome = Outcome::not_measured;
-      left.measured = "the campaign ended early";
-      add(std::move(left));
-    }
-  }
-
-  /// The requirement of a campaign's runs: that of its first metric or check.
-  static std::string requirement_of(const campaign::Campaign& campaign) {
-    if (!campaign.metrics.empty()) return campaign.metrics.front().requirement;
-    const auto& checks = campaign.variants.front().scenario.checks;
-    return checks.empty() ? "" : checks.front().requirement;
-  }
-
-  Result<void> judge(const campaign::Campaign& campaign, const std::string& name, const fs::path& file) {
-    const auto store = campaign::Store::open(file);
-    if (!store) return tl::unexpected(store.error());
-    const auto evaluation = campaign::evaluate(campaign, *store);
-    if (!evaluation) return tl::unexpected(evaluation.error());
-    for (const campaign::Endings& ending : evaluation->endings) {
-      if (ending.completed == ending.runs && ending.not_finite == 0) continue;
-      add(item(requirement_of(campaign), fmt::format("{}: {}", name, ending.variant),
-               fmt::format("{} of {} runs completed, {} with values that are not numbers; {}",
-                           ending.completed, ending.runs, ending.not_finite, ending.first_fault),
-               all_runs));
-    }
-    for (const campaign::Answer& answer : evaluation->answers) {
-      const auto outcome = answer.outcome();
-      if (!outcome) continue;
-      add({.name = fmt::format("{}: {}", name, answer.metric),
-           .kind = answer.kind,
-           .requirement = answer.requirement.empty() ? requirement_of(campaign) : answer.requirement,
-           .outcome = *outcome,
-           .measured = answer.measured,
-           .expected = answer.expected,
-           .judgement = answer.judgement});
-    }
+    auto found = accept::fly_campaign(suite_, name, options_, stop_);
+    if (!found) return tl::unexpected(found.error());
+    for (Item& one : *found) add(std::move(one));
     return {};
   }
 
   static constexpr const char* flown_to_its_end = "a flight to its end";
-  static constexpr const char* all_runs = "all runs to their end";
 
   const Suite& suite_;
   const Options& options_;
