@@ -11,6 +11,7 @@
 
 namespace canhil::local {
 
+/// Reads messages and gives out their datagrams one by one.
 class DatagramBatch {
  public:
   static constexpr std::size_t capacity = 16;  ///< of messages; each has up to most_together datagrams
@@ -22,15 +23,15 @@ class DatagramBatch {
     std::size_t bytes;
   };
 
-  enum class Messages : std::uint8_t {
-    of_one,
-    together
-  };  ///< how many datagrams a message may have: see Hello
+  /// How many datagrams a message may have; see Hello::together.
+  enum class Messages : std::uint8_t { of_one, together };
 
+  /// For messages of this kind.
   explicit DatagramBatch(Messages messages);
   DatagramBatch(const DatagramBatch&) = delete;
   DatagramBatch& operator=(const DatagramBatch&) = delete;
 
+  /// Whether every datagram that was read has been taken.
   [[nodiscard]] bool empty() const { return next_ == count_; }
   /// Returns the next datagram of the batch, which must not be empty. It is valid until the next call.
   Item take();

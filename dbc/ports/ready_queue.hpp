@@ -13,6 +13,7 @@
 
 namespace canhil::local {
 
+/// A queue that can end a wait of poll().
 class ReadyQueue {
  public:
   /// Whether a wait must end for these frames. Frames that receive() itself has read need no wake-up: its
@@ -26,11 +27,13 @@ class ReadyQueue {
     return event_.get();
   }
 
+  /// Adds a frame with its stamp [ns, CLOCK_MONOTONIC]. `own`: the host sent it.
   void push(const Frame& frame, std::int64_t t_ns, bool own, Wake wake) {
     if (wake == Wake::yes && !std::exchange(signalled_, true)) ::eventfd_write(event_.get(), 1);
     frames_.push_back({.frame = frame, .t_ns = t_ns, .source = StampSource::hub, .own = own});
   }
 
+  /// Removes and returns the first frame; the queue must not be empty.
   Received pop() {
     const Received received = frames_.front();
     frames_.pop_front();
@@ -39,7 +42,9 @@ class ReadyQueue {
     return received;
   }
 
+  /// Whether no frame is waiting.
   [[nodiscard]] bool empty() const { return frames_.empty(); }
+  /// The number of frames that are waiting.
   [[nodiscard]] std::size_t size() const { return frames_.size(); }
 
  private:

@@ -10,6 +10,7 @@
 
 namespace canhil {
 
+/// An epoll set.
 class Watched {
  public:
   Watched() : epoll_(::epoll_create1(EPOLL_CLOEXEC)) {}
@@ -24,6 +25,7 @@ class Watched {
     }
   }
 
+  /// The descriptor of the set.
   [[nodiscard]] int descriptor() const { return epoll_.get(); }
 
  private:
