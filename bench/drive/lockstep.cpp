@@ -29,7 +29,6 @@ Ending run_steps(Link& link, Schedule& schedule, observe::TargetWatch& watch, st
       progress(t_us);
       progress_due_us = t_us + progress_period_us;
     }
-    if (schedule.injects() && link.flush(step_limit_ns) != LinkState::up) return took_nothing(t_us);
     bool closes_step = false;
     const auto frames = schedule.take();
     if (const auto why = schedule.why_failed()) return gone_at(t_us, *why);  // its truth moves no more

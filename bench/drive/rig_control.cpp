@@ -51,21 +51,30 @@ InterfaceFacts interface_facts(const std::string& bus) {
 }
 
 RunRigControl::RunRigControl(std::string bus, TargetPrograms& targets,
-                             std::function<void(std::int64_t)> restart)
-    : bus_(std::move(bus)), targets_(targets), restart_(std::move(restart)) {}
+                             std::function<void(std::int64_t)> restart, std::function<void()> flush)
+    : bus_(std::move(bus)), targets_(targets), restart_(std::move(restart)), flush_(std::move(flush)) {}
 
 RunRigControl::~RunRigControl() {
   interface_up();
   if (errors_ >= 0) close(errors_);
 }
 
-void RunRigControl::pause_target() { targets_.send_signal(SIGSTOP); }
+void RunRigControl::pause_target() {
+  flush_();
+  targets_.send_signal(SIGSTOP);
+}
+
+void RunRigControl::restart_target(std::int64_t t_us) {
+  flush_();
+  restart_(t_us);
+}
 
 void RunRigControl::resume_target() { targets_.send_signal(SIGCONT); }
 
 // Sends the error frame through a separate socket. Therefore all listeners, including the bench, receive it
 // as if it came from the driver.
 void RunRigControl::report_error(const Frame& error) {
+  flush_();
   if (errors_ < 0) {
     errors_ = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW);
     if (errors_ < 0) return;
@@ -87,6 +96,7 @@ void RunRigControl::report_error(const Frame& error) {
 
 // The loop that drives the run waits for the interface, so another thread must set the interface up again.
 void RunRigControl::interface_down(std::int64_t for_us) {
+  flush_();
   interface_up();
   if (!set_flag(bus_, false)) return;
   up_ = std::thread([bus = bus_, for_us] {

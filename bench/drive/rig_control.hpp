@@ -21,13 +21,16 @@ InterfaceFacts interface_facts(const std::string& bus);
 
 class RunRigControl final : public faults::RigControl {
  public:
-  /// `targets`: empty until they are started; must outlive this object. `restart`: restarts them.
-  RunRigControl(std::string bus, TargetPrograms& targets, std::function<void(std::int64_t t_us)> restart);
+  /// `targets`: empty until they are started; must outlive this object. `restart`: restarts them. `flush`:
+  /// sends the frames that were transmitted and are not on the bus yet; it is called before the rig changes
+  /// anything.
+  RunRigControl(std::string bus, TargetPrograms& targets, std::function<void(std::int64_t t_us)> restart,
+                std::function<void()> flush);
   ~RunRigControl() override;
 
   void pause_target() override;
   void resume_target() override;
-  void restart_target(std::int64_t t_us) override { restart_(t_us); }
+  void restart_target(std::int64_t t_us) override;
   void report_error(const Frame& error) override;
   void interface_down(std::int64_t for_us) override;
   void interface_up() override;
@@ -36,6 +39,7 @@ class RunRigControl final : public faults::RigControl {
   std::string bus_;
   TargetPrograms& targets_;
   std::function<void(std::int64_t)> restart_;
+  std::function<void()> flush_;
   std::thread up_;   // sets the interface up again
   int errors_ = -1;  // a socket on the interface, opened on demand
 };

@@ -46,9 +46,6 @@ class Schedule final : public observe::Observer {
     return due_us_.back() == nodes::never_us ? nodes::never_us : std::min(due_us_[next_], injected_us_);
   }
 
-  /// Whether a fault of bus or target acts next: what was transmitted before must be on the bus.
-  [[nodiscard]] bool injects() const { return injected_us_ <= due_us_[next_]; }
-
   /// Makes the next transmission; the returned frames are valid until the next call.
   std::span<const Frame> take() {
     const std::int64_t t_us = taken_us_ = due_us();
