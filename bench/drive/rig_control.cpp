@@ -50,22 +50,28 @@ InterfaceFacts interface_facts(const std::string& bus) {
           .may_set = set_flag(bus, std::nullopt)};  // writes the flags unchanged: a test of permission
 }
 
-RunRigControl::RunRigControl(std::string bus, TargetPrograms& targets,
-                             std::function<void(std::int64_t)> restart, std::function<void()> flush)
-    : bus_(std::move(bus)), targets_(targets), restart_(std::move(restart)), flush_(std::move(flush)) {}
+RunRigControl::RunRigControl(std::string bus, TargetPrograms& targets, Link& link,
+                             std::function<void(std::int64_t)> restart)
+    : bus_(std::move(bus)), targets_(targets), link_(link), restart_(std::move(restart)) {}
 
 RunRigControl::~RunRigControl() {
   interface_up();
   if (errors_ >= 0) close(errors_);
 }
 
+// A bus that takes nothing is noticed by the next step.
+void RunRigControl::flush() {
+  constexpr std::int64_t patience_ns = 5'000'000'000;
+  static_cast<void>(link_.flush(patience_ns));
+}
+
 void RunRigControl::pause_target() {
-  flush_();
+  flush();
   targets_.send_signal(SIGSTOP);
 }
 
 void RunRigControl::restart_target(std::int64_t t_us) {
-  flush_();
+  flush();
   restart_(t_us);
 }
 
@@ -74,7 +80,7 @@ void RunRigControl::resume_target() { targets_.send_signal(SIGCONT); }
 // Sends the error frame through a separate socket. Therefore all listeners, including the bench, receive it
 // as if it came from the driver.
 void RunRigControl::report_error(const Frame& error) {
-  flush_();
+  flush();
   if (errors_ < 0) {
     errors_ = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW);
     if (errors_ < 0) return;
@@ -96,7 +102,7 @@ void RunRigControl::report_error(const Frame& error) {
 
 // The loop that drives the run waits for the interface, so another thread must set the interface up again.
 void RunRigControl::interface_down(std::int64_t for_us) {
-  flush_();
+  flush();
   interface_up();
   if (!set_flag(bus_, false)) return;
   up_ = std::thread([bus = bus_, for_us] {

@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "bench/drive/link.hpp"
 #include "bench/drive/target_process.hpp"
 #include "bench/faults/injector.hpp"
 #include "bench/faults/place.hpp"
@@ -21,11 +22,10 @@ InterfaceFacts interface_facts(const std::string& bus);
 
 class RunRigControl final : public faults::RigControl {
  public:
-  /// `targets`: empty until they are started; must outlive this object. `restart`: restarts them. `flush`:
-  /// sends the frames that were transmitted and are not on the bus yet; it is called before the rig changes
-  /// anything.
-  RunRigControl(std::string bus, TargetPrograms& targets, std::function<void(std::int64_t t_us)> restart,
-                std::function<void()> flush);
+  /// `targets`: empty until they are started. `link`: its posted frames are sent before the rig changes
+  /// anything. Both must outlive this object. `restart`: restarts the targets.
+  RunRigControl(std::string bus, TargetPrograms& targets, Link& link,
+                std::function<void(std::int64_t t_us)> restart);
   ~RunRigControl() override;
 
   void pause_target() override;
@@ -36,10 +36,12 @@ class RunRigControl final : public faults::RigControl {
   void interface_up() override;
 
  private:
+  void flush();
+
   std::string bus_;
   TargetPrograms& targets_;
+  Link& link_;
   std::function<void(std::int64_t)> restart_;
-  std::function<void()> flush_;
   std::thread up_;   // sets the interface up again
   int errors_ = -1;  // a socket on the interface, opened on demand
 };

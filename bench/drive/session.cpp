@@ -65,9 +65,7 @@ class Session {
         bus_(known_of(*port_, options.controller)),
         clock_(clock_of(bus_.time, options.lockstep)),
         truth_(flight_of(truth, flight_.per_run_truth)),
-        hands_(
-            options.bus.text, targets_, [this](std::int64_t t_us) { restart_target(t_us); },
-            [this] { static_cast<void>(link_.flush(step_limit_ns)); }),
+        hands_(options.bus.text, targets_, link_, [this](std::int64_t t_us) { restart_target(t_us); }),
         link_(*port_),
         bus_watch_(*port_),
         load_(options.format, load_by(bus_, clock_, scenario.binding->time_base)),
