@@ -61,7 +61,7 @@ class Peers {
   void hello(std::size_t peer, Script& script) {
     local::Hello hello;
     const std::uint8_t how = script.byte();
-    hello.wishes = how & 3U;
+    hello.wishes = static_cast<std::uint8_t>((how & 1U) | (how >> 5U & 2U));
     hello.only_some = (how & 2U) != 0;
     if ((how & 4U) != 0) script.fill(hello.wanted);
     if ((how & 8U) != 0) script.fill({reinterpret_cast<std::uint8_t*>(hello.node_name.data()), 66});
